@@ -1,0 +1,8 @@
+"""`python -m faultspace`: the same as the command `faultspace`."""
+
+import sys
+
+from faultspace.command_line import main
+
+if __name__ == "__main__":
+    sys.exit(main())

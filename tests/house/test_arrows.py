@@ -1,0 +1,153 @@
+"""The import arrows between the rooms point one way.
+
+    ROOMS           room -> rooms it may import (its own always)
+    Module          a module's dotted name, whether it is a package, its source
+    imports         every name a source imports, relative ones resolved, literal `import_module("...")` included
+    room_of         the room of a dotted name; None for what is not ours
+    violations      the sentences that say what a module may not do
+"""
+
+import ast
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+ROOMS = {
+    "exact": set[str](),
+    "numeric": set[str](),
+    "audit": {"exact", "numeric"},
+    "proofs": {"exact"},
+    "front": {"exact", "numeric", "audit", "proofs"},
+}
+FOLDERS = ("exact", "numeric", "proofs")
+CHECKER = "faultspace.proofs.checker"
+
+
+@dataclass(frozen=True)
+class Module:
+    """A module by its import name."""
+
+    name: str
+    source: str
+    is_package: bool = False
+
+
+def imports(module: Module) -> Iterator[str]:
+    """Dotted names imported anywhere in the module; `from a import b` gives `a.b`, as b may be a module."""
+    package = module.name if module.is_package else module.name.rpartition(".")[0]
+    for node in ast.walk(ast.parse(module.source)):
+        match node:
+            case ast.Import(names=names):
+                yield from (alias.name for alias in names)
+            case ast.ImportFrom(module=base, names=names, level=level):
+                if level:
+                    parts = package.split(".")
+                    base = ".".join([*parts[: len(parts) - level + 1], *filter(None, [base])])
+                yield from (f"{base}.{alias.name}" for alias in names)
+            case ast.Call(
+                func=ast.Name(id="__import__" | "import_module") | ast.Attribute(attr="import_module"),
+                args=[ast.Constant(value=str(name)), *_],
+            ):
+                yield name if not name.startswith(".") else f"{package}{name}"
+
+
+def room_of(name: str) -> str | None:
+    """The room that a dotted import name leads to."""
+    match name.split("."):
+        case ["faultspace", "numeric", "audit", *_]:
+            return "audit"
+        case ["faultspace", ("exact" | "numeric" | "proofs") as room, *_]:
+            return room
+        case ["faultspace", *_]:
+            return "front"
+    return None
+
+
+def violations(module: Module) -> list[str]:
+    """What the module imports and may not; empty when every arrow points the right way."""
+    room = room_of(module.name)
+    assert room is not None, f"{module.name} is in no room"
+    allowed = {room} | ROOMS[room]
+    if room == "proofs" and "cross" in module.name.rpartition(".")[2]:
+        allowed.add("numeric")
+    found = []
+    for name in imports(module):
+        target = room_of(name)
+        if name.partition(".")[0] in FOLDERS:
+            found.append(f"{module.name} imports {name} by its folder's name instead of faultspace.{name}")
+        elif target is not None and target not in allowed:
+            found.append(f"{module.name} ({room}) imports {name} ({target})")
+        if module.name == CHECKER and name.partition(".")[0] not in sys.stdlib_module_names:
+            found.append(f"{module.name} imports {name}, which is not in the standard library")
+    return found
+
+
+def house() -> Iterator[Module]:
+    """Every module of the house, once: rglob does not enter the linked folders in faultspace/."""
+    root = Path(__file__).resolve().parents[2]
+    for folder in ("faultspace", *FOLDERS):
+        for path in sorted((root / folder).rglob("*.py")):
+            parts = path.relative_to(root).with_suffix("").parts
+            dotted = parts if folder == "faultspace" else ("faultspace", *parts)
+            is_package = dotted[-1] == "__init__"
+            yield Module(".".join(dotted[:-1] if is_package else dotted), path.read_text("utf-8"), is_package)
+
+
+@pytest.mark.parametrize("module", list(house()), ids=lambda module: module.name)
+def test_every_import_follows_the_arrows(module: Module) -> None:
+    assert violations(module) == []
+
+
+def test_the_house_is_seen_once() -> None:
+    names = [module.name for module in house()]
+    assert {"faultspace", "faultspace.exact", "faultspace.numeric", "faultspace.proofs"} <= set(names)
+    assert len(names) == len(set(names))
+
+
+BROKEN = [
+    ("exact.made_up", "import faultspace.proofs.checker"),
+    ("exact.made_up", "from faultspace import numeric"),
+    ("exact.made_up", "from faultspace import __version__"),
+    ("exact.made_up", "from .. import proofs"),
+    ("exact.made_up", "from ..numeric.pi_moesp import identify"),
+    ("exact.made_up", "def late():\n    from faultspace.proofs import claims"),
+    ("exact.made_up", "import importlib\nimportlib.import_module('faultspace.proofs')"),
+    ("exact.made_up", "from exact import windows"),
+    ("numeric.made_up", "from faultspace.exact.windows import observability"),
+    ("numeric.made_up", "from .audit import checks"),
+    ("numeric.audit.made_up", "from ...proofs import ledger"),
+    ("proofs.made_up", "import numpy, faultspace.numeric"),
+    ("proofs.cross_floats", "import faultspace.numeric.audit"),
+    ("proofs.claims.cross_floats", "from faultspace import command_line"),
+    ("proofs.checker", "import sympy"),
+    ("proofs.checker", "from faultspace.exact import fields"),
+    ("proofs.checker", "from .certificate import Certificate"),
+]
+SOUND = [
+    ("exact.made_up", "import sympy\nfrom . import fields\nfrom .fields import QQ\nimport faultspace.exact.windows"),
+    ("numeric.audit.made_up", "from ...exact import windows\nfrom ..pi_moesp import fit\nfrom faultspace import exact"),
+    ("proofs.cross_floats", "from faultspace import numeric\nfrom ..exact import windows"),
+    ("proofs.checker", "from __future__ import annotations\nimport json\nfrom collections import abc"),
+    ("command_line", "from faultspace import __version__, exact, numeric, proofs\nimport faultspace.numeric.audit"),
+]
+
+
+@pytest.mark.parametrize(("name", "source"), BROKEN)
+def test_a_broken_arrow_is_noticed(name: str, source: str) -> None:
+    assert len(violations(Module(f"faultspace.{name}", source))) >= 1
+
+
+@pytest.mark.parametrize(("name", "source"), SOUND)
+def test_a_sound_arrow_is_let_pass(name: str, source: str) -> None:
+    assert violations(Module(f"faultspace.{name}", source)) == []
+
+
+def test_a_package_resolves_its_own_dots() -> None:
+    source = "from . import windows\nfrom ..proofs import checker"
+    assert list(imports(Module("faultspace.exact", source, is_package=True))) == [
+        "faultspace.exact.windows",
+        "faultspace.proofs.checker",
+    ]
