@@ -1,0 +1,238 @@
+"""The truth of statements: true ones and false neighbours of every kind, planted structure, malformed ones."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from . import first_difference, premise_holds, truth
+from .families import SQRT2, Q, adversarial, paper_example, shift_register, system
+from .statements import KINDS
+from .strategies import planted_systems, system_pairs, systems
+from .structured import Structure
+from .systems import parse_system
+
+FEW = settings(max_examples=40, deadline=None)
+NAMED = adversarial(Q)
+PAPER = paper_example()
+SEEN = NAMED["a0-fault-and-state-seen"]
+DOUBLED = NAMED["a0-fault-and-doubled-state-seen"]
+TWICE = NAMED["not-left-invertible-same-column-twice"]
+UNSEEN = NAMED["unobservable"]
+LINE = NAMED["delay-line-3"]
+NOTHING = NAMED["nothing"]
+BLIND = NAMED["no-output"]
+# The same system with one fault less: nothing is left but its free motion.
+QUIET = system(Q, [[0]], [[]], [[1], [0]], [[], []], n=1, p=2, m=0)
+# [F; 0] and [0; C F], where F = (1, a, a^2).
+PAPER_BASIS: list[list[Any]] = [[1, ["0", "1", "0"], ["0", "0", "1"], 0, 0], [0, 0, 0, 1, ["0", "1", "0"]]]
+ALL_OF_K3 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+WALK = {"x0": [1], "v": [["1"], ["0"], ["1"], ["1"]], "system": SEEN}
+
+CASES: list[tuple[str, dict[str, Any], bool]] = [
+    ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [2]}, True),
+    ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [3]}, False),
+    ("window-ranks", {"system": PAPER, "normal_rank": 2, "left_minimal_indices": []}, False),
+    ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [0, 2]}, False),
+    ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [1000]}, False),
+    # On windows of less than a thousand samples the index stands in for the rank.
+    ("window-ranks", {"system": UNSEEN, "normal_rank": 0, "left_minimal_indices": [1000]}, False),
+    ("window-ranks", {"system": BLIND, "normal_rank": 0, "left_minimal_indices": []}, True),
+    ("window-ranks", {"system": NOTHING, "normal_rank": 0, "left_minimal_indices": [], "window_ranks": [0] * 9}, True),
+    ("left-invertible", {"system": PAPER}, True),
+    ("left-invertible", {"system": TWICE}, False),
+    ("left-invertible", {"system": QUIET}, True),
+    ("not-left-invertible", {"system": BLIND}, True),
+    ("not-left-invertible", {"system": UNSEEN}, False),
+    ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": 3}, True),
+    ("inversion-delay", {"system": LINE, "initial_state": "unknown", "delay": 3}, True),
+    ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": 2}, False),
+    ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": 4}, False),
+    ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": None}, False),
+    ("inversion-delay", {"system": TWICE, "initial_state": "known", "delay": None}, True),
+    ("inversion-delay", {"system": QUIET, "initial_state": "unknown", "delay": 0}, True),
+    ("behaviour-inclusion", {"inner": QUIET, "outer": SEEN}, True),
+    ("behaviour-inclusion", {"inner": SEEN, "outer": QUIET}, False),
+    ("behaviour-inclusion", {"inner": SEEN, "outer": DOUBLED}, False),
+    ("behaviour-equality", {"first": SEEN, "second": SEEN}, True),
+    ("behaviour-equality", {"first": SEEN, "second": QUIET}, False),
+    ("behaviour-equality", {"first": QUIET, "second": SEEN}, False),
+    ("window-equality", {"first": SEEN, "second": DOUBLED, "window": 0}, True),
+    ("window-equality", {"first": SEEN, "second": DOUBLED, "window": 1}, True),
+    ("window-equality", {"first": SEEN, "second": DOUBLED, "window": 2}, False),
+    ("window-equality", {"first": SEEN, "second": DOUBLED, "window": 4096}, False),
+    ("behaviour-difference", {"first": SEEN, "second": DOUBLED, "window": 1}, False),
+    ("behaviour-difference", {"first": SEEN, "second": DOUBLED, "window": 2}, True),
+    ("behaviour-difference", {"first": QUIET, "second": SEEN, "window": 5}, False),
+    ("behaviour-difference", {"first": SEEN, "second": QUIET, "window": 1}, True),
+    ("fault-space", {"system": SEEN, "window": 1, "basis": ALL_OF_K3}, True),
+    ("fault-space", {"system": SEEN, "window": 2, "basis": [[1, 0, 1]]}, True),
+    ("fault-space", {"system": SEEN, "window": None, "basis": [[1, 0, 1]]}, True),
+    ("fault-space", {"system": SEEN, "window": None, "basis": [[2, 0, 2]]}, False),
+    ("fault-space", {"system": SEEN, "window": None, "basis": []}, False),
+    ("fault-space", {"system": SEEN, "window": None, "basis": [[1, 0, 1], [0, 0, 0]]}, False),
+    ("fault-space", {"system": SEEN, "window": 2, "basis": ALL_OF_K3}, False),
+    ("fault-space", {"system": NOTHING, "window": None, "basis": []}, True),
+    ("fault-space", {"system": NOTHING, "window": None, "basis": [[]]}, False),
+    ("fault-space", {"system": BLIND, "window": None, "basis": [["1"]]}, True),
+    ("first-column-only", {"system": SEEN, "window": 2, "column": [0, 1, 0]}, True),
+    ("first-column-only", {"system": SEEN, "window": 1, "column": [0, 1, 0]}, False),
+    ("first-column-only", {"system": SEEN, "window": 2, "column": [1, 0, 1]}, False),
+    ("first-column-only", {"system": SEEN, "window": 2, "column": [1, 0, 0]}, False),
+    ("first-column-only", {"system": SEEN, "window": 0, "column": [0, 1, 0]}, False),
+    ("matrix-rank", {"matrix": "observability", "system": UNSEEN, "rank": 0}, True),
+    ("matrix-rank", {"matrix": "observability", "system": PAPER, "rank": 3}, True),
+    ("matrix-rank", {"matrix": "reachability", "system": PAPER, "rank": 1}, True),
+    ("matrix-rank", {"matrix": "reachability", "system": LINE, "rank": 1}, False),
+    ("matrix-rank", {"matrix": "toeplitz", "system": LINE, "window": 5, "rank": 2}, True),
+    ("matrix-rank", {"matrix": "window", "system": LINE, "window": 5, "rank": 5}, True),
+    ("matrix-rank", {"matrix": "window", "system": PAPER, "window": 3, "rank": 6}, False),
+    ("matrix-rank", {"matrix": "excitation", "rank": 3, "window": 2, **WALK}, True),
+    ("matrix-rank", {"matrix": "residual-hankel", "rank": 3, "window": 2, **WALK}, True),
+    ("matrix-rank", {"matrix": "residual-hankel", "rank": 0, "window": 9, **WALK}, True),
+    ("finite-zeros", {"system": UNSEEN, "normal_rank": 1, "invariant_zero_polynomial": [-1, 1]}, True),
+    ("finite-zeros", {"system": UNSEEN, "normal_rank": 1, "invariant_zero_polynomial": [-2, 2]}, False),
+    ("finite-zeros", {"system": UNSEEN, "normal_rank": 0, "invariant_zero_polynomial": [-1, 1]}, False),
+    ("finite-zeros", {"system": UNSEEN, "normal_rank": 1, "invariant_zero_polynomial": []}, False),
+    ("finite-zeros", {"system": PAPER, "normal_rank": 1, "invariant_zero_polynomial": [["1", 0, 0]]}, True),
+    ("finite-zeros", {"system": NOTHING, "normal_rank": 0, "invariant_zero_polynomial": [1]}, True),
+    ("infinite-zeros", {"system": PAPER, "infinite_zero_orders": [1]}, True),
+    ("infinite-zeros", {"system": LINE, "infinite_zero_orders": [3]}, True),
+    ("infinite-zeros", {"system": LINE, "infinite_zero_orders": [0, 3]}, False),
+    ("infinite-zeros", {"system": UNSEEN, "infinite_zero_orders": [0]}, True),
+    ("infinite-zeros", {"system": UNSEEN, "infinite_zero_orders": []}, False),
+]
+
+MALFORMED: list[tuple[str, Any]] = [
+    ("no-such-kind", {"system": SEEN}),
+    ("left-invertible", None),
+    ("left-invertible", {}),
+    ("left-invertible", {"system": SEEN, "window": 2}),
+    ("left-invertible", {"system": {**SEEN, "n": 2}}),
+    ("window-ranks", {"system": PAPER, "normal_rank": -1, "left_minimal_indices": []}),
+    ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [2, 1]}),
+    ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": 2}),
+    ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [2], "window_ranks": ["2"]}),
+    ("inversion-delay", {"system": LINE, "initial_state": "free", "delay": 3}),
+    ("inversion-delay", {"system": LINE, "initial_state": "known"}),
+    ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": "3"}),
+    ("behaviour-inclusion", {"inner": SEEN, "outer": UNSEEN}),
+    ("behaviour-equality", {"first": SEEN, "second": shift_register({"prime": 2}, 1)}),
+    ("behaviour-equality", {"first": SEEN, "second": SEEN, "window": 1}),
+    ("window-equality", {"first": SEEN, "second": SEEN}),
+    ("window-equality", {"first": SEEN, "second": SEEN, "window": 4097}),
+    ("behaviour-difference", {"first": SEEN, "second": SEEN, "window": True}),
+    ("fault-space", {"system": SEEN, "window": 1, "basis": [[1, 0]]}),
+    ("fault-space", {"system": SEEN, "window": -1, "basis": []}),
+    ("fault-space", {"system": SEEN, "basis": []}),
+    ("first-column-only", {"system": SEEN, "window": 2, "column": [0, 1]}),
+    ("matrix-rank", {"matrix": "hankel", "system": SEEN, "rank": 1}),
+    ("matrix-rank", {"matrix": ["window"], "system": SEEN, "rank": 1}),
+    ("matrix-rank", {"matrix": "window", "system": SEEN, "rank": 1}),
+    ("matrix-rank", {"matrix": "observability", "system": SEEN, "rank": 1, "window": 1}),
+    ("matrix-rank", {"matrix": "excitation", "rank": 3, "window": 2, **WALK, "v": [["1", "1"]]}),
+    ("finite-zeros", {"system": SEEN, "normal_rank": 1, "invariant_zero_polynomial": "1"}),
+    ("finite-zeros", {"system": SEEN, "normal_rank": 1, "invariant_zero_polynomial": ["q"]}),
+    ("infinite-zeros", {"system": SEEN, "infinite_zero_orders": [1, 0]}),
+]
+
+
+@pytest.mark.parametrize("kind, statement, expected", CASES)
+def test_known_truths(kind: str, statement: dict[str, Any], expected: bool) -> None:
+    assert truth(kind, statement) is expected
+    assert premise_holds(kind, statement)
+
+
+@pytest.mark.parametrize("window, holds", [(None, True), (3, True), (9, True), (2, False), (1, False)])
+def test_the_basis_of_the_example(window: int | None, holds: bool) -> None:
+    def claimed(basis: list[list[Any]]) -> bool:
+        return truth("fault-space", {"system": PAPER, "window": window, "basis": basis})
+
+    assert claimed(PAPER_BASIS) == holds
+    first, second = PAPER_BASIS
+    # The same span in other bases, part of it, and another span.
+    assert not claimed([second, first])
+    assert not claimed([[1, *first[1:3], 1, second[4]], second])
+    assert not claimed([first])
+    assert not claimed([first, [0, 0, 0, 1, ["0", "1", "1"]]])
+
+
+def test_every_kind_has_a_true_and_a_false_case() -> None:
+    for kind in KINDS:
+        assert {expected for k, _, expected in CASES if k == kind} >= {True, False}
+
+
+@pytest.mark.parametrize("kind, statement", MALFORMED)
+def test_malformed_statements(kind: str, statement: Any) -> None:
+    with pytest.raises(ValueError):
+        truth(kind, statement)
+
+
+def test_the_premise_is_that_the_polynomial_is_irreducible() -> None:
+    over = {"field": {"minimal_polynomial": ["-1", "0", "1"]}}
+    assert not premise_holds("left-invertible", {"system": {**SEEN, **over}})
+    assert premise_holds("left-invertible", {"system": {**SEEN, "field": SQRT2}})
+
+
+@FEW
+@given(planted_systems())
+def test_statements_about_planted_structure(case: tuple[Any, Structure]) -> None:
+    json, structure = case
+    field = parse_system(json).field
+    r, left, infinite = structure.normal_rank, list(structure.left), list(structure.infinite)
+    zeros = [field.write(c) for c in structure.zero_polynomial(field)]
+    ranks = [s * r + sum(min(s, eta) for eta in left) for s in range(1, structure.n + 6)]
+    about = {"system": json}
+    indices = {**about, "normal_rank": r, "left_minimal_indices": left}
+    assert truth("window-ranks", {**indices, "window_ranks": ranks})
+    assert not truth("window-ranks", {**indices, "window_ranks": [*ranks, ranks[-1] + r + 1]})
+    assert not truth("window-ranks", {**indices, "normal_rank": r + 1})
+    assert truth("infinite-zeros", {**about, "infinite_zero_orders": infinite})
+    assert not truth("infinite-zeros", {**about, "infinite_zero_orders": [*infinite, structure.n + 1]})
+    assert truth("finite-zeros", {**about, "normal_rank": r, "invariant_zero_polynomial": zeros})
+    assert not truth("finite-zeros", {**about, "normal_rank": r, "invariant_zero_polynomial": ["0", *zeros]})
+    assert truth("left-invertible", about) == (r == structure.m) != truth("not-left-invertible", about)
+    delay = max(infinite, default=0) if r == structure.m else None
+    assert truth("inversion-delay", {**about, "initial_state": "known", "delay": delay})
+
+
+@FEW
+@given(system_pairs())
+def test_statements_about_pairs(pair: tuple[Any, Any]) -> None:
+    both = {"first": pair[0], "second": pair[1]}
+    swapped = {"first": pair[1], "second": pair[0]}
+    difference = first_difference(*pair)
+    assert truth("behaviour-equality", both) == (difference is None) == truth("behaviour-equality", swapped)
+    inclusions = [truth("behaviour-inclusion", {"inner": b["first"], "outer": b["second"]}) for b in (both, swapped)]
+    assert all(inclusions) == (difference is None)
+    if difference is not None:
+        assert truth("window-equality", {**both, "window": difference - 1})
+        assert not truth("window-equality", {**both, "window": difference})
+        found = [truth("behaviour-difference", {**b, "window": difference}) for b in (both, swapped)]
+        assert any(found) and not any(found and kept for found, kept in zip(found, inclusions, strict=True))
+        assert not truth("behaviour-difference", {**both, "window": difference - 1})
+
+
+@FEW
+@given(systems(), st.integers(0, 2**32))
+def test_ranks_are_what_elimination_finds(json: Any, seed: int) -> None:
+    """Exactly one rank is true of each matrix."""
+    rng = Random(seed)
+    n, p, m = json["n"], json["p"], json["m"]
+    walk = {"x0": ["1"] * n, "v": [[rng.randint(-1, 1) for _ in range(m)] for _ in range(4)]}
+    statements: list[dict[str, Any]] = [
+        {"matrix": "observability"},
+        {"matrix": "reachability"},
+        {"matrix": "toeplitz", "window": 2},
+        {"matrix": "window", "window": 2},
+        {"matrix": "residual-hankel", "window": 2, **walk},
+        {"matrix": "excitation", "window": 2, **walk},
+    ]
+    largest = n + 2 * (m + p)
+    for about in statements:
+        truths = [truth("matrix-rank", {**about, "system": json, "rank": k}) for k in range(largest + 1)]
+        assert truths.count(True) == 1
