@@ -1,0 +1,150 @@
+"""assumption-4: left-invertible with delay l, (A, C) observable, [X; V_s] of full row rank, s >= max(l, n_x - 1) (elsewhere max(l, n_x)).
+
+Decided by what it is for: does rank R_(s+1) - rank R_s = n_v follow? Each stated bound on s, each sense of the delay, and the
+condition on the data.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable
+from itertools import islice, product
+
+from ...exact.fields import QQ
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import Matrix, rank
+from ...exact.signals import excitation_matrix, hankel, persistency, simulate
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..certificate import Certificate
+from ..corpus import Dossier
+from ..families import adversarial, random_systems
+from ..search import Box, Facts, Flags, systems_in_order
+from ..verdicts import Outcome, Verdict
+from ..workbench import Test, Workbench, accepted, certify, counterexample, refute
+from .common import GAP_BOX, delay_of, delays, gap_is_m_from, under_assumption_4, wrong_gap
+
+
+def n_minus_1_known(bench: Workbench) -> Outcome:
+    """s >= max(l, n - 1), l the delay for known initial state."""
+    test = wrong_gap(lambda f: f.delay_known_state)
+    return bench.once("gap from n - 1", lambda: refute(bench, GAP_BOX, test, under_assumption_4(True), _from(True, -1), delays))
+
+
+def n_minus_1_unknown(bench: Workbench) -> Outcome:
+    """s >= max(l, n - 1), l the delay for unknown initial state."""
+    return refute(bench, GAP_BOX, wrong_gap(lambda f: f.delay_unknown_state), under_assumption_4(False), _from(False, -1), delays)
+
+
+def n_known(bench: Workbench) -> Outcome:
+    """s >= max(l, n), l the delay for known initial state."""
+    return certify(bench, under_assumption_4(True), _from(True, 0), delays)
+
+
+def n_unknown(bench: Workbench) -> Outcome:
+    """s >= max(l, n), l the delay for unknown initial state."""
+    return certify(bench, under_assumption_4(False), _from(False, 0), delays)
+
+
+def lag(bench: Workbench) -> Outcome:
+    """gap(s) = m for every s >= lag and, unless p = m, for no s < lag; neither observability nor any delay is used."""
+
+    def holds(d: Dossier) -> bool:
+        return all((d.gap(s) == d.m) == (s >= d.lag) for s in range(0, d.n + 3))
+
+    return certify(bench, lambda d: d.left_invertible and d.p > d.m, holds, delays)
+
+
+def _from(known_state: bool, shift: int) -> Test:
+    return gap_is_m_from(lambda d: max(delay_of(d, known_state) or 0, d.n + shift))
+
+
+# -- the condition on the data ---------------------------------------------------------------------------------------------
+
+
+def excitation_at_s(bench: Workbench) -> Outcome:
+    """[X; V_s] of full row rank at the s of the statement only: the smallest trajectory on which the rank gap of R is wrong."""
+    box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
+    samples = 5
+    for system in systems_in_order(box, _valid):
+        for x, *v in product((-1, 0, 1), repeat=1 + samples):
+            x0, faults = Matrix.of([[x]]), Matrix.of([[value] for value in v])
+            data = simulate(system, x0, faults)
+            s = 1
+            full = rank(excitation_matrix(data, s)) == system.n + system.m * s
+            if full and rank(hankel(data.residuals, s + 1)) - rank(hankel(data.residuals, s)) != system.m:
+                shown = [make.data_rank("excitation", system, x0, faults, s)]
+                shown += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
+                words = f"{system}, x(0) = {x}, v = {v}, s = {s}"
+                return counterexample(words, f"{box}, {samples} samples, entries of x(0) and v in {{-1, 0, 1}}", shown)
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def _valid(facts: Facts) -> Flags:
+    """Observable, left-invertible, and n = s = 1 at least both delays."""
+    return facts.observable & facts.left_invertible & (facts.delay_unknown_state <= 1)
+
+
+def excitation_at_s_plus_1(bench: Workbench) -> Outcome:
+    """[X; V_(s+1)] of full row rank: rank R_s and rank R_(s+1) are the model's, so the gap is m for s >= lag."""
+    return bench.once("gap of excited data", lambda: _on_data(bench, excited=True))
+
+
+def excitation_necessary(bench: Workbench) -> Outcome:
+    """Is full row rank of [X; V_(s+1)] needed for the gap? A system with a mode that is never excited says no."""
+    box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
+    samples = 6
+    for system in systems_in_order(box, lambda f: _valid(f) & ~f.controllable):
+        for v in product((0, 1, -1), repeat=samples):
+            x0, faults, s = Matrix.of([[0]]), Matrix.of([[value] for value in v]), 1
+            data = simulate(system, x0, faults)
+            deficient = rank(excitation_matrix(data, s + 1)) < system.n + system.m * (s + 1)
+            right = rank(hankel(data.residuals, s + 1)) - rank(hankel(data.residuals, s)) == system.m
+            if deficient and right and persistency(faults) >= system.n + s + 1:
+                shown = [make.data_rank("excitation", system, x0, faults, s + 1)]
+                shown += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
+                return counterexample(f"{system}, x(0) = 0, v = {list(v)}, s = {s}: rank deficient, gap right", box, shown)
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def persistency_suffices(bench: Workbench) -> Outcome:
+    """v persistently exciting of order n + s + 1 and s >= lag: the gap of R is m, whether or not [X; V_(s+1)] has full row rank."""
+    return _on_data(bench, excited=False)
+
+
+def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
+    """Random trajectories of left-invertible systems: rank R_(s+1) - rank R_s = m at s = max(lag, 1), with accepted rank certificates."""
+    rng = random.Random(4)
+    systems = [s for _, s in adversarial() if 0 < s.n <= 3] + list(
+        islice(random_systems(QQ, 4000, seed=5, largest=3), 400 if bench.full else 90)
+    )
+    tried = deficient = count = 0
+    headline: tuple[Certificate, ...] = ()
+    for system in systems:
+        kernel = kernel_representation(system)
+        if kernel.normal_rank < system.m or system.m == 0 or system.n == 0:
+            continue
+        s = max(kernel.lag, 1)
+        samples = (system.m + 1) * (system.n + s + 1) + system.n + 2
+        v = Matrix.of([[rng.randint(-2, 2) for _ in range(system.m)] for _ in range(samples)])
+        x0 = Matrix.of([[rng.randint(-1, 1) if excited else 0] for _ in range(system.n)])
+        full = rank(excitation_matrix(simulate(system, x0, v), s + 1)) == system.n + system.m * (s + 1)
+        if (excited and not full) or (not excited and persistency(v) < system.n + s + 1):
+            continue
+        shown = accepted(_gap_certificates(system, x0, v, s))
+        gap = shown[2]["statement"]["rank"] - shown[1]["statement"]["rank"]
+        if gap != system.m:
+            return Outcome(Verdict.REFUTED, f"fails on {system}, x(0) = {x0}, v = {v}, s = {s}", shown, len(shown))
+        tried, count, deficient = tried + 1, count + len(shown), deficient + (not full)
+        headline = headline or shown
+    if not tried:
+        return Outcome(Verdict.ERROR, "no trajectory meets the hypotheses")
+    note = "" if excited else f", {deficient} of them with [X; V_(s+1)] rank-deficient"
+    words = f"on {tried} exact trajectories of left-invertible systems over Q, named and random, at s = max(lag, 1){note}"
+    return Outcome(Verdict.CERTIFIED, words, headline, count)
+
+
+def _gap_certificates(system: ResidualSystem, x0: Matrix, v: Matrix, s: int) -> Iterable[Certificate]:
+    yield make.data_rank("excitation", system, x0, v, s + 1)
+    yield make.data_rank("residual-hankel", system, x0, v, s)
+    yield make.data_rank("residual-hankel", system, x0, v, s + 1)

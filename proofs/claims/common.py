@@ -1,0 +1,121 @@
+"""What several claims share: how a system's certificates are shown, and the search for a gap that is not m.
+
+ranks_and_inversion   window ranks, and left-invertible or not
+delays                both delays of left inversion
+zeros                 finite and infinite zeros
+spaces                the fault space at a window and in the limit
+gap_box, wrong_gap    where and how a window with rank gap other than m is sought
+identity              a parametric claim at several dimensions
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...exact.fault_space import fault_space
+from ...exact.kernel_representation import kernel_representation
+from ...exact.stratification import Stratification, stratify
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..certificate import Certificate
+from ..corpus import Dossier
+from ..search import Box, Facts, Flags, Integers
+from ..verdicts import Outcome, Verdict
+from ..workbench import Show, Test, Workbench
+
+
+def ranks_and_inversion(system: ResidualSystem) -> Iterator[Certificate]:
+    """Window ranks, and whether it is left-invertible."""
+    kernel = kernel_representation(system)
+    yield make.window_ranks(kernel)
+    yield make.left_invertible(kernel)
+
+
+def delays(system: ResidualSystem) -> Iterator[Certificate]:
+    """Window ranks, left-invertibility, observability and both delays."""
+    yield from ranks_and_inversion(system)
+    yield make.matrix_rank("observability", system)
+    kernel = kernel_representation(system)
+    yield make.inversion_delay(kernel, known_state=True)
+    yield make.inversion_delay(kernel, known_state=False)
+
+
+def zeros(system: ResidualSystem) -> Iterator[Certificate]:
+    """Window ranks, left-invertibility, finite and infinite zeros, observability and controllability."""
+    yield from ranks_and_inversion(system)
+    if system.n <= 4:
+        yield make.finite_zeros(system)
+        yield make.infinite_zeros(system)
+    yield make.matrix_rank("observability", system)
+    yield make.matrix_rank("reachability", system)
+
+
+def spaces(window: Callable[[ResidualSystem], int]) -> Show:
+    """Window ranks, left-invertibility, the fault space at the window and in the limit."""
+
+    def show(system: ResidualSystem) -> Iterator[Certificate]:
+        yield from ranks_and_inversion(system)
+        kernel = kernel_representation(system)
+        yield make.fault_space(kernel, fault_space(kernel, window(system)))
+        yield make.fault_space(kernel, fault_space(kernel))
+
+    return show
+
+
+GAP_BOX = Box(total=5, largest_n=3, largest_m=2, largest_p=3)
+
+
+def wrong_gap(delay: Callable[[Facts], Integers]) -> Callable[[Facts], Flags]:
+    """Observable left-invertible systems with gap(s) != m for some s >= max(l, n - 1, 1)."""
+
+    def candidate(facts: Facts) -> Flags:
+        bound = np.maximum(delay(facts), max(facts.n - 1, 1))
+        wrong = np.zeros(len(facts.A), dtype=np.bool_)
+        for s in range(1, facts.n + 2):
+            wrong |= (bound <= s) & (facts.gap(s) != facts.m)
+        return np.asarray(wrong & facts.observable & facts.left_invertible)
+
+    return candidate
+
+
+Dimensions = tuple[int, int, int]
+
+
+def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Sequence[Dimensions], full: Sequence[Dimensions]) -> Outcome:
+    """A parametric claim at all these (n, p, m): IDENTITY; it raises where a stratum or an expansion fails."""
+    dimensions = [*quick, *full] if bench.full else list(quick)
+    strata = expanded = 0
+    for done, (n, p, m) in enumerate(dimensions):
+        bench.progress(f"all parameter values, n={n} p={p} m={m}", done, len(dimensions))
+        record = claim(stratify(n, p, m))
+        strata, expanded = strata + record.strata, expanded + record.expanded + record.rows.expanded
+    listed = ", ".join(str(d).replace(" ", "") for d in dimensions)
+    words = f"for all parameter values at (n,p,m) = {listed}: {strata} strata, {expanded} identities of sympy expanded again by FLINT"
+    return Outcome(Verdict.IDENTITY, words)
+
+
+def under_assumption_4(known_state: bool) -> Test:
+    """Observable and left-invertible with some delay, for known or unknown initial state."""
+
+    def applies(d: Dossier) -> bool:
+        return d.observable and d.left_invertible and delay_of(d, known_state) is not None
+
+    return applies
+
+
+def delay_of(d: Dossier, known_state: bool) -> int | None:
+    """The delay of left inversion in one of its two senses."""
+    return d.delay_known_state if known_state else d.delay_unknown_state
+
+
+def gap_is_m_from(bound: Callable[[Dossier], int]) -> Test:
+    """gap(s) = m for every s >= max(bound, 1)."""
+
+    def holds(d: Dossier) -> bool:
+        start = max(bound(d), 1)
+        return all(d.gap(s) == d.m for s in range(start, max(start, d.n) + 2))
+
+    return holds

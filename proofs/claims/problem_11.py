@@ -1,0 +1,91 @@
+"""problem-11: the maximal solution of N_s T_s = 0, N_s a basis of the left null space, is a basis (Fhat, Ghat) with n_z columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+
+import numpy as np
+
+from ...exact.kernel_representation import column_conditions, kernel_representation
+from ...exact.matrices import Matrix
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..certificate import Certificate
+from ..corpus import Dossier
+from ..search import Box, Facts, Flags, systems_in_order
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, certify, counterexample, refute
+from .common import spaces, under_assumption_4, zeros
+
+BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+
+
+def window_n(bench: Workbench) -> Outcome:
+    """At s = max(l, n) under assumption 4 the solutions are those of every longer window."""
+
+    def candidate(facts: Facts) -> Flags:
+        return np.asarray(facts.observable & facts.left_invertible & (facts.delay_known_state <= facts.n))
+
+    def holds(d: Dossier) -> bool:
+        return d.n == 0 or d.space_dimensions[max(d.n, d.delay_known_state or 0) - 1] == d.limit_dimension
+
+    return refute(bench, BOX, candidate, under_assumption_4(True), holds, spaces(lambda s: s.n))
+
+
+def window_n_plus_1(bench: Workbench) -> Outcome:
+    """At every s >= n + 1, no hypothesis at all, the solutions are the limit Z."""
+    return certify(
+        bench, lambda d: True, lambda d: all(x == d.limit_dimension for x in d.space_dimensions[d.n :]), spaces(lambda s: s.n + 1)
+    )
+
+
+def lag_plus_1(bench: Workbench) -> Outcome:
+    """The limit is reached exactly at s = lag + 1 where p > r; where p = r the solutions are all n + p columns at every s >= 1."""
+
+    def holds(d: Dossier) -> bool:
+        if d.p == d.normal_rank:
+            return all(x == d.n + d.p for x in (*d.space_dimensions, d.limit_dimension))
+        return all((x == d.limit_dimension) == (s >= d.lag + 1) for s, x in enumerate(d.space_dimensions, 1))
+
+    return certify(bench, lambda d: True, holds, spaces(lambda s: kernel_representation(s).lag + 1))
+
+
+def dimension(bench: Workbench) -> Outcome:
+    """Left-invertible: the limit has dimension n_v + zeta, zeta the zeros of the pencil, finite and infinite."""
+
+    def show(system: ResidualSystem) -> Iterator[Certificate]:
+        yield from zeros(system)
+        yield from spaces(lambda s: s.n + 1)(system)
+
+    return certify(bench, lambda d: d.left_invertible and d.zeta is not None, lambda d: d.limit_dimension == d.m + (d.zeta or 0), show)
+
+
+def first_block_column(bench: Workbench) -> Outcome:
+    """Is it enough that N_s annihilates the first block column of T_s(z)? The smallest system and column that say no."""
+    for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
+        kernel = kernel_representation(system)
+        window = kernel.lag + 1
+        rows = kernel.rows_within(window)
+        for entries in product((-1, 0, 1), repeat=system.n + system.p):
+            z = Matrix.of([[x] for x in entries])
+            if _first_column_vanishes(system, z, window) and not all(
+                (column_conditions(r.coefficients, system.A, system.C) @ z).is_zero() for r in rows
+            ):
+                words = f"{system}, z = {list(entries)}, s = {window}"
+                return counterexample(words, f"{BOX}, s = lag + 1", [make.first_column_only(kernel, window, z), make.window_ranks(kernel)])
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def _first_column_vanishes(system: ResidualSystem, z: Matrix, window: int) -> bool:
+    """Whether every left null row of [O_s T_s] annihilates (g, C f, C A f, ...)."""
+    x, outputs = z.rows(range(system.n)), [z.rows(range(system.n, system.n + system.p))]
+    for _ in range(window - 1):
+        outputs.append(system.C @ x)
+        x = system.A @ x
+    for row in kernel_representation(system).rows_within(window):
+        for shift in range(window - row.degree):
+            values = [row.coefficients.rows([k]) @ outputs[k + shift] for k in range(row.degree + 1)]
+            if not sum(values[1:], values[0]).is_zero():
+                return False
+    return True

@@ -1,0 +1,60 @@
+"""proposition-3: n_v = rank R_(s+1) - rank R_s. As rank [O_(s+1) T_(s+1)] - rank [O_s T_s]; for data see assumption-4."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...exact.parametric_claims import gap_claim
+from ..corpus import Dossier
+from ..search import Box
+from ..verdicts import Outcome
+from ..workbench import Workbench, certify, refute
+from .assumption_4 import n_minus_1_known
+from .common import gap_is_m_from, identity, ranks_and_inversion
+
+
+def as_printed(bench: Workbench) -> Outcome:
+    """Under assumption 4 with s >= max(l, n - 1)."""
+    return n_minus_1_known(bench)
+
+
+def n_alone(bench: Workbench) -> Outcome:
+    """Left-invertible and s >= n: nothing else."""
+    return certify(bench, lambda d: d.left_invertible, gap_is_m_from(lambda d: d.n), ranks_and_inversion)
+
+
+def lag_exactly(bench: Workbench) -> Outcome:
+    """Left-invertible: the gap is m for all s >= lag, and never before unless p = m."""
+
+    def holds(d: Dossier) -> bool:
+        return all((d.gap(s) == d.m) == (s >= d.lag or d.p == d.m) for s in range(0, d.n + 3))
+
+    return certify(bench, lambda d: d.left_invertible, holds, ranks_and_inversion)
+
+
+def without_left_invertibility(bench: Workbench) -> Outcome:
+    """Without left-invertibility the gap is not m, for any window."""
+    return refute(
+        bench,
+        Box(total=4, largest_n=2, largest_m=2, largest_p=2),
+        lambda f: np.asarray(~f.left_invertible & f.observable),
+        lambda d: d.observable,
+        gap_is_m_from(lambda d: d.n),
+        ranks_and_inversion,
+    )
+
+
+def normal_rank(bench: Workbench) -> Outcome:
+    """No hypothesis at all: for s >= n the gap is the normal rank, as certified on a diagonal form of the pencil."""
+
+    def holds(d: Dossier) -> bool:
+        return d.infinite_zero_orders is not None and all(d.gap(s) == len(d.infinite_zero_orders) for s in range(d.n, d.n + 3))
+
+    return certify(bench, lambda d: d.infinite_zero_orders is not None, holds, ranks_and_inversion)
+
+
+def parametric(bench: Workbench) -> Outcome:
+    """All entries indeterminate: on every stratum of the parameter space the gap is the normal rank from n on."""
+    return identity(
+        bench, gap_claim, [(1, 1, 1), (1, 2, 1), (1, 1, 2), (1, 2, 2), (2, 1, 1), (2, 2, 1)], [(1, 3, 1), (2, 1, 2), (1, 3, 2), (2, 2, 2)]
+    )

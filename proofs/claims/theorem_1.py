@@ -1,0 +1,118 @@
+"""theorem-1: equal restricted behaviours on a window of length n_x imply output behaviour equivalence."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import column_basis
+from ...exact.parametric_claims import inclusion_claim
+from ...exact.systems import ResidualSystem
+from ...exact.windows import window_matrix
+from .. import certificate as make
+from ..certificate import Certificate
+from ..families import shift_registers
+from ..pairs import PairDossier, comparison_certificate
+from ..search import Box, systems_in_order
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, accepted, certify_records, counterexample
+from .common import identity
+
+BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
+
+
+def n_samples(bench: Workbench) -> Outcome:
+    """n samples, both systems with n states, observable, controllable, left-invertible."""
+    return _smallest_pair(same_A_and_C=False)
+
+
+def n_samples_same_a_c(bench: Workbench) -> Outcome:
+    """n samples, both with the same (A, C)."""
+    return _smallest_pair(same_A_and_C=True)
+
+
+def n_plus_1_samples(bench: Workbench) -> Outcome:
+    """n + 1 samples, n the larger number of states."""
+    failing = [d for d in bench.pairs if d.first_difference is not None and d.first_difference > max(d.first.n, d.second.n) + 1]
+    return certify_records(bench.pairs, failing, _words, _show)
+
+
+def lag_plus_1(bench: Workbench) -> Outcome:
+    """One sample more than the larger of the two lags."""
+    failing = [d for d in bench.pairs if d.first_difference is not None and d.first_difference > max(d.lags) + 1]
+    return certify_records(bench.pairs, failing, _words, _show)
+
+
+def either_lag(bench: Workbench) -> Outcome:
+    """Equal normal ranks: one sample more than either of the lags."""
+    records = [d for d in bench.pairs if d.normal_ranks[0] == d.normal_ranks[1]]
+    failing = [d for d in records if d.first_difference is not None and d.first_difference > min(d.lags) + 1]
+    return certify_records(records, failing, _words, _show)
+
+
+def sharp(bench: Workbench) -> Outcome:
+    """For every n tried, two left-invertible systems with the same (A, C) that agree on n samples and differ on n + 1."""
+    largest = 12 if bench.full else 8
+    shown: list[Certificate] = []
+    for n in range(1, largest + 1):
+        idle, driven = (kernel_representation(system) for system in shift_registers(n))
+        pair = [make.window_equality(idle, driven, n), comparison_certificate(idle, driven)]
+        if pair[1]["statement"]["window"] != n + 1:
+            return Outcome(Verdict.REFUTED, f"the shift registers of length {n} differ elsewhere", accepted(pair), 2)
+        shown += [*pair, make.left_invertible(idle), make.left_invertible(driven)]
+    words = f"by one witness for every n = 1..{largest}: the shift register of length n with F = 0 against F = e_n"
+    return Outcome(Verdict.CERTIFIED, words, accepted(shown)[:8], len(shown))
+
+
+def parametric(bench: Workbench) -> Outcome:
+    """All entries of both systems indeterminate: inclusion on n + 1 samples is inclusion on every window."""
+    quick = [(1, 1, 1), (1, 2, 1), (1, 1, 2), (1, 2, 2), (2, 1, 1), (2, 2, 1)]
+    return identity(bench, inclusion_claim, quick, [(1, 3, 1), (2, 1, 2), (1, 3, 2), (2, 2, 2)])
+
+
+def _smallest_pair(*, same_A_and_C: bool) -> Outcome:
+    """The first system of the box that has a partner equal on n samples but not on n + 1; with its first partner."""
+    for dimensions in BOX.dimensions():
+        n, m, p = dimensions
+        box = Box(total=sum(dimensions), largest_n=n, largest_m=m, largest_p=p, least_m=m)
+        systems = [
+            s
+            for s in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible))
+            if (s.n, s.m, s.p) == dimensions
+        ]
+        groups: dict[object, list[ResidualSystem]] = defaultdict(list)
+        for system in systems:
+            key = (column_basis(window_matrix(system, n)), (system.A, system.C) if same_A_and_C else None)
+            groups[key].append(system)
+        longer = {system: column_basis(window_matrix(system, n + 1)) for group in groups.values() if len(group) > 1 for system in group}
+        partners = {system: group for group in groups.values() for system in group}
+        for first in systems:
+            second = next((s for s in partners[first] if longer.get(s) != longer.get(first)), None)
+            if second is not None:
+                scope = f"{BOX}, both of the same dimensions, observable, controllable, left-invertible"
+                return counterexample(f"{first} against {second}", scope, _pair_certificates(first, second))
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def _pair_certificates(first: ResidualSystem, second: ResidualSystem) -> Iterator[Certificate]:
+    kernels = kernel_representation(first), kernel_representation(second)
+    yield make.window_equality(*kernels, first.n)
+    yield comparison_certificate(*kernels)
+    for kernel in kernels:
+        yield make.left_invertible(kernel)
+        yield make.matrix_rank("observability", kernel.system)
+        yield make.matrix_rank("reachability", kernel.system)
+
+
+def _words(record: PairDossier) -> str:
+    return f"{record.first} against {record.second}, first difference on {record.first_difference} samples"
+
+
+def _show(record: PairDossier) -> Iterator[Certificate]:
+    kernels = kernel_representation(record.first), kernel_representation(record.second)
+    yield comparison_certificate(*kernels)
+    yield make.window_ranks(kernels[0])
+    yield make.window_ranks(kernels[1])

@@ -1,0 +1,99 @@
+"""theorem-2: rank [O_s T_s] = n_x + s n_v - zeta, zeta the number of transmission zeros (stated for minimal systems)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...exact.matrices import column_basis, solve_left
+from ...exact.parametric_claims import zero_count_claim
+from ...exact.systems import ResidualSystem
+from ...exact.windows import reachability_matrix
+from .. import certificate as make
+from ..certificate import Certificate
+from ..corpus import Dossier
+from ..search import Box, Facts, Flags, smallest
+from ..verdicts import Outcome
+from ..workbench import Workbench, certify, counterexample, refute
+from .common import identity, zeros
+
+BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+
+
+def finite_zeros_only(bench: Workbench) -> Outcome:
+    """zeta counts finite zeros; minimal, left-invertible, s >= n."""
+
+    def with_infinite_zeros(facts: Facts) -> Flags:
+        deficient = facts.rank_from_rest(facts.n + 1) < (facts.n + 1) * facts.m
+        return np.asarray(deficient & facts.observable & facts.controllable & facts.left_invertible)
+
+    return refute(bench, BOX, with_infinite_zeros, _minimal, lambda d: _formula(d, d.finite_zeros, d.n), zeros)
+
+
+def transfer_function_zeros(bench: Workbench) -> Outcome:
+    """zeta counts the zeros, finite and infinite, of the transfer function; observable and left-invertible, not controllable."""
+
+    def confirm(system: ResidualSystem) -> bool:
+        statements = {c["kind"]: c["statement"] for c in _with_reachable_part(system)}
+        part = statements["finite-zeros"], statements["infinite-zeros"]
+        zeta = len(part[0]["invariant_zero_polynomial"]) - 1 + sum(part[1]["infinite_zero_orders"])
+        ranks = statements["window-ranks"]["window_ranks"]
+        return any(ranks[s - 1] != system.n + s * system.m - zeta for s in range(max(system.n, 1), len(ranks) + 1))
+
+    found = smallest(BOX, lambda f: np.asarray(f.observable & f.left_invertible & ~f.controllable), confirm)
+    if found is None:
+        return certify(bench, lambda d: d.observable and d.left_invertible and d.controllable, lambda d: _formula(d, d.zeta, d.n), zeros)
+    return counterexample(f"{found}, whose transfer function is that of its reachable part", BOX, _with_reachable_part(found))
+
+
+def every_window(bench: Workbench) -> Outcome:
+    """zeta counts the zeros of the pencil, finite and infinite; minimal, left-invertible, any s >= 1."""
+
+    def short_window(facts: Facts) -> Flags:
+        late = facts.gap(facts.n + 1)
+        return np.asarray((facts.gap(1) != late) & facts.observable & facts.controllable & facts.left_invertible)
+
+    box = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
+    return refute(bench, box, short_window, _minimal, lambda d: _formula(d, d.zeta, 1), zeros)
+
+
+def pencil_zeros_minimal(bench: Workbench) -> Outcome:
+    """zeta counts the zeros of the pencil, finite and infinite; minimal, left-invertible, s >= n."""
+    return certify(bench, _minimal, lambda d: _formula(d, d.zeta, d.n), zeros)
+
+
+def pencil_zeros(bench: Workbench) -> Outcome:
+    """The same without observability and controllability, for s >= lag and no other s."""
+
+    def holds(d: Dossier) -> bool:
+        return all((d.rank(s) == d.n + s * d.m - (d.zeta or 0)) == (s >= d.lag) for s in range(0, d.n + 4))
+
+    return certify(bench, lambda d: d.left_invertible and d.zeta is not None, holds, zeros)
+
+
+def parametric(bench: Workbench) -> Outcome:
+    """All entries indeterminate: the formula on every stratum with r = m, zeros counted on the pencil."""
+    return identity(bench, zero_count_claim, [(1, 1, 1), (1, 2, 1), (1, 2, 2), (2, 1, 1)], [(2, 2, 1), (1, 3, 1), (2, 1, 2), (1, 3, 2)])
+
+
+def _minimal(d: Dossier) -> bool:
+    return d.left_invertible and d.observable and d.controllable and d.zeta is not None
+
+
+def _formula(d: Dossier, zeta: int | None, start: int) -> bool:
+    return zeta is not None and all(d.rank(s) == d.n + s * d.m - zeta for s in range(max(start, 1), max(start, d.n) + 3))
+
+
+def _with_reachable_part(system: ResidualSystem) -> Iterator[Certificate]:
+    """Window ranks of the system, and the zeros of its reachable part, a minimal realisation where the system is observable."""
+    yield from zeros(system)
+    basis = column_basis(reachability_matrix(system))
+    coordinates = [solve_left(basis.transposed(), part.transposed()) for part in (system.A @ basis, system.F)]
+    if coordinates[0] is None or coordinates[1] is None:
+        raise ArithmeticError("the reachable subspace is not invariant")
+    part = ResidualSystem(coordinates[0].transposed(), coordinates[1].transposed(), system.C @ basis, system.G)
+    yield make.finite_zeros(part)
+    yield make.infinite_zeros(part)
+    yield make.matrix_rank("observability", part)
+    yield make.matrix_rank("reachability", part)

@@ -1,0 +1,13 @@
+"""theorem-3 (i): every equivalent minimal pair is (Fhat P, Ghat P)."""
+
+from __future__ import annotations
+
+from ..verdicts import Outcome
+from ..workbench import Workbench, certify_records
+from .theorem_3_ii import show, words
+
+
+def part_i(bench: Workbench) -> Outcome:
+    """Every (F', G') with the same behaviour for the same (A, C) has its columns in Z."""
+    records = [d for d in bench.rivals if d.equal]
+    return certify_records(records, [d for d in records if not d.in_space], words, show)

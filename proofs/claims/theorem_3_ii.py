@@ -1,0 +1,82 @@
+"""theorem-3 (ii): almost every full-column-rank P gives an equivalent pair; decided for each P: equivalent iff the normal rank is m."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import product
+
+import numpy as np
+
+from ...exact.fault_space import fault_space, with_pair
+from ...exact.kernel_representation import KernelRepresentation, kernel_representation
+from ...exact.matrices import Matrix, rank
+from .. import certificate as make
+from ..certificate import Certificate
+from ..pairs import RivalDossier, comparison_certificate
+from ..search import Box, systems_in_order
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, certify_records, counterexample
+
+BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
+
+
+def every_p(bench: Workbench) -> Outcome:
+    """Every P of full column rank gives an equivalent pair, at s = lag + 1, observable and left-invertible."""
+    return _smallest_bad_pair(
+        lambda kernel: kernel.lag + 1, lambda rival: True, "s = lag + 1, P with entries in {-1, 0, 1} and full column rank"
+    )
+
+
+def criterion(bench: Workbench) -> Outcome:
+    """s >= lag + 1: the pair is equivalent iff its normal rank is that of the system; left-invertible: iff it is m."""
+    records = [d for d in bench.rivals if d.in_space]
+    failing = [d for d in records if d.equal != (d.rival_normal_rank == kernel_representation(d.system).normal_rank)]
+    return certify_records(records, failing, words, show)
+
+
+def criterion_left_invertible(bench: Workbench) -> Outcome:
+    """The same among left-invertible systems, where the criterion is normal rank m."""
+    records = [d for d in bench.rivals if d.in_space and d.left_invertible]
+    return certify_records(records, [d for d in records if d.equal != (d.rival_normal_rank == d.system.m)], words, show)
+
+
+def criterion_window_n(bench: Workbench) -> Outcome:
+    """The criterion with Fhat, Ghat taken at s = n."""
+    return _smallest_bad_pair(
+        lambda kernel: kernel.system.n,
+        lambda rival: rival.normal_rank == rival.system.m,
+        "s = n, P with entries in {-1, 0, 1} and full column rank, pair of normal rank m",
+    )
+
+
+def _smallest_bad_pair(
+    window: Callable[[KernelRepresentation], int], counts: Callable[[KernelRepresentation], bool], scope: str
+) -> Outcome:
+    """The first system and P of full column rank whose pair counts and is not equivalent."""
+    for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
+        kernel = kernel_representation(system)
+        space = fault_space(kernel, window(kernel))
+        for entries in product((-1, 0, 1), repeat=space.dimension * system.m):
+            P = Matrix.of(
+                [list(entries[i * system.m : (i + 1) * system.m]) for i in range(space.dimension)], shape=(space.dimension, system.m)
+            )
+            if rank(P) < system.m:
+                continue
+            rival = kernel_representation(with_pair(space, P))
+            verdict = comparison_certificate(kernel, rival) if counts(rival) else {"kind": "left out"}
+            if verdict["kind"] == "behaviour-difference":
+                shown = [verdict, make.fault_space(kernel, space), make.left_invertible(kernel), make.left_invertible(rival)]
+                shown.append(make.matrix_rank("observability", system))
+                return counterexample(f"{system}, P = {P}", f"{BOX}, {scope}", shown)
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def words(record: RivalDossier) -> str:
+    return f"{record.system} with F' = {record.rival.F}, G' = {record.rival.G}"
+
+
+def show(record: RivalDossier) -> Iterator[Certificate]:
+    kernels = kernel_representation(record.system), kernel_representation(record.rival)
+    yield comparison_certificate(*kernels)
+    yield make.fault_space(kernels[0], fault_space(kernels[0]))
+    yield make.window_ranks(kernels[1])

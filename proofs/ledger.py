@@ -1,0 +1,71 @@
+"""The ledger of claims, `ledger.toml`, as records: what is claimed, how it can be read, what verdict is expected.
+
+    Claim       id, reference in the review, statement as printed, readings, expected verdict
+    Reading     one precise statement; `repair` marks those that are ours and not the paper's; `check` names the function in claims/
+    load        the claims of the ledger, in its order
+
+The verdict itself is never in the ledger: it is computed by each run and compared with the expected one.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from importlib import resources
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One way to read a claim, precise enough to be decided."""
+
+    id: str
+    statement: str
+    hypotheses: tuple[str, ...]
+    expected: str
+    repair: bool
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A claim of the paper or of its review. `module` is its file in claims/: the id with underscores."""
+
+    id: str
+    reference: str
+    statement: str
+    expected: str
+    uses: tuple[str, ...]
+    readings: tuple[Reading, ...]
+
+    @property
+    def module(self) -> str:
+        """The module in `claims` that checks it."""
+        return self.id.replace("-", "_").replace("(", "").replace(")", "")
+
+
+def load() -> tuple[Claim, ...]:
+    """All claims of the ledger, in its order."""
+    text = resources.files(__package__).joinpath("ledger.toml").read_text(encoding="utf-8")
+    return tuple(_claim(name, entry) for name, entry in tomllib.loads(text)["claim"].items())
+
+
+def _claim(name: str, entry: dict[str, object]) -> Claim:
+    readings = entry["readings"]
+    if not isinstance(readings, dict):
+        raise ValueError(f"ledger: claim {name} has no readings")
+    return Claim(
+        id=name,
+        reference=str(entry["reference"]),
+        statement=str(entry["statement"]),
+        expected=str(entry["expected"]),
+        uses=tuple(entry.get("uses", ())),  # type: ignore[arg-type]
+        readings=tuple(
+            Reading(
+                id=key,
+                statement=str(value["statement"]),
+                hypotheses=tuple(value.get("hypotheses", ())),
+                expected=str(value["expected"]),
+                repair=bool(value.get("repair", False)),
+            )
+            for key, value in readings.items()
+        ),
+    )

@@ -1,0 +1,163 @@
+"""What a run says of a claim: the closed list of verdicts and the records that carry them.
+
+Verdict          PROVED, IDENTITY, CERTIFIED, REFUTED, AMENDED, ERROR
+Outcome          what one check found: verdict, evidence in words, certificates
+ReadingResult    an outcome with the reading it belongs to, the verdict the ledger expects, and the seconds it took
+ClaimResult      the readings of one claim and the verdict on the claim as a whole
+Report           all claims of a run; `as_expected` decides the exit code
+"""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from .certificate import Certificate, sha256
+from .ledger import Claim, Reading
+
+
+class Verdict(StrEnum):
+    """The closed list, from the strongest to a check that did not finish."""
+
+    PROVED = "PROVED"
+    IDENTITY = "IDENTITY"
+    CERTIFIED = "CERTIFIED"
+    REFUTED = "REFUTED"
+    AMENDED = "AMENDED"
+    ERROR = "ERROR"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the checker.
+
+    `accepted` counts every certificate that the checker accepted on the way, headline or not.
+    """
+
+    verdict: Verdict
+    evidence: str
+    certificates: tuple[Certificate, ...] = ()
+    accepted: int = 0
+
+
+@dataclass(frozen=True)
+class ReadingResult:
+    """One reading of one claim, checked."""
+
+    reading: Reading
+    outcome: Outcome
+    seconds: float
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether the computed verdict is the one the ledger expects."""
+        return self.outcome.verdict == self.reading.expected
+
+    def to_json(self) -> dict[str, Any]:
+        """The object in `verify --json`."""
+        return {
+            "reading": self.reading.id,
+            "statement": self.reading.statement,
+            "hypotheses": list(self.reading.hypotheses),
+            "verdict": str(self.outcome.verdict),
+            "expected": self.reading.expected,
+            "as_expected": self.as_expected,
+            "evidence": self.outcome.evidence,
+            "certificates_accepted": self.outcome.accepted,
+            "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.outcome.certificates],
+            "seconds": round(self.seconds, 3),
+        }
+
+
+@dataclass(frozen=True)
+class ClaimResult:
+    """A claim with its readings checked. AMENDED: every reading as printed is refuted and a repair holds."""
+
+    claim: Claim
+    readings: tuple[ReadingResult, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the claim, computed from those on its readings."""
+        verdicts = [r.outcome.verdict for r in self.readings]
+        if not verdicts or Verdict.ERROR in verdicts:
+            return Verdict.ERROR
+        printed = [r.outcome.verdict for r in self.readings if not r.reading.repair]
+        holding = [r.outcome.verdict for r in self.readings if r.reading.repair and r.outcome.verdict != Verdict.REFUTED]
+        if printed and all(v == Verdict.REFUTED for v in printed):
+            return Verdict.AMENDED if holding else Verdict.REFUTED
+        standing = [v for v in printed if v != Verdict.REFUTED] or holding
+        return max(standing, key=list(Verdict).index) if standing else Verdict.REFUTED
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """The readings that hold, with their level: what the claim comes down to."""
+        return tuple(f"{r.reading.id}: {r.outcome.verdict}" for r in self.readings if r.outcome.verdict != Verdict.REFUTED)
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether every verdict, the claim's own included, is the expected one."""
+        return self.verdict == self.claim.expected and all(r.as_expected for r in self.readings)
+
+    def to_json(self) -> dict[str, Any]:
+        """The object in `verify --json`."""
+        return {
+            "id": self.claim.id,
+            "reference": self.claim.reference,
+            "as_printed": self.claim.statement,
+            "verdict": str(self.verdict),
+            "expected": self.claim.expected,
+            "as_expected": self.as_expected,
+            "rests_on": list(self.rests_on),
+            "readings": [r.to_json() for r in self.readings],
+        }
+
+
+@dataclass(frozen=True)
+class Report:
+    """The result of a run."""
+
+    effort: str
+    claims: tuple[ClaimResult, ...]
+    corpus: str
+    seconds: float
+    versions: dict[str, str] = field(default_factory=lambda: _versions(("faultspace", "python-flint", "sympy", "numpy")))
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether every verdict is the expected one."""
+        return all(claim.as_expected for claim in self.claims)
+
+    def certificates(self) -> list[Certificate]:
+        """Every headline certificate once, in the order of the claims."""
+        found: dict[str, Certificate] = {}
+        for claim in self.claims:
+            for reading in claim.readings:
+                for certificate in reading.outcome.certificates:
+                    found.setdefault(sha256(certificate), certificate)
+        return list(found.values())
+
+    def to_json(self) -> dict[str, Any]:
+        """The object that `verify --json` prints."""
+        return {
+            "effort": self.effort,
+            "as_expected": self.as_expected,
+            "corpus": self.corpus,
+            "seconds": round(self.seconds, 1),
+            "versions": self.versions,
+            "claims": [claim.to_json() for claim in self.claims],
+        }
+
+
+def _versions(names: Sequence[str]) -> dict[str, str]:
+    found = {"python": platform.python_version()}
+    for name in names:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            found[name] = "not installed as a package"
+    return found

@@ -1,0 +1,61 @@
+"""The main job: every claim of the ledger checked, each reading with a verdict computed now.
+
+verify     the report of a run over all claims, or those named
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from importlib import import_module
+
+from ..exact.input_rules import InvalidInput
+from .checker import Malformed, Rejected
+from .corpus import Progress
+from .ledger import Claim, Reading, load
+from .verdicts import ClaimResult, Outcome, ReadingResult, Report, Verdict
+from .workbench import Workbench
+
+EFFORTS = ("quick", "full")
+
+
+def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, progress: Progress | None = None) -> Report:
+    """Check the claims with these ids (None: all). `progress(stage, done, total)` is told how far it is.
+
+    Raises InvalidInput for an unknown claim or effort.
+    """
+    if effort not in EFFORTS:
+        raise InvalidInput(f"effort: got {effort!r}, expected one of {', '.join(EFFORTS)}")
+    ledger = {claim.id: claim for claim in load()}
+    unknown = [name for name in claims or () if name not in ledger]
+    if unknown:
+        raise InvalidInput(f"claim: got {unknown[0]!r}, expected one of {', '.join(ledger)}")
+    chosen = [claim for claim in ledger.values() if claims is None or claim.id in claims]
+    report = progress or (lambda stage, done, total: None)
+    started = time.perf_counter()
+    bench = Workbench(effort, jobs, report)
+    total = sum(len(claim.readings) for claim in chosen)
+    results: list[ClaimResult] = []
+    done = 0
+    for claim in chosen:
+        readings = []
+        for reading in claim.readings:
+            report(f"{claim.id}: {reading.id}", done, total)
+            readings.append(_check(claim, reading, bench))
+            done += 1
+        results.append(ClaimResult(claim, tuple(readings)))
+    report("done", total, total)
+    corpus = bench.corpus.words if "corpus" in vars(bench) else ""
+    return Report(effort, tuple(results), corpus, time.perf_counter() - started)
+
+
+def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:
+    started = time.perf_counter()
+    module = import_module(f".claims.{claim.module}", __package__)
+    try:
+        outcome: Outcome = getattr(module, reading.id.replace("-", "_"))(bench)
+    except (Malformed, Rejected) as error:
+        outcome = Outcome(Verdict.ERROR, f"the checker refused a certificate: {error}")
+    except (ArithmeticError, ValueError, LookupError, TypeError, AttributeError) as error:
+        outcome = Outcome(Verdict.ERROR, f"{type(error).__name__}: {error}")
+    return ReadingResult(reading, outcome, time.perf_counter() - started)
