@@ -25,6 +25,7 @@ from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod
 
 from . import pickling as pickling
 from .input_rules import MAX_FIELD_DEGREE, InvalidInput, parse_rational, shown
+from .notation import sum_of_powers
 
 
 def _as_rational(value: object, where: str) -> fmpq:
@@ -204,10 +205,10 @@ class NumberField:
 
     def to_json(self) -> object:
         """The `field` value of an exact file."""
-        return {"minimal_polynomial": [str(c) for c in self.minimal_polynomial]}
+        return {"minimal_polynomial": [str(fmpq(c.numerator, c.denominator)) for c in self.minimal_polynomial]}
 
     def __str__(self) -> str:
-        return f"Q(a) with {str(self.modulus).replace('x', 'a')} = 0"
+        return f"Q(a) with {sum_of_powers([str(c) for c in self.modulus.coeffs()], 'a')} = 0"
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,7 +257,7 @@ class AlgebraicNumber:
         return hash((self.field, str(self.poly)))
 
     def __str__(self) -> str:
-        return str(self.poly).replace("x", "a")
+        return sum_of_powers([str(c) for c in self.poly.coeffs()], "a")
 
 
 Field = Rationals | PrimeField | NumberField

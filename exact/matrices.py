@@ -20,11 +20,14 @@ from fractions import Fraction
 from typing import Any
 
 import sympy
+from flint import fmpq_mat, fmpz, nmod_mat
 from sympy.polys.domains import AlgebraicField
 from sympy.polys.matrices import DomainMatrix
 
 from .fields import QQ, Field, NumberField, PrimeField, base_matrix
 from .input_rules import InvalidInput, shown
+
+PRIME = 2**61 - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,22 +219,74 @@ def stacked(*parts: Matrix) -> Matrix:
 
 def rank(matrix: Matrix) -> int:
     """The rank over the matrix's field."""
+    if _is_large(matrix):
+        reduced = _modulo(matrix.flint)
+        if reduced.rank() == min(reduced.nrows(), reduced.ncols()):  # a minor that is not zero modulo a prime is not zero
+            return min(matrix.nrows, matrix.ncols)
+        return len(row_echelon(matrix).pivots)
     return int(matrix.flint.rank()) // matrix.field.degree
 
 
 def row_echelon(matrix: Matrix) -> RowEchelon:
     """The reduced row echelon form without its zero rows. Over Q(a) it is the one of the block matrix, read in blocks."""
     d = matrix.field.degree
-    reduced, size = matrix.flint.rref()
-    table = reduced.tolist()[:size]
-    pivots = []
+    echelon = _lifted_echelon(matrix.flint) if _is_large(matrix) else None
+    if echelon is None:
+        reduced, size = matrix.flint.rref()
+        scalars = reduced.entries()[: size * matrix.ncols * d]
+        echelon = base_matrix(matrix.field, size, matrix.ncols * d, scalars)
+    pivots = tuple(j // d for j in pivot_columns(echelon)[::d])
+    return RowEchelon(Matrix(matrix.field, len(pivots), matrix.ncols, echelon), pivots)
+
+
+def pivot_columns(echelon: Any) -> list[int]:
+    """The column of the leading entry of every row of a row echelon form, which may end in zero rows."""
+    pivots: list[int] = []
     start = 0
-    for row in table[::d]:
-        while not row[start]:
+    for row in echelon.tolist():
+        while start < len(row) and not row[start]:
             start += 1
-        pivots.append(start // d)
-    echelon = base_matrix(matrix.field, size, matrix.ncols * d, [x for row in table for x in row])
-    return RowEchelon(Matrix(matrix.field, size // d, matrix.ncols, echelon), tuple(pivots))
+        if start < len(row):
+            pivots.append(start)
+    return pivots
+
+
+def _is_large(matrix: Matrix) -> bool:
+    """Whether a rational matrix is worth the detour over a prime."""
+    return not isinstance(matrix.field, PrimeField) and matrix.flint.nrows() * matrix.flint.ncols() > 150
+
+
+def _modulo(rational: Any) -> Any:
+    """The matrix modulo a prime after clearing denominators row by row: its rank is a lower bound."""
+    rows: list[int] = []
+    for row in rational.tolist():
+        bottom = fmpz(1)
+        for x in row:
+            bottom = bottom.lcm(x.q)
+        rows.extend(int((x * bottom).p % PRIME) for x in row)
+    return nmod_mat(rational.nrows(), rational.ncols(), rows, PRIME)
+
+
+def _lifted_echelon(rational: Any) -> Any:
+    """The reduced row echelon form, by p-adic lifting on the shape found modulo a prime; None where that prime misleads.
+
+    The rows and columns of a nonzero minor of greatest size modulo the prime make a square B; the form is B^-1 times those rows, if the
+    other rows are combinations of them: checked exactly.
+    """
+    reduced = _modulo(rational)
+    columns = pivot_columns(reduced.rref()[0])
+    rows = pivot_columns(reduced.transpose().rref()[0])
+    table = rational.tolist()
+    size, width = len(rows), rational.ncols()
+    if size == 0:
+        return fmpq_mat(0, width) if all(x == 0 for row in table for x in row) else None
+    chosen = fmpq_mat(size, width, [x for i in rows for x in table[i]])
+    square = fmpq_mat(size, size, [table[i][j] for i in rows for j in columns])
+    echelon = square.solve(chosen, "dixon")
+    others = [table[i] for i in range(len(table)) if i not in set(rows)]
+    rest = fmpq_mat(len(others), width, [x for row in others for x in row])
+    through = fmpq_mat(len(others), size, [row[j] for row in others for j in columns])
+    return echelon if rest == through * echelon else None
 
 
 def right_null_space(matrix: Matrix) -> Matrix:

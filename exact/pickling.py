@@ -8,7 +8,7 @@ from __future__ import annotations
 import copyreg
 from typing import Any
 
-from flint import fmpq_mat, fmpq_poly, nmod, nmod_mat
+from flint import fmpq_mat, fmpq_poly, fmpz_poly, nmod, nmod_mat
 
 
 def _nmod(x: nmod) -> tuple[Any, ...]:
@@ -19,6 +19,10 @@ def _fmpq_poly(f: fmpq_poly) -> tuple[Any, ...]:
     return fmpq_poly, (f.coeffs(),)
 
 
+def _fmpz_poly(f: fmpz_poly) -> tuple[Any, ...]:
+    return fmpz_poly, (f.coeffs(),)
+
+
 def _fmpq_mat(m: fmpq_mat) -> tuple[Any, ...]:
     return fmpq_mat, (m.nrows(), m.ncols(), m.entries())
 
@@ -27,5 +31,7 @@ def _nmod_mat(m: nmod_mat) -> tuple[Any, ...]:
     return nmod_mat, (m.nrows(), m.ncols(), [int(x) for x in m.entries()], m.modulus())
 
 
-for kind, reducer in ((nmod, _nmod), (fmpq_poly, _fmpq_poly), (fmpq_mat, _fmpq_mat), (nmod_mat, _nmod_mat)):
+REDUCERS = ((nmod, _nmod), (fmpq_poly, _fmpq_poly), (fmpz_poly, _fmpz_poly), (fmpq_mat, _fmpq_mat), (nmod_mat, _nmod_mat))
+
+for kind, reducer in REDUCERS:
     copyreg.pickle(kind, reducer)  # type: ignore[arg-type]

@@ -19,7 +19,7 @@ import flint
 from flint import fmpq, fmpz, nmod_mat
 
 from .fields import Rationals
-from .matrices import Matrix, solve_left
+from .matrices import Matrix, pivot_columns, solve_left
 from .systems import ResidualSystem
 from .windows import window_matrix
 
@@ -112,13 +112,7 @@ def _times(part: Matrix, factor: fmpz) -> Matrix:
 def _pivots_modulo(matrix: Matrix, prime: int) -> list[int]:
     """Columns that make a square invertible matrix of a full-row-rank integer one, found modulo the prime."""
     numerators = matrix.flint.numer_denom()[0]
-    reduced, size = nmod_mat(numerators, prime).rref()
-    pivots, start = [], 0
-    for row in reduced.tolist()[:size]:
-        while not row[start]:
-            start += 1
-        pivots.append(start)
-    return pivots
+    return pivot_columns(nmod_mat(numerators, prime).rref()[0])
 
 
 def _solve(square: Matrix, target: Matrix) -> Any:

@@ -12,11 +12,10 @@ from typing import Any
 from .fault_space import FaultSpace, fault_space, fault_space_dimension
 from .inversion import delay_known_state, delay_unknown_state
 from .kernel_representation import KernelRepresentation, kernel_representation
-from .matrices import rank
+from .matrices import Matrix
 from .pencil import infinite_zero_orders, invariant_zero_polynomial, right_minimal_indices
 from .polynomials import Poly, written
 from .systems import ResidualSystem
-from .windows import observability_matrix, reachability_matrix
 
 
 @dataclass(frozen=True)
@@ -92,9 +91,15 @@ def structure(system: ResidualSystem) -> Structure:
         right_minimal_indices=right,
         invariant_zero_polynomial=invariant_zero_polynomial(kernel, finite),
         infinite_zero_orders=infinite,
-        observable=rank(observability_matrix(system, system.n)) == system.n,
-        controllable=rank(reachability_matrix(system)) == system.n,
+        observable=_is_observable(system),
+        controllable=_is_observable(system.transposed()),
         delay_known_state=delay_known_state(kernel),
         delay_unknown_state=delay_unknown_state(kernel),
         fault_space=fault_space(kernel),
     )
+
+
+def _is_observable(system: ResidualSystem) -> bool:
+    """rank O_n = n, read off the kernel representation of the system without faults."""
+    faultless = system.with_faults(Matrix.zero(system.field, system.n, 0), Matrix.zero(system.field, system.p, 0))
+    return kernel_representation(faultless).rank(system.n) == system.n

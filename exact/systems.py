@@ -163,6 +163,8 @@ def read_system(data: object, *, where: str = "system") -> ResidualSystem | Faul
         if "B" not in data:
             return system
         nu = _dimension("nu", data.get("nu"), (data["B"], 1), (data["D"], 1))
+        if nu > MAX_DIMENSION:
+            raise InvalidInput(f"nu: got {nu}, at most {MAX_DIMENSION} is supported")
         B = Matrix.of(data["B"], field, shape=(system.n, nu), where="B")
         return FaultySystem(system, B, Matrix.of(data["D"], field, shape=(system.p, nu), where="D"))
     except InvalidInput as error:

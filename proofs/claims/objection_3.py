@@ -2,24 +2,32 @@
 
 from __future__ import annotations
 
-from ..corpus import Dossier
+import numpy as np
+
+from ...exact.systems import ResidualSystem
+from ..corpus import Dossier, examine
 from ..families import paper_example
+from ..search import Box, smallest
 from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, accepted, certify
+from ..workbench import Workbench, certify, counterexample
 from .common import gap_is_m_from, zeros
+
+BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def controllability_needed(bench: Workbench) -> Outcome:
-    """'Without controllability the gap formula fails': the paper's own example, not controllable, where it holds."""
-    system = paper_example().residual
-    shown = accepted(zeros(system))
-    says = {c["kind"] + c["statement"].get("matrix", ""): c["statement"] for c in shown}
-    ranks, m, n = says["window-ranks"]["window_ranks"], system.m, system.n
-    uncontrollable = says["matrix-rankreachability"]["rank"] < n
-    holds = all(ranks[s] - ranks[s - 1] == m for s in range(n, len(ranks)))
-    verdict = Verdict.REFUTED if uncontrollable and holds else Verdict.CERTIFIED
-    words = f"the example of the paper: (A,F) reaches {says['matrix-rankreachability']['rank']} of {n} dimensions, window ranks {ranks}"
-    return Outcome(verdict, words, shown, len(shown))
+    """'Without controllability the formula fails': the smallest system not controllable where it holds; the paper's example is another."""
+
+    def holds(system: ResidualSystem) -> bool:
+        d = examine("search", system)
+        return not d.controllable and d.observable and d.left_invertible and gap_is_m_from(lambda d: d.n)(d)
+
+    found = smallest(BOX, lambda f: np.asarray(f.observable & f.left_invertible & ~f.controllable), holds)
+    if found is None:
+        return Outcome(Verdict.ERROR, "no uncontrollable system in the box with the right gap")
+    example = paper_example().residual
+    words = f"{found}, where the gap is m for s >= n all the same, as for the paper's example, which is not controllable either"
+    return counterexample(words, BOX, [*zeros(found), *zeros(example)])
 
 
 def gap_without_controllability(bench: Workbench) -> Outcome:

@@ -1,7 +1,7 @@
 """The tree as the tests of the house see it.
 
-    root        the folder of pyproject.toml
-    checkout    the files that a commit of the tree would hold, links included, relative to root
+root        the folder of pyproject.toml
+checkout    the files that a commit of the tree would hold, links included, relative to root
 """
 
 import subprocess

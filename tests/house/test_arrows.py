@@ -1,10 +1,10 @@
 """The import arrows between the rooms point one way.
 
-    ROOMS           room -> rooms it may import (its own always)
-    Module          a module's dotted name, whether it is a package, its source
-    imports         every name a source imports, relative ones resolved, literal `import_module("...")` included
-    room_of         the room of a dotted name; None for what is not ours
-    violations      the sentences that say what a module may not do
+ROOMS           room -> rooms it may import (its own always)
+Module          a module's dotted name, whether it is a package, its source
+imports         every name a source imports, relative ones resolved, literal `import_module("...")` included
+room_of         the room of a dotted name; None for what is not ours
+violations      the sentences that say what a module may not do
 """
 
 import ast

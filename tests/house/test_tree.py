@@ -1,7 +1,7 @@
 """What is true of every file: short modules, no path of anybody's machine, one version, no key without a source.
 
-    machine_paths       absolute paths of one machine that a text mentions
-    cited_keys          keys such as [V93] in the docstrings of a source
+machine_paths       absolute paths of one machine that a text mentions
+cited_keys          keys such as [V93] in the docstrings of a source
 """
 
 import ast

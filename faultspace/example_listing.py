@@ -1,0 +1,33 @@
+"""`faultspace examples`: the systems that come with the package, listed or copied into a folder.
+
+run          the command's body
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from rich.text import Text
+
+from .consoles import answers, print_json
+from .failures import ANSWERED, printable, say
+from .packaged_examples import DESCRIPTIONS, PREFIX, content
+from .reading_files import prepare_folder, write_json
+
+
+def run(folder: Path | None, *, as_json: bool) -> int:
+    """Lists the examples; with a folder copies them there first, overwriting files of these names only."""
+    if folder is not None:
+        prepare_folder(folder)
+        for name in DESCRIPTIONS:
+            write_json(folder / f"{name}.json", json.loads(content(PREFIX + name)))
+        say(f"{len(DESCRIPTIONS)} systems are in {printable(str(folder))}")
+    if as_json:
+        print_json({PREFIX + name: description for name, description in DESCRIPTIONS.items()})
+        return ANSWERED
+    console = answers()
+    width = max(len(PREFIX + name) for name in DESCRIPTIONS) + 2
+    for name, description in DESCRIPTIONS.items():
+        console.print(Text.assemble((f"{PREFIX + name:<{width}}", "bold"), description), soft_wrap=True)
+    return ANSWERED

@@ -1,0 +1,107 @@
+"""`faultspace inspect`: everything the exact branch knows about a system.
+
+run          the command's body
+sheet        what a person reads of a Structure
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from rich.console import Console
+from rich.text import Text
+
+from .consoles import answers, print_json, working
+from .exact.fields import QQ, NumberField
+from .exact.input_rules import InvalidInput
+from .exact.structure import Structure, structure
+from .exact.systems import FaultySystem, ResidualSystem
+from .failures import ANSWERED, BAD_INPUT, placed, printable, say
+from .notation import matrix_lines, polynomial, several
+from .reading_files import read_system
+
+NAME_WIDTH = 36
+
+
+def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
+    """Inspects one file after the other; a bad one is told and the rest is still done. The largest exit code.
+
+    As JSON one file gives an object, several an array of objects that also say which "file" they are about.
+    """
+    code = ANSWERED
+    console = answers()
+    documents = []
+    for name in names:
+        try:
+            system = read_system(name, floats_exactly=floats_exactly)
+            with placed(name), working(f"inspecting {printable(name)}"):
+                found = structure(system.residual)
+                documents.append({"file": name, **found.to_json()})
+                if not as_json:
+                    _print(console, name, system, found)
+        except InvalidInput as error:
+            say(str(error))
+            code = BAD_INPUT
+    if as_json and len(names) > 1:
+        print_json(documents)
+    elif as_json and documents:
+        print_json({key: value for key, value in documents[0].items() if key != "file"})
+    return code
+
+
+def sheet(system: ResidualSystem | FaultySystem, found: Structure) -> Iterator[tuple[str, str]]:
+    """(name, value) pairs; a pair without a value is a heading, one without a name goes on with the value above it."""
+    kernel, n = found.kernel, found.system.n
+    yield "pencil P(q) = [[qI - A, -F], [C, G]]", ""
+    yield "normal rank r", f"{kernel.normal_rank} of at most {min(found.system.m, found.system.p)}"
+    yield "left minimal indices", several(kernel.left_minimal_indices)
+    yield "lag", str(kernel.lag)
+    yield "right minimal indices", several(found.right_minimal_indices)
+    yield "invariant zero polynomial", polynomial(found.invariant_zero_polynomial, found.system.field)
+    yield "infinite zero orders", several(found.infinite_zero_orders)
+    yield "zeros, finite + infinite = zeta", f"{found.finite_zeros} + {sum(found.infinite_zero_orders)} = {found.zeta}"
+    yield "states and faults", ""
+    yield "(A, C) observable", _yes(found.observable)
+    yield "(A, F) controllable", _yes(found.controllable)
+    yield "left-invertible (r = m)", _yes(found.left_invertible)
+    yield "inversion delay, x(0) known", _delay(found.delay_known_state)
+    yield "inversion delay, x(0) unknown", _delay(found.delay_unknown_state)
+    document = found.to_json()
+    yield f"windows of s = 1, ..., {n + 3} samples", ""
+    yield "rank [O_s T_s]", several(document["window_ranks"])
+    yield "dimension of problem (11)", several(document["fault_space_dimensions"])
+    space = found.fault_space
+    yield f"fault space: n_z = {space.dimension}, reached from s = {space.exact_from} on", ""
+    for name, matrix in (("Fhat", space.F), ("Ghat", space.G)):
+        lines = matrix_lines(matrix) or [f"empty, {matrix.nrows} x {matrix.ncols}"]
+        yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
+
+
+def _print(console: Console, name: str, system: ResidualSystem | FaultySystem, found: Structure) -> None:
+    """Lines without a frame: a terminal may wrap them, a pipe gets them whole."""
+    parts = [(system.residual.n, "state"), (system.residual.m, "fault"), (system.residual.p, "output")]
+    if isinstance(system, FaultySystem):
+        parts.append((system.nu, "input"))
+    sizes = ", ".join(f"{count} {word}{'' if count == 1 else 's'}" for count, word in parts)
+    console.print(Text.assemble((printable(name), "bold"), f"   {sizes}, over {_field(system)}"), soft_wrap=True)
+    for label, value in sheet(system, found):
+        if not value:
+            console.print(Text(f"  {label}", style="bold cyan"), soft_wrap=True)
+        else:
+            console.print(Text(f"    {label:<{NAME_WIDTH}}{value}"), soft_wrap=True)
+    console.print()
+
+
+def _field(system: ResidualSystem | FaultySystem) -> str:
+    field = system.field
+    if isinstance(field, NumberField):
+        return f"Q(a), a a root of {polynomial([QQ.element(c) for c in field.minimal_polynomial], QQ, 'a')}"
+    return str(field)
+
+
+def _yes(value: bool) -> str:
+    return "yes" if value else "no"
+
+
+def _delay(value: int | None) -> str:
+    return "none" if value is None else str(value)

@@ -1,0 +1,32 @@
+"""The systems that come with the package, to try every command on: `example:NAME` names one wherever a system file is expected.
+
+PREFIX         "example:"
+DESCRIPTIONS   name -> what is to be seen in it
+content        the bytes of one, by its name with the prefix
+"""
+
+from __future__ import annotations
+
+from importlib import resources
+
+from .exact.input_rules import InvalidInput, shown
+
+PREFIX = "example:"
+DESCRIPTIONS = {
+    "paper": "the paper's own example, F an eigenvector of A: exact only over a cubic number field",
+    "theorem-1-first": "makes the same outputs as theorem-1-second on one sample, as many as it has states ...",
+    "theorem-1-second": "... and other ones on two: equal behaviour on n samples is not enough",
+    "proposition-3": "the rank gap is 2 on n - 1 samples and m = 1 only from n on",
+    "theorem-3": "a system whose fault space has three columns",
+    "theorem-3-bad-pair": "two independent columns out of that space which do not make an equivalent pair",
+    "zeros": "a finite zero at 2 and an infinite one of order 1",
+    "same-behaviour": "zeros with A + FK in place of A: another system, the same outputs",
+}
+
+
+def content(name: str) -> bytes:
+    """The file behind `example:NAME`. Raises InvalidInput for a name that is none."""
+    stem = name.removeprefix(PREFIX)
+    if stem not in DESCRIPTIONS:
+        raise InvalidInput(f"got example {shown(stem)}, expected one of {', '.join(DESCRIPTIONS)}")
+    return resources.files(__package__).joinpath("examples", f"{stem}.json").read_bytes()

@@ -1,0 +1,167 @@
+"""`faultspace verify`: every claim of the ledger, decided anew, with a table of verdicts and the certificates they rest on.
+
+run             the command's body
+verdict_table   one row a reading
+statements      a claim in full: as printed, as checked, hypotheses, evidence, certificates
+write_out       the headline certificates and verdicts.json into a folder
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from .consoles import answers, print_json, stages
+from .exact.input_rules import InvalidInput, shown
+from .failures import ANSWERED, NOT_AS_EXPECTED, printable, say
+from .proofs.certificate import Certificate, sha256
+from .proofs.ledger import load
+from .proofs.verdicts import ClaimResult, ReadingResult, Report, Verdict
+from .proofs.verification import verify
+from .reading_files import prepare_folder, write_json
+
+STYLES = {
+    Verdict.PROVED: "bold green",
+    Verdict.IDENTITY: "green",
+    Verdict.CERTIFIED: "green",
+    Verdict.REFUTED: "yellow",
+    Verdict.AMENDED: "magenta",
+    Verdict.ERROR: "bold red",
+}
+SHORT = 12
+MOST_SHOWN = 2
+MOST_EVIDENCE, MOST_CERTIFICATES = 240, 2
+
+
+def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, as_json: bool) -> int:
+    """Decides the claims (all when none is named). Raises InvalidInput for an unknown claim or a folder that cannot be written into."""
+    known = [claim.id for claim in load()]
+    for name in claims:
+        if name not in known:
+            raise InvalidInput(f"--claim: got {shown(name)}, expected one of {', '.join(known)}")
+    if out is not None:
+        prepare_folder(out)
+    with stages() as progress:
+        report = verify(claims or None, effort=effort, jobs=jobs, progress=progress)
+    if out is not None:
+        count = write_out(report, out)
+        say(f"{count} certificates and verdicts.json are in {printable(str(out))}")
+    if as_json:
+        print_json(report.to_json())
+    else:
+        _print(answers(), report, in_full=bool(claims))
+    return ANSWERED if report.as_expected else NOT_AS_EXPECTED
+
+
+def write_out(report: Report, folder: Path) -> int:
+    """Writes every headline certificate as kind-<first 12 of its SHA-256>.json, then verdicts.json. How many certificates."""
+    certificates = report.certificates()
+    for certificate in certificates:
+        write_json(folder / f"{certificate['kind']}-{sha256(certificate)[:SHORT]}.json", certificate)
+    write_json(folder / "verdicts.json", report.to_json())
+    return len(certificates)
+
+
+def verdict_table(report: Report) -> Table:
+    """A row for each claim as printed, and below it one for each reading as checked, with what its verdict rests on."""
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False)
+    table.add_column("claim / reading", overflow="fold", max_width=27)
+    table.add_column("verdict", no_wrap=True)
+    table.add_column("statement / hypotheses / evidence", overflow="fold")
+    table.add_column("certificates", no_wrap=True)
+    table.add_column("seconds", no_wrap=True, justify="right")
+    for claim in report.claims:
+        printed = Text.assemble((claim.claim.statement, "bold"), (f"  ({claim.claim.reference}) {_standing(claim)}", "dim"))
+        table.add_row(Text(claim.claim.id, style="bold"), _verdict(claim.verdict, claim.claim.expected, "\n"), printed, "", "")
+        for result in claim.readings:
+            reading, outcome = result.reading, result.outcome
+            told = Text.assemble(
+                reading.statement,
+                (f"\nhypotheses: {'; '.join(reading.hypotheses) or 'none'}", "dim"),
+                (f"\n{outcome.evidence}", "dim italic"),
+            )
+            name = f"  {reading.id}{' (repair)' if reading.repair else ''}"
+            verdict = _verdict(outcome.verdict, reading.expected, "\n")
+            table.add_row(name, verdict, told, _hashes(result), f"{result.seconds:.1f}")
+        table.add_section()
+    return table
+
+
+def _standing(claim: ClaimResult) -> str:
+    """How many of the readings as printed hold."""
+    printed = [result for result in claim.readings if not result.reading.repair]
+    holding = sum(result.outcome.verdict not in (Verdict.REFUTED, Verdict.ERROR) for result in printed)
+    return f"As printed, {holding} of {len(printed)} readings hold."
+
+
+def _hashes(result: ReadingResult) -> str:
+    """The first headline certificates by the start of their SHA-256, and how many the checker accepted in all."""
+    found = [sha256(certificate)[:SHORT] for certificate in result.outcome.certificates]
+    more = [f"+ {len(found) - MOST_SHOWN} more"] if len(found) > MOST_SHOWN else []
+    total = [f"{result.outcome.accepted} accepted"] if result.outcome.accepted else []
+    return "\n".join([*found[:MOST_SHOWN], *more, *total])
+
+
+def statements(claim: ClaimResult) -> Iterator[Text]:
+    """The claim in full, line by line."""
+    yield Text.assemble((claim.claim.id, "bold"), f"  ({claim.claim.reference}): ", _verdict(claim.verdict, claim.claim.expected))
+    yield Text(f"  as printed: {claim.claim.statement}")
+    for reading in claim.readings:
+        yield from _reading(reading)
+
+
+def _reading(result: ReadingResult) -> Iterator[Text]:
+    reading, outcome = result.reading, result.outcome
+    kind = "repair" if reading.repair else "reading"
+    yield Text.assemble(f"  {kind} ", (reading.id, "bold"), ": ", _verdict(outcome.verdict, reading.expected))
+    yield Text(f"    as checked:   {reading.statement}")
+    yield Text(f"    hypotheses:   {'; '.join(reading.hypotheses) or 'none'}")
+    yield Text(f"    evidence:     {outcome.evidence}")
+    yield Text(f"    accepted:     {outcome.accepted} certificates by the checker")
+    for certificate in outcome.certificates:
+        yield Text(f"    certificate:  {certificate['kind']}, SHA-256 {sha256(certificate)}")
+
+
+def _print(console: Console, report: Report, *, in_full: bool) -> None:
+    if in_full:
+        for claim in report.claims:
+            for line in statements(claim):
+                console.print(line, soft_wrap=True)
+            console.print()
+    else:
+        console.print(verdict_table(report))
+        console.print("--claim ID tells a claim in full; --out DIR writes the certificates")
+    if report.corpus:
+        console.print(f"systems: {report.corpus}", soft_wrap=True)
+    console.print(_summary(report), soft_wrap=True)
+
+
+def _summary(report: Report) -> Text:
+    readings = [reading for claim in report.claims for reading in claim.readings]
+    accepted = sum(reading.outcome.accepted for reading in readings)
+    different = [claim.claim.id for claim in report.claims if not claim.as_expected]
+    tail = f"{len(readings)} readings, {accepted} certificates accepted, effort {report.effort}, {report.seconds:.0f} s"
+    if different:
+        return Text(f"NOT as expected: {', '.join(different)} of {len(report.claims)} claims; {tail}", style="bold red")
+    return Text(f"as expected: all {len(report.claims)} claims; {tail}", style="bold green")
+
+
+def _verdict(verdict: Verdict, expected: str, between: str = " ") -> Text:
+    if verdict == expected:
+        return Text(str(verdict), style=STYLES[verdict])
+    return Text(f"{verdict}{between}(expected {expected})", style="bold red")
+
+
+def _shortened(evidence: str) -> str:
+    return evidence if len(evidence) <= MOST_EVIDENCE else f"{evidence[: MOST_EVIDENCE - 4].rstrip()} ..."
+
+
+def _first_names(certificates: Sequence[Certificate]) -> list[str]:
+    names = [sha256(certificate)[:SHORT] for certificate in certificates]
+    more = len(names) - MOST_CERTIFICATES
+    return names if more <= 1 else [*names[:MOST_CERTIFICATES], f"and {more} more"]

@@ -1,0 +1,77 @@
+"""Running the command line, from outside and from inside.
+
+Run             exit code, standard output and standard error
+command         `python -m faultspace` in a process of its own
+call            `faultspace.command_line.main` in this process
+validator       of the schema of that name
+EXAMPLES        the folder of the packaged systems
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+
+from faultspace.command_line import main
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = resources.files("faultspace").joinpath("examples")
+_SCHEMAS = {"certificate": "faultspace.proofs"}
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a run left behind."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def json(self) -> Any:
+        """Standard output, which must be one JSON document."""
+        return json.loads(self.out)
+
+
+def environment(**changes: str) -> dict[str, str]:
+    """The surroundings of `command`: the tree's own package, no colours asked for."""
+    kept = {key: value for key, value in os.environ.items() if key not in ("FORCE_COLOR", "COLUMNS", "NO_COLOR")}
+    return kept | {"PYTHONPATH": str(ROOT)} | changes
+
+
+def command(*arguments: str, stdin: bytes = b"", cwd: Path | None = None) -> Run:
+    """A run in a process of its own."""
+    line = [sys.executable, "-m", "faultspace", *arguments]
+    run = subprocess.run(line, input=stdin, capture_output=True, cwd=cwd or ROOT, env=environment(), timeout=120)
+    return Run(run.returncode, run.stdout.decode(), run.stderr.decode())
+
+
+def call(*arguments: str) -> Run:
+    """A run in this process."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = main(arguments)
+    return Run(code, out.getvalue(), err.getvalue())
+
+
+def validator(name: str) -> jsonschema.Draft202012Validator:
+    """Of `NAME.schema.json`, which is itself checked first."""
+    package = _SCHEMAS.get(name, "faultspace.exact")
+    schema = json.loads(resources.files(package).joinpath("schemas", f"{name}.schema.json").read_text("utf-8"))
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
+def example(name: str) -> Any:
+    """The document of a packaged system."""
+    return json.loads(EXAMPLES.joinpath(f"{name}.json").read_text("utf-8"))

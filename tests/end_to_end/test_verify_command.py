@@ -1,0 +1,173 @@
+"""`faultspace verify`: one claim for real; then the table, the exit code and the files with a report made here in place of a run.
+
+report       a Report about two claims, one of them with an unexpected verdict on request
+pretended    puts it in the place of the run
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from faultspace import consoles, verifying
+from faultspace.exact.kernel_representation import kernel_representation
+from faultspace.exact.systems import read_system
+from faultspace.proofs.certificate import sha256, window_ranks
+from faultspace.proofs.ledger import Claim, Reading
+from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Report, Verdict
+from tests.end_to_end.commands import call, command, example, validator
+
+ONE = Reading("as-printed", "rank [O_s T_s] = n + s m for every system and every s", ("left-invertible", "s >= n"), "REFUTED", False)
+TWO = Reading("with-zeros", "rank [O_s T_s] = n + s m - zeta for s >= lag", ("left-invertible",), "CERTIFIED", True)
+CLAIMS = (
+    Claim("claim-a", "Theorem 2", "the rank, as printed", "AMENDED", (), (ONE, TWO)),
+    Claim("claim-b", "(11)", "the space", "CERTIFIED", (), (TWO,)),
+)
+CERTIFICATE = window_ranks(kernel_representation(read_system(example("paper")).residual))
+SHORT = sha256(CERTIFICATE)[:12]
+
+
+def report(claims: Sequence[str] | None, second: Verdict) -> Report:
+    """The first claim is AMENDED, as expected; the second has this verdict, CERTIFIED is expected."""
+
+    def result(reading: Reading, verdict: Verdict) -> ReadingResult:
+        return ReadingResult(reading, Outcome(verdict, f"evidence for {reading.id}", (CERTIFICATE,), 17), 1.25)
+
+    first = ClaimResult(CLAIMS[0], (result(ONE, Verdict.REFUTED), result(TWO, Verdict.CERTIFIED)))
+    results = (first, ClaimResult(CLAIMS[1], (result(TWO, second),)))
+    return Report("quick", tuple(r for r in results if claims is None or r.claim.id in claims), "12 systems", 3.5)
+
+
+@pytest.fixture
+def pretended(monkeypatch: pytest.MonkeyPatch) -> Callable[[Verdict], list[dict[str, object]]]:
+    """Call it with the verdict on the second claim; it returns the list that the calls of the run are noted in."""
+
+    def pretend(second: Verdict) -> list[dict[str, object]]:
+        calls: list[dict[str, object]] = []
+
+        def verify(claims: Sequence[str] | None, *, effort: str, jobs: int, progress: Callable[[str, int, int], None]) -> Report:
+            calls.append({"claims": claims, "effort": effort, "jobs": jobs})
+            progress("systems", 0, 12)
+            progress("systems", 12, 12)
+            progress("claim-a: as-printed", 0, 3)
+            return report(claims, second)
+
+        monkeypatch.setattr(verifying, "load", lambda: CLAIMS)
+        monkeypatch.setattr(verifying, "verify", verify)
+        return calls
+
+    return pretend
+
+
+Pretend = Callable[[Verdict], list[dict[str, object]]]
+
+
+def test_a_claim_is_verified_and_its_certificates_are_accepted(tmp_path: Path) -> None:
+    run = command("verify", "--effort", "quick", "--claim", "example-v", "--jobs", "1", "--json", "--out", str(tmp_path))
+    assert run.code == 0
+    (claim,) = run.json["claims"]
+    assert (claim["id"], claim["as_expected"]) == ("example-v", True)
+    named = {c["sha256"] for reading in claim["readings"] for c in reading["certificates"]}
+    files = [path for path in tmp_path.iterdir() if path.name != "verdicts.json"]
+    for path in files:
+        certificate = json.loads(path.read_text("utf-8"))
+        validator("certificate").validate(certificate)
+        assert path.name == f"{certificate['kind']}-{sha256(certificate)[:12]}.json"
+    results = call("check", *map(str, files), "--json").json
+    assert {result["sha256"] for result in results} == named
+    assert all(result["result"] == "verified" for result in results)
+
+
+@pytest.mark.parametrize(("verdict", "code"), [(Verdict.CERTIFIED, 0), (Verdict.REFUTED, 1), (Verdict.ERROR, 1)])
+def test_exit_0_if_every_verdict_is_the_expected_one(pretended: Pretend, verdict: Verdict, code: int) -> None:
+    calls = pretended(verdict)
+    run = call("verify", "--effort", "quick", "--jobs", "2", "--json")
+    assert run.code == code
+    assert calls == [{"claims": None, "effort": "quick", "jobs": 2}]
+    assert run.json == report(None, verdict).to_json()
+    assert run.err == "faultspace: systems (0/12)\nfaultspace: claim-a: as-printed (0/3)\n"
+
+
+def test_the_table_has_a_row_for_every_reading(pretended: Pretend) -> None:
+    pretended(Verdict.CERTIFIED)
+    out = call("verify").out
+    heading, *lines = [line for line in out.splitlines() if line.strip(" ─")]
+    assert heading.split() == "claim / reading verdict statement / hypotheses / evidence certificates seconds".split()
+    assert [line.split()[:2] for line in lines if not line.startswith("   ")][:2] == [["claim-a", "AMENDED"], ["claim-b", "CERTIFIED"]]
+    rows = [line.split() for line in lines if SHORT in line]
+    assert [row[0] for row in rows] == ["as-printed", "with-zeros", "with-zeros"]
+    assert CLAIMS[0].statement in out and ONE.statement in out and "As printed, 0 of 1 readings hold." in out
+    assert all(row[-2:] == [SHORT, "1.2"] for row in rows)
+    assert "REFUTED" in rows[0] and "CERTIFIED" in rows[1]
+    assert "hypotheses: left-invertible; s >= n" in out
+    assert lines[-1].startswith("as expected: all 2 claims") and "51 certificates" in lines[-1]
+    assert "\x1b" not in out and max(map(len, out.splitlines())) <= consoles.PIPED_WIDTH
+
+
+@pytest.mark.parametrize("width", [80, 100, 200])
+def test_no_column_is_lost_on_a_narrow_terminal(width: int) -> None:
+    console = Console(width=width, file=io.StringIO())
+    console.print(verifying.verdict_table(report(None, Verdict.REFUTED)))
+    assert isinstance(console.file, io.StringIO)
+    lines = [line.rstrip() for line in console.file.getvalue().splitlines()]
+    assert max(map(len, lines)) <= width
+    assert sum(line.endswith(f"{SHORT}       1.2") for line in lines) == 3
+    assert sum("(expected CERTIFIED)" in line for line in lines) == 2
+
+
+def test_an_unexpected_verdict_is_seen(pretended: Pretend) -> None:
+    pretended(Verdict.REFUTED)
+    out = call("verify").out
+    assert "(expected CERTIFIED)" in out
+    assert "NOT as expected: claim-b of 2 claims" in out
+
+
+def test_a_claim_is_told_in_full(pretended: Pretend) -> None:
+    calls = pretended(Verdict.CERTIFIED)
+    run = call("verify", "--claim", "claim-a")
+    assert (run.code, calls[0]["claims"]) == (0, ["claim-a"])
+    for text in (CLAIMS[0].statement, ONE.statement, TWO.statement, "left-invertible; s >= n", "evidence for with-zeros"):
+        assert text in run.out
+    assert sha256(CERTIFICATE) in run.out
+    assert "claim-b" not in run.out
+
+
+def test_an_unknown_claim_is_told_before_the_run(pretended: Pretend) -> None:
+    calls = pretended(Verdict.CERTIFIED)
+    run = call("verify", "--claim", "claim-c")
+    assert (run.code, run.out, calls) == (2, "", [])
+    assert run.err == "faultspace: --claim: got 'claim-c', expected one of claim-a, claim-b\n"
+
+
+def test_certificates_and_verdicts_are_written_whole(pretended: Pretend, tmp_path: Path) -> None:
+    pretended(Verdict.CERTIFIED)
+    out = tmp_path / "not yet" / "there"
+    run = call("verify", "--out", str(out), "--json")
+    assert run.code == 0 and run.json["as_expected"]
+    name = f"window-ranks-{SHORT}.json"
+    assert {path.name for path in out.iterdir()} == {name, "verdicts.json"}
+    written = json.loads((out / name).read_text("utf-8"))
+    assert written == CERTIFICATE
+    validator("certificate").validate(written)
+    assert call("check", str(out / name)).code == 0
+    assert json.loads((out / "verdicts.json").read_text("utf-8")) == run.json
+
+
+def test_nothing_is_written_without_being_asked_for(pretended: Pretend, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pretended(Verdict.CERTIFIED)
+    monkeypatch.chdir(tmp_path)
+    assert call("verify").code == 0
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_written_into_is_told_before_the_run(pretended: Pretend, tmp_path: Path) -> None:
+    calls = pretended(Verdict.CERTIFIED)
+    (tmp_path / "file").write_text("")
+    run = call("verify", "--out", str(tmp_path / "file"))
+    assert (run.code, run.out, run.err.count("\n"), calls) == (2, "", 1, [])
+    assert "cannot be written into" in run.err

@@ -1,0 +1,165 @@
+"""A run computes its verdicts: they follow from what is found, and change when what is found is broken on purpose."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from faultspace.exact.input_rules import InvalidInput
+from faultspace.proofs import checker, corpus, verification, workbench
+from faultspace.proofs.certificate import sha256
+from faultspace.proofs.ledger import Claim, Reading
+from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
+from faultspace.proofs.verification import verify
+from faultspace.proofs.workbench import Workbench, accepted, certify
+from tests.oracle import truth
+
+
+def quiet(stage: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
+@pytest.fixture(scope="module")
+def bench() -> Workbench:
+    """A workbench with a corpus small enough for tests: every fifteenth system of the quick one."""
+    made = Workbench("quick", 1, quiet)
+    sources = list(corpus._sources("quick"))[::15]
+    made.corpus = corpus.Corpus(tuple(corpus.examine(*source) for source in sources))
+    return made
+
+
+def result(verdict: Verdict, *, repair: bool = False, expected: str = "CERTIFIED") -> ReadingResult:
+    return ReadingResult(Reading("r", "s", (), expected, repair), Outcome(verdict, ""), 0.0)
+
+
+def claim(*readings: ReadingResult) -> ClaimResult:
+    return ClaimResult(Claim("c", "", "", "AMENDED", (), tuple(r.reading for r in readings)), readings)
+
+
+@pytest.mark.parametrize(
+    "readings, verdict",
+    [
+        ([result(Verdict.REFUTED), result(Verdict.CERTIFIED, repair=True)], Verdict.AMENDED),
+        ([result(Verdict.REFUTED), result(Verdict.IDENTITY, repair=True)], Verdict.AMENDED),
+        ([result(Verdict.REFUTED)], Verdict.REFUTED),
+        ([result(Verdict.REFUTED), result(Verdict.REFUTED, repair=True)], Verdict.REFUTED),
+        ([result(Verdict.REFUTED), result(Verdict.CERTIFIED)], Verdict.CERTIFIED),
+        ([result(Verdict.PROVED), result(Verdict.CERTIFIED)], Verdict.CERTIFIED),
+        ([result(Verdict.CERTIFIED), result(Verdict.ERROR, repair=True)], Verdict.ERROR),
+        ([], Verdict.ERROR),
+    ],
+)
+def test_the_verdict_on_a_claim_follows_from_its_readings(readings: list[ReadingResult], verdict: Verdict) -> None:
+    assert claim(*readings).verdict == verdict
+
+
+def test_a_claim_is_as_expected_only_with_all_its_readings() -> None:
+    good = [result(Verdict.REFUTED, expected="REFUTED"), result(Verdict.CERTIFIED, repair=True)]
+    assert claim(*good).as_expected
+    assert not claim(result(Verdict.REFUTED, expected="CERTIFIED"), good[1]).as_expected
+
+
+def test_unknown_names_are_bad_input() -> None:
+    with pytest.raises(InvalidInput, match="expected one of theorem-1"):
+        verify(["theorem-9"])
+    with pytest.raises(InvalidInput, match="effort"):
+        verify(effort="medium")
+
+
+def test_a_check_that_does_not_finish_is_an_error_and_the_others_go_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(bench: Workbench) -> Outcome:
+        raise RuntimeError("interrupted")
+
+    monkeypatch.setattr("faultspace.proofs.claims.example_v.one_fault", broken)
+    report = verify(["example-v"], jobs=1)
+    verdicts = {r.reading.id: r.outcome for c in report.claims for r in c.readings}
+    assert verdicts["one-fault"].verdict == Verdict.ERROR and "interrupted" in verdicts["one-fault"].evidence
+    assert verdicts["two-columns"].verdict == Verdict.CERTIFIED
+    assert not report.as_expected
+
+
+def test_certificates_of_the_example_are_accepted_and_true() -> None:
+    report = verify(["example-v"], jobs=1)
+    assert report.as_expected
+    for certificate in report.certificates():
+        checker.verify(certificate)
+        if certificate["statement"].get("matrix") not in ("residual-hankel", "excitation"):
+            assert truth(certificate["kind"], certificate["statement"]), certificate["kind"]
+
+
+def test_refutations_found_by_search_are_true_statements_about_small_systems() -> None:
+    report = verify(["theorem-3-ii", "problem-11", "theorem-2"], jobs=2)
+    assert report.as_expected
+    count = 0
+    for claim_result in report.claims:
+        for reading in claim_result.readings:
+            if reading.outcome.verdict == Verdict.REFUTED:
+                assert reading.outcome.certificates and "the smallest with" in reading.outcome.evidence
+                for certificate in reading.outcome.certificates:
+                    assert truth(certificate["kind"], certificate["statement"]), sha256(certificate)
+                    count += 1
+    assert count > 20
+
+
+def test_certify_turns_to_refuted_when_the_statement_fails(bench: Workbench) -> None:
+    always = certify(bench, lambda d: True, lambda d: d.rank(1) <= d.p, lambda s: ())
+    assert always.verdict == Verdict.CERTIFIED and always.accepted > 0
+    too_strong = certify(bench, lambda d: True, lambda d: d.gap(d.n) == d.m, lambda s: ())
+    assert too_strong.verdict == Verdict.REFUTED and "smallest of the corpus" in too_strong.evidence
+    nothing = certify(bench, lambda d: False, lambda d: True, lambda s: ())
+    assert nothing.verdict == Verdict.ERROR
+
+
+def test_only_accepted_certificates_are_shown() -> None:
+    report = verify(["example-v"], jobs=1)
+    forged = dict(report.certificates()[0])
+    forged["statement"] = {**forged["statement"], "normal_rank": 2}
+    with pytest.raises(checker.Rejected):
+        accepted([forged])
+
+
+@pytest.mark.parametrize("reading", ["n_known", "n_unknown", "lag"])
+def test_assumption_4_on_the_small_corpus(bench: Workbench, reading: str) -> None:
+    from faultspace.proofs.claims import assumption_4
+
+    check: Callable[[Workbench], Outcome] = getattr(assumption_4, reading)
+    assert check(bench).verdict == Verdict.CERTIFIED
+
+
+def test_a_broken_recursion_does_not_go_unnoticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the fault left out of W_(k+1), certificates of the example are no longer accepted: ERROR, not a wrong verdict."""
+    from faultspace.exact import kernel_representation, zero_output
+    from faultspace.exact.matrices import Matrix
+    from faultspace.exact.systems import ResidualSystem
+    from faultspace.proofs.claims import example_v
+
+    def without_fault(system: ResidualSystem) -> zero_output.ZeroOutputChain:
+        return zero_output.zero_output_chain(system.with_faults(Matrix.zero(system.field, system.n, system.m), system.G))
+
+    monkeypatch.setattr(kernel_representation, "zero_output_chain", without_fault)
+    monkeypatch.setattr(kernel_representation, "image", lambda system, largest=0: _first_image(system, largest))
+    example_v._certificates.cache_clear()
+    report = verification.verify(["example-v"], jobs=1)
+    example_v._certificates.cache_clear()
+    assert {r.outcome.verdict for c in report.claims for r in c.readings} == {Verdict.ERROR}
+
+
+def _first_image(system: object, largest: int) -> object:
+    """The image at the first prime only: where the shape is refuted there, the search for another prime ends in an error."""
+    from faultspace.exact.modular import LARGEST_PRIME, image
+
+    if largest:
+        raise ArithmeticError("no prime agrees with the recursion")
+    return image(system, largest=LARGEST_PRIME)  # type: ignore[arg-type]
+
+
+def test_workbench_makes_shared_outcomes_once() -> None:
+    calls: list[int] = []
+
+    def find() -> Outcome:
+        calls.append(1)
+        return Outcome(Verdict.CERTIFIED, "")
+
+    made = workbench.Workbench("quick", 1, quiet)
+    assert made.once("x", find) is made.once("x", find) and calls == [1]
