@@ -88,7 +88,9 @@ class PrimeField:
 
     def element(self, value: object, where: str = "entry") -> Any:
         """The residue of an int or integer string. Raises InvalidInput for anything else, fractions included."""
-        if isinstance(value, nmod) and value.modulus() == self.p:
+        if isinstance(value, nmod):
+            if value.modulus() != self.p:
+                raise InvalidInput(f"{where}: got an element of GF({value.modulus()}), expected one of GF({self.p})")
             return value
         number = _as_rational(value, where)
         if number.q != 1 or (isinstance(value, str) and "/" in value):

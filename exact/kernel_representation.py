@@ -31,6 +31,9 @@ from .relations import integer_relations, relations_over_prime_field
 from .systems import ResidualSystem
 from .zero_output import ZeroOutputChain, zero_output_chain
 
+# An entry of 64 kbit has at most 1000 prime factors of this size; an image that misleads this often in a row is a fault of ours.
+MOST_PRIMES = 2000
+
 
 @dataclass(frozen=True)
 class KernelRow:
@@ -124,12 +127,13 @@ def annihilates(row: KernelRow, system: ResidualSystem) -> bool:
 def kernel_representation(system: ResidualSystem) -> KernelRepresentation:
     """The minimal kernel representation of the output behaviour; exact for every system over every field."""
     picture = image(system)
-    while True:
+    for _ in range(MOST_PRIMES):
         chain = zero_output_chain(picture.system)
         rows = _rows(system, picture, chain)
         if rows is not None:
             return KernelRepresentation(system, rows, picture, chain)
         picture = image(system, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
+    raise ArithmeticError(f"no kernel rows fit at any of {MOST_PRIMES} primes")
 
 
 def _rows(system: ResidualSystem, picture: Image, chain: ZeroOutputChain) -> tuple[KernelRow, ...] | None:

@@ -17,7 +17,7 @@ def sum_of_powers(coefficients: Sequence[str], unknown: str) -> str:
         name = "" if power == 0 else unknown if power == 1 else f"{unknown}^{power}"
         compound = " " in coefficient
         sign = "-" if coefficient.startswith("-") and not compound else "+"
-        size = f"({coefficient})" if compound and name else coefficient.removeprefix("-") if sign == "-" else coefficient
+        size = f"({coefficient})" if compound and (name or terms) else coefficient.removeprefix("-") if sign == "-" else coefficient
         terms.append((sign, name if size == "1" and name else f"{size} {name}".rstrip()))
     if not terms:
         return "0"

@@ -5,7 +5,7 @@ run          the command's body
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from rich.text import Text
@@ -15,10 +15,6 @@ from .exact.input_rules import InvalidInput
 from .failures import ANSWERED, BAD_INPUT, NOT_AS_EXPECTED, placed, printable, say
 from .proofs import checker
 from .reading_files import read_json
-
-# The checker stands alone, without types: here is what is called of it.
-_judge: Callable[[str, list[Any]], dict[str, Any]] = checker.judge
-_parse_system: Callable[[Any], object] = checker.System
 
 CODES = {"verified": ANSWERED, "rejected": NOT_AS_EXPECTED, "malformed": BAD_INPUT}
 STYLES = {"verified": "green", "rejected": "red", "malformed": "red"}
@@ -49,11 +45,22 @@ def run(names: Sequence[str], *, systems: Sequence[str], as_json: bool) -> int:
     return max(CODES[result["result"]] for result in results)
 
 
+def _judge(name: str, systems: Sequence[Any]) -> dict[str, Any]:
+    try:
+        certificate = checker.load(name)
+        words = checker.verify(certificate, systems)
+        return {"file": name, "result": "verified", "kind": certificate["kind"], "statement": words, "sha256": checker.sha256(certificate)}
+    except checker.Malformed as error:
+        return {"file": name, "result": "malformed", "reason": str(error)}
+    except (checker.Rejected, MemoryError) as error:
+        return {"file": name, "result": "rejected", "reason": str(error) or "not enough memory"}
+
+
 def _system(name: str) -> Any:
     document = read_json(name)
     with placed(name):
         try:
-            _parse_system(document)
+            checker.System(document)
         except (checker.Malformed, checker.Rejected) as error:
             raise InvalidInput(f"got no system: {error}") from None
     return document

@@ -1,7 +1,7 @@
 """Settings for every test.
 
-    ci          the profile in force: the same examples in every run, nothing remembered between runs
-    explore     fresh examples and no clock, for looking further: `pytest --hypothesis-profile=explore`
+ci          the profile in force: the same examples in every run, nothing remembered between runs
+explore     fresh examples and no clock, for looking further: `pytest --hypothesis-profile=explore`
 """
 
 from hypothesis import settings

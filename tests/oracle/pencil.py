@@ -41,8 +41,7 @@ def pencil(system: System) -> PolynomialMatrix:
     """P(q) = [[qI - A, -F], [C, G]]."""
     one = identity(system.field, system.n).rows
     top = [
-        [polynomials.trimmed([-a, i]) for a, i in zip(row_a, row_i, strict=True)]
-        + [polynomials.trimmed([-f]) for f in row_f]
+        [polynomials.trimmed([-a, i]) for a, i in zip(row_a, row_i, strict=True)] + [polynomials.trimmed([-f]) for f in row_f]
         for row_a, row_i, row_f in zip(system.A.rows, one, system.F.rows, strict=True)
     ]
     bottom = [[polynomials.trimmed([x]) for x in (*c, *g)] for c, g in zip(system.C.rows, system.G.rows, strict=True)]
@@ -54,13 +53,10 @@ def reversed_pencil(system: System) -> PolynomialMatrix:
     zero = system.field.zero
     one = identity(system.field, system.n).rows
     top = [
-        [polynomials.trimmed([i, -a]) for a, i in zip(row_a, row_i, strict=True)]
-        + [polynomials.trimmed([zero, -f]) for f in row_f]
+        [polynomials.trimmed([i, -a]) for a, i in zip(row_a, row_i, strict=True)] + [polynomials.trimmed([zero, -f]) for f in row_f]
         for row_a, row_i, row_f in zip(system.A.rows, one, system.F.rows, strict=True)
     ]
-    bottom = [
-        [polynomials.trimmed([zero, x]) for x in (*c, *g)] for c, g in zip(system.C.rows, system.G.rows, strict=True)
-    ]
+    bottom = [[polynomials.trimmed([zero, x]) for x in (*c, *g)] for c, g in zip(system.C.rows, system.G.rows, strict=True)]
     return PolynomialMatrix(system.field, system.n + system.p, system.n + system.m, top + bottom)
 
 
@@ -180,9 +176,7 @@ def _annihilator_dimension(a: PolynomialMatrix, d: int) -> int:
     def coefficient(i: int, j: int, k: int) -> Element:
         return a.rows[i][j][k] if 0 <= k < len(a.rows[i][j]) else zero
 
-    equations = [
-        [coefficient(i, j, total - k) for k, i in unknowns] for total in range(d + highest) for j in range(a.width)
-    ]
+    equations = [[coefficient(i, j, total - k) for k, i in unknowns] for total in range(d + highest) for j in range(a.width)]
     return null_space(matrix(a.field, len(equations), len(unknowns), equations)).height
 
 

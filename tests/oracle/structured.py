@@ -133,9 +133,7 @@ def similar(rng: Random, system: System) -> System:
     """The same system in other coordinates of state and fault."""
     basis, inverse = _invertible(rng, system.field, system.n)
     faults, _ = _invertible(rng, system.field, system.m)
-    return System(
-        system.field, basis @ system.A @ inverse, basis @ system.F @ faults, system.C @ inverse, system.G @ faults
-    )
+    return System(system.field, basis @ system.A @ inverse, basis @ system.F @ faults, system.C @ inverse, system.G @ faults)
 
 
 def fed_back(rng: Random, system: System) -> System:
@@ -162,9 +160,7 @@ def _small_rational(rng: Random) -> Fraction:
 
 
 def _random_matrix(rng: Random, field: Field, height: int, width: int, density: float) -> Matrix:
-    return matrix(
-        field, height, width, [[random_element(rng, field, density) for _ in range(width)] for _ in range(height)]
-    )
+    return matrix(field, height, width, [[random_element(rng, field, density) for _ in range(width)] for _ in range(height)])
 
 
 def _invertible(rng: Random, field: Field, size: int) -> tuple[Matrix, Matrix]:
@@ -264,10 +260,7 @@ def _chain(field: Field, length: int, *, driven: bool, read: bool) -> System:
 
 def _free_states(rng: Random, field: Field, roots: tuple[int, ...]) -> System:
     size = len(roots)
-    a = [
-        [field.integer(root if i == j else rng.randint(-1, 1) if j > i else 0) for j in range(size)]
-        for i, root in enumerate(roots)
-    ]
+    a = [[field.integer(root if i == j else rng.randint(-1, 1) if j > i else 0) for j in range(size)] for i, root in enumerate(roots)]
     return System(field, matrix(field, size, size, a), zeros(field, size, 0), zeros(field, 0, size), zeros(field, 0, 0))
 
 

@@ -114,9 +114,7 @@ def write_system(system: System) -> dict[str, Json]:
     return json
 
 
-def trajectory(
-    system: System, x0: Sequence[Element], v: Sequence[Sequence[Element]]
-) -> tuple[list[Matrix], list[Matrix]]:
+def trajectory(system: System, x0: Sequence[Element], v: Sequence[Sequence[Element]]) -> tuple[list[Matrix], list[Matrix]]:
     """The columns x(0), ..., x(N) and r(0), ..., r(N-1) from x0 under v(0), ..., v(N-1)."""
     states = [column_of(system.field, x0)]
     outputs = []

@@ -43,9 +43,7 @@ def random_matrix(rng: Random, description: Any) -> Matrix:
     field = parse_field(description)
     height, width, inner = rng.randint(0, 4), rng.randint(0, 4), rng.randint(0, 4)
     # A product through `inner` columns has a rank below full more often than not.
-    left = matrix(
-        field, height, inner, [[random_element(rng, field, 0.7) for _ in range(inner)] for _ in range(height)]
-    )
+    left = matrix(field, height, inner, [[random_element(rng, field, 0.7) for _ in range(inner)] for _ in range(height)])
     right = matrix(field, inner, width, [[random_element(rng, field, 0.7) for _ in range(width)] for _ in range(inner)])
     return left @ right
 
@@ -119,9 +117,7 @@ def test_malformed_fields(description: Any) -> None:
         parse_field(description)
 
 
-@pytest.mark.parametrize(
-    "entry", ["", "1/0", "1/-2", " 1", "1.0", "+1", "1/02", 1.0, True, None, ["1"], "\u0661", "1\n"]
-)
+@pytest.mark.parametrize("entry", ["", "1/0", "1/-2", " 1", "1.0", "+1", "1/02", 1.0, True, None, ["1"], "\u0661", "1\n"])
 def test_malformed_rationals(entry: Any) -> None:
     with pytest.raises(ValueError):
         parse_field("Q").parse(entry)
@@ -151,9 +147,7 @@ def test_primes() -> None:
 @given(field_descriptions(), SEEDS)
 def test_polynomial_division_and_gcd(description: Any, seed: int) -> None:
     field, rng = parse_field(description), Random(seed)
-    a, b, c = (
-        polynomials.trimmed([random_element(rng, field, 0.8) for _ in range(rng.randint(0, 4))]) for _ in range(3)
-    )
+    a, b, c = (polynomials.trimmed([random_element(rng, field, 0.8) for _ in range(rng.randint(0, 4))]) for _ in range(3))
     if b:
         quotient, remainder = polynomials.divide(a, b)
         assert polynomials.add(polynomials.multiply(quotient, b), remainder) == a
@@ -235,9 +229,7 @@ NO_FAULT = {"A": [["1"]], "F": [[]], "C": [["1"]], "G": [[]]}
 def test_spellings_of_one_system() -> None:
     spelled = [ONE, {**ONE, "n": 1}, {**ONE, "field": "Q", "B": [[1, 2]], "D": [["3", "4"]], "nu": 2}]
     assert len({parse_system(json) for json in spelled}) == 1
-    assert parse_system({**NO_FAULT, "n": 1, "p": 1, "m": 0}) == parse_system(
-        {**NO_FAULT, "F": [], "G": [], "n": 1, "p": 1, "m": 0}
-    )
+    assert parse_system({**NO_FAULT, "n": 1, "p": 1, "m": 0}) == parse_system({**NO_FAULT, "F": [], "G": [], "n": 1, "p": 1, "m": 0})
 
 
 @pytest.mark.parametrize(

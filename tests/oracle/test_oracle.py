@@ -269,9 +269,7 @@ def test_first_differences(pair: tuple[Any, Any]) -> None:
     # n + 1 samples suffice with n the larger state dimension, and so does one more than the larger lag.
     assert difference is None or difference <= max(first.n, second.n) + 1
     assert difference is None or difference <= max(lag(first), lag(second)) + 1
-    assert behaviours.included(first, second) == all(
-        behaviours.included_on(first, second, s) for s in range(1, longest + 1)
-    )
+    assert behaviours.included(first, second) == all(behaviours.included_on(first, second, s) for s in range(1, longest + 1))
 
 
 @FEW
@@ -416,8 +414,6 @@ def test_reports_survive_another_spelling_of_numbers(json: Any) -> None:
     answers = inspect_slowly(json)
     shorter = {
         **answers,
-        "invariant_zero_polynomial": [
-            c[0] if not any(x != "0" for x in c[1:]) else c for c in answers["invariant_zero_polynomial"]
-        ],
+        "invariant_zero_polynomial": [c[0] if not any(x != "0" for x in c[1:]) else c for c in answers["invariant_zero_polynomial"]],
     }
     assert same_report(answers, shorter)

@@ -1,0 +1,40 @@
+"""The main job, whole: every verdict as expected, and the certificates of the tree are those of a run, accepted by the lone checker."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import faultspace.proofs
+from faultspace.proofs.ledger import load
+
+from .commands import command
+
+ROOM = Path(faultspace.proofs.__file__).parent
+HEADLINES = ROOM / "certificates"
+
+
+def test_verify_quick_is_as_expected_and_makes_the_certificates_of_the_tree(tmp_path: Path) -> None:
+    run = command("verify", "--effort", "quick", "--jobs", "2", "--json", "--out", str(tmp_path))
+    assert run.code == 0, run.err[-2000:]
+    report = run.json
+    assert report["as_expected"]
+    assert [claim["id"] for claim in report["claims"]] == [claim.id for claim in load()]
+    assert all(reading["verdict"] != "ERROR" for claim in report["claims"] for reading in claim["readings"])
+    made = {path.name: path.read_text("utf-8") for path in tmp_path.glob("*-*.json")}
+    kept = {path.name: path.read_text("utf-8") for path in HEADLINES.glob("*-*.json")}
+    assert made.keys() == kept.keys(), "make them again: faultspace verify --effort quick --out proofs/certificates"
+    assert all(json.loads(made[name]) == json.loads(kept[name]) for name in made)
+
+
+def test_the_certificates_of_the_tree_are_accepted_by_a_lone_checker(tmp_path: Path) -> None:
+    lone = tmp_path / "checker.py"
+    shutil.copy(ROOM / "checker.py", lone)
+    files = sorted(map(str, HEADLINES.glob("*-*.json")))
+    assert len(files) > 50
+    run = subprocess.run([sys.executable, "-I", "-O", str(lone), *files], capture_output=True, text=True, cwd=tmp_path, check=False)
+    assert run.returncode == 0, run.stderr
+    assert run.stdout.count(": verified:") == len(files)

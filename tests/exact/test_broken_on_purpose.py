@@ -1,0 +1,398 @@
+"""The tests of this room can fail: one line of the code is spoiled at a time, and a named test must notice.
+
+    BROKEN          what is spoiled -> where, which text becomes which, the check that notices, on what, and the test that runs the check
+    spoil           puts the spoiled function in place of the original wherever it was imported
+
+The text must occur exactly once in the function, so that the table cannot grow stale in silence. Over Q a wrong shape makes
+`kernel_representation` ask the next prime for ever; such lines are spoiled over prime fields, or looked at before that loop.
+"""
+
+from __future__ import annotations
+
+import inspect
+import sys
+import textwrap
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+import pytest
+
+from tests.exact import checks
+from tests.exact.test_unlucky_primes import SLY
+from tests.oracle.families import adversarial, paper_example, shift_register
+
+Json = Any
+Q, THREE = adversarial("Q"), adversarial({"prime": 3})
+SEEN, DOUBLED = "a0-fault-and-state-seen", "a0-fault-and-doubled-state-seen"
+HALF: Json = {"A": [["1/2"]], "F": [[]], "C": [["1"]], "G": [[]], "n": 1, "m": 0, "p": 1}
+HALVES: Json = {"A": [["1/2", "1"], ["0", "1/3"]], "F": [["1"], ["0"]], "C": [["1", "0"], ["1", "1"]], "G": [["0"], ["0"]]}
+ZERO_AT_ONE: Json = {"A": [["2"]], "F": [["1"]], "C": [["1"]], "G": [["1"]], "field": {"prime": 5}}
+UNSEEN_MODE: Json = {"A": [["1", "0"], ["0", "2"]], "F": [["1"], ["0"]], "C": [["1", "0"], ["1", "0"]], "G": [["0"], ["1"]]}
+FEEDTHROUGH_ONLY: Json = {"A": [["0"]], "F": [["1"]], "C": [["0"], ["0"]], "G": [["1"], ["0"]], "field": {"prime": 3}}
+RATIOS: Json = {"A": [["0"]], "F": [["1"]], "C": [["1"], ["0"]], "G": [["0"], ["2"]], "field": {"prime": 3}}
+NAMED_TEST = "test_structure.test_every_check_on_named_systems"
+
+
+@dataclass(frozen=True)
+class Broken:
+    """`old` becomes `new` in the function (or Class.method) of that module; `check(*arguments)`, which `test` runs, must notice."""
+
+    module: str
+    function: str
+    old: str
+    new: str
+    check: Callable[..., Any]
+    arguments: tuple[Json, ...]
+    test: str = NAMED_TEST
+
+
+BROKEN: dict[str, Broken] = {
+    # the recursion
+    "the next subspace forgets F": Broken(
+        "zero_output",
+        "_chain",
+        "beside(system.A @ subspace, system.F)",
+        "beside(system.A @ subspace, Matrix.zero(system.field, system.n, system.m))",
+        checks.check_window_ranks,
+        (Q["delay-line-2"],),
+    ),
+    "the outputs are those of W_k only": Broken(
+        "zero_output",
+        "_chain",
+        "beside(system.C @ subspace, system.G)",
+        "beside(system.C @ subspace, Matrix.zero(system.field, system.p, system.m))",
+        checks.check_window_ranks,
+        (Q[SEEN],),
+    ),
+    "the recursion stops one step early": Broken(
+        "zero_output",
+        "_chain",
+        "successor.ncols == subspace.ncols",
+        "successor.ncols >= subspace.ncols - 1",
+        checks.check_window_ranks,
+        (Q[SEEN],),
+    ),
+    "W_k is not restricted to zero output": Broken(
+        "zero_output",
+        "_chain",
+        "states @ right_null_space(outputs)",
+        "states",
+        checks.check_window_ranks,
+        (Q["shift-register-2"],),
+    ),
+    "from rest starts anywhere": Broken(
+        "zero_output",
+        "chain_from_rest",
+        "Matrix.zero(system.field, system.n, 0)",
+        "Matrix.identity(system.field, system.n)",
+        checks.check_window_ranks,
+        (THREE["delay-line-2"],),
+    ),
+    "the profile is that of the columns": Broken(
+        "matrices",
+        "row_profile",
+        "matrix.transposed()",
+        "matrix",
+        checks.check_window_ranks,
+        (FEEDTHROUGH_ONLY | {"C": [["0"], ["1"]], "G": [["0"], ["0"]]},),
+    ),
+    "the null space has the wrong sign": Broken(
+        "matrices",
+        "right_null_space",
+        "(-echelon.matrix)",
+        "echelon.matrix",
+        checks.check_window_ranks,
+        (THREE["not-left-invertible-same-column-twice"],),
+    ),
+    # the Horner check
+    "Horner drops the states": Broken(
+        "kernel_representation",
+        "horner",
+        "coefficient @ system.C + carried @ system.A",
+        "coefficient @ system.C",
+        checks.check_kernel_rows,
+        (THREE["shift-register-2"],),
+    ),
+    "Horner takes the transpose of A": Broken(
+        "kernel_representation",
+        "horner",
+        "carried @ system.A",
+        "carried @ system.A.transposed()",
+        checks.check_kernel_rows,
+        (THREE["shift-register-2"],),
+    ),
+    "Horner drops the feedthrough": Broken(
+        "kernel_representation",
+        "horner",
+        "coefficient @ system.G + carried @ system.F",
+        "carried @ system.F",
+        checks.check_kernel_rows,
+        (THREE[SEEN],),
+    ),
+    "Horner looks at the state only": Broken(
+        "kernel_representation",
+        "Horner.vanishes",
+        "self.at_state.is_zero() and all(part.is_zero() for part in self.at_fault)",
+        "self.at_state.is_zero()",
+        checks.check_comparison,
+        (Q[SEEN], Q[DOUBLED]),
+        "test_behavior.test_different_pairs_are_drawn",
+    ),
+    "the exact check accepts everything": Broken(
+        "kernel_representation",
+        "annihilates",
+        "horner(row.coefficients, system).vanishes()",
+        "True",
+        checks.check_report,
+        (SLY["C vanishes"][0],),
+        "test_unlucky_primes.test_sly_systems",
+    ),
+    # the relations
+    "relations over GF(p) have the wrong sign": Broken(
+        "relations",
+        "relations_over_prime_field",
+        "-solution[0, column]",
+        "solution[0, column]",
+        checks.check_kernel_rows,
+        (THREE[SEEN],),
+    ),
+    "relations over Q have the wrong sign": Broken(
+        "relations",
+        "integer_relations",
+        "-value * state_scale",
+        "value * state_scale",
+        checks.check_relations,
+        (Q[SEEN],),
+    ),
+    "relations over Q(a) have the wrong sign": Broken(
+        "relations",
+        "integer_relations",
+        "-value * state_scale",
+        "value * state_scale",
+        checks.check_relations,
+        (paper_example(),),
+    ),
+    "relations forget the common denominator": Broken(
+        "relations",
+        "integer_relations",
+        "fmpq(state_scale**mu)",
+        "fmpq(1)",
+        checks.check_relations,
+        (HALF,),
+        "test_structure.test_every_check_on_drawn_systems",
+    ),
+    "relations take one power of the denominator for another": Broken(
+        "relations",
+        "integer_relations",
+        "state_scale**k",
+        "state_scale**(k + 1)",
+        checks.check_relations,
+        (HALVES,),
+        "test_structure.test_every_check_on_drawn_systems",
+    ),
+    # the pencil
+    "the pencil has the wrong sign of F": Broken(
+        "pencil",
+        "pencil",
+        "-system.F",
+        "system.F",
+        checks.check_finite_zeros,
+        (ZERO_AT_ONE,),
+        "test_structure.test_every_check_on_drawn_systems",
+    ),
+    "the reversed pencil has no feedthrough": Broken(
+        "pencil",
+        "reversed_pencil",
+        "system.G",
+        "Matrix.zero(system.field, system.p, system.m)",
+        checks.check_infinite_zeros,
+        (Q["a0-zero-at-the-origin"],),
+    ),
+    "infinite zeros are forgotten": Broken(
+        "pencil",
+        "infinite_zero_orders",
+        "orders.extend([k] *",
+        "orders.extend([0] *",
+        checks.check_infinite_zeros,
+        (Q["delay-line-2"],),
+    ),
+    "one minor is taken for all": Broken(
+        "pencil",
+        "_gcd_of_minors",
+        "while len(result) != degree + 1:",
+        "while not result:",
+        checks.check_finite_zeros,
+        (UNSEEN_MODE,),
+        "test_structure.test_every_check_on_drawn_systems",
+    ),
+    "what v moves counts among the zeros": Broken(
+        "pencil",
+        "zero_dynamics_polynomial",
+        "column_basis(nulling @ common)",
+        "Matrix.zero(system.field, system.n, 0)",
+        checks.check_finite_zeros,
+        (THREE["not-left-invertible-silent-loop"],),
+    ),
+    "the null vector has no states": Broken(
+        "pencil",
+        "right_null_polynomial",
+        "states.append(carried)",
+        "states.append(carried - carried)",
+        checks.check_right_indices,
+        (THREE["not-left-invertible-silent-loop"],),
+    ),
+    "right indices are the left ones": Broken(
+        "pencil",
+        "right_minimal_indices",
+        "system.transposed()",
+        "system",
+        checks.check_right_indices,
+        (THREE[SEEN],),
+    ),
+    "an elimination step is not recorded": Broken(
+        "polynomials",
+        "smith_diagonal",
+        "_add_column(left_inverse, k, i, factor)",
+        "None",
+        checks.check_diagonals,
+        (Q[SEEN],),
+    ),
+    # problem (11)
+    "the first block column only": Broken(
+        "kernel_representation",
+        "column_conditions",
+        "*reversed(conditions)",
+        "conditions[-1]",
+        checks.check_fault_spaces,
+        (Q[SEEN],),
+    ),
+    "the rows of window n only": Broken(
+        "kernel_representation",
+        "KernelRepresentation.rows_within",
+        "window is None or row.degree < window",
+        "row.degree < (self.system.n if window is None else window)",
+        checks.check_fault_spaces,
+        (Q[SEEN],),
+    ),
+    "the rows of one window more": Broken(
+        "kernel_representation",
+        "KernelRepresentation.rows_within",
+        "row.degree < window",
+        "row.degree <= window",
+        checks.check_fault_spaces,
+        (Q[SEEN],),
+    ),
+    "the basis is not reduced": Broken(
+        "fault_space",
+        "from_kernel_rows",
+        "row_echelon(right_null_space(conditions).transposed()).matrix",
+        "right_null_space(conditions).transposed()",
+        checks.check_fault_spaces,
+        (RATIOS,),
+        "test_fault_space.test_every_window",
+    ),
+    "the limit is promised one sample early": Broken(
+        "fault_space",
+        "fault_space",
+        "kernel.lag + 1",
+        "kernel.lag",
+        checks.check_fault_spaces,
+        (Q["shift-register-3"],),
+    ),
+    # comparison
+    "separating words forget v": Broken(
+        "behavior",
+        "separation",
+        "fault[k][place] = one",
+        "pass",
+        checks.check_comparison,
+        (THREE[SEEN], THREE[DOUBLED]),
+        "test_behavior.test_drawn_pairs",
+    ),
+    "words are a sample short": Broken(
+        "behavior",
+        "included_on",
+        "found.window > window",
+        "found.window >= window",
+        checks.check_comparison,
+        (Q[SEEN], Q[DOUBLED]),
+        "test_behavior.test_different_pairs_are_drawn",
+    ),
+    # inversion
+    "the unknown state's delay comes late": Broken(
+        "inversion",
+        "_first_determined",
+        "return delay",
+        "return delay + 1",
+        checks.check_inversion,
+        (Q["delay-line-2"],),
+    ),
+    "the known state's delay comes early": Broken(
+        "inversion",
+        "delay_known_state",
+        "return delay\n",
+        "return max(delay - 1, 0)\n",
+        checks.check_inversion,
+        (Q["delay-line-2"],),
+    ),
+    "an ambiguous word may have v(0) = 0": Broken(
+        "inversion",
+        "ambiguous_word",
+        "offset = 0 if known_state else system.n",
+        "offset = 0",
+        checks.check_inversion,
+        (Q["unobservable-in-part"],),
+    ),
+    "a left inverse finds v(1)": Broken(
+        "inversion",
+        "left_inverse",
+        "skipped, Matrix.identity(system.field, system.m), Matrix.zero(system.field, system.m, system.m * delay)",
+        "skipped, Matrix.zero(system.field, system.m, system.m * delay), Matrix.identity(system.field, system.m)",
+        checks.check_inversion,
+        (Q[SEEN],),
+    ),
+}
+
+
+def spoil(monkeypatch: pytest.MonkeyPatch, broken: Broken) -> None:
+    """The function with one text exchanged for the other stands wherever the original stood."""
+    module = import_module(f"faultspace.exact.{broken.module}")
+    owner_name, _, name = broken.function.rpartition(".")
+    owner = getattr(module, owner_name) if owner_name else module
+    original = inspect.getattr_static(owner, name)
+    source = textwrap.dedent(inspect.getsource(original))
+    assert source.count(broken.old) == 1, f"{broken.function} has {source.count(broken.old)} times: {broken.old}"
+    namespace = dict(vars(module))
+    exec("from __future__ import annotations\n" + source.replace(broken.old, broken.new), namespace)
+    places = [owner] if owner_name else [m for n, m in sys.modules.items() if n.startswith(("faultspace.exact.", "tests.exact."))]
+    for place in places:
+        for key in [key for key, value in vars(place).items() if value is original]:
+            monkeypatch.setattr(place, key, namespace[name])
+
+
+@pytest.mark.parametrize("name", list(BROKEN))
+def test_it_is_noticed(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    broken = BROKEN[name]
+    broken.check(*broken.arguments)
+    spoil(monkeypatch, broken)
+    with pytest.raises(AssertionError):
+        broken.check(*broken.arguments)
+
+
+@pytest.mark.parametrize("name", list(BROKEN))
+def test_the_named_test_runs_the_check(name: str) -> None:
+    """The test exists and calls the check by name, or all of SINGLE_CHECKS and the check is one of them."""
+    broken = BROKEN[name]
+    module, _, function = broken.test.partition(".")
+    test = getattr(import_module(f"tests.exact.{module}"), function)
+    source = inspect.getsource(test)
+    by_name = f"checks.{broken.check.__name__}(" in source or f"checks.{broken.check.__name__}," in source
+    assert by_name or ("checks.SINGLE_CHECKS" in source and broken.check in checks.SINGLE_CHECKS)
+
+
+def test_a_stale_line_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    stale = Broken("windows", "window_matrix", "no such text", "", checks.check_window_ranks, (shift_register("Q", 1),))
+    with pytest.raises(AssertionError, match=r"window_matrix has 0 times: no such text"):
+        spoil(monkeypatch, stale)

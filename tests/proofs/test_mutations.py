@@ -1,0 +1,182 @@
+"""Every mutation of a certificate is rejected, or its statement is still true: decided by the slow oracle, never by us.
+
+    certificates     small ones of every kind over Q, Q(a), GF(2), GF(3), zero dimensions included
+    mutations        every leaf changed in several ways; every element deleted, doubled, swapped with the next; every key deleted
+    survivors        the mutations that a checker accepts
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from faultspace.exact.behavior import separation
+from faultspace.exact.fault_space import fault_space
+from faultspace.exact.fields import QQ, NumberField, PrimeField
+from faultspace.exact.kernel_representation import kernel_representation
+from faultspace.exact.matrices import Matrix
+from faultspace.exact.systems import ResidualSystem
+from faultspace.proofs import certificate as make
+from faultspace.proofs import checker
+from tests.oracle import premise_holds, truth
+
+SQRT2 = NumberField(("-2", "0", "1"))  # type: ignore[arg-type]
+
+SYSTEMS = {
+    "relations of degree 1": ResidualSystem.of([[0]], [[1]], [[1], [0]], [[0], [1]]),
+    "rational, one zero": ResidualSystem.of([["1/2"]], [[1]], [[2]], [[1]]),
+    "autonomous": ResidualSystem.of([[1]], [[0]], [[1]], [[0]]),
+    "over Q(sqrt 2)": ResidualSystem.of([[[0, 1]]], [[1]], [[1], [[0, "1/2"]]], [[0], [1]], field=SQRT2),
+    "over GF(2)": ResidualSystem.of([[1]], [[1]], [[1], [0]], [[0], [1]], field=PrimeField(2)),
+    "over GF(3)": ResidualSystem.of([[2]], [[1]], [[1]], [[0]], field=PrimeField(3)),
+    "no states": ResidualSystem.of([], [], [[], []], [[1], [2]], n=0, m=1, p=2),
+    "no faults": ResidualSystem.of([[2]], [[]], [[1]], [[]], n=1, m=0, p=1),
+    "no outputs": ResidualSystem.of([[1]], [[1]], [], [], n=1, m=1, p=0),
+    "degree 2": ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]]),
+}
+
+
+def of_one_system(system: ResidualSystem) -> Iterator[dict[str, Any]]:
+    """Certificates of every kind that one system has."""
+    kernel = kernel_representation(system)
+    yield make.window_ranks(kernel)
+    yield make.left_invertible(kernel)
+    yield make.inversion_delay(kernel, known_state=True)
+    yield make.inversion_delay(kernel, known_state=False)
+    yield make.behaviour_equality(kernel, kernel)
+    yield make.window_equality(kernel, kernel, 1)
+    for window in (None, 1, 2):
+        yield make.fault_space(kernel, fault_space(kernel, window))
+    for name in ("observability", "reachability", "toeplitz", "window"):
+        yield make.matrix_rank(name, system, window=2)
+    x0 = Matrix.of([[1]] * system.n, system.field, shape=(system.n, 1))
+    v = Matrix.of([[k * k % 3] * system.m for k in range(4)], system.field, shape=(4, system.m))
+    for name in ("residual-hankel", "excitation"):
+        yield make.data_rank(name, system, x0, v, 2)
+    yield make.finite_zeros(system)
+    yield make.infinite_zeros(system)
+
+
+def of_two_systems() -> Iterator[dict[str, Any]]:
+    """Inclusion and difference, over Q, Q(sqrt 2) and GF(2); and a column that only the first block column accepts."""
+    for field in (QQ, SQRT2, PrimeField(2)):
+        small = ResidualSystem.of([[0]], [[0]], [[1], [0]], [[0], [1]], field=field)
+        large = ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]], field=field)
+        yield make.behaviour_inclusion(small, kernel_representation(large))
+        other = ResidualSystem.of([[1]], [[1]], [[1], [0]], [[0], [1]], field=field)
+        assert separation(other, kernel_representation(small)) is not None
+        yield make.behaviour_difference(other, kernel_representation(small))
+        kernel = kernel_representation(ResidualSystem.of([[0]], [[1]], [[1], [0]], [[0], [1]], field=field))
+        yield make.first_column_only(kernel, 2, Matrix.of([[0], [1], [0]], field))
+
+
+def changed(leaf: object) -> Iterator[object]:
+    """Other leaves in the place of this one."""
+    if isinstance(leaf, bool):
+        return
+    if isinstance(leaf, int):
+        yield from (leaf + 1, leaf - 1, 0, None, str(leaf))
+    elif leaf is None:
+        yield from (0, 1)
+    elif isinstance(leaf, str):
+        if leaf[:1] in "-0123456789" and leaf:
+            top = leaf.split("/")[0]
+            yield from ("0", "1", str(-int(top)) + leaf[len(top) :], str(int(top) + 1) + leaf[len(top) :], leaf + "/2")
+        else:
+            yield from ("", "known", "unknown", "window", "toeplitz", "Q", *checker.KINDS)
+
+
+def mutations(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    """(path, replacement of the node at that path) for every mutation below this node."""
+    if isinstance(node, dict):
+        for key in node:
+            yield path, {k: v for k, v in node.items() if k != key}
+            yield from mutations(node[key], (*path, key))
+    elif isinstance(node, list):
+        for i in range(len(node)):
+            yield path, node[:i] + node[i + 1 :]
+            yield path, node[: i + 1] + node[i:]
+            if i + 1 < len(node) and node[i] != node[i + 1]:
+                yield path, [*node[:i], node[i + 1], node[i], *node[i + 2 :]]
+            yield from mutations(node[i], (*path, i))
+    else:
+        for leaf in changed(node):
+            yield path, leaf
+
+
+def mutated(certificate: dict[str, Any], path: tuple[Any, ...], value: Any) -> Any:
+    """A copy with the node at the path replaced."""
+    if not path:
+        return value
+    result = copy.deepcopy(certificate)
+    node = result
+    for key in path[:-1]:
+        node = node[key]
+    node[path[-1]] = value
+    return result
+
+
+def survivors(certificate: dict[str, Any]) -> tuple[int, list[dict[str, Any]]]:
+    """How many mutations there are, and those that the checker accepts."""
+    count, found = 0, []
+    for path, value in mutations(certificate):
+        candidate = mutated(certificate, path, value)
+        if candidate == certificate:
+            continue
+        count += 1
+        try:
+            checker.verify(candidate)
+        except (checker.Malformed, checker.Rejected):
+            continue
+        found.append(candidate)
+    return count, found
+
+
+def falsehoods(found: list[dict[str, Any]]) -> list[str]:
+    """The accepted mutations whose statement the oracle denies."""
+    decided: dict[str, bool] = {}
+    for candidate in found:
+        key = json.dumps([candidate["kind"], candidate["statement"]], sort_keys=True)
+        if key not in decided:
+            assumed = not premise_holds(candidate["kind"], candidate["statement"])
+            decided[key] = assumed or truth(candidate["kind"], candidate["statement"])
+    return [key for key, true in decided.items() if not true]
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_mutations_about_one_system_are_rejected_or_true(name: str) -> None:
+    total = accepted = 0
+    for certificate in of_one_system(SYSTEMS[name]):
+        checker.verify(certificate)
+        count, found = survivors(certificate)
+        total, accepted = total + count, accepted + len(found)
+        assert falsehoods(found) == [], f"{certificate['kind']}: accepted and false"
+    assert total > 500 and accepted < total / 2, f"{total} mutations, {accepted} accepted, all of them true"
+
+
+def test_mutations_about_two_systems_are_rejected_or_true() -> None:
+    total = accepted = 0
+    for certificate in of_two_systems():
+        checker.verify(certificate)
+        count, found = survivors(certificate)
+        total, accepted = total + count, accepted + len(found)
+        assert falsehoods(found) == [], f"{certificate['kind']}: accepted and false"
+    assert total > 500 and accepted < total / 2, f"{total} mutations, {accepted} accepted, all of them true"
+
+
+def test_every_kind_is_mutated() -> None:
+    made = {c["kind"] for system in SYSTEMS.values() for c in of_one_system(system)} | {c["kind"] for c in of_two_systems()}
+    assert made == set(checker.KINDS)
+
+
+def test_foreign_systems_are_always_rejected() -> None:
+    foreign = ResidualSystem.of([[7]], [[1]], [[1]], [[1]]).to_json()
+    for system in SYSTEMS.values():
+        for certificate in of_one_system(system):
+            checker.verify(certificate, [system.to_json()])
+            with pytest.raises(checker.Rejected):
+                checker.verify(certificate, [foreign])
