@@ -180,3 +180,37 @@ def test_foreign_systems_are_always_rejected() -> None:
             checker.verify(certificate, [system.to_json()])
             with pytest.raises(checker.Rejected):
                 checker.verify(certificate, [foreign])
+
+
+# Refusals of the checker, each taken out in turn: by part of its reason, with the kind of certificate where a false mutation then gets through.
+REFUSALS = {
+    "does not annihilate the system (at a fault)": "behaviour-equality",
+    "does not annihilate the system (at the state)": "behaviour-equality",
+    "the bounds do not meet": "window-ranks",
+    "are not the degrees of the rows": "window-ranks",
+    "window_ranks do not follow": "window-ranks",
+    "stays below the number of faults": "left-invertible",
+    "C x(q) + G v(q) = 0 fails": "not-left-invertible",
+    "the left inverse does not give v(0)": "inversion-delay",
+    "the output of the ambiguous word is not zero": "inversion-delay",
+    "a basis column does not solve problem (11)": "fault-space",
+    "more solutions than the basis spans": "fault-space",
+    "a left null row does not vanish": "matrix-rank",
+    "the rank modulo the prime is smaller": "matrix-rank",
+    "the multipliers do not give the diagonal": "finite-zeros",
+    "the word satisfies the row": "behaviour-difference",
+}
+
+
+@pytest.mark.parametrize("refusal", REFUSALS)
+def test_a_checker_without_one_of_its_refusals_lets_something_false_through(refusal: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    strict = checker.require
+
+    def lenient(condition: object, reason: str, error: type[Exception] = checker.Rejected) -> None:
+        if refusal not in reason:
+            strict(condition, reason, error)
+
+    kind = REFUSALS[refusal]
+    certificates = [c for system in SYSTEMS.values() for c in of_one_system(system)] + list(of_two_systems())
+    monkeypatch.setattr(checker, "require", lenient)
+    assert any(falsehoods(survivors(c)[1]) for c in certificates if c["kind"] == kind)
