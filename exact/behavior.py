@@ -5,9 +5,9 @@
     Comparison          both directions at once; `first_difference` = the least window on which the restricted behaviours differ
     compare             of two systems with the same field and p; n and m may differ
 
-B(inner)|_s lies in B(outer)|_s iff every kernel row of `outer` of degree below s annihilates `inner`: those rows and their shifts
-span the left null
-space of [O_s T_s], and a row that annihilates a system annihilates every later part of its outputs too. Source: [G25] Theorem 1, [W91].
+B(inner)|_s lies in B(outer)|_s iff every kernel row of `outer` of degree below s annihilates `inner`: those rows and their shifts span
+the left null space of [O_s T_s], and a row that annihilates a system annihilates every later part of its outputs too. Source: [G25]
+Theorem 1, [W91].
 """
 
 from __future__ import annotations

@@ -6,10 +6,8 @@
     horner                 X_k = N_k C + X_(k+1) A and N_k G + X_(k+1) F: all zero iff the row annihilates a system
     column_conditions      the rows [X_(k+1), N_k]: what the row asks of a fault column [f; g]
 
-Rows whose leading coefficients are triangular by their pivots, and which annihilate the system, bound every gap from above:
-gap(k) <= p - #{mu <= k}. Ranks modulo a prime bound every window from below. Where the two meet, rank [O_s T_s] = s r + sum min(s,
-mu) for every s.
-
+Rows whose leading coefficients are triangular by their pivots, and which annihilate the system, bound every gap from above: gap(k) <= p
+- #{mu <= k}. Ranks modulo a prime bound every window from below. Where the two meet, rank [O_s T_s] = s r + sum min(s, mu) for every s.
 
 Over Q and Q(a): the shape of the rows comes from the recursion modulo one prime, their coefficients from one exact solve by p-adic lifting
 (`relations`), and the exact Horner check has the last word. Source: [F75], [W91], [SB21].

@@ -5,9 +5,8 @@
     relations_over_prime_field over GF(p), by elimination
     basis rows                 the rows (k, i) of [O_s T_s] that depend on no row above them: k < mu_i, all k where i is no lead
 
-A relation writes row (mu, output) through the basis rows above it. Columns are thinned to a square modulo one prime; what is
-thinned away is checked by the
-caller's Horner run, never assumed.
+A relation writes row (mu, output) through the basis rows above it. Columns are thinned to a square modulo one prime; what is thinned
+away is checked by the caller's Horner run, never assumed.
 """
 
 from __future__ import annotations

@@ -7,9 +7,9 @@
     zero_output_chain    the recursion from W_0 = K^n
     from_rest            the same from W_0 = 0: the ranks of T_s; increasing
 
-The recursion is exact over any field. Over Q and Q(a) its entries grow like the trap they are: run it modulo a prime and let a
-kernel representation
-turn the bound into the truth (`kernel_representation`). For prime fields it is the whole answer. Source: [TSH01] ch. 7-8, [M73].
+The recursion is exact over any field. Over Q and Q(a) its entries grow like the trap they are: run it modulo a prime and let a kernel
+representation turn the bound into the truth (`kernel_representation`). For prime fields it is the whole answer. Source: [TSH01] ch.
+7-8, [M73].
 """
 
 from __future__ import annotations

@@ -4,9 +4,9 @@
     orbits           of GL_n x GL_p x GL_m acting by (T A T^-1, T F V, U C T^-1, U G V)
     all_systems      every system, unreduced
 
-Every statement that is checked on orbits (ranks, indices, zeros, delays, dimensions) is invariant under these changes of basis.
-A system is the number whose base-q digits are its entries; generators of the groups permute these numbers, and orbits are
-connected components.
+Every statement that is checked on orbits (ranks, indices, zeros, delays, dimensions) is invariant under these changes of basis. A
+system is the number whose base-q digits are its entries; generators of the groups permute these numbers, and orbits are connected
+components.
 """
 
 from __future__ import annotations

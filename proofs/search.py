@@ -6,8 +6,7 @@
     smallest           the first system that a vectorised test on Facts lets through and an exact test confirms
 
 Ranks of many small systems at once come from division-free elimination of the built matrices modulo 2^31 - 1. No minor of theirs
-reaches that
-prime (Hadamard's bound, checked for each box), so these ranks are the true ones.
+reaches that prime (Hadamard's bound, checked for each box), so these ranks are the true ones.
 """
 
 from __future__ import annotations
