@@ -139,7 +139,7 @@ class Mat:
         charge(100 + len(rows) * nc * (64 + self.bits // 4))
 
     def __matmul__(self, other: Mat) -> Mat:
-        charge(len(self.rows) * self.nc * other.nc * (1 + (self.bits * other.bits >> 16)))
+        charge(len(self.rows) * self.nc * other.nc * (1 + (self.bits + other.bits >> 10) + (self.bits * other.bits >> 16)))
         columns = list(zip(*other.rows, strict=True)) if other.rows else [()] * other.nc
         return Mat(self.field, [[sum(map(mul, row, c)) for c in columns] for row in self.rows], other.nc, self.den * other.den)
 
@@ -532,10 +532,10 @@ def verify(certificate: Json, systems: Iterable[Json] = ()) -> str:
     w = keys(certificate["witness"], f"irreducible? {witness_keys}", "witness")
     insisted = [System(data) for data in systems]
     about = [System(s[key]) for key in ("system", "inner", "outer", "first", "second") if key in s]
-    for system in about:
-        expect((system.field.key, system.p) == (about[0].field.key, about[0].p), "the two systems differ in field or number of outputs")
-        if "prime?" in witness_keys:
-            system.field.reduce(w)
+    alike = all(system.field.key == about[0].field.key and system.p == about[0].p for system in about)
+    expect(alike, "the two systems differ in field or number of outputs")
+    for system in about if "prime?" in witness_keys else []:
+        system.field.reduce(w)
     check(about[0], s, w, *about[1:])
     words = "" if about[0].field.irreducible(w) else "assuming f irreducible: "
     for system in insisted:
@@ -583,8 +583,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     results = list[dict[str, str]]()
     for path in options.certificates:
         try:
-            found = {"result": "verified", "statement": verify(certificate := load(path), systems), "kind": certificate["kind"]}
-            results.append({"file": path, **found, "sha256": sha256(certificate)})
+            words = verify(certificate := load(path), systems)
+            found = {"result": "verified", "kind": certificate["kind"], "statement": words, "sha256": sha256(certificate)}
+            results.append({"file": path, **found})
         except (Rejected, Malformed, MemoryError) as error:
             verdict = "malformed" if isinstance(error, Malformed) else "rejected"
             results.append({"file": path, "result": verdict, "reason": str(error) or "not enough memory"})

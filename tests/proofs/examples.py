@@ -1,0 +1,132 @@
+"""Certificates to try the checker with, and ways to spoil them.
+
+    FIELDS, systems    small systems of every shape over Q, Q(a), Q(sqrt 2), GF(2), GF(3)
+    certificates       certificates of every kind about them, as they come out of files
+    base               one certificate of a kind
+    spoiled            a copy of a certificate with something replaced or deleted
+    RANKS, ...         the certificates that the tests spoil
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from faultspace.exact.fault_space import fault_space
+from faultspace.exact.fields import QQ, Field, NumberField, PrimeField
+from faultspace.exact.kernel_representation import kernel_representation
+from faultspace.exact.matrices import Matrix
+from faultspace.exact.systems import ResidualSystem
+from faultspace.proofs import certificate as make
+
+Certificate = dict[str, Any]
+CUBIC = NumberField(("1", "-3", "-1", "4"))  # type: ignore[arg-type]
+SQRT2 = NumberField(("-2", "0", "1"))  # type: ignore[arg-type]
+FIELDS: dict[str, Field] = {"Q": QQ, "Q(a)": CUBIC, "Q(sqrt 2)": SQRT2, "GF(2)": PrimeField(2), "GF(3)": PrimeField(3)}
+GONE = object()
+
+
+def seen(field: Field = QQ, gain: object = 1) -> ResidualSystem:
+    """x+ = gain v, r = (x, v): one relation, of degree 1."""
+    return ResidualSystem.of([[0]], [[gain]], [[1], [0]], [[0], [1]], field=field)
+
+
+def free(field: Field = QQ) -> ResidualSystem:
+    """The same with a state that stays: r = (x, v), x+ = x + v. Its second sample gives it away."""
+    return ResidualSystem.of([[1]], [[1]], [[1], [0]], [[0], [1]], field=field)
+
+
+def systems(field: Field) -> Iterator[ResidualSystem]:
+    """Small systems of every shape: with and without states, faults, outputs, relations, zeros, left inverse."""
+    yield seen(field)
+    yield ResidualSystem.of([[1]], [[1]], [[0]], [[1]], field=field)
+    yield ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]], field=field)
+    yield ResidualSystem.of([[1]], [[1, 1]], [[1], [0]], [[0, 0], [1, 1]], field=field)
+    if isinstance(field, NumberField):
+        d = field.degree
+        yield ResidualSystem.of([[[0, 1, *[0] * (d - 2)]]], [["1/2"]], [[1], [[1] * d]], [["-1/3"], [0]], field=field)
+    yield ResidualSystem.of([], [], [[], []], [[1], [1]], field=field, n=0, m=1, p=2)
+    yield ResidualSystem.of([[1]], [[]], [[1]], [[]], field=field, n=1, m=0, p=1)
+    yield ResidualSystem.of([[1]], [[1]], [], [], field=field, n=1, m=1, p=0)
+    yield ResidualSystem.of([], [], [], [], field=field, n=0, m=0, p=0)
+
+
+def written(certificate: Certificate) -> Certificate:
+    """As it comes out of a file."""
+    result: Certificate = json.loads(json.dumps(certificate))
+    return result
+
+
+def certificates(field: Field) -> Iterator[Certificate]:
+    """Certificates of every kind, as they come out of files."""
+    for system in systems(field):
+        kernel = kernel_representation(system)
+        x0 = Matrix.of([[1]] * system.n, field, shape=(system.n, 1))
+        v = Matrix.of([[k * k % 3] * system.m for k in range(5)], field, shape=(5, system.m))
+        found = [make.window_ranks(kernel), make.left_invertible(kernel), make.finite_zeros(system), make.infinite_zeros(system)]
+        found += [make.inversion_delay(kernel, known_state=known) for known in (True, False)]
+        found += [make.behaviour_equality(kernel, kernel), make.behaviour_inclusion(system, kernel)]
+        found += [make.window_equality(kernel, kernel, window) for window in (0, 1, 3)]
+        found += [make.fault_space(kernel, fault_space(kernel, window)) for window in (None, 0, 1, 2, 3)]
+        found += [make.matrix_rank(name, system, window=3) for name in ("observability", "reachability", "toeplitz", "window")]
+        found += [make.matrix_rank(name, system, window=0) for name in ("toeplitz", "window")]
+        found += [make.data_rank(name, system, x0, v, s) for name in ("residual-hankel", "excitation") for s in (0, 2, 5)]
+        yield from map(written, found)
+    kernel = kernel_representation(seen(field))
+    yield written(make.behaviour_difference(free(field), kernel))
+    yield written(make.first_column_only(kernel, 2, Matrix.of([[0], [1], [0]], field)))
+
+
+def spoiled(certificate: Certificate, *changes: tuple[str, Any]) -> Certificate:
+    """A copy with the values at dotted paths replaced (by what a function makes of them, if it is one), or deleted if GONE."""
+    result = written(certificate)
+    for path, value in changes:
+        *parents, last = [int(key) if key.isdigit() else key for key in path.split(".")]
+        node: Any = result
+        for key in parents:
+            node = node[key]
+        if value is GONE:
+            del node[last]
+        else:
+            node[last] = value(node[last]) if callable(value) else value
+    return result
+
+
+def base(kind: str, field: Field = QQ, system: ResidualSystem | None = None, **more: Any) -> Certificate:
+    """The certificate of that kind that gets spoiled, about `seen` by default."""
+    system = system or seen(field)
+    kernel = kernel_representation(system)
+    makers: dict[str, Callable[[], Certificate]] = {
+        "window-ranks": lambda: make.window_ranks(kernel),
+        "left-invertible": lambda: make.left_invertible(kernel),
+        "inversion-delay": lambda: make.inversion_delay(kernel, known_state=more["known"]),
+        "behaviour-equality": lambda: make.behaviour_equality(kernel, kernel),
+        "behaviour-inclusion": lambda: make.behaviour_inclusion(system, kernel),
+        "window-equality": lambda: make.window_equality(kernel, kernel, 2),
+        "behaviour-difference": lambda: make.behaviour_difference(free(field), kernel),
+        "fault-space": lambda: make.fault_space(kernel, fault_space(kernel, more.get("window"))),
+        "first-column-only": lambda: make.first_column_only(kernel, 2, Matrix.of([[0], [1], [0]], field)),
+        "matrix-rank": lambda: make.matrix_rank(more.get("name", "window"), system, window=2),
+        "excitation": lambda: make.data_rank("excitation", system, Matrix.of([[1]], field), Matrix.of([[1], [0], [1], [1]], field), 2),
+        "finite-zeros": lambda: make.finite_zeros(system),
+        "infinite-zeros": lambda: make.infinite_zeros(system),
+    }
+    return written(makers[kind]())
+
+
+LINE = ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])  # delay 2, two samples of an ambiguous word
+TWICE = ResidualSystem.of([[1]], [[1, 1]], [[1], [0]], [[0, 0], [1, 1]])  # not left-invertible
+ZERO = ResidualSystem.of([[2]], [[1]], [[1]], [[1]])  # one finite zero, at 1
+FLAT = ResidualSystem.of([], [], [[], []], [[0], [0]], n=0, m=1, p=2)  # two relations of degree 0
+S = "statement.system"
+K = "witness.kernel"
+RANKS, CUBED, ROOTED = (base("window-ranks", field) for field in (QQ, CUBIC, SQRT2))
+FLAT_RANKS = base("window-ranks", system=FLAT)
+DELAY, OPEN = (base("inversion-delay", known=known, system=LINE) for known in (True, False))
+NULL, FINITE = base("left-invertible", system=TWICE), base("finite-zeros", system=ZERO)
+SPACE, COLUMN = base("fault-space"), base("first-column-only")
+WINDOW, DATA, SAME, EQUAL = base("matrix-rank"), base("excitation"), base("window-equality"), base("behaviour-equality")
+DIFFERENCE = base("behaviour-difference")
+EISENSTEIN = {"eisenstein": {"prime": 2, "shift": 0}}
+HUGE = "9" * 20000
