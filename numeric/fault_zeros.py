@@ -1,0 +1,94 @@
+"""What limits the recovery of v from r: zeros, delays and missing left-invertibility, in floats.
+
+    FaultZeros            finite zeros, both delays, left-invertibility of x+ = A x + F v, r = C x + G v
+    fault_zeros           computed by singular values with a stated tolerance
+    output_nulling        V*, the states from which some v keeps the residual zero for ever; its dimension counts the
+                          finite zeros
+    delay, state known    least l such that r(0..l) determines v(0) when x(0) is known [SM69]
+    delay, state unknown  least l <= n such that r(0..l) determines v(0) whatever x(0) is; None where there is none
+                          [HP98], [MZ10], [K11]
+
+Ranks in floats are opinions: a tall system that almost has a zero is reported without it. The exact branch decides
+such questions for rational matrices.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True)
+class FaultZeros:
+    """Finite zeros (complex), delays (None where there is none), left-invertibility."""
+
+    zeros: NDArray[np.complex128]
+    left_invertible: bool
+    delay_known_state: int | None
+    delay_unknown_state: int | None
+
+
+def fault_zeros(A: Array, F: Array, C: Array, G: Array) -> FaultZeros:
+    """Of A (n, n), F (n, m), C (p, n), G (p, m), which should be of comparable size (balanced units)."""
+    known = _delay(A, F, C, G, state_known=True)
+    if known is None:
+        return FaultZeros(np.zeros(0, complex), False, None, None)
+    W = output_nulling(A, F, C, G)
+    zeros = np.zeros(0, complex)
+    if W.shape[1]:
+        # A W + F K = W L and C W + G K = 0: L acts on V*, uniquely since the system is left-invertible.
+        left = np.block([[W, -F], [np.zeros((C.shape[0], W.shape[1])), -G]])
+        zeros = np.linalg.eigvals(np.linalg.lstsq(left, np.vstack([A @ W, C @ W]), rcond=None)[0][: W.shape[1]]).astype(
+            complex
+        )
+    return FaultZeros(zeros[np.argsort(np.abs(zeros))], True, known, _delay(A, F, C, G, state_known=False))
+
+
+def output_nulling(A: Array, F: Array, C: Array, G: Array) -> Array:
+    """V* as orthonormal columns (n, k): the limit of V_0 = R^n, V_(j+1) = {x : some v has C x + G v = 0 and A x + F
+    v in V_j}.
+    """
+    n = A.shape[0]
+    normals = np.zeros((0, n))
+    while True:
+        left, values, _ = np.linalg.svd(np.vstack([normals @ F, G]))
+        free = left[:, int(np.sum(values > TOLERANCE * max(1.0, _largest(values)))) :]
+        _, strengths, right = np.linalg.svd(free.T @ np.vstack([normals @ A, C]))
+        rank = int(np.sum(strengths > TOLERANCE * max(1.0, _largest(strengths))))
+        if rank == normals.shape[0]:
+            return np.asarray(right[rank:].T)
+        normals = right[:rank]
+
+
+def _delay(A: Array, F: Array, C: Array, G: Array, *, state_known: bool) -> int | None:
+    n, m = F.shape
+    p = C.shape[0]
+    parameters, state = [G], F
+    observability = [C]
+    for _ in range(n):
+        parameters.append(C @ state)
+        state = A @ state
+        observability.append(observability[-1] @ A)
+    for delay in range(n + 1):
+        toeplitz = np.zeros((p * (delay + 1), m * (delay + 1)))
+        for i in range(delay + 1):
+            for j in range(i + 1):
+                toeplitz[i * p : (i + 1) * p, j * m : (j + 1) * m] = parameters[i - j]
+        others = toeplitz[:, m:] if state_known else np.hstack([np.vstack(observability[: delay + 1]), toeplitz[:, m:]])
+        # v(0) is determined iff its columns stay independent of each other and of all the rest.
+        basis, values, _ = np.linalg.svd(others, full_matrices=False)
+        basis = basis[:, values > TOLERANCE * max(1.0, _largest(values))]
+        rest = toeplitz[:, :m] - basis @ (basis.T @ toeplitz[:, :m])
+        floor = TOLERANCE * max(1.0, float(np.linalg.norm(toeplitz[:, :m])))
+        if m == 0 or (p > 0 and int(np.sum(np.linalg.svd(rest, compute_uv=False) > floor)) == m):
+            return delay
+    return None
+
+
+def _largest(values: Array) -> float:
+    return float(values[0]) if values.size else 0.0
