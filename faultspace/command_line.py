@@ -170,11 +170,56 @@ def compare(
 
 
 @app.command()
+def identify(
+    data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ or MAT file of measurements.")],
+    inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
+    outputs: Annotated[list[str], typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")],
+    out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write model, fault space, fault signal, plots there.")],
+    order: Annotated[int | None, typer.Option(min=1, help="Number of states.", show_default="by the gap in the singular values")] = None,
+    block_rows: Annotated[int | None, typer.Option(min=2, help="Samples of a window.", show_default="20, or what is needed")] = None,
+    faults: Annotated[int | None, typer.Option(min=0, help="Number of independent faults.", show_default="estimated")] = None,
+    remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
+    json: Json = False,
+) -> None:
+    """Model, fault dimension, fault space and fault signal from measured data; "undecided" where the data cannot tell.
+
+    A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
+    the matrix is called data.
+    """
+
+    def body() -> int:
+        from . import identifying
+
+        settings = {"order": order, "block_rows": block_rows, "faults": faults}
+        return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, as_json=json, **settings)
+
+    _leave(body)
+
+
+@app.command("monte-carlo")
+def monte_carlo(
+    out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write tables, figures and all cases there.")],
+    systems: Annotated[int, typer.Option(min=1, help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")] = 100,
+    jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Equal seeds give equal results, whatever the number of processes.")] = 1907,
+    json: Json = False,
+) -> None:
+    """The paper's Monte Carlo study: as published with its vacuous cases marked, as corrected, and with an identified model."""
+
+    def body() -> int:
+        from . import studying
+
+        return studying.run(systems=systems, jobs=jobs, seed=seed, out=out, as_json=json)
+
+    _leave(body)
+
+
+@app.command()
 def examples(
     folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", show_default=False, help="Copy them there.")] = None,
     json: Json = False,
 ) -> None:
-    """List the systems that come with the package, or copy them into a folder."""
+    """List the systems that come with the package, or copy them into a folder, with a small record of faulty data."""
 
     def body() -> int:
         from . import example_listing

@@ -1,4 +1,4 @@
-"""`faultspace examples`: the systems that come with the package, listed or copied into a folder.
+"""`faultspace examples`: the systems that come with the package, listed or copied into a folder, with a record of faulty data.
 
 run          the command's body
 """
@@ -11,9 +11,10 @@ from pathlib import Path
 from rich.text import Text
 
 from .consoles import answers, print_json
+from .example_data import FILE_NAME, INPUTS, OUTPUTS, csv_text, faulty_record
 from .failures import ANSWERED, printable, say
 from .packaged_examples import DESCRIPTIONS, PREFIX, content
-from .reading_files import prepare_folder, write_json
+from .reading_files import prepare_folder, write_json, write_text
 
 
 def run(folder: Path | None, *, as_json: bool) -> int:
@@ -22,7 +23,9 @@ def run(folder: Path | None, *, as_json: bool) -> int:
         prepare_folder(folder)
         for name in DESCRIPTIONS:
             write_json(folder / f"{name}.json", json.loads(content(PREFIX + name)))
+        write_text(folder / FILE_NAME, csv_text(faulty_record()))
         say(f"{len(DESCRIPTIONS)} systems are in {printable(str(folder))}")
+        say(f"and {FILE_NAME}, for: faultspace identify --inputs {','.join(INPUTS)} --outputs {','.join(OUTPUTS)}")
     if as_json:
         print_json({PREFIX + name: description for name, description in DESCRIPTIONS.items()})
         return ANSWERED

@@ -1,8 +1,8 @@
 """Opening the JSON files that people exchange; what is in them is judged by `faultspace.exact` and the checker.
 
     read_json      the document in a file, strictly: UTF-8, no key twice, no NaN, bounded size
-    read_system    the system in a file
-    write_json     a document into a file, whole or not at all
+    read_system    the system in a file; the model of `identify` too, where floats are taken exactly
+    write_json     a document into a file, whole or not at all; write_text a text
     prepare_folder makes a folder to write into, or says why not
 
 A name is a path, "-" for standard input or "example:NAME" for an example that comes with the package. Everything that is wrong raises
@@ -26,17 +26,24 @@ from .exact.systems import read_system as system_of
 from .failures import placed, printable
 
 _HINT = "see from_float_exactly"
+_ADVICE = "--floats-exactly takes them as the dyadic rationals that they are"
+
+MODEL_FORMAT = "faultspace-model/1"
+_MODEL_KEYS = ("format", "n", "n_u", "p", "n_v", "A", "B", "C", "D", "F", "G", "inputs", "outputs")
 
 
 def read_system(name: str, *, floats_exactly: bool = False) -> ResidualSystem | FaultySystem:
     """The system in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
     document = read_json(name, number=_dyadic if floats_exactly else float)
     with placed(name):
+        if isinstance(document, dict) and document.get("format") == MODEL_FORMAT:
+            if not floats_exactly:
+                raise InvalidInput(f"got a model in floats ({MODEL_FORMAT}), expected an exact system; {_ADVICE}")
+            document = _system_of_model(document)
         try:
             return system_of(document)
         except InvalidInput as error:
-            advice = "--floats-exactly takes them as the dyadic rationals that they are"
-            raise InvalidInput(str(error).replace(_HINT, advice)) from None
+            raise InvalidInput(str(error).replace(_HINT, _ADVICE)) from None
 
 
 def read_json(name: str, *, number: Callable[[str], object] = float) -> Any:
@@ -56,13 +63,17 @@ def read_json(name: str, *, number: Callable[[str], object] = float) -> Any:
 
 
 def write_json(path: Path, document: object) -> None:
-    """The document into the file at `path`: written beside it, then renamed, so that no half-written file is ever seen there."""
+    """The document into the file at `path`, as `write_text` does."""
+    write_text(path, json.dumps(document, indent=1, sort_keys=True) + "\n")
+
+
+def write_text(path: Path, text: str) -> None:
+    """The text into the file at `path`: written beside it, then renamed, so that no half-written file is ever seen there."""
     try:
         descriptor, temporary = tempfile.mkstemp(prefix=".unfinished-", dir=path.parent)
         try:
             with open(descriptor, "w", encoding="utf-8") as stream:
-                json.dump(document, stream, indent=1, sort_keys=True)
-                stream.write("\n")
+                stream.write(text)
             os.chmod(temporary, 0o644)
             os.replace(temporary, path)
         except BaseException:
@@ -81,6 +92,20 @@ def prepare_folder(folder: Path) -> None:
     except (OSError, ValueError) as error:
         name = printable(str(folder))
         raise InvalidInput(f"{name}: cannot be written into ({_reason(error)}), expected a folder that can") from None
+
+
+def _system_of_model(model: dict[str, object]) -> dict[str, object]:
+    """The system of a model file; without F and G one without faults. The entries are judged where systems are."""
+    unknown = sorted(set(model) - set(_MODEL_KEYS))
+    if unknown:
+        raise InvalidInput(f"unknown key {shown(unknown[0])} in a model, expected {', '.join(_MODEL_KEYS)}")
+    needed = [key for key in ("n", "n_u", "p", *"ABCD") if key not in model]
+    if needed:
+        raise InvalidInput(f'key "{needed[0]}" is missing in a model')
+    if ("F" in model) != ("G" in model) or ("F" in model) != ("n_v" in model):
+        raise InvalidInput("got some of n_v, F and G in a model, expected all or none")
+    system = {key: model[key] for key in ("n", "p", *"ABCD")} | {"nu": model["n_u"], "m": model.get("n_v", 0)}
+    return system | {"F": model.get("F", []), "G": model.get("G", [])}
 
 
 def _content(name: str) -> bytes:

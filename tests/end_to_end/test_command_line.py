@@ -24,6 +24,7 @@ from faultspace import consoles, failures
 from faultspace.command_line import app
 from faultspace.exact.kernel_representation import kernel_representation
 from faultspace.exact.systems import read_system
+from faultspace.example_data import FILE_NAME
 from faultspace.packaged_examples import DESCRIPTIONS
 from faultspace.proofs import certificate as certificates
 from tests.end_to_end.commands import EXAMPLES, ROOT, Run, call, command, environment, example, validator
@@ -332,7 +333,8 @@ def test_packaged_systems_are_valid_and_copied_whole(tmp_path: Path, name: str) 
     run = call("examples", str(tmp_path / "new" / "folder"))
     assert run.code == 0
     assert json.loads((tmp_path / "new" / "folder" / f"{name}.json").read_text("utf-8")) == example(name)
-    assert sorted(path.name for path in (tmp_path / "new" / "folder").iterdir()) == sorted(f"{n}.json" for n in DESCRIPTIONS)
+    copied = [FILE_NAME, *(f"{n}.json" for n in DESCRIPTIONS)]
+    assert sorted(path.name for path in (tmp_path / "new" / "folder").iterdir()) == sorted(copied)
 
 
 def test_packaged_systems_are_what_their_descriptions_say() -> None:

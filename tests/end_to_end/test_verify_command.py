@@ -97,7 +97,7 @@ def test_the_table_has_a_row_for_every_reading(pretended: Pretend) -> None:
     pretended(Verdict.CERTIFIED)
     out = call("verify").out
     heading, *lines = [line for line in out.splitlines() if line.strip(" ─")]
-    assert heading.split() == "claim / reading verdict statement / hypotheses / evidence certificates seconds".split()
+    assert " ".join(heading.split()) == "claim / reading verdict statement / hypotheses / evidence certificates seconds"
     assert [line.split()[:2] for line in lines if not line.startswith("   ")][:2] == [["claim-a", "AMENDED"], ["claim-b", "CERTIFIED"]]
     rows = [line.split() for line in lines if SHORT in line]
     assert [row[0] for row in rows] == ["as-printed", "with-zeros", "with-zeros"]

@@ -7,7 +7,9 @@ points      the coordinates of a line of a plot
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from importlib import import_module
 from io import BytesIO
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -18,10 +20,7 @@ from faultspace.numeric import plots
 from faultspace.numeric.fault_dimension import FaultDimension, fault_dimension
 from faultspace.numeric.input_checks import InvalidData
 
-pytest.importorskip("matplotlib", reason="matplotlib is not installed")
-
-from matplotlib.figure import Figure
-
+Figure: Any = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed").Figure
 Array = NDArray[np.float64]
 
 
@@ -78,8 +77,7 @@ def test_a_plot_returns_its_axes_and_draws(number: int, axes: Any, dimension: Fa
 
 def test_without_axes_a_figure_is_made(dimension: FaultDimension, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MPLBACKEND", "Agg")
-    import matplotlib.pyplot as pyplot
-
+    pyplot: Any = import_module("matplotlib.pyplot")
     ax = plots.plot_window_ranks(dimension)
     assert rendered(ax).startswith(b"\x89PNG")
     pyplot.close(ax.figure)
@@ -130,7 +128,7 @@ def test_several_channels_do_not_overlap_and_many_are_cut(axes: Any) -> None:
     y = draw.standard_normal((300, 11)) * 10.0 ** np.arange(11)
     plots.plot_measured_and_simulated(y, 0 * y, ax=axes)
     ranges = [(points(axes, i)[1].min(), points(axes, i)[1].max()) for i in range(0, 16, 2)]
-    assert all(upper[0] > lower[1] for upper, lower in zip(ranges[:-1], ranges[1:], strict=True))
+    assert all(upper[0] > lower[1] for upper, lower in pairwise(ranges))
     assert "8 of 11" in words(axes) and len(axes.lines) == 16
 
 
