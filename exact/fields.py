@@ -138,7 +138,8 @@ class NumberField:
         object.__setattr__(self, "minimal_polynomial", tuple(Fraction(int(c.p), int(c.q)) for c in values))
         _, factors = self.integer_polynomial.factor()
         if len(factors) != 1 or factors[0][1] != 1:
-            raise InvalidInput(f"{where}: {self.modulus} is reducible over Q, expected an irreducible polynomial")
+            shown_poly = sum_of_powers([str(c) for c in self.modulus.coeffs()], "a")
+            raise InvalidInput(f"{where}: {shown_poly} is reducible over Q, expected an irreducible polynomial")
 
     def __eq__(self, other: object) -> bool:
         """A polynomial and its multiples name the same field."""
@@ -180,7 +181,11 @@ class NumberField:
             if len(value) != self.degree:
                 raise InvalidInput(f"{where}: got a list of {len(value)} coordinates, expected {self.degree}")
             return AlgebraicNumber(self, fmpq_poly([_as_rational(c, where) for c in value]) % self.modulus)
-        return AlgebraicNumber(self, fmpq_poly([_as_rational(value, where)]) % self.modulus)
+        try:
+            return AlgebraicNumber(self, fmpq_poly([_as_rational(value, where)]) % self.modulus)
+        except InvalidInput as error:
+            unit = ["0", "1", *["0"] * (self.degree - 2)][: self.degree]
+            raise InvalidInput(f"{error}, or a list of its {self.degree} coordinates, ascending in a: a itself is {unit}") from None
 
     def write(self, element: Any) -> object:
         """A rational string where the element is rational, else the list of its d coordinates."""

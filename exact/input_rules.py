@@ -52,7 +52,8 @@ def parse_rational(value: object, where: str) -> fmpq:
     if len(value) > 2 * _MAX_DIGITS + 2:
         raise InvalidInput(f"{where}: got {len(value)} characters, a numerator or denominator has at most {MAX_BITS} bits")
     if not _RATIONAL.fullmatch(value):
-        raise InvalidInput(f'{where}: got {shown(value)}, expected a rational string such as "-3/4"')
+        hint = ' (decimals are written as fractions: "1/2")' if re.fullmatch(r"-?[0-9]*\.[0-9]+", value, re.ASCII) else ""
+        raise InvalidInput(f'{where}: got {shown(value)}, expected a rational string such as "-3/4"{hint}')
     numerator, _, denominator = value.partition("/")
     top, bottom = fmpz(numerator), fmpz(denominator or "1")
     if max(abs(top), bottom).bit_length() > MAX_BITS:

@@ -93,7 +93,7 @@ def verify(
     ] = None,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Write certificates and verdicts.json there; nothing is written without it.")
+        Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")
     ] = None,
     json: Json = False,
 ) -> None:

@@ -70,7 +70,7 @@ def write_out(report: Report, folder: Path) -> int:
 def verdict_table(report: Report) -> Table:
     """A row for each claim as printed, and below it one for each reading as checked, with what its verdict rests on."""
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False)
-    table.add_column("claim / reading", overflow="fold", max_width=27)
+    table.add_column("claim / reading", overflow="fold", max_width=32)
     table.add_column("verdict", no_wrap=True)
     table.add_column("statement / hypotheses / evidence", overflow="fold")
     table.add_column("certificates", no_wrap=True)
@@ -96,7 +96,7 @@ def _standing(claim: ClaimResult) -> str:
     """How many of the readings as printed hold."""
     printed = [result for result in claim.readings if not result.reading.repair]
     holding = sum(result.outcome.verdict not in (Verdict.REFUTED, Verdict.ERROR) for result in printed)
-    return f"As printed, {holding} of {len(printed)} readings hold."
+    return f"As printed: {holding} of {len(printed)} {'parts' if claim.claim.in_parts else 'readings'} hold."
 
 
 def _hashes(result: ReadingResult) -> str:

@@ -27,13 +27,17 @@ class Reading:
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim of the paper or of its review. `module` is its file in claims/: the id with underscores."""
+    """A claim of the paper or of its review. `module` is its file in claims/: the id with underscores.
+
+    The readings of a claim are alternatives; where it is made `in_parts`, those not ours are its parts, and all must hold.
+    """
 
     id: str
     reference: str
     statement: str
     expected: str
     uses: tuple[str, ...]
+    in_parts: bool
     readings: tuple[Reading, ...]
 
     @property
@@ -58,6 +62,7 @@ def _claim(name: str, entry: dict[str, object]) -> Claim:
         statement=str(entry["statement"]),
         expected=str(entry["expected"]),
         uses=tuple(entry.get("uses", ())),  # type: ignore[arg-type]
+        in_parts=bool(entry.get("in_parts", False)),
         readings=tuple(
             Reading(
                 id=key,

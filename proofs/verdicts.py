@@ -75,7 +75,7 @@ class ReadingResult:
 
 @dataclass(frozen=True)
 class ClaimResult:
-    """A claim with its readings checked. AMENDED: every reading as printed is refuted and a repair holds."""
+    """A claim with its readings checked. AMENDED: every reading as printed is refuted (of a claim in parts: one is), and a repair holds."""
 
     claim: Claim
     readings: tuple[ReadingResult, ...]
@@ -88,7 +88,8 @@ class ClaimResult:
             return Verdict.ERROR
         printed = [r.outcome.verdict for r in self.readings if not r.reading.repair]
         holding = [r.outcome.verdict for r in self.readings if r.reading.repair and r.outcome.verdict != Verdict.REFUTED]
-        if printed and all(v == Verdict.REFUTED for v in printed):
+        fails = any if self.claim.in_parts else all
+        if printed and fails(v == Verdict.REFUTED for v in printed):
             return Verdict.AMENDED if holding else Verdict.REFUTED
         standing = [v for v in printed if v != Verdict.REFUTED] or holding
         return max(standing, key=list(Verdict).index) if standing else Verdict.REFUTED

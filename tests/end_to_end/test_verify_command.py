@@ -25,8 +25,8 @@ from tests.end_to_end.commands import call, command, example, validator
 ONE = Reading("as-printed", "rank [O_s T_s] = n + s m for every system and every s", ("left-invertible", "s >= n"), "REFUTED", False)
 TWO = Reading("with-zeros", "rank [O_s T_s] = n + s m - zeta for s >= lag", ("left-invertible",), "CERTIFIED", True)
 CLAIMS = (
-    Claim("claim-a", "Theorem 2", "the rank, as printed", "AMENDED", (), (ONE, TWO)),
-    Claim("claim-b", "(11)", "the space", "CERTIFIED", (), (TWO,)),
+    Claim("claim-a", "Theorem 2", "the rank, as printed", "AMENDED", (), False, (ONE, TWO)),
+    Claim("claim-b", "(11)", "the space", "CERTIFIED", (), False, (TWO,)),
 )
 CERTIFICATE = window_ranks(kernel_representation(read_system(example("paper")).residual))
 SHORT = sha256(CERTIFICATE)[:12]
@@ -101,7 +101,7 @@ def test_the_table_has_a_row_for_every_reading(pretended: Pretend) -> None:
     assert [line.split()[:2] for line in lines if not line.startswith("   ")][:2] == [["claim-a", "AMENDED"], ["claim-b", "CERTIFIED"]]
     rows = [line.split() for line in lines if SHORT in line]
     assert [row[0] for row in rows] == ["as-printed", "with-zeros", "with-zeros"]
-    assert CLAIMS[0].statement in out and ONE.statement in out and "As printed, 0 of 1 readings hold." in out
+    assert CLAIMS[0].statement in out and ONE.statement in out and "As printed: 0 of 1 readings hold." in out
     assert all(row[-2:] == [SHORT, "1.2"] for row in rows)
     assert "REFUTED" in rows[0] and "CERTIFIED" in rows[1]
     assert "hypotheses: left-invertible; s >= n" in out

@@ -34,7 +34,7 @@ def result(verdict: Verdict, *, repair: bool = False, expected: str = "CERTIFIED
 
 
 def claim(*readings: ReadingResult) -> ClaimResult:
-    return ClaimResult(Claim("c", "", "", "AMENDED", (), tuple(r.reading for r in readings)), readings)
+    return ClaimResult(Claim("c", "", "", "AMENDED", (), False, tuple(r.reading for r in readings)), readings)
 
 
 @pytest.mark.parametrize(
@@ -52,6 +52,13 @@ def claim(*readings: ReadingResult) -> ClaimResult:
 )
 def test_the_verdict_on_a_claim_follows_from_its_readings(readings: list[ReadingResult], verdict: Verdict) -> None:
     assert claim(*readings).verdict == verdict
+
+
+def test_one_part_refuted_amends_a_claim_made_of_parts() -> None:
+    readings = (result(Verdict.REFUTED), result(Verdict.CERTIFIED), result(Verdict.CERTIFIED, repair=True))
+    parts = Claim("c", "", "", "AMENDED", (), True, tuple(r.reading for r in readings))
+    assert ClaimResult(parts, readings).verdict == Verdict.AMENDED
+    assert claim(*readings).verdict == Verdict.CERTIFIED
 
 
 def test_a_claim_is_as_expected_only_with_all_its_readings() -> None:
