@@ -74,7 +74,10 @@ def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation
 
 
 def compare(first: KernelRepresentation, second: KernelRepresentation) -> Comparison:
-    """Whether two systems make the same outputs. Raises InvalidInput when fields or numbers of outputs differ."""
+    """Whether two systems, given by their kernel representations, make the same outputs.
+
+    Raises InvalidInput when fields or numbers of outputs differ.
+    """
     return Comparison(first, second, separation(first.system, second), separation(second.system, first))
 
 

@@ -77,10 +77,11 @@ def fault_space_dimension(kernel: KernelRepresentation, window: int | None = Non
     return system.n + system.p - sum(row.degree + 1 for row in kernel.rows_within(window))
 
 
-def with_pair(space: FaultSpace, P: Matrix) -> ResidualSystem:
-    """(A, Fhat P, C, Ghat P) for P of shape n_z x k over the same field. Raises InvalidInput for another shape."""
-    if P.nrows != space.dimension or P.field != space.system.field:
-        raise InvalidInput(f"P: got {P.nrows} rows over {P.field}, expected {space.dimension} over {space.system.field}")
+def with_pair(space: FaultSpace, P: object) -> ResidualSystem:
+    """(A, Fhat P, C, Ghat P) for P of shape n_z x k, what `Matrix.of` takes, over the same field. Raises InvalidInput for another shape."""
+    P = Matrix.of(P, space.system.field, where="P")
+    if P.nrows != space.dimension:
+        raise InvalidInput(f"P: got {P.nrows} x {P.ncols}, expected {space.dimension} rows, one a basis column")
     return space.system.with_faults(space.F @ P, space.G @ P)
 
 

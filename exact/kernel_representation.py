@@ -26,7 +26,7 @@ from .fields import NumberField, PrimeField
 from .matrices import Matrix, beside, stacked
 from .modular import Image, image
 from .relations import integer_relations, relations_over_prime_field
-from .systems import ResidualSystem
+from .systems import FaultySystem, ResidualSystem
 from .zero_output import ZeroOutputChain, zero_output_chain
 
 # An entry of 64 kbit has at most 1000 prime factors of this size; an image that misleads this often in a row is a fault of ours.
@@ -122,8 +122,9 @@ def annihilates(row: KernelRow, system: ResidualSystem) -> bool:
     return horner(row.coefficients, system).vanishes()
 
 
-def kernel_representation(system: ResidualSystem) -> KernelRepresentation:
-    """The minimal kernel representation of the output behaviour; exact for every system over every field."""
+def kernel_representation(system: ResidualSystem | FaultySystem) -> KernelRepresentation:
+    """The minimal kernel representation of the output behaviour (B and D play no part); exact for every system over every field."""
+    system = system.residual
     picture = image(system)
     for _ in range(MOST_PRIMES):
         chain = zero_output_chain(picture.system)

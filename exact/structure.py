@@ -15,7 +15,7 @@ from .kernel_representation import KernelRepresentation, kernel_representation
 from .matrices import Matrix
 from .pencil import infinite_zero_orders, invariant_zero_polynomial, right_minimal_indices
 from .polynomials import Poly, written
-from .systems import ResidualSystem
+from .systems import FaultySystem, ResidualSystem
 
 
 @dataclass(frozen=True)
@@ -80,8 +80,9 @@ class Structure:
         }
 
 
-def structure(system: ResidualSystem) -> Structure:
-    """The structure of a system: any field, any dimensions, observable or not, left-invertible or not."""
+def structure(system: ResidualSystem | FaultySystem) -> Structure:
+    """The structure of a system (B and D play no part): any field, any dimensions, observable or not, left-invertible or not."""
+    system = system.residual
     kernel = kernel_representation(system)
     right = right_minimal_indices(system)
     infinite = infinite_zero_orders(kernel)
