@@ -151,7 +151,7 @@ def run_sympy(system: System) -> None:
 
 def run_pari(system: System) -> None:
     """matrank, on a stack of 2 GB."""
-    from cypari import pari  # type: ignore[import-untyped]
+    from cypari import pari
 
     pari.allocatemem(2**31, silent=True)
     built = [pari.matrix(len(window), len(window[0]), [x for row in window for x in row]) for window in windows(system)]
