@@ -29,9 +29,6 @@ from .relations import integer_relations, relations_over_prime_field
 from .systems import FaultySystem, ResidualSystem
 from .zero_output import ZeroOutputChain, zero_output_chain
 
-# An entry of 64 kbit has at most 1000 prime factors of this size; an image that misleads this often in a row is a fault of ours.
-MOST_PRIMES = 2000
-
 
 @dataclass(frozen=True)
 class KernelRow:
@@ -126,13 +123,24 @@ def kernel_representation(system: ResidualSystem | FaultySystem) -> KernelRepres
     """The minimal kernel representation of the output behaviour (B and D play no part); exact for every system over every field."""
     system = system.residual
     picture = image(system)
-    for _ in range(MOST_PRIMES):
+    most = _misleading_primes(system) + 1
+    for _ in range(most):
         chain = zero_output_chain(picture.system)
         rows = _rows(system, picture, chain)
         if rows is not None:
             return KernelRepresentation(system, rows, picture, chain)
         picture = image(system, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
-    raise ArithmeticError(f"no kernel rows fit at any of {MOST_PRIMES} primes")
+    raise ArithmeticError(f"no kernel rows fit at any of {most} primes")
+
+
+def _misleading_primes(system: ResidualSystem) -> int:
+    """How many primes of 29 bits or more can mislead: each divides one of n + 1 minors of windows, whose bits are bounded generously."""
+    scalars = [x for name in "AFCG" for x in getattr(system, name).flint.entries()]
+    if isinstance(system.field, PrimeField):
+        return 0
+    entry = sum(int(x.p).bit_length() + int(x.q).bit_length() for x in scalars) + 32
+    size = system.field.degree * (system.n + (system.n + 1) * system.m) + 1
+    return (system.n + 1) * size * (system.n + 2) * entry // 29
 
 
 def _rows(system: ResidualSystem, picture: Image, chain: ZeroOutputChain) -> tuple[KernelRow, ...] | None:

@@ -235,3 +235,15 @@ def test_reduction_of_matrices() -> None:
     assert modular.reduce_matrix(Matrix.of([["1/2", "-3"]]), 5, None) == Matrix.of([[3, 2]], PrimeField(5))
     assert modular.reduce_matrix(Matrix.of([["1/10"]]), 5, None) is None
     assert modular.reduce_element(QQ.element("7/3"), QQ, 11, None) == 6
+
+
+def test_an_entry_that_is_a_product_of_all_the_first_primes() -> None:
+    """As many of them as fit into 64 kbit: each is unlucky, and the next one has to do."""
+    entry, count = 1, 0
+    for prime in primes_below(LARGEST_PRIME):
+        if (entry * prime).bit_length() > 65536:
+            break
+        entry, count = entry * prime, count + 1
+    assert count > 2000
+    found = structure(ResidualSystem.of([[1]], [[1]], [[entry]], [[0]]))
+    assert found.to_json()["window_ranks"] == [1, 2, 3, 4]
