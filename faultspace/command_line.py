@@ -171,13 +171,16 @@ def compare(
 
 @app.command()
 def identify(
-    data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ or MAT file of measurements.")],
+    data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ, NPY or MAT file of measurements.")],
     inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
     outputs: Annotated[list[str], typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")],
     out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write model, fault space, fault signal, plots there.")],
     order: Annotated[int | None, typer.Option(min=1, help="Number of states.", show_default="by the gap in the singular values")] = None,
     block_rows: Annotated[int | None, typer.Option(min=2, help="Samples of a window.", show_default="20, or what is needed")] = None,
     faults: Annotated[int | None, typer.Option(min=0, help="Number of independent faults.", show_default="estimated")] = None,
+    healthy_until: Annotated[
+        int | None, typer.Option(metavar="K", min=1, help="The first K samples are without fault: count beyond them.", show_default=False)
+    ] = None,
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
     json: Json = False,
 ) -> None:
@@ -190,7 +193,7 @@ def identify(
     def body() -> int:
         from . import identifying
 
-        settings = {"order": order, "block_rows": block_rows, "faults": faults}
+        settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
         return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, as_json=json, **settings)
 
     _leave(body)
@@ -200,16 +203,18 @@ def identify(
 def monte_carlo(
     out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write tables, figures and all cases there.")],
     systems: Annotated[int, typer.Option(min=1, help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")] = 100,
-    jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Equal seeds give equal results, whatever the number of processes.")] = 1907,
+    samples: Annotated[int, typer.Option(min=1, help="Samples of each record.")] = 1001,
+    jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="as many cores as are worth it")] = None,
+    dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Equal seeds give equal results, whoever does the work.")] = 1907,
     json: Json = False,
 ) -> None:
-    """The paper's Monte Carlo study: as published with its vacuous cases marked, as corrected, and with an identified model."""
+    """The paper's Monte Carlo study: as published with its vacuous cases marked, as corrected, each with true and identified model."""
 
     def body() -> int:
         from . import studying
 
-        return studying.run(systems=systems, jobs=jobs, seed=seed, out=out, as_json=json)
+        return studying.run(systems=systems, samples=samples, jobs=jobs, cluster=dask, seed=seed, out=out, as_json=json)
 
     _leave(body)
 

@@ -1,22 +1,28 @@
 """`faultspace identify`: from a file of faulty data to model, fault dimension, fault space and fault signal.
 
 run              the command's body
-identify         the whole chain on arrays: an Answer, "undecided" where the data cannot tell
-count_faults     the fault dimension of a residual that carries the model's error too
+identify         the whole chain on a record: an Answer, "undecided" where the data cannot tell
 choose_pair      n_v columns (F, G) out of a fault space, whose signal is then reconstructed
 default_block_rows   the window taken where none is given
 
 1  PI-MOESP. No clean gap in the singular values and no order given: the order is undecided, and the chain ends there.
 2  The residual of that model, its initial state fitted.
-3  The fault dimension. An identified model is wrong by about N^(-1/2), so the residual of noise-free data has the inputs in it as if they
-were faults. The joint signal [u, y] knows no model: its dimension is n_u + n_v, and settles the count there.
-4  The fault space, unless the dimension is undecided, 0 or p.
+3  The fault dimension, of the residual beside the inputs: an identified model is wrong by about N^(-1/2), so that the residual alone has
+the inputs in it as if they were faults. Where the first samples are stated to be without fault, it is counted once more, against what the
+residual shows there; that count goes first where it is decided, the other where it is not.
+4  The fault space, unless the dimension is undecided or 0.
 5  The fault signal for one pair out of the space: it is determined up to that choice.
+
+Memory. Steps 1, 2 and 5 read the record, or the residual, in pieces and hold none of them, whatever N. Steps 3 and 4 hold the residual
+(N x p floats) and the inputs (N x n_u) of at most HELD numbers together: of a longer record the stretch with most of the residual's energy,
+and the notes say which. Models too unstable to be simulated forward, and signals whose uncertainty fades too slowly, are the exceptions
+(`long_residuals`, `long_reconstruction`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -25,48 +31,72 @@ from numpy.typing import NDArray
 from rich.text import Text
 
 from . import identification_report as report
-from .consoles import answers, print_json, stages
-from .data_files import Record, read_record
-from .exact.input_rules import InvalidInput
+from .consoles import answers, print_json
+from .data_files import read_record
+from .exact.input_rules import InvalidInput, shown
 from .failures import ANSWERED, placed, printable, say
-from .numeric.compression import compress
+from .identification_summary import summary
+from .long_reconstruction import FaultSignal, reconstructed
+from .long_residuals import LongResidual, loudest, residual_of
+from .numeric.compression import compress_chunks
+from .numeric.fault_against_healthy import FaultsAgainstHealthy, fault_dimension_against_healthy
 from .numeric.fault_dimension import FaultDimension, fault_dimension
 from .numeric.fault_space import FaultSpaceEstimate, fault_space
+from .numeric.healthy_reference import healthy_reference
 from .numeric.input_checks import InvalidData
-from .numeric.pi_moesp import Identification, pi_moesp, pi_moesp_from_compression
-from .numeric.reconstruction import Reconstruction, reconstruct_fault
-from .numeric.residuals import ResidualSignal, residual
+from .numeric.pi_moesp import Identification, check_compression, pi_moesp_from_compression
+from .numeric.pi_moesp_chunks import pi_moesp_from_chunks
+from .numeric.reconstruction import reconstruct_fault
+from .pass_progress import passes
 from .reading_files import prepare_folder
+from .records import Passes, Record, Tell
 
 Array = NDArray[np.float64]
-Tell = Callable[[str, int, int], None]
 
 DEFAULT_WINDOW = 20
 SPARE = 3  # windows for each row of the Hankel matrices, at least
+HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
 PAIRS_TRIED = 6
 TRIED_ON = 4000  # samples that a pair is tried on
-STEPS = ("reading", "identifying the model", "residual and fault dimension", "fault space", "fault signal", "writing")
+ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
+JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which it is told
+FROM_IDENTIFIED = (
+    "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
+    "shows how much on systems of the paper's kind)"
+)
+COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
+"""What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
 
 
 @dataclass(frozen=True, eq=False)
 class Answer:
     """What was found. None: not asked, because of what came before; `notes` says what a user must know, why an end was reached included.
 
-    singular_values of PI-MOESP; count: the n_v taken (None: undecided) and count_reason; pair: F (n, n_v), G (p, n_v) of `signal`.
+    singular_values of PI-MOESP; order_given: the order was stated by the user; held: the samples that faults were counted on; count: the
+    n_v taken (None: undecided), count_given: stated by the user, count_reason, counted_by: of COUNTED_BY what it rests on; healthy_until:
+    samples stated to be without fault, from the first on, healthy: the samples of these that `against` was counted against; pair:
+    F (n, n_v), G (p, n_v) of `signal`.
     """
 
     record: Record
     block_rows: int
     means_removed: bool
+    order_given: bool
     singular_values: Array
     identification: Identification | None
-    residual: ResidualSignal | None = None
+    residual: LongResidual | None = None
+    held: tuple[int, int] = (0, 0)
     dimension: FaultDimension | None = None
     count: int | None = None
+    count_given: bool = False
     count_reason: str = ""
+    counted_by: str | None = None
+    healthy_until: int | None = None
+    healthy: tuple[int, int] = (0, 0)
+    against: FaultsAgainstHealthy | None = None
     space: FaultSpaceEstimate | None = None
     pair: tuple[Array, Array] | None = None
-    signal: Reconstruction | None = None
+    signal: FaultSignal | None = None
     notes: tuple[str, ...] = ()
 
 
@@ -79,41 +109,51 @@ def run(
     order: int | None,
     block_rows: int | None,
     faults: int | None,
+    healthy_until: int | None,
     remove_means: bool,
     as_json: bool,
 ) -> int:
-    """Identifies and writes the files of `report.NAMES` into `out`; exit code 0 whenever there is an answer, "undecided" included."""
+    """Identifies and writes the files of `report.NAMES` into `out`; exit code 0 whenever there is an answer, "undecided" included.
+
+    Where there is none, folders that were made for it go again.
+    """
     taken = [name for name in report.NAMES if (out / name).exists() and _same(out / name, data)]
     if taken:
         raise InvalidInput(f"{printable(data)}: would be overwritten by the answer of this name, expected another --out")
-    prepare_folder(out)
-    with stages() as tell:
-        tell(STEPS[0], 0, len(STEPS))
-        last = 0.0
-
-        def reading(done: int, total: int) -> None:
-            nonlocal last
-            if total and done / total - last >= 0.25 and done < total:  # a line each quarter, of long files only
-                last = done / total
-                tell(f"{STEPS[0]} {printable(data)}, {100 * done // total} %", 0, len(STEPS))
-
-        record = read_record(data, inputs=inputs, outputs=outputs, tell=reading)
-        with placed(data):
-            try:
-                answer = identify(record, order=order, block_rows=block_rows, faults=faults, remove_means=remove_means, tell=tell)
-            except InvalidData as error:
-                raise InvalidInput(str(error)) from None
-        tell(STEPS[5], 5, len(STEPS))
-        written, remarks = report.write(answer, out, data)
+    new = _missing(out)
+    try:
+        prepare_folder(out)
+        with passes() as tell:
+            record = read_record(data, inputs=inputs, outputs=outputs, tell=lambda *read: tell(f"reading {printable(data)}", *read))
+            with placed(data):
+                try:
+                    answer = identify(
+                        record,
+                        order=order,
+                        block_rows=block_rows,
+                        faults=faults,
+                        healthy_until=healthy_until,
+                        remove_means=remove_means,
+                        tell=tell,
+                    )
+                except InvalidData as error:
+                    raise InvalidInput(str(error)) from None
+            tell("writing", 0, 0)
+            written, remarks = report.write(answer, out, data, tell)
+    except BaseException:
+        for folder in new:
+            with suppress(OSError):
+                folder.rmdir()
+        raise
     for remark in remarks:
         say(remark)
     if as_json:
         print_json(report.document(answer, data) | {"files": written})
         return ANSWERED
     console = answers()
-    for line in report.summary(answer, data):
+    for line in summary(answer, data):
         console.print(Text(line, style="bold cyan" if line.startswith("#") else ""), soft_wrap=True)
-    console.print(Text(f"written into {printable(str(out))}: {', '.join(written)}"), soft_wrap=True)
+    console.print(Text(f"\nwritten into {printable(str(out))}: {', '.join(written)}"), soft_wrap=True)
     return ANSWERED
 
 
@@ -123,67 +163,131 @@ def identify(
     order: int | None = None,
     block_rows: int | None = None,
     faults: int | None = None,
+    healthy_until: int | None = None,
     remove_means: bool = False,
     tell: Tell | None = None,
 ) -> Answer:
-    """The chain of the module's docstring on a record; `faults` states n_v instead of estimating it. Raises InvalidData."""
-    say_step = tell or (lambda stage, done, total: None)
-    y, u = record.y, record.u
+    """The chain of the module's docstring on a record; `faults` states n_v instead of estimating it, `healthy_until` how many samples, from
+    the first on, are without fault. Raises InvalidData for data from which no model can be had; what cannot be told after that is a note of
+    the Answer."""
+    told = tell or (lambda stage, done, total: None)
+    if faults is not None and faults > record.p:
+        raise InvalidData(f"--faults: got {faults} for {record.p} outputs; at most as many can be told apart: state fewer")
+    if healthy_until is not None and not 0 < healthy_until < len(record):
+        raise InvalidData(f"--healthy-until: got {healthy_until} for {len(record)} samples; some must follow: state fewer")
+    rows = block_rows if block_rows is not None else default_block_rows(len(record), record.p, record.n_u, order)
+    _enough(record, rows)
+    _varying(record)
+    notes = () if remove_means else _far_from_zero(record)
     if remove_means:
-        y, u = y - y.mean(axis=0), u - u.mean(axis=0)
-        record = replace(record, y=y, u=u)
-    if faults is not None and faults > record.y.shape[1]:
-        raise InvalidData(f"--faults: got {faults} for {record.y.shape[1]} outputs; at most as many can be told apart: state fewer")
-    rows = block_rows if block_rows is not None else default_block_rows(len(y), y.shape[1], u.shape[1], order)
-    say_step(STEPS[1], 1, len(STEPS))
-    notes = _offsets(record, remove_means)
-    model, values, refusal = _model(y, u, order, rows)
+        record = record.about_means()
+    model, values, refusal = _model(record, order, rows, told)
+    answer = Answer(record, rows, remove_means, order is not None, values, model, notes=notes)
+    answer = replace(answer, count_given=faults is not None, healthy_until=healthy_until)
     if model is None:
-        return Answer(record, rows, remove_means, values, None, notes=(*notes, f"the order is undecided: {refusal}"))
+        return replace(answer, notes=(*notes, f"the order is undecided: {refusal}"))
     notes += model.warnings
     if order is not None and not model.gap.clean:
         notes += (f"order {order} was given; the singular values have no clean gap there (ratio {model.gap.ratio:.3g})",)
-    say_step(STEPS[2], 2, len(STEPS))
-    rest = residual(y, u, model.model)
-    answer = Answer(record, rows, remove_means, values, model, rest, notes=(*notes, *rest.notes))
-    if _is_rounding(rest.r, y):
-        return replace(answer, count=0, count_reason="the model explains the outputs to rounding: no fault acts")
-    dimension, count, reason = count_faults(rest.r, y, u)
-    if faults is not None:
-        agrees = "as the data say" if faults == count else f"the data say {'undecided' if count is None else count}: {reason}"
-        count, reason = faults, f"{faults} given; {agrees}"
-    answer = replace(answer, dimension=dimension, count=count, count_reason=reason)
-    if not count:
-        return answer
-    say_step(STEPS[3], 3, len(STEPS))
-    space = fault_space(rest.r, model.A, model.C, n_v=count)
-    answer = replace(answer, space=space)
-    if not space.meaningful or space.n_z < count:
-        return answer
-    say_step(STEPS[4], 4, len(STEPS))
-    F, G = choose_pair(rest.r, model.A, model.C, space, count)
-    return replace(answer, pair=(F, G), signal=reconstruct_fault(rest.r, model.A, F, model.C, G))
+    rest = residual_of(record, model, "residual", told)
+    answer = replace(answer, residual=rest, notes=(*notes, *rest.notes))
+    if np.all(rest.peak <= ROUNDING * _largest(record)):
+        reason = "the model explains the outputs to rounding: no fault acts"
+        return replace(answer, count=0, count_given=False, count_reason=reason, counted_by="model")
+    return _with_signal(_with_space(_with_count(answer, faults, told), told), told)
 
 
-def count_faults(r: Array, y: Array, u: Array) -> tuple[FaultDimension, int | None, str]:
-    """The fault dimension of r (N, p), the number of faults taken (None: undecided) and why; y (N, p), u (N, n_u) belong to r."""
-    found = fault_dimension(r)
-    if found.regime != "rounding" and not (found.n_v is None and _exact(np.hstack([u, y]))):
-        return found, found.n_v, found.reason
-    joint = fault_dimension(np.hstack([u, y]))
-    n_u = u.shape[1]
-    if joint.n_v is None or joint.n_v < n_u or joint.n_v - n_u == found.n_v:
-        return found, found.n_v, found.reason
-    count = joint.n_v - n_u
-    seen = "undecided" if found.n_v is None else f"{found.n_v}"
-    return found, count, (
-        f"inputs and outputs together are of dimension {joint.n_v} = n_u + {count} ({joint.reason}); the residual alone ({seen}) "
-        "also carries the error of the identified model, driven by the inputs"
-    )
+def _with_count(answer: Answer, faults: int | None, tell: Tell) -> Answer:
+    """How many faults act, from the residual beside the inputs."""
+    record, rest, notes = answer.record, answer.residual, answer.notes
+    assert rest is not None
+    tell("counting faults", 0, 0)
+    most = HELD // (record.p + record.n_u)
+    first, last = loudest(rest.energies, len(record), most)
+    healthy = answer.healthy_until or 0
+    if first < healthy:
+        first, last = healthy, min(healthy + most, len(record))
+    if last - first < len(record):
+        why = "where the residual is largest" if first > healthy or not healthy else "after those stated to be without fault"
+        notes += (
+            f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; the model and the fault signal are "
+            "from all samples",
+        )
+    answer = replace(answer, held=(first, last), notes=notes)
+    r = rest.store.read(first, last)
+    try:
+        found = fault_dimension(r.astype(np.float32) if record.single else r, u=record.stretch(first, last)[1])
+        by = None if found.n_v is None else "residual alone"
+        answer = replace(answer, dimension=found, count=found.n_v, count_reason=found.reason, counted_by=by)
+    except InvalidData as error:
+        answer = replace(answer, count_reason=str(error))
+    answer = _against_healthy(answer, r, tell)
+    if faults is None:
+        return answer
+    said = "undecided" if answer.count is None else answer.count
+    told = "as the data say" if faults == answer.count else f"the data say {said}: {answer.count_reason}"
+    return replace(answer, count=faults, count_reason=f"{faults} given; {told}", counted_by="given")
+
+
+def _against_healthy(answer: Answer, r: Array, tell: Tell) -> Answer:
+    """The count of `answer`'s residual r beside that against the samples stated to be without fault, of which the last HELD numbers are
+    held; undecided leaves the first as it is."""
+    record, rest, until = answer.record, answer.residual, answer.healthy_until
+    if until is None or rest is None:
+        return answer
+    tell("counting faults against the healthy samples", 0, 0)
+    start = max(until - HELD // (record.p + record.n_u), 0)
+    try:
+        reference = healthy_reference(rest.store.read(start, until), record.stretch(start, until)[1])
+        against = fault_dimension_against_healthy(r, reference, u=record.stretch(*answer.held)[1])
+    except InvalidData as error:
+        return replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}"))
+    answer = replace(answer, healthy=(start, until), against=against)
+    if against.n_v is None:
+        return answer
+    return replace(answer, count=against.n_v, count_reason=against.reason, counted_by="healthy samples")
+
+
+def _with_space(answer: Answer, tell: Tell) -> Answer:
+    """The space of all fault columns, on the samples that faults were counted on."""
+    model, rest = answer.identification, answer.residual
+    if not answer.count or model is None or rest is None:
+        return answer
+    tell("fault space", 0, 0)
+    try:
+        space = fault_space(rest.store.read(*answer.held), model.A, model.C, n_v=answer.count)
+    except InvalidData as error:
+        return replace(answer, notes=(*answer.notes, f"no fault space: {error}"))
+    if space.method == "likelihood":
+        answer = replace(answer, notes=(*answer.notes, FROM_IDENTIFIED))
+    return replace(answer, space=space if answer.count_given else replace(space, reason=counted(space.reason)))
+
+
+def _with_signal(answer: Answer, tell: Tell) -> Answer:
+    """The signal of one choice of columns out of the space, over all samples."""
+    model, rest, space, count = answer.identification, answer.residual, answer.space, answer.count
+    if model is None or rest is None or space is None or not count or not space.meaningful or space.n_z < count:
+        return answer
+    tell("choosing F and G", 0, 0)
+    part = rest.store.read(*loudest(rest.energies, len(answer.record), TRIED_ON))
+    F, G = choose_pair(part, model.A, model.C, space, count)
+    try:
+        signal = reconstructed(rest.store, model.A, F, model.C, G, "fault signal", tell)
+    except InvalidData as error:
+        return replace(answer, pair=(F, G), notes=(*answer.notes, f"no fault signal: {error}"))
+    notes = answer.notes
+    if signal.mismatch > JOINED:
+        notes += (f"the fault signal was found piece by piece, and neighbouring pieces differ by up to {signal.mismatch:.2g} of its size",)
+    return replace(answer, pair=(F, G), signal=signal, notes=notes)
+
+
+def counted(reason: str) -> str:
+    """The reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
+    return reason.replace("n_v as given", "n_v as counted").replace("was given but", "was counted but")
 
 
 def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: int) -> tuple[Array, Array]:
-    """F (n, n_v), G (p, n_v) out of the space: of a few choices the one whose signal explains the residual best, then the one with
+    """F (n, n_v), G (p, n_v) out of the space: of a few choices the one whose signal explains the residual r best, then the one with
     most samples that no zero disturbs.
 
     Tried are the directions of largest G, which have the least delay, and general mixes: a special choice of columns may be inequivalent.
@@ -193,12 +297,11 @@ def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: in
     right = np.linalg.svd(space.G, full_matrices=True)[2]
     draw = np.random.default_rng(space.n_z)
     mixes = [right[:n_v].T] + [np.linalg.qr(draw.standard_normal((space.n_z, n_v)))[0] for _ in range(PAIRS_TRIED - 1)]
-    part = r[:TRIED_ON]
     best: tuple[float, float] | None = None
     chosen = mixes[0]
     for mix in mixes:
         try:
-            tried = reconstruct_fault(part, A, space.F @ mix, C, space.G @ mix)
+            tried = reconstruct_fault(r, A, space.F @ mix, C, space.G @ mix)
         except InvalidData:  # a mix without any effect
             continue
         first, last = tried.trusted
@@ -215,40 +318,73 @@ def default_block_rows(samples: int, p: int, n_u: int, order: int | None) -> int
     return max(min(wanted, affordable), 2)
 
 
-def _model(y: Array, u: Array, order: int | None, rows: int) -> tuple[Identification | None, Array, str]:
-    """The model with its singular values; without a clean gap None, the values and the reason. Raises InvalidData for bad data."""
+def _model(record: Record, order: int | None, rows: int, tell: Tell) -> tuple[Identification | None, Array, str]:
+    """The model with its singular values; without an order to trust None, the values and the reason. Raises InvalidData for bad data."""
+    data = Passes(record, "identifying the model", tell)
+    compression = compress_chunks(data, block_rows=rows)
+    check_compression(compression)
     try:
-        found = pi_moesp(y, u, order=order, block_rows=rows)
+        found = pi_moesp_from_chunks(compression, data, order=order)
         return found, found.singular_values, ""
     except InvalidData as error:
         if order is not None:
             raise
         # Data from which some model can be had are good data: only the order is open.
         try:
-            values = pi_moesp_from_compression(compress(y, u, block_rows=rows), order=1).singular_values
+            values = pi_moesp_from_compression(compression, order=1).singular_values
         except InvalidData:
             raise error from None
         return None, values, str(error)
 
 
-def _offsets(record: Record, removed: bool) -> tuple[str, ...]:
-    if removed:
-        return ()
-    both, names = np.hstack([record.u, record.y]), record.inputs + record.outputs
-    far = [name for name, channel in zip(names, both.T, strict=True) if abs(channel.mean()) > channel.std() > 0]
+def _enough(record: Record, rows: int) -> None:
+    """Refuses a record with fewer windows than rows in its Hankel matrices."""
+    samples, height = len(record), 2 * record.n_u + record.p
+    needed = rows * (height + 2) - 1
+    if samples >= needed:
+        return
+    shorter = (samples + 1) // (height + 2)
+    advice = "record more" if shorter < 2 or shorter >= rows else f"record more, or try --block-rows {shorter}"
+    if samples < height:
+        advice = "there are fewer samples than channels: is the table transposed? It needs a row a sample"
+    raise InvalidData(
+        f"got {samples} samples, which are too few: with {record.n_u} inputs and {record.p} outputs, windows of {rows} samples need at "
+        f"least {needed}; {advice}"
+    )
+
+
+def _varying(record: Record) -> None:
+    """Refuses channels that never change: an input excites nothing, an output tells nothing."""
+    for kind, names, start in (("input", record.inputs, 0), ("output", record.outputs, record.n_u)):
+        least, greatest = (values[start : start + len(names)] for values in (record.channels.least, record.channels.greatest))
+        still = [name for name, low, high in zip(names, least, greatest, strict=True) if low == high]
+        if still and len(record) > 1:
+            what = "excites nothing" if kind == "input" else "tells nothing of the system"
+            which, value = ", ".join(map(shown, still[:4])), least[names.index(still[0])]
+            raise InvalidData(f"{kind} {which} is constant ({value:g}): it {what}; leave it out, or record it while it varies")
+
+
+def _far_from_zero(record: Record) -> tuple[str, ...]:
+    channels = record.channels
+    far = [name for name, far in zip(record.names, np.abs(channels.mean) > channels.deviation, strict=True) if far]
     if not far:
         return ()
     which = ", ".join(far[:4]) + (f" and {len(far) - 4} more" if len(far) > 4 else "")
     return (f"the mean of {which} exceeds its deviation: about an operating point, try --remove-means",)
 
 
-def _exact(signal: Array) -> bool:
-    return fault_dimension(signal).regime == "rounding"
+def _largest(record: Record) -> Array:
+    """The largest |y| of each output, as the record is read."""
+    low, high = record.channels.least - record.offset, record.channels.greatest - record.offset
+    return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
 
 
-def _is_rounding(r: Array, y: Array) -> bool:
-    """Whether nothing but rounding is left in any output."""
-    return bool(np.all(np.abs(r).max(axis=0) <= 1e-12 * np.abs(y).max(axis=0)))
+def _missing(folder: Path) -> list[Path]:
+    """The folders that would have to be made for this one, innermost first."""
+    try:
+        return [part for part in (folder, *folder.parents) if not part.exists()]
+    except OSError:
+        return []
 
 
 def _same(path: Path, other: str) -> bool:

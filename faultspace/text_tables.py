@@ -1,6 +1,6 @@
 """Tables in text files: which character separates the columns, whether a line names them, and their values, piece by piece.
 
-TextTable          an opened table: separator, names, width, first line of values; `values` reads chosen columns
+TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns
 SEPARATORS         the separators that are tried, with the names they have in messages
 PIECE              lines parsed at once
 
@@ -67,23 +67,19 @@ class TextTable:
             _names_once(fields)
         return cls(path, separator, names, len(fields), beginning[0][0] if named else beginning[0][0] - 1)
 
-    def values(self, columns: Sequence[int], tell: Callable[[int, int], None]) -> Array:
-        """The chosen columns, (N, len(columns)); NaN where a line says so. Raises InvalidInput for a field that is no number."""
+    def pieces(self, columns: Sequence[int], tell: Callable[[int, int], None]) -> Iterator[Array]:
+        """The chosen columns, (any, len(columns)), PIECE lines at a time; NaN where a line says so. `tell` hears bytes read and bytes in
+        all. Raises InvalidInput for a field that is no number, and where there is no line of values."""
         size = self.path.stat().st_size
-        parts = []
         with _stream(self.path) as stream:
-            numbered = _lines(stream)
-            last = self.skipped
-            while True:
-                piece = list(islice((pair for pair in numbered if pair[0] > self.skipped), PIECE))
-                if not piece:
-                    break
-                parts.append(self._parsed(piece, columns))
-                last = piece[-1][0]
+            numbered = (pair for pair in _lines(stream) if pair[0] > self.skipped)
+            empty = True
+            while piece := list(islice(numbered, PIECE)):
+                empty = False
+                yield self._parsed(piece, columns)
                 tell(min(stream.buffer.tell(), size), size)
-        if not parts:
-            raise InvalidInput(f"got no samples after line {last}, expected a record of many")
-        return np.concatenate(parts)
+        if empty:
+            raise InvalidInput(f"got no samples after line {self.skipped}, expected a record of many")
 
     def _parsed(self, piece: Sequence[tuple[int, str]], columns: Sequence[int]) -> Array:
         delimiter = None if self.separator == " " else self.separator
@@ -103,8 +99,9 @@ class TextTable:
         """One line, slowly; the complaint names the line and the column."""
         fields = _fields(line, self.separator)
         if len(fields) != self.width:
+            got = f"{len(fields)} field{'' if len(fields) == 1 else 's'}"
             raise InvalidInput(
-                f"line {number} has {len(fields)} fields separated by {self.separator_name}, expected {self.width} as in the first line: "
+                f"line {number} has {got} separated by {self.separator_name}, expected {self.width} as in the first line: "
                 "mend the line, or write the table with one separator throughout"
             )
         row = []
@@ -112,8 +109,9 @@ class TextTable:
             value = float("nan") if fields[column] == "" else _number(fields[column])
             if value is None:
                 name = shown(self.names[column]) if self.names else str(column)
-                comma = ": write decimals with a point" if _number(fields[column].replace(",", ".")) is not None else ""
-                raise InvalidInput(f"line {number}, column {name}: got {shown(fields[column])}, expected a number{comma}")
+                comma = _number(fields[column].replace(",", ".")) is not None
+                advice = "write decimals with a point" if comma else "mend it, or cut the record before it"
+                raise InvalidInput(f"line {number}, column {name}: got {shown(fields[column])}, expected a number: {advice}")
             row.append(value)
         return row
 
@@ -190,4 +188,4 @@ def _number(field: str) -> float | None:
 def _names_once(names: Sequence[str]) -> None:
     twice = [name for i, name in enumerate(names) if name and name in names[:i]]
     if twice:
-        raise InvalidInput(f"got two columns named {shown(twice[0])}, expected every name once")
+        raise InvalidInput(f"got two columns named {shown(twice[0])}, expected every name once: rename one")

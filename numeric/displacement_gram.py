@@ -19,7 +19,7 @@ from scipy.linalg import LinAlgError, cholesky, eigh, solve_triangular
 from faultspace.numeric.input_checks import FloatArray
 from faultspace.numeric.sequential_qr import triangular
 
-GROUP_WIDTH = 96  # entries of a group of samples: wide enough for fast products, short enough for few wasted lags
+GROUP_WIDTH = 64  # entries of a group of samples, about: wide enough for fast products, short enough for few wasted lags
 
 
 class DisplacementGram:
@@ -30,9 +30,10 @@ class DisplacementGram:
 
     def __init__(self, channels: int, lags: int) -> None:
         self._channels, self._lags = channels, lags
-        self._group = max(1, min(lags, GROUP_WIDTH // channels))
-        # Groups that the samples of one group reach at lags 0..lags-1.
-        self._reach = -(-(self._group + lags - 1) // self._group)
+        # A group is paired with itself and `later` groups, b later >= lags - 1: at least two, since one would waste half the products.
+        later = max(1, min(lags - 1, max(2, -(-(lags - 1) * channels // GROUP_WIDTH))))
+        self._group = max(1, -(-(lags - 1) // later))
+        self._reach = 1 + later
         width = self._group * channels
         self._products = np.zeros((self._reach, width, width))
         self._kept = np.empty((0, channels))

@@ -20,6 +20,10 @@ Two regimes, told apart by the data alone:
 
 What is counted are faults that keep exciting: constant, sinusoidal or proportional fault signals count as fewer, as they do for
 every method that sees r alone. As many faults as outputs (n_v = p) cannot be told from noise in every output and are never claimed.
+
+What the thresholds rest on: those of the rounding regime on bounds of rounding and of random matrices (`hankel_ranks`), in units of the
+data. The constants below (how clear a rank, how long a run of equal gaps, how far to look), and all of `kernel_row_test`, were set by hand
+after looking at simulated data: rules of thumb with measured rates (`benchmarks/fault_dimension.py`), not tests of a stated level.
 """
 
 from __future__ import annotations
@@ -37,8 +41,11 @@ Array = NDArray[np.float64]
 
 DEFAULT_BLOCK_ROWS = 20
 LARGEST_DEGREE = 9
-LARGEST_WINDOW = 120
-"""Entries of the window that the kernel-row test looks at, for many outputs: its cost grows with the cube."""
+MOST_MIXTURES = 12
+"""Of more outputs than this the kernel-row test looks at so many fixed mixtures: they too obey laws as long as there are fewer faults, and
+the cost, which grows with the cube of outputs times degree, stays that of twelve outputs."""
+LARGEST_HANKEL = 280
+"""Rows of the longest Hankel matrix, where `block_rows` is not given and outputs are many: its factor costs the square a sample."""
 CLEAR_MARGIN = 1.0
 LEAST_RUN = 3
 DIED_OUT = 1e-6
@@ -73,10 +80,11 @@ class FaultDimension:
 def fault_dimension(r: ArrayLike, *, block_rows: int | None = None, u: ArrayLike | None = None) -> FaultDimension:
     """The number of independent faults in a residual r (N, p), from its gaps up to s = block_rows.
 
-    Without `block_rows` it looks up to 20, or as far as the samples go. float32 data are judged by float32 rounding. For a residual of
-    an identified model give its inputs `u` (N, n_u): the model's error is driven by u, and without u it counts as further faults where it
-    stands out of the noise; with u the ranks are those of [U_s; R_s] less those of U_s. Raises InvalidData for NaN, constant or
-    too few samples and for u of another length. Source: [G25] proposition 3, repaired; thresholds [GVL13], [DS01].
+    Without `block_rows` it looks up to 20, less far for few samples or many channels. float32 data are judged by float32 rounding. For
+    a residual of an identified model give its inputs `u` (N, n_u): the model's error is driven by u, and without u it counts as further
+    faults where it stands out of the noise; with u the ranks are those of [U_s; R_s] less those of U_s. With a record from before the
+    fault, `fault_dimension_against_healthy` sees more. Raises InvalidData for NaN, constant or too few samples and for u of
+    another length. Source: [G25] proposition 3, repaired; thresholds [GVL13], [DS01].
     """
     unit = _rounding_unit(r)
     data = signal(r, "r")
@@ -90,15 +98,13 @@ def fault_dimension(r: ArrayLike, *, block_rows: int | None = None, u: ArrayLike
     if exact.deficient:
         n_v, reason = _from_gaps(exact, scaled)
         return _record(exact, scales, n_v, reason, "rounding")
-    degree = min(rows - 1, LARGEST_DEGREE, max(3, LARGEST_WINDOW // data.shape[1] - 1))
+    degree = min(rows - 1, LARGEST_DEGREE)
     if degree < 3:
         reason = f"noise in every direction, and block_rows = {rows} leaves too short windows to look for laws below it; try at least 4"
         return _record(exact, scales, None, reason, "noise")
-    test = kernel_row_test(scaled, degree, u=inputs)
+    test = kernel_row_test(_mixtures(scaled), degree, u=inputs)
     columns = exact.columns
-    thresholds = tuple(
-        float(np.sqrt(test.noise_power) * (np.sqrt(columns) + np.sqrt(sigma.size))) for sigma in exact.values
-    )
+    thresholds = tuple(float(np.sqrt(test.noise_power) * (np.sqrt(columns) + np.sqrt(sigma.size))) for sigma in exact.values)
     ranks = ranks_at(exact.values, thresholds, columns, deficient=False)
     return _record(ranks, scales, test.n_v, test.reason, "noise", test.levels)
 
@@ -149,7 +155,16 @@ def _block_rows(r: Array, block_rows: int | None, n_u: int) -> int:
             f"r has {samples} samples of {p} channels: at least {(LEAST_RUN + 1) * width} samples are needed to see "
             f"{LEAST_RUN} gaps; {hint}give more samples or fewer channels"
         )
-    return min(DEFAULT_BLOCK_ROWS, most)
+    return min(DEFAULT_BLOCK_ROWS, most, max(2 * LEAST_RUN, LARGEST_HANKEL // (p + n_u) - 1))
+
+
+def _mixtures(r: Array) -> Array:
+    """r (N, p), or the first MOST_MIXTURES channels of it turned by a fixed orthogonal matrix, in unit mean square again."""
+    p = r.shape[1]
+    if p <= MOST_MIXTURES:
+        return r
+    turn = np.linalg.qr(np.random.default_rng(p).standard_normal((p, MOST_MIXTURES)))[0]
+    return _scaled(r @ turn)[0]
 
 
 def _scaled(r: Array) -> tuple[Array, Array]:

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .fault_space_error import fault_space_error_bound
 from .fault_space_estimate import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
 from .noisy_fault_space import fault_space_by_least_squares, fault_space_by_likelihood
 from .residual_arguments import Arguments, arguments
@@ -127,19 +128,16 @@ def _from_ladder(data: Arguments, ladder: Ladder) -> FaultSpaceEstimate:
     rank = ladder.ranks[s]
     rows = left[:, rank:].T.reshape(-1, s, p)
     conditions = kernel_conditions(rows, coordinates.A, coordinates.C).reshape(-1, n + p)
-    # N turns by at most |E| / sigma_rank, and N T_s(z) follows within sqrt(s) of that, because z of unit size makes
-    # a unit response.
-    error = np.sqrt(p * s) * max(float(values[rank]), ladder.floor)
-    turned = np.sqrt(s) * (error / float(values[rank - 1]) if rank else 0.0) + 10 * s * EPS * coordinates.state_condition
     triangular = np.linalg.qr(conditions, mode="r")
     _, strengths, right = np.linalg.svd(triangular)
     strengths = np.concatenate([strengths, np.zeros(n + p - strengths.size)]).astype(np.float64)
     # The faults themselves are solutions, so that at most n + p - n_v conditions are independent.
     possible = range(1, n + p - min(n_v, ladder.final_gap) + 1)
     independent, drop = gap_rank(strengths, possible, 10 * s * EPS * float(strengths[0]))
-    basis = orthonormal(coordinates.back(right[independent:].T))
+    columns = right[independent:].T
+    basis = orthonormal(coordinates.back(columns))
     n_z = n + p - independent
-    bound = coordinates.condition * np.sqrt(max(n_z, 1)) * turned / float(strengths[independent - 1])
+    bound = fault_space_error_bound(coordinates, left, values, rank, ladder.floor, columns)
     degrees = [k for k in range(len(ladder.ranks) - 1) for _ in range((p if k == 0 else ladder.gap(k - 1)) - ladder.gap(k))]
     expected = n + p - sum(degree + 1 for degree in degrees if degree < s)
     margin = min(drop, ladder.drops[s], *ladder.drops[-2:])
@@ -159,7 +157,7 @@ def _from_ladder(data: Arguments, ladder: Ladder) -> FaultSpaceEstimate:
         decided,
         meaningful,
         reason,
-        float(bound),
+        bound,
         "noise-free",
     )
 

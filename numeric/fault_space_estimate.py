@@ -13,9 +13,13 @@ p). Source: [G25] problem (11).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from .fault_space_uncertainty import SpaceUncertainty
 
 Array = NDArray[np.float64]
 
@@ -25,7 +29,8 @@ class FaultSpaceEstimate:
     """The columns [f; g] that explain no more than the residual shows.
 
     basis            (n + p, n_z), orthonormal columns
-    n_z              its dimension, n_v + zeta for a left-invertible fault system
+    n_z              its columns, n_v + zeta for a left-invertible fault system; where `decided` is False the likeliest
+                     number, not a finding
     n                number of states: F are the first n rows, G the others
     n_v              number of faults, given or found (None: undecided)
     lag              largest degree of a kernel row, found or expected (None: unknown); the window must be longer
@@ -38,6 +43,7 @@ class FaultSpaceEstimate:
     meaningful       False where the answer says nothing about the faults; `reason` says why
     error_bound      bound on the sine of the angle to the true space from rounding and conditioning; None with noise
     method           "noise-free", "least squares" or "likelihood" ("none" where no equation was found)
+    uncertainty      of the likelihood form: the angle to the true space with a confidence, n_z taken as right; else None
     """
 
     basis: Array
@@ -55,6 +61,7 @@ class FaultSpaceEstimate:
     reason: str
     error_bound: float | None
     method: str
+    uncertainty: SpaceUncertainty | None = None
 
     @property
     def F(self) -> Array:
@@ -68,10 +75,10 @@ class FaultSpaceEstimate:
 
     @property
     def zeta(self) -> int | None:
-        """Number of zeros, finite and infinite, of a left-invertible fault system; None where n_v or n_z is not
-        known.
+        """Number of zeros, finite and infinite, of a left-invertible fault system; None where the data cannot tell:
+        n_v unknown, the answer without meaning, or n_z undecided.
         """
-        return None if self.n_v is None or not self.meaningful else self.n_z - self.n_v
+        return None if self.n_v is None or not self.meaningful or not self.decided else self.n_z - self.n_v
 
 
 def everything(

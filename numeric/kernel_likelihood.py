@@ -217,7 +217,11 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
         hessian = np.tensordot(1.0 / d, data, axes=1) - cross - cross.T + (qg * (a / d**3)[:, None]).T @ qg
         ridge = np.diag(np.maximum(np.diag(hessian), 0.0) + np.finfo(float).eps * abs(np.trace(hessian)) + dead)
         while True:
-            step = np.linalg.solve(hessian + damping * ridge, -gradient)
+            # Without noise both may underflow; then there is nothing left to gain.
+            try:
+                step = np.linalg.solve(hessian + damping * ridge, -gradient)
+            except np.linalg.LinAlgError:
+                return g, cost, True
             step -= g * (g @ step)
             trial = (g + step) / np.linalg.norm(g + step)
             new = cost_of(trial)

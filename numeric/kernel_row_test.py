@@ -21,8 +21,11 @@ Rules, each of which yields an undecided answer when it fails:
     settled         the level after the rise must not be falling with the degree by a share that would undo the rise
     some rise       down to k = 1: otherwise r may be noise alone or as many faults as outputs, and data cannot tell
 
-n_v = p is never returned: an arbitrary coloured noise is a weak fault in every output. The numbers were set on simulated data
-(`benchmarks/fault_dimension.py` measures them on fresh ones); they trade right answers for undecided ones, wrong ones being the worst.
+n_v = p is never returned: an arbitrary coloured noise is a weak fault in every output.
+
+The likelihood ratios are derived; the capital constants are not: they were set by hand after looking at simulated data of the paper's kind,
+to trade right answers for undecided ones, wrong ones being the worst. `benchmarks/fault_dimension.py` measures the rates on fresh draws of
+that same kind; on other data expect less. How near to a jump an answer was can be read from `levels`, but is no probability of error.
 """
 
 from __future__ import annotations

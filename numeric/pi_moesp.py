@@ -10,7 +10,9 @@ sqrt(columns).
 
 The order, where not given, is where ln(sigma_k / sigma_(k+1)) is largest, sigma cut off below at the rounding level. The two smallest
 values take no part unless they fall to that level: the smallest of a random matrix are spread out. The gap is clean when its ratio is at
-least CLEAN and at least LEAD times every other ratio; else InvalidData lists the values, and the choice is the caller's.
+least CLEAN and at least LEAD times every other ratio; else InvalidData lists the values, and the choice is the caller's. So it does where
+A would be undetermined at a clean gap (condition of O_(s-1) above UNDETERMINED): few faults without noise leave L32 rank-deficient, with a
+huge gap far beyond the order. The constants are set by hand.
 
 pi_moesp                    from y and u
 pi_moesp_experiments        from several experiments
@@ -40,6 +42,7 @@ from faultspace.numeric.models import Simulator, StateSpaceModel
 
 CLEAN = 3.0
 LEAD = 1.5
+UNDETERMINED = 1e8  # condition of O_(s-1) above which A is not determined: told of an order that was given, refused for one that was not
 EXCITED = 1e-13  # relative to its length and times the rows: what a direction of the inputs must exceed to be excited
 AMPLIFICATION = 1e6  # growth over the record up to which an unstable model is still fitted by output error: ten digits remain
 
@@ -173,7 +176,8 @@ def _listed(values: FloatArray, count: int = 24) -> str:
 def system_range(projected: FloatArray, scale: FloatArray, floor: float, order: int | None, instruments: int) -> Range:
     """Order, A and C from the projected outputs (s p, any), rows scaled by `scale` (p,) per output.
 
-    InvalidData where the order asked for cannot be had, or no order is asked for and there is no clean gap.
+    InvalidData where the order asked for cannot be had, or no order is asked for and there is no clean gap, or one that leaves A
+    undetermined.
     """
     p = len(scale)
     s = len(projected) // p
@@ -224,7 +228,13 @@ def system_range(projected: FloatArray, scale: FloatArray, floor: float, order: 
     upper = basis[:-p]
     A_basis, _, rank, shift_values = np.linalg.lstsq(upper, basis[p:], rcond=len(upper) * EPS)
     condition = float(shift_values[0] / shift_values[-1]) if shift_values[-1] > 0 else float("inf")
-    if rank < n or condition > 1e8:
+    if rank < n or condition > UNDETERMINED:
+        if order is None:
+            raise InvalidData(
+                f"the largest gap in the singular values ({_listed(values)}), after {n}, ratio {gap.ratio:.3g}, leaves A undetermined "
+                f"(O_(s-1) has condition {condition:.2g}): faults without noise make such gaps beyond the order, and so do block_rows at "
+                f"or below the lag (here {s}). Pass order=, that of a smaller gap, or take more block_rows"
+            )
         warnings.append(
             f"O_(s-1) has condition {condition:.2g}: block_rows = {s} is at or below the system's lag, or the order is too high; A is "
             "not determined. Take more block_rows"
@@ -357,7 +367,8 @@ def pi_moesp(
 
     y (N, p), u (N, n_u): arrays or memory maps, unmodified; extra memory does not grow with N. `order` n is chosen by the gap where not
     given; block_rows s must exceed the lag, p (s - 1) >= n; past_rows defaults to block_rows, past_rows n_u >= n. `route` as in `compress`.
-    InvalidData where the data or arguments cannot give a model, or the order is left open and there is no clean gap.
+    InvalidData where the data or arguments cannot give a model, or the order is left open and there is no clean gap or one that leaves A
+    undetermined.
     """
     return pi_moesp_experiments([(y, u)], order=order, block_rows=block_rows, past_rows=past_rows, route=route)
 

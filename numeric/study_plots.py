@@ -1,13 +1,13 @@
 """The figures of the Monte Carlo study, redrawn: vacuous cases set apart, random subspaces beside every error.
 
     error_histogram           how many cases have which error, vacuous ones hatched
-    errors_by_zeros           a box for each number of zeros, with the median of a random subspace
-    errors_by_phase           a box for each kind of phase
+    errors_by_zeros           a box for each number of zeros and each estimator, with the median of a random subspace
+    errors_by_phase           a box for each kind of phase and each estimator
     errors_against_circle     each case's error over the distance of its nearest zero to the unit circle
-    study_figure              all four on one page
+    study_figure              all of them on one page
 
-Each of the first four draws a `Study` on `ax`, a new one unless given, and returns it. Errors are in percent; where they span decades the
-axis is logarithmic. matplotlib is imported inside and only needed here.
+Each of the first four draws a `Study` on `ax`, a new one unless given, and returns it. Errors are in percent on logarithmic axes, because
+they span decades. matplotlib is imported inside and only needed here.
 """
 
 from __future__ import annotations
@@ -16,23 +16,27 @@ from typing import Any
 
 import numpy as np
 
-from .monte_carlo import Case, Group, Study, by_phase, by_zeros
+from .monte_carlo import Group, Study, by_phase, by_zeros, cases_by_phase, cases_by_zeros
+from .study_cases import LIKELIHOOD, PAPER, Case
 
 # A palette that is told apart in grey print and by colour-blind readers (Okabe and Ito).
 COLOURS = {0: "#999999", 1: "#0072B2", 2: "#E69F00", 3: "#009E73"}
+ESTIMATORS = {PAPER: "#56B4E9", LIKELIHOOD: "#F0E442"}
+NAMES = {PAPER: "published estimator", LIKELIHOOD: "likelihood"}
 RANDOM, INK = "#D55E00", "#222222"
+BASELINE = "a random subspace"
 BINS = 24
 # Errors below this, in percent, are drawn there.
 LEAST = 1e-2
 
 
-def error_histogram(study: Study, ax: Any = None) -> Any:
-    """Number of cases by error, on a logarithmic axis; vacuous cases have none and stand hatched at the left edge."""
+def error_histogram(study: Study, ax: Any = None, *, estimator: str = PAPER) -> Any:
+    """Number of cases by error, coloured by number of zeros; vacuous cases have no error and stand hatched at the left edge."""
     ax = _axes(ax)
-    shown = [case for case in study.cases if _percent(study, case) is not None and not case.vacuous]
+    shown = [case for case in study.cases if _percent(study, case, estimator) is not None and not case.vacuous]
     edges = np.geomspace(LEAST, 100, BINS + 1)
     kinds = sorted({case.n_zeros for case in shown})
-    samples = [[_percent(study, case) for case in shown if case.n_zeros == k] for k in kinds]
+    samples = [[_percent(study, case, estimator) for case in shown if case.n_zeros == k] for k in kinds]
     if samples:
         colours, labels = [COLOURS[k] for k in kinds], [_zeros(k) for k in kinds]
         ax.hist(samples, edges, stacked=True, color=colours, label=labels, edgecolor="white", linewidth=0.5)
@@ -40,21 +44,24 @@ def error_histogram(study: Study, ax: Any = None) -> Any:
     if vacuous:
         # A place of their own, left of the axis' smallest error.
         ax.bar(LEAST / 3, vacuous, LEAST / 4, color="white", edgecolor=COLOURS[0], hatch="////", label="vacuous: zero by construction")
-    _random_line(ax, study)
+    values = [100 * study.random_error(case) for case in study.cases if not case.vacuous]
+    if values:
+        ax.axvline(float(np.median(values)), color=RANDOM, linewidth=2.2, zorder=0.5, label=BASELINE)
     ax.set_xscale("log")
     ax.set_xlim(LEAST / 6 if vacuous else LEAST * 0.8, 130)
+    # Room above the bars, so that the legend hides none.
+    ax.set_ylim(0, 1.45 * max(ax.get_ylim()[1], 1))
+    ax.yaxis.get_major_locator().set_params(integer=True)
     _percent_axis(ax.xaxis)
-    ax.set(xlabel="error (%)", ylabel="number of cases", title="Errors")
-    ax.legend(frameon=False, fontsize="small")
+    ax.set(xlabel="error (%)", ylabel="number of cases", title=_title("Errors", study, estimator))
+    ax.legend(frameon=False, fontsize="small", loc="upper left", ncols=2)
     return _plain(ax)
 
 
 def errors_by_zeros(study: Study, ax: Any = None) -> Any:
-    """Box plot: quartiles, whiskers from 10 to 90 %, all cases as points; the random subspace's median as a bar."""
+    """Box plot: quartiles, whiskers from 10 to 90 %, all cases as points, the median in figures; the random subspace's median as a bar."""
     ax = _axes(ax)
-    groups = by_zeros(study)
-    members = [[case for case in study.cases if case.n_zeros == k] for k in sorted({case.n_zeros for case in study.cases})]
-    _boxes(ax, study, groups, members)
+    _boxes(ax, study, by_zeros(study), cases_by_zeros(study))
     ax.set_title("By number of finite zeros")
     return _plain(ax)
 
@@ -62,99 +69,118 @@ def errors_by_zeros(study: Study, ax: Any = None) -> Any:
 def errors_by_phase(study: Study, ax: Any = None) -> Any:
     """The same for systems without zeros, with all zeros in the unit circle, and with a zero outside."""
     ax = _axes(ax)
-    groups = by_phase(study)
-    kinds = {
-        "no zeros": [case for case in study.cases if not case.zeros],
-        "minimum phase": [case for case in study.cases if case.zeros and case.minimum_phase],
-        "not minimum phase": [case for case in study.cases if case.zeros and not case.minimum_phase],
-    }
-    _boxes(ax, study, groups, [kinds[group.label] for group in groups])
+    _boxes(ax, study, by_phase(study), cases_by_phase(study))
     ax.set_title("By phase")
     return _plain(ax)
 
 
-def errors_against_circle(study: Study, ax: Any = None) -> Any:
-    """Error over the distance of the nearest zero to the unit circle, both logarithmic; open marks: a zero outside the circle."""
+def errors_against_circle(study: Study, ax: Any = None, *, estimator: str = PAPER) -> Any:
+    """Error over the distance of the nearest zero to the unit circle, both logarithmic; open marks: one zero or more outside the circle."""
     ax = _axes(ax)
     for k, colour in COLOURS.items():
         for minimum_phase in (True, False):
             chosen = [case for case in study.cases if case.n_zeros == k and case.minimum_phase is minimum_phase]
-            points = [(case.distance_to_unit_circle, _percent(study, case)) for case in chosen]
+            points = [(case.distance_to_unit_circle, _percent(study, case, estimator)) for case in chosen]
             drawn = [(x, y) for x, y in points if x is not None and y is not None]
             if drawn:
                 x, y = np.array(drawn).T
-                label = f"{_zeros(k)}, {'all inside' if minimum_phase else 'one or more outside'}"
+                label = f"{_zeros(k)}, {'all inside' if minimum_phase else 'one outside'}"
                 face = colour if minimum_phase else "none"
                 ax.scatter(x, y, 16, facecolors=face, edgecolors=colour, linewidths=0.9, alpha=0.85, label=label)
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_ylim(LEAST * 0.8, 130)
     _percent_axis(ax.yaxis)
-    ax.set(xlabel="distance of the nearest zero to the unit circle", ylabel="error (%)", title="Against the unit circle")
+    title = _title("Against the unit circle", study, estimator)
+    ax.set(xlabel="distance of the nearest zero to the unit circle", ylabel="error (%)", title=title)
     if ax.collections:
-        ax.legend(frameon=False, fontsize="x-small", loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=3, columnspacing=1.0)
+        below = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15), "ncols": 3}
+        ax.legend(frameon=False, fontsize="x-small", columnspacing=1.0, handletextpad=0.2, **below)
     return _plain(ax)
 
 
 def study_figure(study: Study) -> Any:
-    """A figure with the four plots, made without any window system: save it with `figure.savefig`."""
+    """A figure with all plots, histogram and circle for each estimator, made without any window system: save it with `figure.savefig`."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(11, 8.2), layout="constrained")
-    (first, second), (third, fourth) = figure.subplots(2, 2)
-    error_histogram(study, first)
-    errors_by_zeros(study, second)
-    errors_by_phase(study, third)
-    errors_against_circle(study, fourth)
+    estimators = study.plan.estimators
+    if len(estimators) == 1:
+        figure = Figure(figsize=(11, 8.2), layout="constrained")
+        (first, second), (third, fourth) = figure.subplots(2, 2)
+        histograms, boxes, circles = [first], (second, third), [fourth]
+    else:
+        figure = Figure(figsize=(6.4 * len(estimators), 12.8), layout="constrained")
+        grid = figure.add_gridspec(3, 2 * len(estimators))
+        histograms, circles = ([figure.add_subplot(grid[row, 2 * i : 2 * i + 2]) for i in range(len(estimators))] for row in (0, 2))
+        boxes = figure.add_subplot(grid[1, : len(estimators)]), figure.add_subplot(grid[1, len(estimators) :])
+    for estimator, histogram, circle in zip(estimators, histograms, circles, strict=True):
+        error_histogram(study, histogram, estimator=estimator)
+        errors_against_circle(study, circle, estimator=estimator)
+    errors_by_zeros(study, boxes[0])
+    errors_by_phase(study, boxes[1])
     vacuous = sum(case.vacuous for case in study.cases)
     note = f"; {vacuous} vacuous" if vacuous else ""
-    figure.suptitle(f"{len(study.cases)} systems, {study.title}{note}\nerror: {study.metric_text}", fontsize="medium")
+    figure.suptitle(f"{len(study.cases)} systems, {study.plan.title}{note}\nerror: {study.plan.metric_text}", fontsize="medium")
     return figure
 
 
-def _boxes(ax: Any, study: Study, groups: list[Group], members: list[list[Case]]) -> None:
+def _boxes(ax: Any, study: Study, groups: list[Group], members: dict[str, list[Case]]) -> None:
+    """Groups of one label stand together, one box for each estimator."""
     spread = np.random.default_rng(0)
-    labels = []
-    for place, (group, cases) in enumerate(zip(groups, members, strict=True)):
-        labels.append(f"{group.label}\n({group.cases}{_remark(group)})")
+    labels, estimators = list(members), study.plan.estimators
+    width = 0.8 / len(estimators)
+    ticks = []
+    for group in groups:
+        number = labels.index(group.label)
+        place = number + (estimators.index(group.estimator) + 0.5) * width - 0.4
+        if group.estimator == estimators[0]:
+            name = group.label.replace("not minimum ", "not minimum\n")
+            ticks.append(f"{name}\n({group.cases}{_remark(group)})")
         if group.vacuous:
             told = "vacuous:\nno null row,\nerror zero by\nconstruction"
             ax.text(place, LEAST * 1.2, told, ha="center", va="bottom", fontsize="small", color=INK)
             continue
         if group.quantiles is None:
             continue
+        if group.estimator == estimators[0]:
+            ax.plot(number + np.array([-0.4, 0.4]), [100 * group.random_median] * 2, color=RANDOM, linewidth=2.2, label=_once(ax, BASELINE))
         low, first, middle, third, high = (max(100 * value, LEAST) for value in group.quantiles)
         stats = {"med": middle, "q1": first, "q3": third, "whislo": low, "whishi": high}
-        colour = COLOURS.get(cases[0].n_zeros, INK) if len({case.n_zeros for case in cases}) == 1 else "#56B4E9"
-        box = {"facecolor": colour, "alpha": 0.35, "edgecolor": INK}
+        kinds = {case.n_zeros for case in members[group.label]}
+        alone = len(estimators) == 1
+        colour = COLOURS[min(kinds)] if alone and len(kinds) == 1 else ESTIMATORS[group.estimator]
+        box = {"facecolor": colour, "alpha": 0.45, "edgecolor": INK}
+        if not alone:
+            box["label"] = _once(ax, NAMES[group.estimator])
         line = {"color": INK, "linewidth": 1.8}
-        ax.bxp([stats], [place], widths=0.5, showfliers=False, patch_artist=True, boxprops=box, medianprops=line)
-        errors = np.array([error for case in cases if (error := _percent(study, case)) is not None])
-        ax.plot(place + spread.uniform(-0.18, 0.18, errors.size), errors, ".", color=INK, markersize=3, alpha=0.35)
-        ax.text(place + 0.28, middle, f"{middle:.2g}", va="center", fontsize="small", color=INK)
-        if group.random_median is not None:
-            label = None if ax.get_legend_handles_labels()[1] else "median of a random subspace"
-            ax.plot([place - 0.3, place + 0.3], [100 * group.random_median] * 2, color=RANDOM, linewidth=2.2, label=label)
-    ax.set_xticks(range(len(labels)), labels)
+        ax.bxp([stats], [place], widths=0.62 * width, showfliers=False, patch_artist=True, boxprops=box, medianprops=line)
+        errors = np.array([error for case in members[group.label] if (error := _percent(study, case, group.estimator)) is not None])
+        ax.plot(place + width * spread.uniform(-0.22, 0.22, errors.size), errors, ".", color=INK, markersize=3, alpha=0.35)
+        ax.text(place + 0.34 * width, middle, f"{middle:.2g}", va="center", fontsize="small" if alone else "x-small", color=INK)
+    ax.set_xticks(range(len(labels)), ticks)
     ax.set_xlim(-0.6, len(labels) - 0.4)
     ax.set_yscale("log")
-    ax.set_ylim(LEAST * 0.8, 130)
+    # Room for the legend above what can be reached.
+    ax.set_ylim(LEAST * 0.8, 400)
     _percent_axis(ax.yaxis)
     ax.set_ylabel("error (%)")
     if ax.get_legend_handles_labels()[1]:
-        ax.legend(frameon=False, fontsize="small", loc="lower right")
+        ax.legend(frameon=False, fontsize="small", loc="upper center", ncols=3, columnspacing=1.0, handlelength=1.4)
 
 
-def _random_line(ax: Any, study: Study) -> None:
-    values = [100 * study.random_error(case) for case in study.cases if not case.vacuous]
-    if values:
-        ax.axvline(float(np.median(values)), color=RANDOM, linewidth=2.2, label="median of a random subspace")
+def _once(ax: Any, label: str) -> str | None:
+    """The label, unless something on the axes has it."""
+    return None if label in ax.get_legend_handles_labels()[1] else label
 
 
-def _percent(study: Study, case: Case) -> float | None:
+def _percent(study: Study, case: Case, estimator: str) -> float | None:
     """The error to draw; None where there is none."""
-    error = study.error(case)
+    error = study.error(case, estimator)
     return None if error is None else max(100 * error, LEAST)
+
+
+def _title(what: str, study: Study, estimator: str) -> str:
+    return f"{what}: {NAMES[estimator]}" if len(study.plan.estimators) > 1 else what
 
 
 def _remark(group: Group) -> str:

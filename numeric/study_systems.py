@@ -1,14 +1,9 @@
-"""The random systems of the Monte Carlo study, its faults and its measurement noise, each from a seed of its own.
+"""The random systems of the Monte Carlo study, each from a seed of its own.
 
     StudySystem      A, B, C, D with fault matrices F, G, the finite zeros they were built with, and the fault space Z
     study_system     a random stable system with n = 5, n_u = 1, p = 3, n_v = 2 and a given number of finite zeros
     with_zeros       F, G for given A, C such that the fault system loses rank at each given number
     pencil_zeros     finite zeros of A, F, C, G from the pencil alone, by random compression to square pencils
-    Experiment       inputs u, outputs y, faults v of one run, with the noise that was added
-    experiment       one run of a system
-    study_faults     v1 = sin(0.25 t^1.3) + 0.1, v2 = 1 - 0.99^t + white noise
-    coloured_noise   white noise through the low-pass of the study
-    NOISE_GAIN       standard deviation of that noise for white noise of deviation one: the reason why "1 %" is 43 dB
 
 Construction of the zeros. F and G have a zero at z with state w and fault direction g iff
 
@@ -18,7 +13,8 @@ which for given z and g is linear in (w, F, G). All planted zeros together are o
 normal distribution on the pairs that solve it. One zero is planted in the first fault, two in one fault each. Three: two are planted in
 the first fault, and the third follows. For with A a companion matrix and C = [Q 0], states that differ by ker C = span(e4, e5) make V* =
 span(e3, e4, e5), whatever the two zeros are: f = -e2 + a e3 + b e4 + c e5 and g = -C e3 up to a factor, three zeros whose sum is the
-trace a + A[5, 5]. This is the distribution of the published generator [G25], its third zero included.
+trace a + A[5, 5]. This is the distribution of the published generator [G25], its third zero included, and also the length of that fault
+column: the generator draws it in a basis of the intersection of two spaces whose columns are 1/sqrt(2) long.
 
 So the numbers are zeros by construction; that there are no others is verified by `pencil_zeros`, which knows nothing of the
 construction, and a system with others is drawn again.
@@ -33,33 +29,23 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
-import scipy.signal
 from numpy.typing import NDArray
 
-from .input_checks import InvalidData, positive
+from .input_checks import InvalidData
 from .models import StateSpaceModel
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 N_X, N_U, P, N_V = 5, 1, 3, 2
-SAMPLES = 1001
-LOW_PASS = (0.17, 0.5, 0.5, 0.17), (1.0, 0.0, 0.33, 0.0)
+# Length of the published generator's basis of an intersection: the column of three zeros is that much weaker.
+INTERSECTION_BASIS = 1 / np.sqrt(2)
 # The faults that zeros are planted in, for 0, 1, 2, 3 zeros; of three the last one follows.
 DIRECTIONS: tuple[tuple[int, ...], ...] = ((), (0,), (0, 1), (0, 0))
 MOST_ZEROS = len(DIRECTIONS) - 1
 ATTEMPTS = 1000
 # A zero counts where the pencil's least singular value is that far below its size, and two zeros are one within this.
 ZERO_TOLERANCE = 1e-8
-
-
-def _noise_gain() -> float:
-    impulse = np.zeros(500)
-    impulse[0] = 1.0
-    return float(np.linalg.norm(scipy.signal.lfilter(*LOW_PASS, impulse)))
-
-
-NOISE_GAIN = _noise_gain()
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,16 +80,6 @@ class StudySystem:
         return np.vstack([self.F, self.G])
 
 
-@dataclass(frozen=True, eq=False)
-class Experiment:
-    """u (N, n_u), y (N, p) with noise, v (N, n_v); `decibels` by which the noise lies below the outputs' standard deviation, on average."""
-
-    u: Array
-    y: Array
-    v: Array
-    decibels: float
-
-
 def study_system(n_zeros: int, seed: np.random.SeedSequence | int) -> StudySystem:
     """A system with exactly `n_zeros` finite zeros, 0 to 3, the same for the same seed. Raises InvalidData for other numbers."""
     if n_zeros not in range(MOST_ZEROS + 1):
@@ -118,6 +94,7 @@ def study_system(n_zeros: int, seed: np.random.SeedSequence | int) -> StudySyste
         if n_zeros > zeros.size:
             third, state = _third_zero(A, F, C, G, zeros)
             zeros, W = np.append(zeros, third), np.column_stack([W, state])
+            F[:, 0], G[:, 0] = INTERSECTION_BASIS * F[:, 0], INTERSECTION_BASIS * G[:, 0]
         if _as_intended(A, F, C, G, np.sort(zeros)):
             model = StateSpaceModel(A, B, C, D)
             return StudySystem(model, F, G, np.sort(zeros), _fault_space(A, F, C, G, W), attempt)
@@ -157,41 +134,12 @@ def pencil_zeros(A: Array, F: Array, C: Array, G: Array, rng: np.random.Generato
     the whole pencil loses rank are the zeros. Two independent compressions must agree, so that no zero is lost to an unlucky one.
     """
     rng = np.random.default_rng(0) if rng is None else rng
-    found = [_candidates(A, F, C, G, rng) for _ in range(2)]
-    confirmed = [[z for z in values if _loses_rank(A, F, C, G, z)] for values in found]
+    found = np.concatenate([_candidates(A, F, C, G, rng) for _ in range(2)])
     merged: list[complex] = []
-    for z in (*confirmed[0], *confirmed[1]):
+    for z in found[_lose_rank(A, F, C, G, found)]:
         if all(abs(z - other) > 1e-5 * max(1.0, abs(z)) for other in merged):
             merged.append(z)
     return np.array(sorted(merged, key=lambda z: (abs(z), z.real, z.imag)), dtype=np.complex128)
-
-
-def experiment(system: StudySystem, seed: np.random.SeedSequence | int, *, level: float, samples: int = SAMPLES) -> Experiment:
-    """u white normal, faults of the study, noise of `level` times each output's standard deviation through the low-pass of the study.
-
-    level = 0.01 is the published setting; level = 0.01 / NOISE_GAIN makes noise of 1 % in fact. The same seed makes the same u, v and
-    noise shape for every level.
-    """
-    samples = positive(samples, "samples")
-    rng = np.random.default_rng(seed)
-    u, v, x0 = rng.standard_normal((samples, N_U)), study_faults(samples, rng), rng.standard_normal(N_X)
-    plain = system.model
-    whole = StateSpaceModel(plain.A, np.hstack([plain.B, system.F]), plain.C, np.hstack([plain.D, system.G]))
-    clean = whole.simulate(np.hstack([u, v]), x0)
-    noise = level * clean.std(axis=0, ddof=1) * coloured_noise(samples, P, rng)
-    decibels = float(np.mean(20 * np.log10(clean.std(axis=0) / noise.std(axis=0)))) if level > 0 else float("inf")
-    return Experiment(u, clean + noise, v, decibels)
-
-
-def study_faults(samples: int, rng: np.random.Generator) -> Array:
-    """(samples, 2): a chirp of rising frequency with an offset, and a slow rise buried in white noise."""
-    t = np.arange(samples)
-    return np.column_stack([np.sin(0.25 * t**1.3) + 0.1, 1 - 0.99**t + rng.standard_normal(samples)])
-
-
-def coloured_noise(samples: int, channels: int, rng: np.random.Generator) -> Array:
-    """(samples, channels) white normal noise through the low-pass, from rest as published: standard deviation NOISE_GAIN."""
-    return np.asarray(scipy.signal.lfilter(*LOW_PASS, rng.standard_normal((samples, channels)), axis=0), dtype=np.float64)
 
 
 def _poles(rng: np.random.Generator) -> ComplexArray:
@@ -246,7 +194,9 @@ def _candidates(A: Array, F: Array, C: Array, G: Array, rng: np.random.Generator
     return np.asarray(values[np.isfinite(values)], dtype=np.complex128)
 
 
-def _loses_rank(A: Array, F: Array, C: Array, G: Array, z: complex) -> bool:
-    pencil = np.block([[z * np.eye(A.shape[0]) - A, -F], [C, G]])
-    values = np.linalg.svd(pencil, compute_uv=False)
-    return bool(values[-1] <= ZERO_TOLERANCE * values[0])
+def _lose_rank(A: Array, F: Array, C: Array, G: Array, points: ComplexArray) -> NDArray[np.bool_]:
+    """At which of the points (k,) the pencil's least singular value is nothing beside the largest."""
+    constant, linear = np.block([[-A, -F], [C, G]]), np.eye(A.shape[0] + C.shape[0], A.shape[0] + F.shape[1])
+    linear[A.shape[0] :] = 0
+    values = np.linalg.svd(constant + points[:, None, None] * linear, compute_uv=False)
+    return np.asarray(values[:, -1] <= ZERO_TOLERANCE * values[:, 0])

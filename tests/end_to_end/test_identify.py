@@ -1,7 +1,6 @@
-"""`faultspace identify`: every format, every refusal, and whole runs on data whose answer is known.
+"""`faultspace identify`: whole runs on data whose answer is known, and what it says where the data cannot tell.
 
 csv_file        the packaged record as a table
-identified      a run in this process into a folder
 response        what a fault column does to the outputs, whatever the basis of the states
 """
 
@@ -9,7 +8,6 @@ from __future__ import annotations
 
 import csv
 import hashlib
-import importlib
 import importlib.util
 import json
 import os
@@ -19,23 +17,24 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.io import savemat
 
 from faultspace import example_data as made
 from faultspace import identification_report as report
 from faultspace import identifying
-from faultspace.data_files import Record, read_record, split_names
-from faultspace.exact.input_rules import InvalidInput
+from faultspace.data_files import read_record
+from faultspace.identification_pictures import PICTURES
+from faultspace.identification_summary import advice
 from faultspace.numeric.distances import containment_distance, subspace_distance
+from faultspace.numeric.fault_dimension import fault_dimension
 from faultspace.numeric.fault_space import fault_space
 from faultspace.numeric.models import StateSpaceModel
 from faultspace.numeric.reconstruction import reconstruct_fault
-from tests.end_to_end.commands import Run, call, command, validator
+from faultspace.records import recorded
+from tests.end_to_end.commands import call, command, validator
+from tests.end_to_end.identify_runs import CHANNELS, identified, refused, valid
 
 Array = NDArray[np.float64]
 
-CHANNELS = ("--inputs", ",".join(made.INPUTS), "--outputs", ",".join(made.OUTPUTS))
-needs_pyarrow = pytest.mark.skipif(importlib.util.find_spec("pyarrow") is None, reason="pyarrow is not installed")
 needs_matplotlib = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is None, reason="matplotlib is not installed")
 
 
@@ -51,26 +50,6 @@ def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
     return path
 
 
-def small_csv(folder: Path, text: str, name: str = "data.csv") -> Path:
-    path = folder / name
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
-def identified(path: Path, out: Path, *options: str, channels: tuple[str, ...] = CHANNELS) -> Run:
-    """A run with the packaged record's channels unless others are given."""
-    return call("identify", str(path), *channels, "--out", str(out), *options)
-
-
-def refused(run: Run, *parts: str) -> None:
-    """One line on standard error behind the progress, with these parts; nothing on standard output; exit code 2."""
-    assert (run.code, run.out) == (2, ""), run
-    last = run.err.strip().splitlines()[-1]
-    assert last.startswith("faultspace: ") and "Traceback" not in run.err
-    for part in parts:
-        assert part in last, last
-
-
 def response(A: Any, F: Any, C: Any, G: Any, count: int = 8) -> Array:
     """G, CF, CAF, ... of each column, stacked (count p, m)."""
     columns = np.asarray(F, dtype=float).shape[1]
@@ -84,7 +63,7 @@ def test_the_packaged_record_gives_the_fault_that_made_it(csv_file: Path, record
     before = hashlib.sha256(csv_file.read_bytes()).hexdigest()
     run = identified(csv_file, tmp_path / "out", "--json")
     assert run.code == 0, run.err
-    answer = run.json
+    answer = valid("identify", run.json)
     assert (answer["order"], answer["n_v"], answer["fault_space"]["n_z"]) == (3, 1, 1)
     assert answer["order_gap_clean"] and answer["stable"] and answer["samples"] == made.SAMPLES
     truth = sorted(np.linalg.eigvals(made.A), key=lambda z: (z.real, z.imag))
@@ -96,6 +75,8 @@ def test_the_packaged_record_gives_the_fault_that_made_it(csv_file: Path, record
     true_model = StateSpaceModel(made.A, made.B, made.C, made.D)
     assert np.allclose(found.markov(8), true_model.markov(8), atol=0.06)
     space = answer["fault_space"]
+    assert valid("fault-space", json.loads((tmp_path / "out" / report.SPACE).read_text("utf-8"))) == space
+    assert space["equations"] + space["n_z"] == space["unknowns"] == found.n + 3
     true_response = response(made.A, made.F, made.C, made.G)
     assert subspace_distance(response(found.A, space["F"], found.C, space["G"]), true_response) < 0.06
     assert subspace_distance(response(found.A, model["F"], found.C, model["G"]), true_response) < 0.06
@@ -114,19 +95,21 @@ def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path
     out = tmp_path / "deep" / "out"
     run = command("identify", str(csv_file), *CHANNELS, "--out", str(out))
     assert run.code == 0, run.err
-    assert "order 3" in run.out and "n_v: **1**" in run.out
+    assert "order **3**, by the gap" in run.out and "n_v: **1**" in run.out and run.err == ""
+    for told in ("poles: ", "stable, largest modulus", "fit", "why: ", "5 independent ones for the 6", "meaning: ", "delay until"):
+        assert told in run.out, told
+    assert "determined: " in run.out and "## What to try next" in run.out and "given" not in run.out
     text = (out / report.SUMMARY).read_text("utf-8")
     assert "## Fault space" in text and "n_v: **1**" in text
     listed = run.out.strip().splitlines()[-1].partition(": ")[2].split(", ")
     assert sorted(listed) == sorted(path.name for path in out.iterdir())
-    assert "identifying the model" in run.err and "Traceback" not in run.err
 
 
 @needs_matplotlib
 def test_the_plots_are_pictures(csv_file: Path, tmp_path: Path) -> None:
     run = identified(csv_file, tmp_path / "out", "--json")
-    assert set(report.PICTURES) <= set(run.json["files"])
-    for name in report.PICTURES:
+    assert set(PICTURES) <= set(run.json["files"])  # noisy data: the levels are pictured too
+    for name in PICTURES:
         assert (tmp_path / "out" / name).read_bytes().startswith(b"\x89PNG"), name
 
 
@@ -134,7 +117,7 @@ def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Pat
     def without(name: str) -> Any:
         raise ImportError(name)
 
-    monkeypatch.setattr("faultspace.identification_report.import_module", without)
+    monkeypatch.setattr("faultspace.identification_pictures.import_module", without)
     run = identified(csv_file, tmp_path / "out", "--json")
     assert run.code == 0 and "matplotlib is not installed" in run.err
     assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, report.SUMMARY]
@@ -179,9 +162,11 @@ def test_noise_free_data_count_faults_without_the_error_of_the_model() -> None:
     u, v = draw.standard_normal((2000, 2)), draw.standard_normal((2000, 1))
     driven = StateSpaceModel(made.A, np.hstack([made.B, made.F]), made.C, np.hstack([made.D, made.G]))
     y = driven.simulate(np.hstack([u, v]))
-    answer = identifying.identify(Record(y, u, made.OUTPUTS, made.INPUTS, "arrays"), order=3)
-    assert answer.dimension is not None and answer.dimension.n_v != 1  # what the residual alone would say
-    assert answer.count == 1 and "n_u + 1" in answer.count_reason
+    answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
+    assert answer.residual is not None and answer.dimension is not None
+    assert fault_dimension(answer.residual.store.read(0, 2000)).n_v != 1  # what the residual alone would say
+    assert (answer.count, answer.dimension.regime) == (1, "rounding")
+    assert answer.space is not None and "given" not in answer.space.reason and "as counted" in answer.space.reason
 
 
 def test_a_space_with_zeros_gives_a_pair_that_explains_the_residual() -> None:
@@ -198,7 +183,7 @@ def test_a_space_with_zeros_gives_a_pair_that_explains_the_residual() -> None:
 def test_without_a_fault_there_is_none() -> None:
     u = np.random.default_rng(4).standard_normal((1000, 2))
     y = StateSpaceModel(made.A, made.B, made.C, made.D).simulate(u)
-    answer = identifying.identify(Record(y, u, made.OUTPUTS, made.INPUTS, "arrays"))
+    answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS))
     assert answer.identification is not None and answer.identification.order == 3
     assert answer.count == 0 and answer.space is None and answer.signal is None
 
@@ -212,6 +197,7 @@ def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: P
     (out / "mine.txt").write_text("kept", encoding="utf-8")
     run = identified(path, out, "--json", channels=("--inputs", "u", "--outputs", "y"))
     assert run.code == 0, run.err
+    valid("identify", run.json)
     assert run.json["order"] is None and run.json["n_v"] is None and run.json["fault_space"] is None
     assert any("no clean gap" in note for note in run.json["notes"])
     assert not (out / report.MODEL).exists() and not (out / report.SIGNAL).exists()
@@ -221,10 +207,58 @@ def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: P
 
 def test_faults_given_override_the_count_and_are_told(csv_file: Path, tmp_path: Path) -> None:
     run = identified(csv_file, tmp_path / "out", "--json", "--faults", "3")
-    assert (run.code, run.json["n_v"]) == (0, 3)
+    assert (run.code, run.json["n_v"], run.json["n_v_given"]) == (0, 3, True)
+    valid("identify", run.json)
     assert run.json["n_v_reason"].startswith("3 given; the data say 1")
     assert not run.json["fault_space"]["meaningful"] and run.json["fault_space"]["basis"] is None
     assert run.json["fault_signal"] is None and report.SIGNAL not in run.json["files"]
+
+
+def late_faults(folder: Path, loudness: float, number: int) -> Path:
+    """1500 samples without fault, then 1500 with so many, under noise of very unequal and coloured levels."""
+    draw = np.random.default_rng(8)
+    truth = StateSpaceModel(made.A, np.hstack([made.B, np.eye(3)[:, :number]]), made.C, np.zeros((3, 2 + number)))
+    u, v = draw.standard_normal((3000, 2)), loudness * draw.standard_normal((3000, number))
+    v[:1500] = 0.0
+    noise = draw.standard_normal((3001, 3))
+    y = truth.simulate(np.hstack([u, v])) + (noise[1:] + 0.7 * noise[:-1]) * [0.3, 0.1, 0.02]
+    path = folder / "late.npz"
+    np.savez(path, u=u, y=y)
+    return path
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_faults_are_counted_against_healthy_samples(number: int, tmp_path: Path) -> None:
+    path, channels = late_faults(tmp_path, 1.0, number), ("--inputs", "u", "--outputs", "y")
+    alone = identified(path, tmp_path / "alone", "--json", "--order", "3", channels=channels).json
+    assert (alone["n_v"], alone["healthy_until"], "against_healthy" in alone) == (None, None, False)
+    assert any("--healthy-until" in line for line in alone["next"])
+    run = identified(path, tmp_path / "out", "--json", "--order", "3", "--healthy-until", "1500", channels=channels)
+    answer = valid("identify", run.json)
+    assert (answer["n_v"], answer["n_v_from"], answer["n_v_given"]) == (number, "healthy samples", False)
+    assert answer["against_healthy"]["n_v"] == number and answer["against_healthy"]["healthy"] == [0, 1500]
+    assert answer["residual_dimension"] is None and answer["counted_on"] == [1500, 3000]
+    assert answer["fault_space"]["meaningful"] and answer["fault_space"]["n_v"] == number
+    summary = (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
+    assert f"against the healthy samples 0 to 1499: {number} (" in summary
+    assert "from the residual alone: undecided (" in summary and "taken: healthy samples" in summary
+
+
+def test_without_a_fault_nothing_stands_out_of_healthy_samples(tmp_path: Path) -> None:
+    path, channels = late_faults(tmp_path, 0.0, 1), ("--inputs", "u", "--outputs", "y", "--order", "3", "--json")
+    answer = identified(path, tmp_path / "out", "--healthy-until", "1500", channels=channels).json
+    assert (answer["n_v"], answer["n_v_from"]) == (0, "healthy samples") and answer["against_healthy"]["visible"] > 1
+    valid("identify", answer)
+
+
+def test_healthy_samples_that_are_too_few_are_told(tmp_path: Path, csv_file: Path) -> None:
+    answer = identified(csv_file, tmp_path / "out", "--json", "--healthy-until", "50").json
+    assert (answer["n_v"], answer["n_v_from"], answer["healthy_until"]) == (1, "residual alone", 50)
+    assert any("not counted against samples 0 to 49: healthy has 50 samples" in note for note in answer["notes"])
+    valid("identify", answer)
+    beyond = str(made.SAMPLES)
+    refused(identified(csv_file, tmp_path / "none", "--healthy-until", beyond), "--healthy-until", f"got {beyond} for {beyond} samples")
+    assert not (tmp_path / "none").exists()
 
 
 def test_means_far_from_zero_are_told_and_removed(tmp_path: Path, record: made.FaultyRecord) -> None:
@@ -238,219 +272,34 @@ def test_means_far_from_zero_are_told_and_removed(tmp_path: Path, record: made.F
     assert not any("--remove-means" in note for note in run.json["notes"])
 
 
-# Formats
+def test_as_given_is_said_of_what_was_given_only(csv_file: Path, tmp_path: Path) -> None:
+    given = identified(csv_file, tmp_path / "a", "--json", "--faults", "1", "--order", "3").json
+    assert "n_v as given" in given["fault_space"]["reason"] and given["n_v_reason"].startswith("1 given; as the data say")
+    assert (given["order_given"], given["n_v_given"]) == (True, True)
+    summary = (tmp_path / "a" / report.SUMMARY).read_text("utf-8")
+    assert "order **3**, as given" in summary
 
 
-def write_tables(folder: Path, u: Array, y: Array) -> dict[str, tuple[Path, str, str]]:
-    """The same record in every way of writing it: path, inputs, outputs."""
-    rows = np.hstack([u, y]).tolist()
-    names = ["a", "b", "p", "q", "r"]
-    ways = {}
-    for name, separator, suffix in (("comma", ",", ".csv"), ("semicolon", ";", ".csv"), ("tab", "\t", ".tsv"), ("blanks", "  ", ".dat")):
-        text = "\n".join([separator.join(names), *(separator.join(map(repr, row)) for row in rows)])
-        ways[name] = small_csv(folder, "# measured\n\n" + text + "\n", name + suffix), "a,b", "p,q,r"
-    quoted = "\n".join(['"a","b","p","q, far","r"', *(",".join(f'"{x!r}"' for x in row) for row in rows)])
-    bare = "\ufeff" + ways["comma"][0].read_text("utf-8").strip()
-    ways["byte order mark and no newline"] = small_csv(folder, bare, "bom.csv"), "a,b", "p,q,r"
-    ways["quoted"] = small_csv(folder, quoted + "\n", "quoted.csv"), "a,b", "p,r"
-    ways["no names"] = small_csv(folder, "\n".join(",".join(map(repr, row)) for row in rows), "bare.txt"), "data[:,0:2]", "data[:,2:5]"
-    cube = y[:, :, np.newaxis] * [1.0, 2.0]
-    np.savez(folder / "n.npz", all=np.hstack([u, y]), y=np.asfortranarray(y), wide=y.T, cube=cube)
-    ways["npz matrix"] = folder / "n.npz", "all[:,0],all[1]", "all[:,2:]"
-    ways["npz arrays"] = folder / "n.npz", "all[:,0:2]", "y"
-    ways["npz rows"] = folder / "n.npz", "all[:,0:2]", "wide[0,:],wide[1,:],wide[2,:]"
-    ways["npz cube"] = folder / "n.npz", "all[:,0:2]", "cube[0,0],cube[1,0],cube[2,0]"
-    savemat(folder / "m.mat", {"u": u, "y": y, "row": u[:, 0]})
-    ways["mat"] = folder / "m.mat", "u", "y[:,0:3]"
-    ways["mat row"] = folder / "m.mat", "row,u[:,1]", "y"
-    return ways
+def test_an_order_that_leaves_the_model_open_is_not_taken() -> None:
+    draw = np.random.default_rng(1)
+    u, v = draw.standard_normal((3000, 2)), draw.standard_normal((3000, 1))
+    driven = StateSpaceModel(made.A, np.hstack([made.B, made.F]), made.C, np.zeros((3, 3)))
+    # Without noise the largest gap lies where the faults end, far beyond the order.
+    answer = identifying.identify(recorded(driven.simulate(np.hstack([u, v])), u, outputs=made.OUTPUTS, inputs=made.INPUTS))
+    assert answer.identification is None and any("leaves A undetermined" in note for note in answer.notes)
+    assert any("at 3" in line for line in advice(answer))
 
 
-def test_every_way_of_writing_a_record_reads_the_same(tmp_path: Path, record: made.FaultyRecord) -> None:
-    u, y = record.u[:300], record.y[:300]
-    for name, (path, inputs, outputs) in write_tables(tmp_path, u, y).items():
-        before = path.read_bytes()
-        got = read_record(str(path), inputs=[inputs], outputs=[outputs])
-        wanted = y[:, [0, 2]] if name == "quoted" else y
-        assert np.array_equal(got.u, u), name
-        assert np.array_equal(got.y, wanted), name
-        assert len(got.inputs) == 2 and len(set(got.inputs + got.outputs)) == 2 + wanted.shape[1], name
-        assert path.read_bytes() == before
-
-
-def test_labels_of_a_range_select_the_channels_themselves(tmp_path: Path, record: made.FaultyRecord) -> None:
-    np.savez(tmp_path / "d.npz", all=np.hstack([record.u, record.y])[:50])
-    got = read_record(str(tmp_path / "d.npz"), inputs=["all[:,0:2]"], outputs=["all[:,2:]"])
-    assert got.outputs == ("all[:,2]", "all[:,3]", "all[:,4]")
-    again = read_record(str(tmp_path / "d.npz"), inputs=got.inputs, outputs=got.outputs)
-    assert np.array_equal(again.y, got.y)
-
-
-@needs_pyarrow
-def test_parquet_reads_the_same(tmp_path: Path, record: made.FaultyRecord) -> None:
-    pyarrow: Any = importlib.import_module("pyarrow")
-    parquet: Any = importlib.import_module("pyarrow.parquet")
-    names = [*made.INPUTS, *made.OUTPUTS]
-    columns = dict(zip(names, np.hstack([record.u, record.y]).T, strict=True))
-    path = tmp_path / "d.parquet"
-    parquet.write_table(pyarrow.table(columns | {"when": ["now"] * len(record.y)}), path, row_group_size=700)
-    told: list[tuple[int, int]] = []
-    got = read_record(str(path), inputs=made.INPUTS, outputs=made.OUTPUTS, tell=lambda *pair: told.append(pair))
-    assert np.array_equal(got.u, record.u) and np.array_equal(got.y, record.y)
-    assert told[-1] == (6, 6)
-    for name, part in (("when", "type string"), ("nothing", "no column 'nothing'")):
-        with pytest.raises(InvalidInput, match=part):
-            read_record(str(path), inputs=[name], outputs=made.OUTPUTS)
-    holed = tmp_path / "holed.parquet"
-    parquet.write_table(pyarrow.table({"u": [1.0, None, 2.0], "y": [1, 2, 3]}), holed)
-    with pytest.raises(InvalidInput, match=r"'u' is no number .* at sample 1 "):
-        read_record(str(holed), inputs=["u"], outputs=["y"])
-
-
-def test_parquet_without_pyarrow_says_what_to_install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def without(name: str) -> Any:
-        raise ImportError(name)
-
-    monkeypatch.setattr("faultspace.data_files.import_module", without)
-    path = tmp_path / "d.parquet"
-    path.write_bytes(b"PAR1")
-    refused(identified(path, tmp_path / "out"), "pyarrow", "faultspace[parquet]")
-
-
-def test_commas_in_brackets_do_not_separate() -> None:
-    assert split_names(["a, b[:,1:3]", "c[0,2],d"]) == ["a", "b[:,1:3]", "c[0,2]", "d"]
-
-
-def test_long_tables_are_read_in_pieces_and_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("faultspace.text_tables.PIECE", 64)
-    path = small_csv(tmp_path, "u,y\n" + "".join(f"{k},{k * 0.5}\n" for k in range(1000)))
-    told: list[tuple[int, int]] = []
-    got = read_record(str(path), inputs=["u"], outputs=["y"], tell=lambda *pair: told.append(pair))
-    assert np.array_equal(got.u[:, 0], np.arange(1000.0)) and np.array_equal(got.y, got.u / 2)
-    assert len(told) == 16 and told[-1] == (path.stat().st_size,) * 2
-
-
-# Bad input
-
-TABLES: dict[str, tuple[str, tuple[str, ...]]] = {
-    "empty": ("", ("no line",)),
-    "names alone": ("u,y\n", ("no samples",)),
-    "missing column": ("u,z\n1,2\n3,4\n", ("no column", "'y'", "u, z")),
-    "other case": ("U,y\n1,2\n3,4\n", ("did you mean 'U'?",)),
-    "wrong delimiter": ("u|y\n1|2\n3|4\n", ("comma, semicolon, tab, blanks", "u|y")),
-    "decimal comma": ("u;y\n1,5;2\n3;4\n", ("line 2", "'1,5'", "point")),
-    "word": ("u,y\n1,2\n3,four\n", ("line 3", "'y'", "'four'", "number")),
-    "empty field": ("u,y\n1,2\n3,\n5,6\n", ("'y'", "sample 1", "NaN or empty")),
-    "NaN": ("u,y\n1,2\nnan,4\n5,6\n", ("'u'", "sample 1")),
-    "infinity": ("u,y\n1,2\n3,inf\n", ("'y'", "infinite", "sample 1")),
-    "short line": ("u,y\n" + "1,2\n" * 80 + "3\n", ("line 82", "1 field", "expected 2")),
-    "long line": ("u,y,z\n1,2,3\n3,4,5,6\n", ("4 fields", "comma")),
-    "names twice": ("u,y,y\n1,2,3\n", ("two columns named 'y'",)),
-    "zero bytes": ("u,y\n1,2\n\0\0\n", ("zero byte",)),
-    "too few samples": ("u,y\n" + "".join(f"{(k * k) % 7},{k % 5}\n" for k in range(4)), ("samples are too few", "needed")),
-    "constant input": ("u,y\n" + "".join(f"1,{(k * k) % 11}\n" for k in range(400)), ("constant",)),
-}
-
-
-@pytest.mark.parametrize("name", TABLES)
-def test_bad_tables_are_told_in_one_line(name: str, tmp_path: Path) -> None:
-    text, parts = TABLES[name]
-    path = small_csv(tmp_path, text)
-    refused(identified(path, tmp_path / "out", channels=("--inputs", "u", "--outputs", "y")), str(path), *parts)
-    assert not any((tmp_path / "out").iterdir())
-
-
-def arrays(folder: Path) -> Path:
-    np.savez(
-        folder / "a.npz", u=np.arange(50.0), y=np.arange(50.0), short=np.arange(40.0), wide=np.ones((3, 50)), cube=np.ones((50, 2, 2)),
-        words=np.array(["a", "b"]), z=np.arange(50) + 1j,
-    )  # fmt: skip
-    return folder / "a.npz"
-
-
-SELECTORS: dict[str, tuple[str, str, tuple[str, ...]]] = {
-    "no such array": ("nope", "y", ("no array 'nope'", "u, y, short")),
-    "no such column": ("u", "wide[:,60]", ("wide is 3 x 50", "from 0")),
-    "one number": ("u", "wide[1,2]", ("one number", "wide[:,2]")),
-    "cube": ("u", "cube", ("50 x 2 x 2", "NAME[i,j]")),
-    "too many indices": ("u", "y[1,2,3]", ("expected 1 indices",)),
-    "words": ("u", "words", ("type <U1",)),
-    "complex": ("u", "z", ("real and imaginary",)),
-    "transposed": ("u", "wide", ("looks transposed", "wide[i,:]")),
-    "unequal": ("u", "short", ("inputs of 50", "outputs of 40")),
-    "both": ("u", "u", ("as input and as output",)),
-    "twice": ("u,u", "y", ("'u' twice",)),
-    "nothing": (" , ", "y", ("no inputs",)),
-}
-
-
-@pytest.mark.parametrize("name", SELECTORS)
-def test_bad_selectors_are_told_in_one_line(name: str, tmp_path: Path) -> None:
-    inputs, outputs, parts = SELECTORS[name]
-    refused(identified(arrays(tmp_path), tmp_path / "out", channels=("--inputs", inputs, "--outputs", outputs)), *parts)
-
-
-@pytest.mark.parametrize(
-    ("name", "content", "parts"),
-    [
-        ("d.npz", b"PK\x03\x04 broken", ("NPZ",)),
-        ("d.npz", b"no archive", ("NPZ",)),
-        ("d.mat", b"MATLAB 5.0 MAT-file" + bytes(40), ("MAT",)),
-        ("d.mat", b"", ("MAT",)),
-        ("d.xlsx", b"PK", ("'.xlsx'", ".csv", ".parquet")),
-        ("d.csv", "é,y\n1,2\n".encode("latin-1"), ("0xe9", "UTF-8")),
-        ("d.csv", "u,y\n1,2\n".encode("utf-16"), ("0xff", "UTF-8")),
-    ],
-)
-def test_files_that_are_something_else(name: str, content: bytes, parts: tuple[str, ...], tmp_path: Path) -> None:
-    path = tmp_path / name
-    path.write_bytes(content)
-    refused(identified(path, tmp_path / "out", channels=("--inputs", "u", "--outputs", "y")), str(path), *parts)
-
-
-def test_pickled_arrays_are_not_executed(tmp_path: Path) -> None:
-    np.savez(tmp_path / "p.npz", u=np.array([{"a": 1}], dtype=object), y=np.ones(1))
-    refused(identified(tmp_path / "p.npz", tmp_path / "out", channels=("--inputs", "u", "--outputs", "y")), "NPZ")
-
-
-def test_missing_files_and_folders(csv_file: Path, tmp_path: Path) -> None:
-    refused(identified(tmp_path / "none.csv", tmp_path / "out"), "none.csv", "no such file")
-    refused(identified(tmp_path, tmp_path / "out"), str(tmp_path))
-    refused(identified(csv_file, csv_file), "cannot be written into")
-
-
-def test_a_folder_that_cannot_be_written_is_refused_before_the_work(csv_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(identifying, "read_record", lambda *_, **__: pytest.fail("the work had begun"))
-    refused(identified(csv_file, csv_file / "out"), "cannot be written into")
-
-
-def test_the_data_are_not_overwritten(tmp_path: Path, record: made.FaultyRecord) -> None:
-    path = tmp_path / report.SIGNAL
-    path.write_text(made.csv_text(record), encoding="utf-8")
-    refused(identified(path, tmp_path), "overwritten")
-    assert path.read_text("utf-8") == made.csv_text(record)
-
-
-def test_a_failure_in_writing_leaves_no_half_answer(csv_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(report, "_signal_table", full)
-    refused(identified(csv_file, tmp_path / "out"), "no space left")
-    assert list((tmp_path / "out").iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    ("options", "part"),
-    [
-        (("--order", "500"), "order = 500"),
-        (("--faults", "9"), "9 for 3 outputs"),
-        (("--order", "0"), "'--order'"),
-        (("--block-rows", "1"), "'--block-rows'"),
-    ],
-)
-def test_bad_numbers(options: tuple[str, str], part: str, csv_file: Path, tmp_path: Path) -> None:
-    refused(identified(csv_file, tmp_path / "out", *options), part)
+def test_an_unstable_model_is_answered_and_told() -> None:
+    draw = np.random.default_rng(6)
+    A = np.diag([1.02, 0.5])
+    u, v = draw.standard_normal((1200, 1)), draw.standard_normal((1200, 1))
+    B, C = np.ones((2, 1)), np.array([[1.0, 1.0], [0.0, 1.0], [1.0, -1.0]])
+    y = StateSpaceModel(A, np.hstack([B, [[0.3], [0.8]]]), C, np.zeros((3, 2))).simulate(np.hstack([u, v]))
+    answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=("u",)), order=2)
+    assert answer.identification is not None and not answer.identification.model.is_stable and answer.residual is not None
+    assert any("run backward" in note for note in answer.notes) and any("not stable" in line for line in advice(answer))
+    valid("identify", report.document(answer, "y") | {"files": []})
 
 
 # Measured data

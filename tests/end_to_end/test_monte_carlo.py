@@ -4,11 +4,31 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
+from importlib import resources
 from pathlib import Path
+from typing import Any
 
+import jsonschema
 import pytest
 
+from faultspace import study_report
 from tests.end_to_end.commands import call, command
+
+NAMES = ["published", "identified", "corrected", "corrected-identified"]
+
+
+def validator() -> Any:
+    """Of the schema that comes with the package, itself checked."""
+    schema = json.loads((resources.files("faultspace") / "schemas" / "monte_carlo.schema.json").read_text("utf-8"))
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
+@pytest.fixture
+def without_figures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Drawing takes most of the time; one test looks at the figures."""
+    monkeypatch.setattr(study_report, "_draw", lambda studies, folder: None)
 
 
 def test_a_tiny_study_leaves_tables_cases_and_figures(tmp_path: Path) -> None:
@@ -19,24 +39,64 @@ def test_a_tiny_study_leaves_tables_cases_and_figures(tmp_path: Path) -> None:
     assert "1 of 4 cases are vacuous" in run.out
     names = {path.name for path in out.iterdir()}
     assert {"cases.csv", "studies.json", "summary.md"} <= names
+    assert "95 % interval" in (out / "summary.md").read_text("utf-8")
     assert not [name for name in names if name.startswith(".")]
     rows = list(csv.DictReader((out / "cases.csv").open(encoding="utf-8")))
-    assert [row["study"] for row in rows] == ["published"] * 4 + ["corrected"] * 4 + ["identified"] * 4
-    assert [row["vacuous"] for row in rows] == ["True", "False", "False", "False"] + ["False"] * 4 + ["True", "False", "False", "False"]
+    vacuous = ["True", "False", "False", "False"]
+    assert [row["vacuous"] for row in rows] == vacuous * 2 + ["False"] * 16
     document = json.loads((out / "studies.json").read_text("utf-8"))
+    assert [study["name"] for study in document["studies"]] == NAMES
+    left = iter(rows)
     for study in document["studies"]:
-        for case, row in zip(study["cases"], [row for row in rows if row["study"] == study["name"]], strict=True):
-            assert float(row["two_sided"]) == case["errors"]["two_sided"]
+        for case in study["cases"]:
+            for estimator, estimate in case["estimates"].items():
+                row = next(left)
+                assert (row["study"], row["index"], row["estimator"]) == (study["name"], str(case["index"]), estimator)
+                assert float(row["two_sided"]) == estimate["errors"]["two_sided"]
+    assert next(left, None) is None
     pytest.importorskip("matplotlib")
-    for name in ("published", "corrected", "identified"):
+    for name in NAMES:
         assert (out / f"figure-{name}.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.usefixtures("without_figures")
 def test_with_json_standard_output_holds_the_document_alone(tmp_path: Path) -> None:
-    run = call("monte-carlo", "--systems", "2", "--jobs", "1", "--out", str(tmp_path), "--json")
+    run = call("monte-carlo", "--systems", "6", "--samples", "300", "--jobs", "1", "--out", str(tmp_path), "--json")
     assert run.code == 0
+    assert [study["samples"] for study in run.json["studies"]] == [300] * 4
+    validator().validate(run.json)
     assert run.json == json.loads((tmp_path / "studies.json").read_text("utf-8"))
     assert run.json["format"] == "faultspace-monte-carlo/1"
+
+
+@pytest.mark.usefixtures("without_figures")
+def test_the_schema_refuses_other_values_and_unknown_keys(tmp_path: Path) -> None:
+    document = call("monte-carlo", "--systems", "2", "--samples", "200", "--jobs", "1", "--out", str(tmp_path), "--json").json
+    validator().validate(document)
+    for *path, last in (("format",), ("studies", 0, "cases", 0, "n_z"), ("studies", 2, "by_zeros", 1, "estimator")):
+        place = document
+        for key in path:
+            place = place[key]
+        kept, place[last] = place[last], "something else"
+        assert not validator().is_valid(document)
+        place[last], place["unknown"] = kept, 1
+        assert not validator().is_valid(document)
+        del place["unknown"]
+        validator().validate(document)
+
+
+@pytest.mark.usefixtures("without_figures")
+def test_few_samples_are_a_refusal_in_the_table_and_no_traceback(tmp_path: Path) -> None:
+    run = call("monte-carlo", "--systems", "4", "--samples", "30", "--jobs", "1", "--out", str(tmp_path))
+    assert run.code == 0
+    assert "estimates were refused, the first because: 30 samples are too few" in run.out
+
+
+def test_without_distributed_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    run = call("monte-carlo", "--systems", "2", "--dask", "tcp://127.0.0.1:8786", "--out", str(tmp_path / "out"))
+    assert run.code == 2
+    assert "faultspace[cluster]" in run.err and len(run.err.strip().splitlines()) == 1
 
 
 def test_bad_arguments_are_one_line_and_leave_nothing(tmp_path: Path) -> None:

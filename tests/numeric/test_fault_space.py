@@ -45,7 +45,7 @@ def largest_angle(system: Planted, basis: Any) -> float:
 @pytest.mark.parametrize("zeros", [(), (0.5,), (0.5, -1.3)], ids=str)
 def test_planted_space(n: int, p: int, m: int, lag: int, zeros: tuple[float, ...]) -> None:
     """n_v, zeta, lag and the space itself from r, A, C alone, within the bound that the estimate states."""
-    worst = 0.0
+    worst, ratios = 0.0, []
     for seed in range(5):
         system = planted(seed, zeros, n=n, p=p, m=m)
         found = fault_space(residual(system, seed), system.A, system.C)
@@ -56,9 +56,33 @@ def test_planted_space(n: int, p: int, m: int, lag: int, zeros: tuple[float, ...
         np.testing.assert_allclose(found.basis.T @ found.basis, np.eye(found.n_z), atol=1e-12)
         assert np.array_equal(np.vstack([found.F, found.G]), found.basis) and found.F.shape == (n, found.n_z)
         got = subspace_distance(system.Z, found.basis)
-        assert found.error_bound is not None and got <= found.error_bound < 1e-4
+        assert found.error_bound is not None and got <= found.error_bound < 1e-9
         worst = max(worst, got / found.error_bound)
-    print(f"got/bound at most {worst:.2g}")
+        ratios.append(found.error_bound / max(got, 1e-15))
+    print(f"got/bound at most {worst:.2g}, bound/got {np.median(ratios):.2g} in the median")
+    assert np.median(ratios) < 1e4
+
+
+@pytest.mark.parametrize("zeros", [(), (0.5,)], ids=str)
+def test_the_bound_holds_for_errors_of_any_shape(zeros: tuple[float, ...]) -> None:
+    """Samples that carry errors far above rounding, random, in one channel only, or alike every time: the bound grows
+    with them and holds.
+    """
+    ratios = []
+    for seed in range(4):
+        system = planted(80 + seed, zeros)
+        r = residual(system, seed)
+        plain = fault_space(r, system.A, system.C)
+        draw = np.random.default_rng(seed).standard_normal(r.shape)
+        errors = [1e-14 * draw, 1e-13 * draw * [0, 1, 0], np.full(r.shape, 1e-13), 1e-13 * np.sin(np.arange(len(r)))[:, None]]
+        for error in errors:
+            found = noise_free_fault_space(r + error * np.abs(r).max(), system.A, system.C)
+            got = subspace_distance(system.Z, found.basis)
+            assert found.n_z == 2 + len(zeros) and found.error_bound is not None and plain.error_bound is not None
+            assert got <= found.error_bound
+            ratios.append(got / found.error_bound)
+    print(f"got/bound from {min(ratios):.1e} to {max(ratios):.1e}")
+    assert max(ratios) > 1e-3
 
 
 def test_the_papers_example() -> None:
@@ -283,8 +307,8 @@ def test_the_cost_of_a_long_window() -> None:
     # The chirp is nearly a solution of a recursion of order 60: the space is worse, and the bound and the verdict
     # say so.
     dull = fault_space(residual(system, samples=2000), system.A, system.C, block_rows=60)
-    assert dull.n_z == 1 and not dull.decided and dull.error_bound is not None and dull.error_bound > 1
-    assert subspace_distance(system.Z, dull.basis) < 1e-2
+    assert dull.n_z == 1 and not dull.decided and dull.error_bound is not None and dull.error_bound > 1e-3
+    assert subspace_distance(system.Z, dull.basis) < min(dull.error_bound, 1e-2)
 
 
 def test_the_factor_stands_for_the_hankel_matrix() -> None:

@@ -1,5 +1,6 @@
 """PI-MOESP: exact without noise, consistent under coloured additive faults, honest about order, stability and bad data."""
 
+import re
 import tracemalloc
 from typing import Any
 
@@ -392,6 +393,26 @@ def test_block_rows_at_the_lag_are_told() -> None:
     found = pi_moesp(y, u, order=3, block_rows=3, past_rows=6)
     assert any("at or below the system's lag" in warning for warning in found.warnings)
     assert pi_moesp(y, u, order=3, block_rows=4, past_rows=6).warnings == ()
+
+
+def test_a_clean_gap_that_leaves_A_undetermined_names_no_order() -> None:
+    """One fault in three outputs and no noise: L32 loses rank far beyond the order, where a huge gap is no order."""
+    truth, rng = system(3, 2, 3, seed=1), np.random.default_rng(1)
+    u, v = rng.standard_normal((3000, 2)), rng.standard_normal((3000, 1))
+    driven = StateSpaceModel(truth.A, np.hstack([truth.B, rng.standard_normal((3, 1))]), truth.C, np.hstack([truth.D, np.zeros((3, 1))]))
+    y = driven.simulate(np.hstack([u, v]))
+    s, beyond = 20, re.compile(r"after (\d+), ratio (\S+), leaves A undetermined")
+    with pytest.raises(InvalidData, match=beyond) as refused:
+        pi_moesp(y, u, block_rows=s)
+    with pytest.raises(InvalidData, match=beyond):
+        pi_moesp_from_compression(compress(y, u, block_rows=s))
+    ((place, ratio),) = beyond.findall(str(refused.value))
+    # r adds n + s n_v directions less the zeros, of which there is at least one for lack of feedthrough.
+    assert s <= int(place) < s + 3 and float(ratio) > 1e6
+    given = pi_moesp(y, u, order=3, block_rows=s)
+    assert given.warnings == () and behaviour_error(given.model, truth) < 0.1
+    forced = pi_moesp(y, u, order=int(place), block_rows=s)
+    assert any("not determined" in warning for warning in forced.warnings), "an order that was given is taken, and told of"
 
 
 def test_conversions_are_forwarded() -> None:

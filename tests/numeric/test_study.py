@@ -2,20 +2,39 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from faultspace.numeric import study_systems
-from faultspace.numeric.distances import containment_distance, subspace_distance
-from faultspace.numeric.example_v import behaviour_ranks, exact_fault_space, lines, published_ranks, tally
+from faultspace.numeric import study_experiments
+from faultspace.numeric.distances import author_error, containment_distance, subspace_distance
+from faultspace.numeric.example_v import (
+    behaviour_ranks,
+    exact_fault_space,
+    example_v,
+    lines,
+    published_ranks,
+    recorded_errors,
+    tally,
+)
 from faultspace.numeric.example_v import system as example_system
 from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.monte_carlo import STUDIES, by_phase, by_zeros, null_rows_estimate, study_as_corrected, study_as_published
-from faultspace.numeric.study_systems import NOISE_GAIN, experiment, pencil_zeros, study_system
+from faultspace.numeric.monte_carlo import CORRECTED, PUBLISHED, STUDIES, by_phase, by_zeros, median_interval, run_study
+from faultspace.numeric.study_cases import LIKELIHOOD, PAPER, Case, Errors
+from faultspace.numeric.study_experiments import NOISE_GAIN, experiment, response
+from faultspace.numeric.study_systems import pencil_zeros, study_system
+
+# Medians of the author's own run, 25 systems for each number of zeros, in percent, read off the plot that his notebook keeps.
+RECORDED_MEDIANS = {1: 2.3, 2: 1.7, 3: 0.9}
+
+
+def errors(case: Case) -> Errors:
+    """Of the published estimator, which answers every case."""
+    found = case.estimates[PAPER].errors
+    assert found is not None
+    return found
 
 
 @pytest.mark.parametrize("n_zeros", range(4))
@@ -49,13 +68,19 @@ def test_the_pencil_finds_zeros_that_no_construction_put_there() -> None:
     assert pencil_zeros(A, F, C, np.array([[-0.5], [-1.5]])).size == 0
 
 
-def test_the_estimator_finds_the_fault_space_without_noise() -> None:
+def test_three_zeros_sit_in_a_column_of_the_published_length() -> None:
+    # The generator's normal draw of two coefficients in a basis of length 1/sqrt(2): Rayleigh, with median sqrt(2 log 2) / sqrt(2).
+    lengths = [np.linalg.norm(study_system(3, seed).fault_columns[:, 0]) for seed in range(300)]
+    assert abs(np.median(lengths) - np.sqrt(np.log(2))) < 0.12
+
+
+def test_the_response_is_that_of_the_model() -> None:
+    rng = np.random.default_rng(0)
     for n_zeros in range(4):
-        system = study_system(n_zeros, 8)
-        run = experiment(system, 9, level=0.0)
-        r = run.y - system.model.simulate(run.u)
-        found = null_rows_estimate(r, system.model.A, system.model.C, block_rows=6, rank=17 - n_zeros, n_z=2 + n_zeros)
-        assert subspace_distance(found, system.Z) < 1e-6
+        model = study_system(n_zeros, 11).model
+        u, x0 = rng.standard_normal((300, 1)), rng.standard_normal(5)
+        for samples in (1, 3, 300):
+            assert np.allclose(response(model, u[:samples], x0), model.simulate(u[:samples], x0), rtol=1e-9, atol=1e-10)
 
 
 def test_the_stated_noise_is_43_decibels_and_the_corrected_one_40() -> None:
@@ -67,28 +92,15 @@ def test_the_stated_noise_is_43_decibels_and_the_corrected_one_40() -> None:
     assert abs(published - 43) < 0.2
 
 
-def test_cases_do_not_depend_on_the_number_of_workers_nor_on_how_many_follow() -> None:
-    alone, together = (study_as_published(systems=6, seed=4, jobs=jobs, samples=300) for jobs in (1, 2))
-    for one, two in zip(alone.cases, together.cases, strict=True):
-        assert one.zeros == two.zeros and one.random == two.random
-        assert one.errors is not None and two.errors is not None
-        # BLAS may run on other numbers of threads here and there: equal up to rounding.
-        assert np.allclose(list(asdict(one.errors).values()), list(asdict(two.errors).values()), rtol=1e-6, atol=1e-9)
-    shorter = study_as_published(systems=5, seed=4, jobs=1, samples=300)
-    assert shorter.cases == alone.cases[:5]
-    assert study_as_published(systems=5, seed=5, jobs=1, samples=300).cases != shorter.cases
-
-
 def test_vacuous_cases_are_those_without_a_null_row_and_only_those() -> None:
-    published, corrected = (make(systems=8, jobs=1, samples=300) for make in (study_as_published, study_as_corrected))
+    published, corrected = (run_study(plan, systems=8, jobs=1, samples=300) for plan in (PUBLISHED, CORRECTED))
     assert [case.n_zeros for case in published.cases] == [0, 1, 2, 3] * 2
     assert [case.vacuous for case in published.cases] == [True, False, False, False] * 2
     assert not any(case.vacuous for case in corrected.cases)
     for case in published.cases:
         if case.vacuous:
-            assert case.errors is not None
-            assert case.errors.published < 1e-9 and case.random.published < 1e-9
-            assert case.errors.two_sided > 0.5  # the whole space is far from a plane
+            assert errors(case).published < 1e-9 and case.random.published < 1e-9
+            assert errors(case).two_sided > 0.5  # the whole space is far from a plane
             assert (case.rank, case.rows, case.n_z) == (15, 15, 8)
     groups = by_zeros(published)
     assert [group.label for group in groups] == ["0 zeros", "1 zero", "2 zeros", "3 zeros"]
@@ -97,18 +109,59 @@ def test_vacuous_cases_are_those_without_a_null_row_and_only_those() -> None:
 
 
 def test_all_studies_see_the_same_systems_and_beat_a_random_subspace() -> None:
-    studies = [study(systems=8, seed=2, jobs=1) for study in STUDIES.values()]
+    studies = [run_study(plan, systems=8, seed=2, jobs=1) for plan in STUDIES.values()]
     assert len({tuple(case.zeros for case in study.cases) for study in studies}) == 1
     for study in studies:
-        errors = [study.error(case) for case in study.cases if not case.vacuous]
+        found = [study.error(case) for case in study.cases if not case.vacuous]
         random = [study.random_error(case) for case in study.cases if not case.vacuous]
-        assert np.median([error for error in errors if error is not None]) < 0.7 * np.median(random)
+        assert np.median([error for error in found if error is not None]) < 0.8 * np.median(random)
         assert study.to_json()["vacuous"] == sum(case.vacuous for case in study.cases)
+
+
+def test_the_authors_recorded_medians_are_within_sampling_error() -> None:
+    study = run_study(PUBLISHED, systems=600, seed=1, jobs=1)
+    for n_zeros, recorded in RECORDED_MEDIANS.items():
+        found = [100 * errors(case).published for case in study.cases if case.n_zeros == n_zeros]
+        # The median of 25 draws lies between these quantiles of the population in 99.9 % of all runs: Beta(13, 13).
+        low, high = np.quantile(found, (0.2, 0.8))
+        assert low < recorded < high
+        # And a population of twice that error would be told from it.
+        assert np.quantile(found, 0.5) < 4 * recorded
+
+
+def test_likelihood_comes_closer_than_the_published_estimator() -> None:
+    study = run_study(CORRECTED, systems=24, jobs=1)
+    paper, likelihood = (np.array([study.error(case, name) for case in study.cases], dtype=float) for name in (PAPER, LIKELIHOOD))
+    assert np.median(likelihood) < 0.5 * np.median(paper)
+    for case in study.cases:
+        assert case.estimates[PAPER].n_z == case.n_z
+    groups = [group for group in by_zeros(study) if group.estimator == LIKELIHOOD]
+    right = [case.estimates[LIKELIHOOD].n_z == case.n_z for case in study.cases]
+    assert sum(group.right_dimension for group in groups) == sum(right) > 12
+
+
+def test_the_published_metric_is_the_same_angles_over_another_maximum() -> None:
+    case = run_study(PUBLISHED, systems=2, jobs=1, samples=300).cases[1]
+    assert errors(case).published == pytest.approx(errors(case).containment / np.sqrt(2))
+    system = study_system(2, 5)
+    basis = np.linalg.qr(np.random.default_rng(3).standard_normal((8, 4)))[0]
+    angles = np.arccos(np.clip(np.linalg.svd(np.linalg.qr(system.fault_columns)[0].T @ basis, compute_uv=False), 0, 1))
+    assert author_error(system.fault_columns, basis) == pytest.approx(np.linalg.norm(angles) / np.pi)
+
+
+@pytest.mark.parametrize(("count", "ranks"), [(6, (1, 6)), (7, (1, 7)), (9, (2, 8)), (25, (8, 18)), (100, (40, 61))])
+def test_the_interval_of_a_median_is_that_of_the_sign_test(count: int, ranks: tuple[int, int]) -> None:
+    # The ranks tabulated for the sign test at 95 %.
+    assert median_interval([float(k) for k in range(count, 0, -1)]) == ranks
+
+
+def test_few_values_have_no_interval() -> None:
+    assert median_interval([1.0] * 5) is None and median_interval([]) is None
 
 
 def test_progress_counts_to_the_end() -> None:
     seen: list[tuple[int, int, float]] = []
-    study_as_corrected(systems=3, jobs=1, samples=200, progress=lambda *told: seen.append(told))
+    run_study(CORRECTED, systems=3, jobs=1, samples=200, progress=lambda *told: seen.append(told))
     assert [(done, total) for done, total, _ in seen] == [(1, 3), (2, 3), (3, 3)]
     assert seen[-1][2] == 0.0
 
@@ -116,7 +169,7 @@ def test_progress_counts_to_the_end() -> None:
 @pytest.mark.parametrize("wrong", [{"systems": 0}, {"jobs": 0}, {"seed": -1}, {"samples": 0}])
 def test_bad_numbers_are_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(InvalidData, match=next(iter(wrong))):
-        study_as_published(**wrong)
+        run_study(PUBLISHED, **wrong)
 
 
 def test_only_up_to_three_zeros_are_built() -> None:
@@ -130,7 +183,7 @@ def test_figures_are_drawn_on_the_axes_given(tmp_path: Path) -> None:
 
     from faultspace.numeric import study_plots
 
-    study = study_as_published(systems=8, jobs=1, samples=200)
+    study = run_study(PUBLISHED, systems=8, jobs=1, samples=200)
     for draw in (study_plots.error_histogram, study_plots.errors_by_zeros, study_plots.errors_by_phase, study_plots.errors_against_circle):
         ax = Figure().add_subplot()
         assert draw(study, ax) is ax
@@ -139,8 +192,11 @@ def test_figures_are_drawn_on_the_axes_given(tmp_path: Path) -> None:
     ax = study_plots.error_histogram(study, Figure().add_subplot())
     heights = [bar.get_height() for container in ax.containers for bar in container if bar.get_hatch() is None]
     assert max(heights) <= 6 and sum(heights) == 6
-    study_plots.study_figure(study).savefig(tmp_path / "figure.png")
-    assert (tmp_path / "figure.png").stat().st_size > 10000
+    for each, panels in ((study, 4), (run_study(CORRECTED, systems=8, jobs=1, samples=200), 6)):
+        figure = study_plots.study_figure(each)
+        assert len(figure.axes) == panels
+        figure.savefig(tmp_path / "figure.png")
+        assert (tmp_path / "figure.png").stat().st_size > 10000
 
 
 def test_the_example_tells_where_its_ranks_differ_from_theory(published_run: list[str]) -> None:
@@ -155,8 +211,6 @@ def test_the_example_tells_where_its_ranks_differ_from_theory(published_run: lis
 @pytest.fixture(scope="module")
 def published_run() -> list[str]:
     """The example's own words for its default seed."""
-    from faultspace.numeric.example_v import example_v
-
     run = example_v()
     assert run.theory == (2, 4, 5, 6, 7, 8)
     assert run.default_true == run.theory
@@ -167,6 +221,19 @@ def published_run() -> list[str]:
     return list(lines(run))
 
 
+def test_the_authors_recorded_fault_spaces_are_those_of_the_example() -> None:
+    true, identified = recorded_errors()
+    assert true < 5e-5  # four digits
+    found = [example_v(seed).angle_published for seed in range(8)]
+    # His is one draw of a quantity that spans a decade: of 50 runs, 95 % lie between a third and three and a half times their median, and
+    # 96 % below his. No right or wrong rank for the window moves that by more than a factor of three.
+    assert np.median(found) / 5 < identified < 5 * np.median(found)
+    # His ranks, 6 and 7, are what a good part of all runs give, and the true ones come out in others.
+    pairs = [published_ranks(seed) for seed in range(30)]
+    assert 0.1 < np.mean([pair == (6, 7) for pair in pairs]) < 0.7
+    assert (7, 8) in pairs
+
+
 def test_the_examples_ranks_are_counted_over_runs() -> None:
     counted = list(tally(4))
     assert sum(int(line.split(" in ")[1].split()[0]) for line in counted[1:]) == 4
@@ -175,5 +242,5 @@ def test_the_examples_ranks_are_counted_over_runs() -> None:
 
 
 def test_the_noise_gain_is_that_of_the_filter() -> None:
-    noise = study_systems.coloured_noise(200000, 1, np.random.default_rng(0))
+    noise = study_experiments.coloured_noise(200000, 1, np.random.default_rng(0))
     assert abs(noise.std() - NOISE_GAIN) < 0.01

@@ -1,0 +1,114 @@
+"""The 100-system study of the paper, by the author's program under Octave and by ours: seconds and median errors.
+
+The author's text is taken from the clone that the user names, sections 1 to 4 of montecarlo.mlx (systems, data, estimates, errors; the
+plots are left out), and run as it stands, with two functions that Octave lacks put beside it: `tzero` calls the control package's
+`zero`, and `svds(M, k, "smallest")` is the end of a full `svd`. Ours are the same steps: the study with the published settings.
+
+Comparison      seconds of both, ours with one process and over all cores, and the median errors
+compare         runs both; None of the author's where there is no clone or no Octave
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import tempfile
+import zipfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from benchmarks.identification_cells import RESULT, environment, python_command
+from benchmarks.identification_octave import octave_command, octave_missing
+
+SYSTEMS = 100
+SECTIONS = 4
+REPEATS = 3
+LIMIT = 300.0
+SHIMS = {
+    "tzero.m": "function z = tzero (system, varargin)\n  z = zero (system);\nend\n",
+    "svds.m": """function [U, S, V] = svds (M, k, varargin)
+  [U, S, V] = svd (M, "econ");
+  U = U(:, end-k+1:end); S = S(end-k+1:end, end-k+1:end); V = V(:, end-k+1:end);
+end
+""",
+}
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Seconds without start and imports, the least of REPEATS; errors in percent; `why` the author's are absent."""
+
+    one_process: float
+    all_cores: float
+    error: float
+    author: float | None = None
+    author_error: float | None = None
+    why: str = ""
+
+
+def sections(notebook: Path) -> list[str]:
+    """The code cells of a MATLAB live script."""
+    with zipfile.ZipFile(notebook) as archive:
+        root = ElementTree.fromstring(archive.read("matlab/document.xml"))
+    space = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
+    found = []
+    for paragraph in root.iter(space + "p"):
+        style = paragraph.find(f"{space}pPr/{space}pStyle")
+        if style is not None and style.get(space + "val") == "code":
+            found.append("".join(text.text or "" for text in paragraph.iter(space + "t")))
+    return found
+
+
+def author_study(fault_id: Path) -> str:
+    """The program that times sections 1 to 4 and tells the median error."""
+    code = [text.replace("close all;", "") for text in sections(fault_id / "montecarlo.mlx")[:SECTIONS]]
+    head = f'pkg load control; warning off; addpath ("{fault_id}"); addpath ("{fault_id / "Monte Carlo"}"); addpath (pwd);\nbegun = tic;\n'
+    told = 'printf ("RESULT {\\"seconds\\": %.6g, \\"error\\": %.6g}\\n", toc (begun), 100 * median ([scenario.error]));\n'
+    return head + "\n".join(code) + "\n" + told
+
+
+def study_here() -> dict[str, Any]:
+    """Our side, in this process: the study once to warm up, then on one process and on all cores."""
+    import numpy as np
+
+    from faultspace.numeric.monte_carlo import PUBLISHED, run_study
+
+    seconds: dict[int | None, float] = {}
+    for jobs in (1, None):
+        run_study(PUBLISHED, systems=8, jobs=jobs)
+        studies = [run_study(PUBLISHED, systems=SYSTEMS, jobs=jobs) for _ in range(REPEATS)]
+        seconds[jobs] = min(study.seconds for study in studies)
+    errors = [error for case in studies[0].cases if (error := studies[0].error(case)) is not None]
+    return {"one_process": seconds[1], "all_cores": seconds[None], "error": 100 * float(np.median(errors))}
+
+
+def compare(fault_id: Path | None) -> Comparison:
+    """Both sides, one after the other."""
+    ours = Comparison(**_told(python_command("study"), Path.cwd()))
+    why = "no clone of ggleizer/fault_id given (--fault-id)" if fault_id is None else octave_missing()
+    if fault_id is None or why is not None:
+        return replace(ours, why=why or "")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for file, text in SHIMS.items():
+            (folder / file).write_text(text, "utf-8")
+        (folder / "study.m").write_text(author_study(fault_id.resolve()), "utf-8")
+        try:
+            runs = [_told(octave_command("source study.m"), folder) for _ in range(REPEATS)]
+        except (RuntimeError, subprocess.TimeoutExpired) as error:
+            return replace(ours, why=str(error)[:120])
+    return replace(ours, author=min(run["seconds"] for run in runs), author_error=runs[0]["error"])
+
+
+def _told(command: list[str], folder: Path) -> dict[str, Any]:
+    done = subprocess.run(
+        command, cwd=folder, env=environment(), capture_output=True, check=False, text=True, timeout=LIMIT, stdin=subprocess.DEVNULL
+    )
+    lines = [line for line in done.stdout.splitlines() if line.startswith(RESULT)]
+    if not lines:
+        said = [line for line in done.stderr.splitlines() if "error" in line.lower()] or ["no message"]
+        raise RuntimeError(f"exit {done.returncode}: {said[0]}")
+    told: dict[str, Any] = json.loads(lines[-1][len(RESULT) :])
+    return told

@@ -1,0 +1,278 @@
+"""Maximum likelihood for a whole kernel basis: the k = p - n_v polynomial rows N(q) that annihilate r up to noise, at once.
+
+r = s + w with N(q) s = 0 whatever the faults are [W91], w of spectrum phi in every channel. Eliminating s leaves
+
+    cost(N) = sum over frequencies of tr[(N N*)^-1 N r r* N*] / phi
+
+which depends on the rows through the space they span alone, and for one row is |N r|^2 / (phi N N*). The colour phi is
+estimated in turns with N, as an autoregression of the whitened row residual scaled to a mean logarithm of zero.
+
+    degrees        eta_1 .. eta_k, the degree of each row
+    within         for each row, the vectors that its coefficients may combine: P with P O_(eta+1) = 0
+    h              what is sought: the coefficients of every row in its `within`, one after the other
+    gauge          changes of h that leave the span alone: adding q^a N_j to N_i for a <= eta_i - eta_j
+    KernelBasis    the rows, their level, the noise colour, and the covariance of h off the gauge
+    level          log noise power a sample and row that N leaves, in nats
+    information    second derivatives of the cost; `scores` the variance of its slope: noise enters the slope with the
+                   noisy window, not with the clean one, so that the covariance is H^-1 J H^-1 and not H^-1 [W82]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import NDArray
+
+from .tapered_moments import CrossMoments
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+NOISE_ORDER = 10
+ROUNDS = 12
+# Nats a sample: a descent that gains less is at its end; a round of colours that gains less is the last one.
+FLAT, SETTLED = 1e-6, 1e-4
+STEPS = 80
+# Least noise spectrum beside its geometric mean: below it a null of the noise would claim all the weight.
+COLOUR_FLOOR = 1e-4
+TINY = float(np.finfo(float).tiny)
+
+
+@dataclass(frozen=True)
+class KernelBasis:
+    """`rows`: k arrays (eta_i + 1, p), N_i(q) = sum_j rows[i][j] q^j, unit norm; `level` in nats; `noise_colour` the monic autoregression;
+    `within` as given; `covariance` of h, zero along the gauge."""
+
+    rows: tuple[Array, ...]
+    level: float
+    noise_colour: Array
+    within: tuple[Array, ...]
+    covariance: Array
+
+
+def kernel_basis(
+    moments: CrossMoments,
+    within: Sequence[Array],
+    starts: Sequence[Sequence[Array]] = (),
+    *,
+    noise_order: int = NOISE_ORDER,
+    rounds: int = ROUNDS,
+) -> KernelBasis:
+    """The likeliest basis; row i combines the orthonormal rows of within[i] (q_i, p (eta_i + 1)).
+
+    `starts`: bases, each k arrays (eta_i + 1, p), tried beside the rows that the moments make least.
+    """
+    problem = _problem(moments, within)
+    colour = np.ones(len(moments.angles))
+    guesses = [
+        np.concatenate([basis @ row.ravel() for basis, row in zip(within, start, strict=True)]) for start in starts
+    ]
+    guesses += _plain(problem, within)
+    fits = [_descend(problem, colour, _normed(problem, h)) for h in guesses]
+    h, cost = min(fits, key=lambda fit: fit[1])
+    regression = np.ones(1)
+    before = np.inf
+    for _ in range(rounds if noise_order else 0):
+        spectrum = _whitened_power(problem, h) / problem.weights
+        regression = _autoregression(spectrum, moments.angles, problem.weights, noise_order)
+        colour = _colour(regression, moments.angles, problem.weights)
+        h, cost = _descend(problem, colour, h)
+        if abs(before - np.log(max(cost, TINY))) < SETTLED:
+            break
+        before = np.log(max(cost, TINY))
+    k = len(within)
+    level = float(np.log(max(cost / k, TINY)) + np.log(problem.size))
+    rows = tuple(
+        (part @ basis).reshape(-1, moments.channels)
+        for part, basis in zip(np.split(h, problem.cuts), within, strict=True)
+    )
+    covariance = _covariance(problem, colour, h, max(cost / k, TINY), moments.samples)
+    return KernelBasis(rows, level, regression, tuple(within), covariance)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """Moments in units of their mean (bands, w, w), gains of white noise alike, and the map `spread` (q, k, w) from h to rows
+    padded to the same degree."""
+
+    data: ComplexArray
+    gains: ComplexArray
+    weights: Array
+    spread: Array
+    cuts: Array
+    degrees: tuple[int, ...]
+    channels: int
+    size: float
+
+    def rows(self, h: Array) -> Array:
+        """(k, w)."""
+        return np.asarray(np.tensordot(h, self.spread, axes=1))
+
+
+def _problem(moments: CrossMoments, within: Sequence[Array]) -> _Problem:
+    p, width = moments.channels, moments.channels * (moments.degree + 1)
+    powers = np.exp(1j * np.outer(moments.angles, np.arange(moments.degree + 1)))
+    gains = np.einsum("bi,bj,kl->bikjl", powers, powers.conj(), np.eye(p), optimize=True)
+    size = float(np.trace(moments.moments.sum(axis=0)).real) / width or 1.0
+    counts = [len(basis) for basis in within]
+    spread = np.zeros((sum(counts), len(within), width))
+    cuts = np.cumsum(counts)
+    for i, basis in enumerate(within):
+        spread[cuts[i] - counts[i] : cuts[i], i, : basis.shape[1]] = basis
+    degrees = tuple(basis.shape[1] // p - 1 for basis in within)
+    return _Problem(
+        moments.moments / size,
+        gains.reshape(len(powers), width, width),
+        moments.weights,
+        spread,
+        cuts[:-1],
+        degrees,
+        p,
+        size,
+    )
+
+
+def _plain(problem: _Problem, within: Sequence[Array]) -> list[Array]:
+    """The left singular vectors of least value of P R: two choices for one row, one for several."""
+    power = problem.data.sum(axis=0).real
+    taken: dict[int, int] = {}
+    parts, seconds = [], []
+    for basis, degree in zip(within, problem.degrees, strict=True):
+        size = basis.shape[1]
+        vectors = np.linalg.eigh(basis @ power[:size, :size] @ basis.T)[1]
+        # A row of higher degree begins after the shifts of those of lower degree, which are as small.
+        index = taken.setdefault(degree, sum(max(degree - other + 1, 0) for other in problem.degrees if other < degree))
+        parts.append(vectors[:, min(index, vectors.shape[1] - 1)])
+        seconds.append(vectors[:, min(index + 1, vectors.shape[1] - 1)])
+        taken[degree] += 1
+    return [np.concatenate(parts)] + ([np.concatenate(seconds)] if len(within) == 1 else [])
+
+
+def _normed(problem: _Problem, h: Array) -> Array:
+    """h with rows of unit norm, those of one degree orthonormal: the span stays the same."""
+    parts = np.split(h, problem.cuts)
+    for degree in set(problem.degrees):
+        chosen = [i for i, other in enumerate(problem.degrees) if other == degree]
+        block = np.linalg.qr(np.column_stack([parts[i] for i in chosen]))[0]
+        for column, i in enumerate(chosen):
+            parts[i] = block[:, column]
+    return np.concatenate(parts)
+
+
+def _parts(problem: _Problem, h: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
+    """For rows N: X = S N', Y = Q N' (bands, w, k), E = N X and W = (N Y)^-1 (bands, k, k)."""
+    N = problem.rows(h)
+    X, Y = problem.data @ N.T, problem.gains @ N.T
+    return X, Y, N @ X, np.asarray(np.linalg.inv(N @ Y + 1e-12 * np.eye(len(N))), dtype=complex)
+
+
+def _whitened_power(problem: _Problem, h: Array) -> Array:
+    """tr[(N N*)^-1 N r r* N*] a row, in each band: (bands,)."""
+    _, _, E, W = _parts(problem, h)
+    return np.asarray(np.maximum(np.einsum("bij,bji->b", W, E).real, 0.0) / len(problem.degrees))
+
+
+def _cost(problem: _Problem, colour: Array, h: Array) -> float:
+    return float(np.sum(_whitened_power(problem, h) / colour)) * len(problem.degrees)
+
+
+def _derivatives(problem: _Problem, colour: Array, h: Array) -> tuple[Array, Array, Array]:
+    """Half the gradient of the cost, half its second derivatives, and the part of these that the scores' variance is made of."""
+    X, Y, E, W = _parts(problem, h)
+    bleach = 1 / colour[:, None, None]
+    XW, YW = (X * bleach) @ W, Y @ W
+    M = W @ (E * bleach) @ W
+    YM, Yh = Y @ M, Y.conj().transpose(0, 2, 1)
+    crossed = XW @ Yh
+    left = problem.data * bleach - crossed - crossed.conj().transpose(0, 2, 1) + YM @ Yh
+    # Indices (row, coefficient) of both factors of every product of two matrices, one (row, row), one (w, w).
+    scores = np.tensordot(W, left, axes=(0, 0)).real.transpose(1, 2, 0, 3)
+    second = scores + np.tensordot(M, YW @ Yh - problem.gains, axes=(0, 0)).real.transpose(1, 2, 0, 3)
+    # The others bind each row of one factor to the coefficients of the other.
+    mixed = np.tensordot(YW, YM - XW, axes=(0, 0)).real
+    second = second + mixed.transpose(3, 0, 1, 2) + mixed.transpose(1, 2, 3, 0)
+    spread = problem.spread.reshape(len(h), -1)
+    gradient = spread @ (XW - YM).sum(axis=0).real.T.ravel()
+    width = spread.shape[1]
+    second = spread @ second.reshape(width, width) @ spread.T
+    return gradient, (second + second.T) / 2, spread @ scores.reshape(width, width) @ spread.T
+
+
+def _free(problem: _Problem, h: Array) -> Array:
+    """Orthonormal columns (q, q - gauge): the changes of h that change the span."""
+    N = problem.rows(h)
+    p = problem.channels
+    shifts = []
+    for i, degree in enumerate(problem.degrees):
+        for j, other in enumerate(problem.degrees):
+            for a in range(degree - other + 1):
+                shifted = np.zeros_like(N)
+                shifted[i, a * p :] = N[j, : N.shape[1] - a * p]
+                shifts.append(problem.spread.reshape(len(h), -1) @ shifted.ravel())
+    return np.asarray(scipy.linalg.null_space(np.array(shifts), rcond=1e-10))
+
+
+def _descend(problem: _Problem, colour: Array, h: Array) -> tuple[Array, float]:
+    """Levenberg-Marquardt off the gauge. Invariant: the cost never rises."""
+    damping, cost = 1e-3, _cost(problem, colour, h)
+    for _ in range(STEPS):
+        gradient, second, scores = _derivatives(problem, colour, h)
+        free = _free(problem, h)
+        if free.shape[1] == 0:
+            break
+        gradient, second = free.T @ gradient, free.T @ second @ free
+        ridge = np.maximum(np.einsum("ij,ji->i", free.T @ scores, free), TINY)
+        new = np.inf
+        while damping < 1e10:
+            try:
+                # An indefinite matrix would climb: more damping until it has a Cholesky factor.
+                factor = scipy.linalg.cho_factor(second + damping * np.diag(ridge))
+                trial = _normed(problem, h - free @ scipy.linalg.cho_solve(factor, gradient))
+                new = _cost(problem, colour, trial)
+            except np.linalg.LinAlgError:
+                new = np.inf
+            if new < cost:
+                break
+            damping *= 8.0
+        if not new < cost:
+            break
+        drop = np.log(cost / max(new, TINY))
+        h, cost, damping = trial, new, max(damping / 8.0, 1e-12)
+        if drop < FLAT:
+            break
+    return h, cost
+
+
+def _covariance(problem: _Problem, colour: Array, h: Array, power: float, samples: float) -> Array:
+    """Covariance of h off the gauge, H^-1 J H^-1 with J = power / samples times the scores, these weighted by the noise that the
+    bands hold in fact: what the autoregression misses widens the answer."""
+    free = _free(problem, h)
+    if free.shape[1] == 0:
+        return np.zeros((len(h), len(h)))
+    second = _derivatives(problem, colour, h)[1]
+    # The scores are proportional to 1 / colour, band by band.
+    found = np.maximum(_whitened_power(problem, h) / (power * problem.weights * colour), COLOUR_FLOOR)
+    scores = _derivatives(problem, colour / found, h)[2]
+    second, scores = free.T @ second @ free, free.T @ scores @ free
+    inverse = np.asarray(scipy.linalg.pinvh(second))
+    return np.asarray(free @ inverse @ scores @ inverse @ free.T) * power / samples
+
+
+def _autoregression(spectrum: Array, angles: Array, weights: Array, order: int) -> Array:
+    """The monic Yule-Walker autoregression of a spectrum sampled at the angles."""
+    lags = np.cos(np.outer(np.arange(order + 1), angles)) @ (spectrum * weights)
+    if not lags[0] > 0.0:
+        return np.asarray(np.eye(1, order + 1)[0], dtype=np.float64)
+    column = lags[:-1] + 1e-9 * lags[0] * (np.arange(order) == 0)
+    return np.concatenate([[1.0], -scipy.linalg.solve_toeplitz(column, lags[1:])])
+
+
+def _colour(regression: Array, angles: Array, weights: Array) -> Array:
+    """Its spectrum, of mean logarithm zero, not below the floor."""
+    colour = 1.0 / np.abs(np.exp(-1j * np.outer(angles, np.arange(len(regression)))) @ regression) ** 2
+    colour /= np.exp(np.log(colour) @ weights)
+    colour = np.maximum(colour, COLOUR_FLOOR)
+    return np.asarray(colour / np.exp(np.log(colour) @ weights))

@@ -1,0 +1,50 @@
+"""Runs of `faultspace identify`, shared by the tests of what it answers and of what it reads.
+
+CHANNELS        options that name the packaged record's channels
+identified      a run in this process into a folder
+refused         asserts one line of complaint and exit code 2
+small_csv       a text as a file
+valid           a document that the schema of that name in the package accepts
+"""
+
+from __future__ import annotations
+
+import json
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+
+from faultspace import example_data as made
+from tests.end_to_end.commands import Run, call
+
+CHANNELS = ("--inputs", ",".join(made.INPUTS), "--outputs", ",".join(made.OUTPUTS))
+
+
+def small_csv(folder: Path, text: str, name: str = "data.csv") -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def identified(path: Path, out: Path, *options: str, channels: tuple[str, ...] = CHANNELS) -> Run:
+    """A run with the packaged record's channels unless others are given."""
+    return call("identify", str(path), *channels, "--out", str(out), *options)
+
+
+def refused(run: Run, *parts: str) -> None:
+    """One line on standard error with these parts; nothing on standard output; exit code 2."""
+    assert (run.code, run.out) == (2, ""), run
+    (line,) = run.err.strip().splitlines()
+    assert line.startswith("faultspace: "), run.err
+    for part in parts:
+        assert part in line, line
+
+
+def valid(name: str, document: Any) -> Any:
+    """The document, which the schema NAME.schema.json accepts."""
+    schema = json.loads(resources.files("faultspace").joinpath("schemas", f"{name}.schema.json").read_text("utf-8"))
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.Draft202012Validator(schema).validate(document)
+    return document

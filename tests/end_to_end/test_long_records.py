@@ -1,0 +1,211 @@
+"""Records longer than memory: the same answers as from arrays, memory that does not grow with them, and progress that is told.
+
+long_record     the packaged system's record as y, u and a Record
+peak            the most memory (MiB) of a process that identifies a file, with little held
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import io
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from faultspace import example_data as made
+from faultspace import identifying, long_reconstruction, records
+from faultspace.long_reconstruction import reconstructed
+from faultspace.long_residuals import PART, loudest, residual_of
+from faultspace.numeric.compression import compress_chunks
+from faultspace.numeric.input_checks import InvalidData
+from faultspace.numeric.models import StateSpaceModel
+from faultspace.numeric.pi_moesp import pi_moesp
+from faultspace.numeric.pi_moesp_chunks import pi_moesp_from_chunks
+from faultspace.numeric.reconstruction import reconstruct_fault
+from faultspace.numeric.residuals import residual
+from faultspace.pass_progress import passes
+from faultspace.records import Passes, Record, RecordWriter, SampleStore, recorded
+from tests.end_to_end.commands import ROOT, environment
+from tests.end_to_end.identify_runs import CHANNELS
+
+Array = NDArray[np.float64]
+
+N = 40_000
+
+
+def silent(stage: str, done: int, total: int) -> None:
+    """Nothing is told."""
+
+
+@pytest.fixture
+def long_record(monkeypatch: pytest.MonkeyPatch) -> tuple[Array, Array, Record]:
+    monkeypatch.setattr(records, "IN_MEMORY", 1000)
+    made_record = made.faulty_record(N)
+    record = recorded(made_record.y, made_record.u, outputs=made.OUTPUTS, inputs=made.INPUTS)
+    assert record.store._file._rolled  # type: ignore[attr-defined]
+    return made_record.y, made_record.u, record
+
+
+def test_a_store_gives_back_what_it_took(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = np.random.default_rng(1).standard_normal((1000, 3))
+    for limit in (1 << 20, 5000):
+        monkeypatch.setattr(records, "IN_MEMORY", limit)
+        store = SampleStore(3)
+        for part in np.array_split(np.asfortranarray(rows), 7):
+            store.append(part)
+            assert np.array_equal(store.read(0, len(store)), rows[: len(store)])
+            assert np.array_equal(store.read(1, 2), rows[1:2])  # reading does not disturb what is written next
+        assert np.array_equal(np.vstack(list(store.pieces(10, 900))), rows[10:900])
+        assert len(store.read(999, 2000)) == 1 and not store.read(0, 5).flags.writeable
+
+
+def test_what_is_known_of_channels_is_that_of_the_arrays(long_record: tuple[Array, Array, Record]) -> None:
+    y, u, record = long_record
+    writer = RecordWriter(5)
+    for part in np.array_split(np.hstack([u, y + 1e6]) + np.arange(N)[:, np.newaxis] / N, 7):
+        writer.append(part)
+    y = y + np.arange(N)[:, np.newaxis] / N
+    lifted = writer.record(outputs=made.OUTPUTS, inputs=made.INPUTS, format="arrays")
+    assert np.allclose(lifted.channels.mean[2:], (y + 1e6).mean(axis=0), rtol=1e-12)
+    assert np.allclose(lifted.channels.deviation[2:], y.std(axis=0), rtol=1e-6)
+    y = long_record[0]
+    assert np.array_equal(record.channels.least, np.hstack([u, y]).min(axis=0))
+    about = record.about_means()
+    assert np.allclose(about.y, y - y.mean(axis=0), atol=1e-12) and np.array_equal(record.y, y)
+
+
+def test_model_and_residual_are_those_of_the_arrays(long_record: tuple[Array, Array, Record]) -> None:
+    y, u, record = long_record
+    whole = pi_moesp(y, u, block_rows=15)
+    told: list[str] = []
+    data = Passes(record, "model", lambda stage, done, total: told.append(f"{stage} {done}/{total}"))
+    found = pi_moesp_from_chunks(compress_chunks(data, block_rows=15), data)
+    assert found.order == whole.order == 3
+    assert np.allclose(found.model.markov(10), whole.model.markov(10), atol=1e-9)
+    assert f"model, pass 1 {N}/{N}" in told and f"model, pass 3 {N}/{N}" in told
+    rest, wanted = residual_of(record, found, "residual", silent), residual(y, u, whole.model)
+    r = rest.store.read(0, N)
+    assert np.allclose(r[0], y[0] - found.C @ rest.x0 - found.D @ u[0])
+    assert np.allclose(r[100:], wanted.r[100:], atol=1e-9)  # before, the initial states differ by the weights of the outputs
+    assert np.all(np.abs(rest.x0 - wanted.x0) < 5 * np.sqrt(np.diag(wanted.x0_covariance)))
+    assert np.allclose(rest.norm, np.linalg.norm(r, axis=0)) and np.allclose(rest.peak, np.abs(r).max(axis=0))
+    assert np.allclose(rest.covariance, wanted.covariance, rtol=1e-3)
+    with pytest.raises(InvalidData, match="only once"):
+        pi_moesp_from_chunks(compress_chunks(data, block_rows=15), iter(record))
+
+
+@pytest.mark.parametrize("G", [[[0.4], [0.0], [1.0]], [[1.0], [0.0], [0.0]], [[0.0], [0.0], [0.0]]], ids=["generic", "one", "delayed"])
+@pytest.mark.parametrize("p", [1, 3])
+def test_a_fault_signal_in_pieces_is_that_of_the_whole(G: list[list[float]], p: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    # With one output the fault has finite zeros, inside and outside the unit circle: their traces fade from both ends.
+    G_p, C = np.array(G)[:p], made.C[:p]
+    draw = np.random.default_rng(2)
+    v = draw.standard_normal((N, 1))
+    r = StateSpaceModel(made.A, made.F, C, G_p).simulate(v) + 1e-3 * draw.standard_normal((N, p))
+    whole = reconstruct_fault(r, made.A, made.F, C, G_p)
+    monkeypatch.setattr(long_reconstruction, "LONGEST", 6000)
+    store = SampleStore(p)
+    store.append(r)
+    got = reconstructed(store, made.A, made.F, C, G_p, "signal", silent)
+    first, last = whole.trusted
+    assert got.trusted == whole.trusted and len(got.store) == N and last - first > N - 1000
+    difference = np.linalg.norm(got.store.read(first, last) - whole.v[first:last]) / np.linalg.norm(whole.v[first:last])
+    assert difference < 1e-4 and got.mismatch < 1e-4  # the refinement of the regularised solution stops at different points
+    assert abs(got.misfit - whole.misfit) < 1e-6
+
+
+def test_faults_of_a_part_of_the_record_are_looked_for_there() -> None:
+    energies = np.ones(40)
+    energies[30:33] = 5.0
+    assert loudest(energies, 40 * PART - 7, 3 * PART) == (30 * PART, 33 * PART)
+    assert loudest(energies, 40 * PART - 7, 50 * PART) == (0, 40 * PART - 7)
+    energies[39] = 100.0
+    assert loudest(energies, 40 * PART - 7, 2 * PART + 5)[1] == 40 * PART - 7
+
+
+def test_a_late_fault_is_counted_and_the_stretch_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    draw = np.random.default_rng(4)
+    u, v = draw.standard_normal((N, 2)), np.zeros((N, 1))
+    v[30_000:36_000] = draw.standard_normal((6000, 1))
+    driven = StateSpaceModel(made.A, np.hstack([made.B, made.F]), made.C, np.hstack([made.D, made.G]))
+    y = driven.simulate(np.hstack([u, v])) + 0.02 * draw.standard_normal((N, 3))
+    monkeypatch.setattr(identifying, "HELD", 5 * 6000)
+    answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
+    first, last = answer.held
+    assert last - first == 6000 and 28_900 < first < 31_100
+    assert answer.count == 1 and any(f"on samples {first} to {last - 1}" in note for note in answer.notes)
+    assert answer.signal is not None
+    assert abs(np.corrcoef(answer.signal.store.read(30_000, 36_000)[:, 0], v[30_000:36_000, 0])[0, 1]) > 0.98
+
+
+# Memory
+
+SCRIPT = """
+import sys
+from faultspace import command_line, identifying, long_reconstruction, records
+identifying.HELD, records.IN_MEMORY, long_reconstruction.LONGEST = 1 << 16, {in_memory}, 1 << 13
+code = command_line.main(sys.argv[1:])
+with open("/proc/self/status") as status:
+    print(code, *[line.split()[1] for line in status if line.startswith("VmHWM")], file=sys.stderr)
+"""
+
+
+def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> float:
+    line = [sys.executable, "-c", SCRIPT.format(in_memory=in_memory), "identify", str(path), *channels, "--out", str(path) + ".answer"]
+    run = subprocess.run(line, capture_output=True, cwd=ROOT, env=environment(), timeout=240, text=True)
+    code, most = run.stderr.split()[-2:]
+    assert code == "0", run.stderr
+    return int(most) / 1024
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc to read the peak of memory from")
+@pytest.mark.parametrize("format", ["csv", "parquet", "npy"])
+def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
+    if format == "parquet" and importlib.util.find_spec("pyarrow") is None:
+        pytest.skip("pyarrow is not installed")
+    peaks, sizes = [], (40_000, 300_000)
+    for samples in sizes:
+        path = tmp_path / f"d{samples}.{format}"
+        record = made.faulty_record(samples)
+        channels = CHANNELS
+        if format == "csv":
+            path.write_text(made.csv_text(record), encoding="utf-8")
+        elif format == "npy":
+            np.save(path, np.hstack([record.u, record.y]))
+            channels = ("--inputs", "data[:,:2]", "--outputs", "data[:,2:]")
+        else:
+            pyarrow: Any = importlib.import_module("pyarrow")
+            columns = dict(zip([*made.INPUTS, *made.OUTPUTS], np.hstack([record.u, record.y]).T, strict=True))
+            importlib.import_module("pyarrow.parquet").write_table(pyarrow.table(columns), path, row_group_size=20_000)
+        peaks.append(peak(path, channels))
+    numbers = 8 * 5 * (sizes[1] - sizes[0]) / 2**20  # MiB of the record alone, the residual and the signal not counted
+    print(f"{format}: {peaks[0]:.0f} MiB at {sizes[0]} samples, {peaks[1]:.0f} at {sizes[1]}; {numbers:.0f} MiB more numbers")
+    assert peaks[1] - peaks[0] < numbers / 2, peaks
+
+
+# Progress
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_progress_is_told_on_a_terminal_and_nowhere_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    for stream, wanted in ((Terminal(), True), (io.StringIO(), False)):
+        monkeypatch.setattr(sys, "stderr", stream)
+        monkeypatch.setenv("TERM", "xterm")
+        with passes() as tell:
+            tell("reading", 0, 10)
+            tell("reading", 5, 10)
+            tell("identifying [pass 2]", 3, 10)
+            tell("counting", 0, 0)
+        shown = stream.getvalue()
+        assert bool(shown) == wanted
+        assert not wanted or "counting" in shown
