@@ -2,6 +2,7 @@
 
 run             the command's body
 verdict_table   one row a reading
+hypotheses_table   a row for each hypothesis dropped
 statements      a claim in full: as printed, as checked, hypotheses, evidence, certificates
 write_out       the headline certificates and verdicts.json into a folder
 """
@@ -21,7 +22,7 @@ from .exact.input_rules import InvalidInput, shown
 from .failures import ANSWERED, NOT_AS_EXPECTED, printable, say
 from .proofs.certificate import Certificate, sha256
 from .proofs.ledger import load
-from .proofs.verdicts import ClaimResult, ReadingResult, Report, Verdict
+from .proofs.verdicts import ClaimResult, ReadingResult, Report, Row, Verdict
 from .proofs.verification import verify
 from .reading_files import prepare_folder, write_json
 
@@ -35,7 +36,6 @@ STYLES = {
 }
 SHORT = 12
 MOST_SHOWN = 2
-MOST_EVIDENCE, MOST_CERTIFICATES = 240, 2
 
 
 def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, as_json: bool) -> int:
@@ -87,9 +87,33 @@ def verdict_table(report: Report) -> Table:
             )
             name = f"  {reading.id}{' (repair)' if reading.repair else ''}"
             verdict = _verdict(outcome.verdict, reading.expected, "\n")
-            table.add_row(name, verdict, told, _hashes(result), f"{result.seconds:.1f}")
+            table.add_row(name, verdict, told, _hashes(outcome.certificates, outcome.accepted), f"{result.seconds:.1f}")
         table.add_section()
     return table
+
+
+def hypotheses_table(rows: Sequence[Row]) -> Table:
+    """Which hypotheses are needed: a row for each dropped alone, and for each two that are needed only together."""
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False, title="which hypotheses are needed", title_justify="left")
+    table.add_column("claim / without", overflow="fold", max_width=44)
+    table.add_column("verdict", no_wrap=True)
+    table.add_column("counterexample or evidence", overflow="fold")
+    table.add_column("certificates", no_wrap=True)
+    experiment = None
+    for row in rows:
+        if row.experiment != experiment:
+            experiment = row.experiment
+            table.add_section()
+            table.add_row(Text(row.claim, style="bold"), "", Text(row.conclusion, style="bold"), "")
+        if len(row.dropped) < 2 or (row.verdict != Verdict.CERTIFIED and row.already is None):
+            name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"
+            verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + _meaning(row), "dim"))
+            table.add_row(name, verdict, Text(row.evidence, style="dim italic"), _hashes(row.certificates, row.accepted))
+    return table
+
+
+def _meaning(row: Row) -> str:
+    return {Verdict.REFUTED: "needed", Verdict.CERTIFIED: "not needed"}.get(row.verdict, "")
 
 
 def _standing(claim: ClaimResult) -> str:
@@ -99,11 +123,11 @@ def _standing(claim: ClaimResult) -> str:
     return f"As printed: {holding} of {len(printed)} {'parts' if claim.claim.in_parts else 'readings'} hold."
 
 
-def _hashes(result: ReadingResult) -> str:
+def _hashes(certificates: Sequence[Certificate], accepted: int) -> str:
     """The first headline certificates by the start of their SHA-256, and how many the checker accepted in all."""
-    found = [sha256(certificate)[:SHORT] for certificate in result.outcome.certificates]
+    found = [sha256(certificate)[:SHORT] for certificate in certificates]
     more = [f"+ {len(found) - MOST_SHOWN} more"] if len(found) > MOST_SHOWN else []
-    total = [f"{result.outcome.accepted} accepted"] if result.outcome.accepted else []
+    total = [f"{accepted} accepted"] if accepted else []
     return "\n".join([*found[:MOST_SHOWN], *more, *total])
 
 
@@ -135,6 +159,9 @@ def _print(console: Console, report: Report, *, in_full: bool) -> None:
             console.print()
     else:
         console.print(verdict_table(report))
+    if report.hypotheses:
+        console.print(hypotheses_table(report.hypotheses))
+    if not in_full:
         console.print("--claim ID tells a claim in full; --out DIR writes the certificates")
     if report.corpus:
         console.print(f"systems: {report.corpus}", soft_wrap=True)
@@ -145,9 +172,14 @@ def _summary(report: Report) -> Text:
     readings = [reading for claim in report.claims for reading in claim.readings]
     accepted = sum(reading.outcome.accepted for reading in readings)
     different = [claim.claim.id for claim in report.claims if not claim.as_expected]
-    tail = f"{len(readings)} readings, {accepted} certificates accepted, effort {report.effort}, {report.seconds:.0f} s"
+    different += [f"{row.claim} without {' and '.join(row.dropped) or 'anything'}" for row in report.hypotheses if not row.as_expected]
+    accepted += sum(row.accepted for row in report.hypotheses if row.verdict == Verdict.REFUTED and row.already is None)
+    tail = (
+        f"{len(readings)} readings, {len(report.hypotheses)} sets of hypotheses dropped, {accepted} certificates accepted, "
+        f"effort {report.effort}, {report.seconds:.0f} s"
+    )
     if different:
-        return Text(f"NOT as expected: {', '.join(different)} of {len(report.claims)} claims; {tail}", style="bold red")
+        return Text(f"NOT as expected: {', '.join(different)}; {len(report.claims)} claims, {tail}", style="bold red")
     return Text(f"as expected: all {len(report.claims)} claims; {tail}", style="bold green")
 
 
@@ -155,13 +187,3 @@ def _verdict(verdict: Verdict, expected: str, between: str = " ") -> Text:
     if verdict == expected:
         return Text(str(verdict), style=STYLES[verdict])
     return Text(f"{verdict}{between}(expected {expected})", style="bold red")
-
-
-def _shortened(evidence: str) -> str:
-    return evidence if len(evidence) <= MOST_EVIDENCE else f"{evidence[: MOST_EVIDENCE - 4].rstrip()} ..."
-
-
-def _first_names(certificates: Sequence[Certificate]) -> list[str]:
-    names = [sha256(certificate)[:SHORT] for certificate in certificates]
-    more = len(names) - MOST_CERTIFICATES
-    return names if more <= 1 else [*names[:MOST_CERTIFICATES], f"and {more} more"]

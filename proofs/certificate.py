@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Sequence
+from itertools import combinations
 from math import gcd, prod
 from typing import Any
 
@@ -22,11 +23,13 @@ from ..exact.fault_space import FaultSpace
 from ..exact.fields import Field, NumberField, PrimeField
 from ..exact.inversion import ambiguous_word, delay_known_state, delay_unknown_state, left_inverse
 from ..exact.kernel_representation import KernelRepresentation, KernelRow
-from ..exact.matrices import Matrix, rank, row_profile, solve_left
-from ..exact.modular import image, primes_below, reduce_matrix
+from ..exact.linear_determinants import linear_determinant
+from ..exact.matrices import Matrix, beside, rank, row_profile, solve_left, stacked
+from ..exact.modular import LARGEST_PRIME, image, primes_below, reduce_matrix
 from ..exact.pencil import finite_diagonal, infinite_diagonal, right_null_polynomial
 from ..exact.polynomials import Poly, PolyMatrix, SmithDiagonal, monic, multiply, written
 from ..exact.signals import excitation_matrix, hankel, simulate
+from ..exact.stability import is_stable
 from ..exact.systems import ResidualSystem
 from ..exact.windows import observability_matrix, reachability_matrix, toeplitz_matrix, window_matrix
 from ..exact.zero_output import zero_output_chain
@@ -35,7 +38,7 @@ Certificate = dict[str, Any]
 
 
 class Unprovable(ValueError):
-    """The statement asked for is not true of these systems."""
+    """The statement asked for is not true of these systems, or, where a function says so, has no witness."""
 
 
 def sha256(certificate: Certificate) -> str:
@@ -67,6 +70,19 @@ def left_invertible(kernel: KernelRepresentation) -> Certificate:
         raise ArithmeticError("normal rank below m without a right null vector")
     witness = {"state": null.state.to_json(), "fault": null.fault.to_json()}
     return _certificate("not-left-invertible", statement, witness | _irreducible(system.field))
+
+
+def left_invertible_line(first: ResidualSystem, second: ResidualSystem) -> Certificate:
+    """(A, a F + b F', C, a G + b G') is left-invertible for every (a : b), F and G of the first system, F' and G' of the second.
+
+    Raises ValueError where A, C or the number of faults differ, and Unprovable when some (a : b), perhaps over an extension, is an
+    exception; over GF(p) with p <= n also when its p points are too few to show that there is none.
+    """
+    if (first.A, first.C, first.m) != (second.A, second.C, second.m):
+        raise ValueError("got two systems that differ in A, C or the number of faults, expected a line of faults of one system")
+    minors, multiples = _coprime_minors(first, second)
+    statement = {"first": first.to_json(), "second": second.to_json()}
+    return _certificate("left-invertible-line", statement, _line_image(first, second, multiples) | {"minors": minors})
 
 
 def inversion_delay(kernel: KernelRepresentation, *, known_state: bool) -> Certificate:
@@ -159,6 +175,16 @@ def data_rank(name: str, system: ResidualSystem, x0: Matrix, v: Matrix, window: 
     return _rank_certificate(statement, system, built)
 
 
+def schur_stable(system: ResidualSystem) -> Certificate:
+    """All eigenvalues of A lie inside the unit circle, over Q(a) in every embedding.
+
+    Raises Unprovable when they do not, InvalidInput over GF(p).
+    """
+    if not is_stable(system.A):
+        raise Unprovable("an eigenvalue of A lies on the unit circle or outside")
+    return _certificate("schur-stable", {"system": system.to_json()}, _irreducible(system.field))
+
+
 def finite_zeros(system: ResidualSystem) -> Certificate:
     """The invariant zero polynomial by a diagonal form of the pencil. For pencils of a few states."""
     form = finite_diagonal(system)
@@ -230,6 +256,50 @@ def _common_image(other: ResidualSystem, kernel: KernelRepresentation, window: i
 def _has_gaps(system: ResidualSystem, kernel: KernelRepresentation, samples: int) -> bool:
     chain = zero_output_chain(system)
     return all(chain.gap(k) == kernel.gap(k) for k in range(samples))
+
+
+def _coprime_minors(first: ResidualSystem, second: ResidualSystem) -> tuple[list[dict[str, Any]], Matrix]:
+    """Maximal minors without a common zero (a : b), and their multiples by a^(m-1-j) b^j, 2m of which are independent.
+
+    An (a : b) makes P(q) lose rank for every q iff it is a zero, at n + 1 points, of the minors with all rows of the state: they are
+    polynomials in q of degree n at most, det(qI - A) times the minors of the transfer matrix. With fewer points all minors are tried.
+    """
+    field, n, m, p = first.field, first.n, first.m, first.p
+    points = range(min(n + 1, field.p) if isinstance(field, PrimeField) else n + 1)
+    outputs = combinations(range(n, n + p), m)
+    choices = [(*range(n), *chosen) for chosen in outputs] if len(points) > n else list(combinations(range(n + p), n + m))
+    slope = stacked(beside(Matrix.zero(field, n, n), -second.F), beside(Matrix.zero(field, p, n), second.G))
+    minors, multiples = list[dict[str, Any]](), Matrix.zero(field, 0, 2 * m)
+    for q, rows in ((q, rows) for q in points for rows in choices):
+        if (before := rank(multiples)) == 2 * m:
+            break
+        shift = Matrix.of([[q * (i == j) for j in range(n)] for i in range(n)], field, shape=(n, n))
+        constant = stacked(beside(shift - first.A, -first.F), beside(first.C, first.G))
+        form = list(linear_determinant(constant.rows(rows), slope.rows(rows)))
+        zero = field.element(0)
+        form += [zero] * (m + 1 - len(form))
+        shifted = Matrix.from_elements(field, m, 2 * m, [[zero] * j + form + [zero] * (m - 1 - j) for j in range(m)])
+        if rank(larger := stacked(multiples, shifted)) > before:
+            minors.append({"point": q, "rows": list(rows)})
+            multiples = larger
+    if rank(multiples) < 2 * m:
+        raise Unprovable("some (a : b) is an exception" if len(points) > n else f"no minors at the points of {field} show it")
+    return minors, multiples
+
+
+def _line_image(first: ResidualSystem, second: ResidualSystem, multiples: Matrix) -> dict[str, Any]:
+    """A prime above the points, modulo which the multiples keep their rank."""
+    if isinstance(first.field, PrimeField):
+        return {}
+    largest = LARGEST_PRIME
+    while True:
+        picture = image(first, largest=largest)
+        largest = image(second, largest=picture.prime).prime
+        if largest == picture.prime:
+            reduced = reduce_matrix(multiples, picture.prime, picture.root)
+            if reduced is not None and rank(reduced) == multiples.ncols and largest > first.n:
+                return _named_image(picture.prime, picture.root, first.field)
+            largest -= 1
 
 
 def _column(column: Matrix) -> list[object]:

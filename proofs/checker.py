@@ -13,6 +13,10 @@ looked at itself. What has to be believed is this file, and these arguments:
   lower bounds  Ranks modulo a prime never exceed the true ones. The chain W_k decreases, and is constant once its dimension repeats.
   together      Where the gaps modulo the prime are p - #{mu <= k} for k < s, both bounds meet: the left null space of [O_s T_s] is
                 spanned by the rows and their shifts.
+  lines         The maximal minors of the pencil at a point are binary forms of degree m. Once their multiples by the forms of degree m - 1
+                span all of degree 2m - 1 modulo the prime, they do over K, and leave no common zero over any extension.
+  stability     Exact. The characteristic polynomial of the blocks is the product over all embeddings. A polynomial with leading coefficient
+                f_d and last one f_0 has its roots inside the unit circle iff |f_d| > |f_0| and (f_d f - f_0 f*) / q has (Schur and Cohn).
 
 Public: verify(certificate, systems=()) -> the statement in words; load(path); sha256(certificate); Malformed; Rejected; main(argv).
 """
@@ -117,6 +121,21 @@ def echelon(vectors: Iterable[list[int]], prime: int) -> list[tuple[int, list[in
             rest = [[(x - c * y) % prime for x, y in zip(v, lead, strict=True)] if (c := v[j]) else v for v in rest]
             rest = [v for v in rest if any(v)]
     return found
+
+
+def binary_form(rows: list[list[int]], prime: int) -> list[int]:
+    """det(a X + b Y) modulo a prime from the m rows of [X Y]: the coefficients of a^m, a^(m-1) b, ..., b^m."""
+    m, minors = len(rows), {0: [1]}  # the minors of the rows so far by their columns, as the bits of a number
+    charge(4 * m * m << m)
+    for row in rows:
+        larger = dict[int, list[int]]()
+        for columns, f in minors.items():
+            for j in (j for j in range(m) if not columns >> j & 1):
+                x, y = (-c if (columns >> j).bit_count() % 2 else c for c in (row[j], row[m + j]))
+                terms = zip(larger.get(columns | 1 << j, repeat(0)), [*f, 0], [0, *f], strict=False)
+                larger[columns | 1 << j] = [(old + x * c + y * d) % prime for old, c, d in terms]
+        minors = larger
+    return minors[2**m - 1]
 
 
 def shown(value: Json) -> str:
@@ -386,6 +405,23 @@ class System:
     def left_invertible(self, s: Json, w: Json) -> None:
         require(self.gaps()[-1] == self.m, "the gap modulo the prime stays below the number of faults")
 
+    def left_invertible_line(self, s: Json, w: Json, second: System) -> None:
+        n, m, prime, multiples = self.n, self.m, self.field.modulus[0], list[list[int]]()
+        alike = (n, m) == (second.n, second.m) and [self.A, self.C] == [second.A, second.C]
+        expect(alike, "the two systems differ in A, C or number of faults")
+        table = self.field.assembled([[self.A, self.F, second.F], [self.C, self.G, second.G]], n + 2 * m).residues()
+        for minor in items(w["minors"], "minors"):
+            q = index(keys(minor, "point rows", "minor")["point"], "point", prime - 1)
+            rows = [index(i, "rows", n + self.p - 1) for i in items(minor["rows"], "rows", n + m, n + m)]
+            expect(rows == sorted({*rows}), "rows: they do not ascend")
+            charge(3 * len(rows) * (n + 2 * m))
+            pencil = ([(x - q * (i == j < n)) % prime for j, x in enumerate(table[i])] for i in rows)  # up to the sign of its first n rows
+            form = echelon(pencil, prime)
+            rest = [row[n:] for pivot, row in form if pivot >= n]  # what is left to do once the columns of the state are eliminated
+            if len(rest) == m == len(form) - n:  # else the minor is zero
+                multiples += [[0] * j + binary_form(rest, prime) + [0] * (m - 1 - j) for j in range(m)]
+        require(len(echelon(multiples, prime)) == 2 * m, "the minors may have a common zero")
+
     def not_left_invertible(self, s: Json, w: Json) -> None:
         field, n, m = self.field, self.n, self.m
         xs = field.columns(w["state"], n, "state", MAX_WINDOW, 1)
@@ -470,6 +506,23 @@ class System:
         require(not field.assembled(rows, height) @ built, "a left null row does not vanish on the matrix")
         require(len(echelon(built.residues(), field.modulus[0])) >= size, "the rank modulo the prime is smaller")
 
+    def schur_stable(self, s: Json, w: Json) -> None:
+        size, den, one = self.A.nc, self.A.den, self.field.scalar(self.n, self.n, 1)
+        expect(not self.field.prime, "field: a finite one has no unit circle")
+        charge(size * ((size * den.bit_length()) ** 2 >> 14))
+        scaled, power, f = Mat(self.field, self.A.rows, size), one, [1]
+        for k in range(1, size + 1):  # Faddeev and LeVerrier: det(qI - den A), coefficients descending
+            power = scaled @ power
+            f.append(-sum(row[i] for i, row in enumerate(power.rows)) // k)
+            power = power + one.times(f[-1])
+        f = [c * den ** (size - k) for k, c in enumerate(f)]
+        while len(f) > 1 and abs(f[0]) > abs(f[-1]):
+            charge(len(f) * (100 + (max(map(int.bit_length, f)) ** 2 >> 12)))
+            f = [f[0] * x - f[-1] * y for x, y in zip(f[:-1], reversed(f[1:]), strict=True)]
+            content = gcd(*f)
+            f = [c // content for c in f]
+        require(len(f) == 1, "an eigenvalue is not inside the unit circle")
+
     def zeros(self, s: Json, w: Json) -> None:
         field, nr, nc, one = self.field, self.n + self.p, self.n + self.m, self.field.scalar(1, 1, 1)
         constant = field.assembled([[self.A.times(-1), self.F.times(-1)], [self.C, self.G]], nc)
@@ -501,6 +554,8 @@ KINDS: dict[str, tuple[Callable[..., None], str, str, str]] = {  # what verifies
     "window-ranks": (System.window_ranks, "system normal_rank left_minimal_indices window_ranks?", KERNEL,
         "for every s >= 1: rank [O_s T_s] = {normal_rank} s + sum of min(s, eta), eta the left minimal indices {left_minimal_indices}"),
     "left-invertible": (System.left_invertible, "system", MODULAR, "left-invertible: x(0) = 0 and zero output for ever imply v = 0"),
+    "left-invertible-line": (System.left_invertible_line, "first second", f"{MODULAR} minors",
+        "left-invertible with faults a F + b F' and a G + b G' for every (a : b) over every extension of the field"),
     "not-left-invertible": (System.not_left_invertible, "system", "state fault",
         "not left-invertible: x(0) = 0 and some v other than 0 give zero output for ever"),
     "inversion-delay": (System.inversion_delay, "system initial_state delay", "inverse? word?",
@@ -515,6 +570,7 @@ KINDS: dict[str, tuple[Callable[..., None], str, str, str]] = {  # what verifies
     "first-column-only": (System.first_column_only, "system window column", KERNEL,
         "at window {window}, N_s annihilates the first block column of T_s(z) but not all of it, for z = {column}"),
     "matrix-rank": (System.matrix_rank, "matrix rank system window? x0? v?", f"{MODULAR} left_null", "the {matrix} matrix has rank {rank}"),
+    "schur-stable": (System.schur_stable, "system", "", "all eigenvalues of A lie inside the unit circle (over Q(a): for every root a)"),
     "finite-zeros": (System.zeros, "system normal_rank invariant_zero_polynomial", DIAGONAL,
         "the pencil has normal rank n + {normal_rank} and invariant zero polynomial {invariant_zero_polynomial} (ascending)"),
     "infinite-zeros": (System.zeros, "system infinite_zero_orders", DIAGONAL, "the infinite zeros have the orders {infinite_zero_orders}"),

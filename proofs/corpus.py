@@ -1,6 +1,7 @@
 """The systems that claims are tried on, each with certificates that the checker has accepted: made once a run, read by every claim.
 
     Dossier      what accepted certificates say of one system: indices, zeros, delays, ranks, fault spaces
+                 (`without_feedthrough`: the dimension of the members with g = 0)
     Corpus       all dossiers of a run, and in words how the systems were made
     examine      one system: certificates made, checked, and reduced to what they state
     build        the corpus of an effort, on all cores
@@ -13,6 +14,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice
 from typing import Any
 
@@ -21,6 +23,7 @@ from joblib import Parallel, delayed
 from ..exact.fault_space import fault_space
 from ..exact.fields import QQ, Field, NumberField, PrimeField
 from ..exact.kernel_representation import kernel_representation
+from ..exact.matrices import Matrix, rank
 from ..exact.systems import ResidualSystem, read_system
 from . import certificate as make
 from . import checker
@@ -43,6 +46,8 @@ class Dossier:
     m: int
     normal_rank: int
     left_minimal_indices: tuple[int, ...]
+    right_minimal_indices: tuple[int, ...]
+    window_ranks: tuple[int, ...]
     left_invertible: bool
     observable: bool
     controllable: bool
@@ -52,6 +57,7 @@ class Dossier:
     infinite_zero_orders: tuple[int, ...] | None
     space_dimensions: tuple[int, ...]
     limit_dimension: int
+    without_feedthrough: int
     accepted: int
 
     @property
@@ -74,7 +80,7 @@ class Dossier:
         """rank [O_(s+1) T_(s+1)] - rank [O_s T_s]."""
         return self.rank(s + 1) - self.rank(s)
 
-    @property
+    @cached_property
     def system(self) -> ResidualSystem:
         """The system itself, read back from the certificates' statement."""
         return read_system(self.data).residual
@@ -111,6 +117,7 @@ def examine(origin: str, system: ResidualSystem, weight: int = 1) -> Dossier:
     kernel = kernel_representation(system)
     certificates: dict[str, dict[str, Any]] = {
         "ranks": make.window_ranks(kernel),
+        "dual": make.window_ranks(kernel_representation(system.transposed())),
         "inversion": make.left_invertible(kernel),
         "known": make.inversion_delay(kernel, known_state=True),
         "unknown": make.inversion_delay(kernel, known_state=False),
@@ -121,6 +128,7 @@ def examine(origin: str, system: ResidualSystem, weight: int = 1) -> Dossier:
     windows = range(1, system.n + 3)
     for s in windows:
         certificates[f"window {s}"] = make.fault_space(kernel, fault_space(kernel, s))
+        certificates[f"rank {s}"] = make.matrix_rank("window", system, window=s)
     if system.n <= MAX_STATES_FOR_ZEROS:
         certificates["finite"] = make.finite_zeros(system)
         certificates["infinite"] = make.infinite_zeros(system)
@@ -136,6 +144,8 @@ def examine(origin: str, system: ResidualSystem, weight: int = 1) -> Dossier:
         m=system.m,
         normal_rank=says["ranks"]["normal_rank"],
         left_minimal_indices=tuple(says["ranks"]["left_minimal_indices"]),
+        right_minimal_indices=tuple(says["dual"]["left_minimal_indices"]),
+        window_ranks=tuple(says[f"rank {s}"]["rank"] for s in windows),
         left_invertible=certificates["inversion"]["kind"] == "left-invertible",
         observable=says["observability"]["rank"] == system.n,
         controllable=says["reachability"]["rank"] == system.n,
@@ -145,8 +155,15 @@ def examine(origin: str, system: ResidualSystem, weight: int = 1) -> Dossier:
         infinite_zero_orders=tuple(says["infinite"]["infinite_zero_orders"]) if "infinite" in says else None,
         space_dimensions=tuple(len(says[f"window {s}"]["basis"]) for s in windows),
         limit_dimension=len(says["limit"]["basis"]),
+        without_feedthrough=_without_feedthrough(says["limit"]["basis"], system),
         accepted=len(certificates),
     )
+
+
+def _without_feedthrough(basis: list[list[object]], system: ResidualSystem) -> int:
+    """The dimension of the members (f, g = 0) of the space with this basis."""
+    gains = Matrix.of([row[system.n :] for row in basis], system.field, shape=(len(basis), system.p))
+    return len(basis) - rank(gains)
 
 
 def build(effort: str, jobs: int, progress: Progress) -> Corpus:
@@ -182,6 +199,9 @@ def _sources(effort: str) -> Iterator[tuple[str, ResidualSystem, int]]:
     for q, n, p, m in _exhaustive_boxes(full):
         for orbit in orbits(q, n, p, m):
             yield f"all systems over GF({q}) in the box {_box(q, full)}", orbit.system, orbit.size
+    for n, p in () if full else ((0, 2), (1, 2)):
+        for orbit in orbits(2, n, p, 2):
+            yield "all systems over GF(2) with n <= 1, p = 2, m = 2", orbit.system, orbit.size
 
 
 def _exhaustive_boxes(full: bool) -> Iterator[tuple[int, int, int, int]]:

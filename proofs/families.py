@@ -75,6 +75,7 @@ def adversarial() -> Iterator[tuple[str, ResidualSystem]]:
     yield "all zero, W differs from V*+S*", ResidualSystem.of([[0]], [[0]], [[0]], [[0]])
     yield "square and invertible at once", ResidualSystem.of([[1, 2], [3, 4]], [[1, 0], [0, 1]], [[1, 1], [0, 1]], [[1, 0], [0, 1]])
     yield "more faults than outputs", ResidualSystem.of([[0, 1], [1, 0]], [[1, 0, 2], [0, 1, 1]], [[1, 1]], [[1, 0, 0]])
+    yield "two faults, one output", ResidualSystem.of([[0]], [[1, 1]], [[1]], [[0, 1]])
     yield "no faults", ResidualSystem.of([[0, 1], [-1, 0]], [], [[1, 0]], [], n=2, m=0, p=1)
     yield "no outputs", ResidualSystem.of([[0, 1], [-1, 0]], [[1], [0]], [], [], n=2, m=1, p=0)
     yield "no states", ResidualSystem.of([], [], [], [[1, 0], [2, 0]], n=0, m=2, p=2)

@@ -3,6 +3,7 @@
     Claim       id, reference in the review, statement as printed, readings, expected verdict
     Reading     one precise statement; `repair` marks those that are ours and not the paper's; `check` names the function in claims/
     load        the claims of the ledger, in its order
+    expected_without   for each experiment of `hypotheses`, the verdict expected when one of its hypotheses is dropped
 
 The verdict itself is never in the ledger: it is computed by each run and compared with the expected one.
 """
@@ -12,6 +13,7 @@ from __future__ import annotations
 import tomllib
 from dataclasses import dataclass
 from importlib import resources
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -48,8 +50,16 @@ class Claim:
 
 def load() -> tuple[Claim, ...]:
     """All claims of the ledger, in its order."""
-    text = resources.files(__package__).joinpath("ledger.toml").read_text(encoding="utf-8")
-    return tuple(_claim(name, entry) for name, entry in tomllib.loads(text)["claim"].items())
+    return tuple(_claim(name, entry) for name, entry in _contents()["claim"].items())
+
+
+def expected_without() -> dict[str, dict[str, str]]:
+    """{experiment: {hypothesis: verdict on the claim without it}}: REFUTED where it is needed."""
+    return {name: {str(key): str(value) for key, value in entry.items()} for name, entry in _contents()["without"].items()}
+
+
+def _contents() -> dict[str, Any]:
+    return tomllib.loads(resources.files(__package__).joinpath("ledger.toml").read_text(encoding="utf-8"))
 
 
 def _claim(name: str, entry: dict[str, object]) -> Claim:

@@ -20,7 +20,7 @@ from ..exact.behavior import compare
 from ..exact.fault_space import fault_space, with_pair
 from ..exact.fields import QQ, PrimeField
 from ..exact.kernel_representation import KernelRepresentation, kernel_representation
-from ..exact.matrices import Matrix, beside, rank, stacked
+from ..exact.matrices import Matrix, beside, rank, solve_left, stacked
 from ..exact.systems import ResidualSystem
 from . import certificate as make
 from . import checker
@@ -137,9 +137,10 @@ def _pairs(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, in
     for n in range(1, 13 if full else 9):
         idle, driven = shift_registers(n)
         yield "shift registers", idle, driven, 1
-    for system in random_systems(QQ, 600 if full else 90, seed=2):
+    named = [system for _, system in adversarial() if system.n <= 3]
+    for system in [*named, *random_systems(QQ, 600 if full else 90, seed=2)]:
         for other in _relatives(system, random.Random(str(system))):
-            yield "random systems over Q against equivalent and perturbed ones", system, other, 1
+            yield "named and random systems over Q against equivalent and perturbed ones", system, other, 1
     largest = 2 if full else 1
     for p in range(3):
         others = [s for n in range(2) for m in range(largest + 1) for s in all_systems(2, n, p, m)]
@@ -155,9 +156,16 @@ def _pairs(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, in
 
 
 def _relatives(system: ResidualSystem, rng: random.Random) -> Iterator[ResidualSystem]:
-    """A system with the same outputs (feedback of the state into the fault), one with an entry changed, one with a state more."""
+    """Feedback of the state into the fault, another basis of the state (both with the same outputs), an entry changed, a state more."""
     K = Matrix.of([[rng.choice([-1, 0, 1]) for _ in range(system.n)] for _ in range(system.m)], QQ, shape=(system.m, system.n))
     yield ResidualSystem(system.A + system.F @ K, system.F, system.C + system.G @ K, system.G)
+    if system.n:
+        # 2 on the diagonal, ones in the first row: upper triangular, so invertible
+        T = Matrix.of([[2 if i == j else int(i == 0) for j in range(system.n)] for i in range(system.n)], QQ, shape=(system.n, system.n))
+        moved = solve_left(T, stacked(T @ system.A, system.C))
+        if moved is not None:
+            A, C = moved.rows(range(system.n)), moved.rows(range(system.n, system.n + system.p))
+            yield ResidualSystem(A, T @ system.F, C, system.G)
     if system.n and system.m:
         table = system.F.elements()
         table[rng.randrange(system.n)][rng.randrange(system.m)] = QQ.element(rng.choice([-2, 0, 1, 3]))

@@ -119,11 +119,50 @@ class ClaimResult:
 
 
 @dataclass(frozen=True)
+class Row:
+    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already."""
+
+    experiment: str
+    claim: str
+    conclusion: str
+    dropped: tuple[str, ...]
+    verdict: Verdict
+    evidence: str
+    already: str | None
+    certificates: tuple[Certificate, ...]
+    accepted: int
+    expected: str | None = None
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether the verdict is the ledger's; rows of two hypotheses follow from the subjects alone, and have no expectation."""
+        return self.verdict != Verdict.ERROR and (self.expected is None or self.verdict == self.expected)
+
+    def to_json(self) -> dict[str, Any]:
+        """The object in `verify --json`."""
+        return {
+            "experiment": self.experiment,
+            "claim": self.claim,
+            "conclusion": self.conclusion,
+            "dropped": list(self.dropped),
+            "verdict": str(self.verdict),
+            "needed": self.verdict == Verdict.REFUTED,
+            "expected": self.expected,
+            "as_expected": self.as_expected,
+            "already_without": self.already,
+            "evidence": self.evidence,
+            "certificates_accepted": self.accepted,
+            "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.certificates],
+        }
+
+
+@dataclass(frozen=True)
 class Report:
     """The result of a run."""
 
     effort: str
     claims: tuple[ClaimResult, ...]
+    hypotheses: tuple[Row, ...]
     corpus: str
     seconds: float
     versions: dict[str, str] = field(default_factory=lambda: _versions(("faultspace", "python-flint", "sympy", "numpy")))
@@ -131,16 +170,13 @@ class Report:
     @property
     def as_expected(self) -> bool:
         """Whether every verdict is the expected one."""
-        return all(claim.as_expected for claim in self.claims)
+        return all(claim.as_expected for claim in self.claims) and all(row.as_expected for row in self.hypotheses)
 
     def certificates(self) -> list[Certificate]:
         """Every headline certificate once, in the order of the claims."""
-        found: dict[str, Certificate] = {}
-        for claim in self.claims:
-            for reading in claim.readings:
-                for certificate in reading.outcome.certificates:
-                    found.setdefault(sha256(certificate), certificate)
-        return list(found.values())
+        readings = (reading.outcome.certificates for claim in self.claims for reading in claim.readings)
+        rows = (row.certificates for row in self.hypotheses)
+        return list({sha256(certificate): certificate for shown in (*readings, *rows) for certificate in shown}.values())
 
     def to_json(self) -> dict[str, Any]:
         """The object that `verify --json` prints."""
@@ -151,6 +187,7 @@ class Report:
             "seconds": round(self.seconds, 1),
             "versions": self.versions,
             "claims": [claim.to_json() for claim in self.claims],
+            "hypotheses": [row.to_json() for row in self.hypotheses],
         }
 
 

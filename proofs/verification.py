@@ -10,10 +10,12 @@ from collections.abc import Sequence
 from importlib import import_module
 
 from ..exact.input_rules import InvalidInput
+from .ablation import ablate
 from .checker import Malformed, Rejected
 from .corpus import Progress
-from .ledger import Claim, Reading, load
-from .verdicts import ClaimResult, Outcome, ReadingResult, Report, Verdict
+from .hypotheses import experiments
+from .ledger import Claim, Reading, expected_without, load
+from .verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from .workbench import Workbench
 
 EFFORTS = ("quick", "full")
@@ -44,9 +46,24 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
             readings.append(_check(claim, reading, bench))
             done += 1
         results.append(ClaimResult(claim, tuple(readings)))
+    rows = _without_hypotheses(bench, {claim.id for claim in chosen}, report)
     report("done", total, total)
     corpus = bench.corpus.words if "corpus" in vars(bench) else ""
-    return Report(effort, tuple(results), corpus, time.perf_counter() - started)
+    return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started)
+
+
+def _without_hypotheses(bench: Workbench, claims: set[str], report: Progress) -> tuple[Row, ...]:
+    expected = expected_without()
+    chosen = [experiment for experiment in experiments() if experiment.claim in claims]
+    rows: list[Row] = []
+    for done, experiment in enumerate(chosen):
+        report(f"{experiment.claim} without its hypotheses", done, len(chosen))
+        try:
+            rows += ablate(bench, experiment, expected[experiment.name])
+        except Exception as error:  # as for a reading: it did not finish, and the others go on
+            words = f"{type(error).__name__}: {error}"
+            rows.append(Row(experiment.name, experiment.claim, experiment.conclusion, (), Verdict.ERROR, words, None, (), 0))
+    return tuple(rows)
 
 
 def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:

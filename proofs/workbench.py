@@ -11,19 +11,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from ..exact.systems import ResidualSystem
 from . import checker
 from .certificate import Certificate
 from .corpus import Corpus, Dossier, Progress, build, describe, examine
+from .judged_pairs import JudgedPair, judged_pairs
 from .pairs import PairDossier, RivalDossier, pair_dossiers, rival_dossiers
 from .search import Box, Facts, Flags, smallest
 from .verdicts import Outcome, Verdict
 
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
 Test = Callable[[Dossier], bool]
-Record = TypeVar("Record", PairDossier, RivalDossier)
+Record = TypeVar("Record", PairDossier, RivalDossier, JudgedPair)
+Made = TypeVar("Made")
 
 
 @dataclass
@@ -49,11 +51,26 @@ class Workbench:
         """Systems with other fault matrices for the same (A, C)."""
         return rival_dossiers(self.effort, self.jobs, self.progress)
 
+    @cached_property
+    def judged(self) -> tuple[JudgedPair, ...]:
+        """Pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
+        return judged_pairs(self.effort, self.jobs, self.progress)
+
     def once(self, name: str, find: Callable[[], Outcome]) -> Outcome:
         """An outcome that several readings share, found the first time it is asked for."""
         if name not in self._shared:
             self._shared[name] = find()
         return self._shared[name]
+
+    def records(self, name: str, make: Callable[[], list[Made]]) -> list[Made]:
+        """Certified material that several experiments share, made the first time it is asked for."""
+        if name not in self._made:
+            self._made[name] = make()
+        return self._made[name]
+
+    @cached_property
+    def _made(self) -> dict[str, list[Any]]:
+        return {}
 
     @cached_property
     def _shared(self) -> dict[str, Outcome]:

@@ -52,7 +52,7 @@ def environment(**changes: str) -> dict[str, str]:
 def command(*arguments: str, stdin: bytes = b"", cwd: Path | None = None) -> Run:
     """A run in a process of its own."""
     line = [sys.executable, "-m", "faultspace", *arguments]
-    run = subprocess.run(line, input=stdin, capture_output=True, cwd=cwd or ROOT, env=environment(), timeout=120)
+    run = subprocess.run(line, input=stdin, capture_output=True, cwd=cwd or ROOT, env=environment(), timeout=400)
     return Run(run.returncode, run.stdout.decode(), run.stderr.decode())
 
 

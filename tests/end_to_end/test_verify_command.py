@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import io
 import json
+import sys
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,7 +21,7 @@ from faultspace.exact.kernel_representation import kernel_representation
 from faultspace.exact.systems import read_system
 from faultspace.proofs.certificate import sha256, window_ranks
 from faultspace.proofs.ledger import Claim, Reading
-from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Report, Verdict
+from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from tests.end_to_end.commands import call, command, example, validator
 
 ONE = Reading("as-printed", "rank [O_s T_s] = n + s m for every system and every s", ("left-invertible", "s >= n"), "REFUTED", False)
@@ -30,6 +32,11 @@ CLAIMS = (
 )
 CERTIFICATE = window_ranks(kernel_representation(read_system(example("paper")).residual))
 SHORT = sha256(CERTIFICATE)[:12]
+ROWS = (
+    Row("toy", "claim-a", "the rank is right", ("s >= n",), Verdict.REFUTED, "A=[[0]]", None, (CERTIFICATE,), 1, "REFUTED"),
+    Row("toy", "claim-a", "the rank is right", ("observable",), Verdict.CERTIFIED, "all 12 tried", None, (), 5, "CERTIFIED"),
+    Row("toy", "claim-a", "the rank is right", ("s >= n", "observable"), Verdict.REFUTED, "already", "s >= n", (CERTIFICATE,), 1),
+)
 
 
 def report(claims: Sequence[str] | None, second: Verdict) -> Report:
@@ -40,7 +47,7 @@ def report(claims: Sequence[str] | None, second: Verdict) -> Report:
 
     first = ClaimResult(CLAIMS[0], (result(ONE, Verdict.REFUTED), result(TWO, Verdict.CERTIFIED)))
     results = (first, ClaimResult(CLAIMS[1], (result(TWO, second),)))
-    return Report("quick", tuple(r for r in results if claims is None or r.claim.id in claims), "12 systems", 3.5)
+    return Report("quick", tuple(r for r in results if claims is None or r.claim.id in claims), ROWS, "12 systems", 3.5)
 
 
 @pytest.fixture
@@ -99,13 +106,14 @@ def test_the_table_has_a_row_for_every_reading(pretended: Pretend) -> None:
     heading, *lines = [line for line in out.splitlines() if line.strip(" ─")]
     assert " ".join(heading.split()) == "claim / reading verdict statement / hypotheses / evidence certificates seconds"
     assert [line.split()[:2] for line in lines if not line.startswith("   ")][:2] == [["claim-a", "AMENDED"], ["claim-b", "CERTIFIED"]]
-    rows = [line.split() for line in lines if SHORT in line]
+    end = next(i for i, line in enumerate(lines) if "which hypotheses are needed" in line)
+    rows = [line.split() for line in lines[:end] if SHORT in line]
     assert [row[0] for row in rows] == ["as-printed", "with-zeros", "with-zeros"]
     assert CLAIMS[0].statement in out and ONE.statement in out and "As printed: 0 of 1 readings hold." in out
     assert all(row[-2:] == [SHORT, "1.2"] for row in rows)
     assert "REFUTED" in rows[0] and "CERTIFIED" in rows[1]
     assert "hypotheses: left-invertible; s >= n" in out
-    assert lines[-1].startswith("as expected: all 2 claims") and "51 certificates" in lines[-1]
+    assert lines[-1].startswith("as expected: all 2 claims") and "52 certificates" in lines[-1]
     assert "\x1b" not in out and max(map(len, out.splitlines())) <= consoles.PIPED_WIDTH
 
 
@@ -124,7 +132,7 @@ def test_an_unexpected_verdict_is_seen(pretended: Pretend) -> None:
     pretended(Verdict.REFUTED)
     out = call("verify").out
     assert "(expected CERTIFIED)" in out
-    assert "NOT as expected: claim-b of 2 claims" in out
+    assert "NOT as expected: claim-b; 2 claims" in out
 
 
 def test_a_claim_is_told_in_full(pretended: Pretend) -> None:
@@ -171,3 +179,19 @@ def test_a_folder_that_cannot_be_written_into_is_told_before_the_run(pretended: 
     run = call("verify", "--out", str(tmp_path / "file"))
     assert (run.code, run.out, run.err.count("\n"), calls) == (2, "", 1, [])
     assert "cannot be written into" in run.err
+
+
+def test_the_hypotheses_have_a_table_of_their_own(pretended: Pretend) -> None:
+    pretended(Verdict.CERTIFIED)
+    out = call("verify").out
+    told = [" ".join(line.split()) for line in out[out.index("which hypotheses are needed") :].splitlines()]
+    assert any(line.startswith("claim-a the rank is right") for line in told)
+    assert f"s >= n REFUTED A=[[0]] {SHORT}" in told and "observable CERTIFIED all 12 tried 5 accepted" in told
+    assert not any("already" in line for line in told), "what follows from one hypothesis is in the JSON only"
+
+
+def test_a_hypothesis_with_another_verdict_is_not_as_expected(pretended: Pretend, monkeypatch: pytest.MonkeyPatch) -> None:
+    pretended(Verdict.CERTIFIED)
+    monkeypatch.setattr(sys.modules[__name__], "ROWS", (replace(ROWS[0], verdict=Verdict.CERTIFIED), *ROWS[1:]))
+    answer = call("verify")
+    assert answer.code == 1 and "claim-a without s >= n" in answer.out

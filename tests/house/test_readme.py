@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
-from faultspace.proofs.ledger import load
+import pytest
+
+from faultspace.proofs.hypotheses import experiments
+from faultspace.proofs.ledger import expected_without, load
 
 README = Path(__file__).parents[2] / "README.md"
 
@@ -20,8 +24,20 @@ def claims_table() -> list[str]:
     return rows
 
 
-def test_the_table_of_claims_is_the_ledgers() -> None:
+def hypotheses_table() -> list[str]:
+    """The rows of the README's table of hypotheses, from the ledger."""
+    rows = ["| claim | conclusion | needed | not needed |", "|---|---|---|---|"]
+    expected = expected_without()
+    for experiment in experiments():
+        verdicts = expected[experiment.name]
+        needed, unneeded = ("; ".join(name for name, v in verdicts.items() if v == verdict) for verdict in ("REFUTED", "CERTIFIED"))
+        rows.append(f"| {experiment.claim} | {experiment.conclusion} | {needed} | {unneeded} |")
+    return rows
+
+
+@pytest.mark.parametrize("table", [claims_table, hypotheses_table])
+def test_the_tables_are_the_ledgers(table: Callable[[], list[str]]) -> None:
     lines = README.read_text(encoding="utf-8").splitlines()
-    wanted = claims_table()
+    wanted = table()
     start = lines.index(wanted[0]) if wanted[0] in lines else 0
     assert lines[start : start + len(wanted)] == wanted, "put this into the README:\n" + "\n".join(wanted)

@@ -14,6 +14,7 @@ is what the fast code and the certificates are checked against.
     fields, polynomials, linear     arithmetic          systems, windows      the SYSTEM, O_s and T_s
     pencil, quantities              indices and zeros   behaviours            comparison of behaviours, Hankel matrices
     fault_space                     problem (11)        statements            the kinds of certificates
+    lines                           a F + b F'          stability             the unit circle
     structured, families, strategies   systems to test with: of planted structure, named, drawn by hypothesis
 """
 

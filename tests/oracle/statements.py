@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from . import behaviours, polynomials
+from . import behaviours, lines, polynomials, stability
 from .fault_space import annihilated_columns, fault_space
 from .fields import Element, Field, Json, is_irreducible, parse_index
 from .linear import Matrix, rank, rref
@@ -75,6 +75,14 @@ def left_invertible(statement: Json) -> bool:
 def not_left_invertible(statement: Json) -> bool:
     """The contrary."""
     return not left_invertible(statement)
+
+
+def left_invertible_line(statement: Json) -> bool:
+    """Left-invertible with the faults a F + b F' and a G + b G' for every (a : b) over every extension of the field."""
+    first, second = _two_systems(statement, "first", "second")
+    if (first.A, first.C, first.m) != (second.A, second.C, second.m):
+        raise ValueError("first and second have the same A, C and number of faults")
+    return lines.holds(first, second)
 
 
 def inversion_delay(statement: Json) -> bool:
@@ -155,6 +163,12 @@ def matrix_rank(statement: Json) -> bool:
     return rank(build(parse_system(statement["system"]), statement)) == parse_index(statement["rank"])
 
 
+def schur_stable(statement: Json) -> bool:
+    """All eigenvalues of A lie inside the unit circle, over Q(a) for every root a."""
+    parse_keys(statement, {"system"})
+    return stability.is_stable(parse_system(statement["system"]))
+
+
 def finite_zeros(statement: Json) -> bool:
     """The normal rank and the monic product of the invariant polynomials of the pencil."""
     parse_keys(statement, {"system", "normal_rank", "invariant_zero_polynomial"})
@@ -174,6 +188,7 @@ def infinite_zeros(statement: Json) -> bool:
 KINDS: dict[str, Callable[[Json], bool]] = {
     "window-ranks": window_ranks,
     "left-invertible": left_invertible,
+    "left-invertible-line": left_invertible_line,
     "not-left-invertible": not_left_invertible,
     "inversion-delay": inversion_delay,
     "behaviour-inclusion": behaviour_inclusion,
@@ -183,6 +198,7 @@ KINDS: dict[str, Callable[[Json], bool]] = {
     "fault-space": fault_space_basis,
     "first-column-only": first_column_only,
     "matrix-rank": matrix_rank,
+    "schur-stable": schur_stable,
     "finite-zeros": finite_zeros,
     "infinite-zeros": infinite_zeros,
 }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
 from random import Random
 from typing import Any
 
@@ -11,12 +13,16 @@ from hypothesis import strategies as st
 
 from . import first_difference, premise_holds, truth
 from .families import SQRT2, Q, adversarial, paper_example, shift_register, system
+from .fields import Element, Field, PrimeField
+from .linear import Matrix, matrix
+from .quantities import is_left_invertible
 from .statements import KINDS
 from .strategies import planted_systems, system_pairs, systems
 from .structured import Structure
-from .systems import parse_system
+from .systems import parse_system, write_system
 
 FEW = settings(max_examples=40, deadline=None)
+RATIONALS = st.fractions(-2, 2, max_denominator=6)
 NAMED = adversarial(Q)
 PAPER = paper_example()
 SEEN = NAMED["a0-fault-and-state-seen"]
@@ -33,6 +39,28 @@ PAPER_BASIS: list[list[Any]] = [[1, ["0", "1", "0"], ["0", "0", "1"], 0, 0], [0,
 ALL_OF_K3 = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
 WALK = {"x0": [1], "v": [["1"], ["0"], ["1"], ["1"]], "system": SEEN}
 
+
+def moved(a: list[list[Any]], field: Any = Q) -> Any:
+    """A system of that A and nothing else."""
+    n = len(a)
+    return {"A": a, "F": [[]] * n, "C": [], "G": [], "n": n, "m": 0, "p": 0, "field": field}
+
+
+def diagonal(field: Field, size: int, x: Element) -> Matrix:
+    """x times the identity."""
+    return matrix(field, size, size, [[x if i == j else field.zero for j in range(size)] for i in range(size)])
+
+
+def static(g: list[list[int]], field: Any = Q) -> Any:
+    """r = G v."""
+    return system(field, [], [], [[]] * len(g), g, n=0, p=len(g), m=len(g[0]))
+
+
+def fed(f: list[list[int]], g: list[list[int]], a: int = 0) -> Any:
+    """x+ = a x + F v, r = (x, 0) + G v."""
+    return system(Q, [[a]], f, [[1], [0]], g, n=1, p=2, m=len(f[0]))
+
+
 CASES: list[tuple[str, dict[str, Any], bool]] = [
     ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [2]}, True),
     ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [3]}, False),
@@ -46,6 +74,41 @@ CASES: list[tuple[str, dict[str, Any], bool]] = [
     ("left-invertible", {"system": PAPER}, True),
     ("left-invertible", {"system": TWICE}, False),
     ("left-invertible", {"system": QUIET}, True),
+    # r = (a v, b v); (a + b, a - b), where a = b is bad modulo 2; nothing at (1 : -1), (0 : 1), (1 : 0).
+    ("left-invertible-line", {"first": static([[1], [0]]), "second": static([[0], [1]])}, True),
+    ("left-invertible-line", {"first": static([[1], [1]]), "second": static([[1], [-1]])}, True),
+    ("left-invertible-line", {"first": static([[1], [1]], {"prime": 2}), "second": static([[1], [-1]], {"prime": 2})}, False),
+    ("left-invertible-line", {"first": static([[1], [0]]), "second": static([[1], [0]])}, False),
+    ("left-invertible-line", {"first": static([[1], [0]]), "second": static([[0], [0]])}, False),
+    ("left-invertible-line", {"first": static([[0], [0]]), "second": static([[1], [0]])}, False),
+    # a^2 - 2 b^2 has zeros over an extension, no minors but a^2, a b, b^2 have.
+    ("left-invertible-line", {"first": static([[1, 0], [0, 1]]), "second": static([[0, 2], [1, 0]])}, False),
+    (
+        "left-invertible-line",
+        {"first": static([[1, 0], [0, 1], [0, 0]]), "second": static([[0, 0], [1, 0], [0, 1]])},
+        True,
+    ),
+    # x+ = (a + b) v seen beside a v; x+ = (a + 2 b) v; x+ = x + (a - b) v seen on top of b v.
+    ("left-invertible-line", {"first": fed([[1]], [[0], [1]]), "second": fed([[1]], [[0], [0]])}, True),
+    ("left-invertible-line", {"first": fed([[1]], [[0], [0]]), "second": fed([[2]], [[0], [0]])}, False),
+    ("left-invertible-line", {"first": fed([[1]], [[0], [0]], 1), "second": fed([[-1]], [[1], [0]], 1)}, True),
+    ("left-invertible-line", {"first": QUIET, "second": QUIET}, True),
+    ("left-invertible-line", {"first": UNSEEN, "second": UNSEEN}, False),
+    ("left-invertible-line", {"first": NOTHING, "second": NOTHING}, True),
+    ("left-invertible-line", {"first": BLIND, "second": BLIND}, False),
+    ("schur-stable", {"system": NOTHING}, True),
+    ("schur-stable", {"system": LINE}, True),
+    ("schur-stable", {"system": UNSEEN}, False),
+    ("schur-stable", {"system": moved([["-1"]])}, False),
+    ("schur-stable", {"system": moved([["999/1000"]])}, True),
+    ("schur-stable", {"system": moved([["1/2", 0], [0, "-1001/1000"]])}, False),
+    ("schur-stable", {"system": moved([["3/5", "-4/5"], ["4/5", "3/5"]])}, False),
+    ("schur-stable", {"system": moved([["3/5", "-3/4"], ["3/4", "3/5"]])}, True),
+    ("schur-stable", {"system": moved([[0, 1, 0], [0, 0, 1], ["-1/2", 0, 0]])}, True),
+    ("schur-stable", {"system": moved([[0, 1, 0], [0, 0, 1], [-1, 0, 0]])}, False),
+    # 1/2 sqrt 2 and its conjugate are inside; 1 - sqrt 2 is, and its conjugate 1 + sqrt 2 is not.
+    ("schur-stable", {"system": moved([[["0", "1/2"]]], SQRT2)}, True),
+    ("schur-stable", {"system": moved([[["1", "-1"]]], SQRT2)}, False),
     ("not-left-invertible", {"system": BLIND}, True),
     ("not-left-invertible", {"system": UNSEEN}, False),
     ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": 3}, True),
@@ -117,6 +180,13 @@ MALFORMED: list[tuple[str, Any]] = [
     ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [2, 1]}),
     ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": 2}),
     ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [2], "window_ranks": ["2"]}),
+    ("left-invertible-line", {"first": SEEN}),
+    ("left-invertible-line", {"first": SEEN, "second": SEEN, "window": 1}),
+    ("left-invertible-line", {"first": SEEN, "second": QUIET}),
+    ("left-invertible-line", {"first": SEEN, "second": {**SEEN, "A": [[1]]}}),
+    ("left-invertible-line", {"first": SEEN, "second": {**SEEN, "C": [[1], [1]]}}),
+    ("schur-stable", {"system": shift_register({"prime": 2}, 1)}),
+    ("schur-stable", {"system": SEEN, "radius": 1}),
     ("inversion-delay", {"system": LINE, "initial_state": "free", "delay": 3}),
     ("inversion-delay", {"system": LINE, "initial_state": "known"}),
     ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": "3"}),
@@ -198,6 +268,38 @@ def test_statements_about_planted_structure(case: tuple[Any, Structure]) -> None
     assert truth("left-invertible", about) == (r == structure.m) != truth("not-left-invertible", about)
     delay = max(infinite, default=0) if r == structure.m else None
     assert truth("inversion-delay", {**about, "initial_state": "known", "delay": delay})
+
+
+@FEW
+@given(systems())
+def test_a_line_is_good_when_its_systems_are(json: Any) -> None:
+    """Half of the faults against the other half, each (a : b) by itself; with one fault over GF(p), all of them decide."""
+    whole = parse_system(json)
+    field, k = whole.field, whole.m // 2
+    halves = [replace(whole, F=whole.F.columns(i, i + k), G=whole.G.columns(i, i + k)) for i in (0, k)]
+    combined = []
+    for a, b in [(0, 1), *((1, b) for b in range(-2, 3))]:
+        scaled = [diagonal(field, k, field.integer(c)) for c in (a, b)]
+        F, G = ((getattr(halves[0], name) @ scaled[0]) + (getattr(halves[1], name) @ scaled[1]) for name in "FG")
+        combined.append(is_left_invertible(replace(whole, F=F, G=G)))
+    claimed = truth("left-invertible-line", {"first": write_system(halves[0]), "second": write_system(halves[1])})
+    assert all(combined) or not claimed
+    if k == 0 or (k == 1 and isinstance(field, PrimeField)):
+        assert claimed == all(combined)
+
+
+@given(st.lists(RATIONALS, max_size=3), st.lists(st.tuples(RATIONALS, RATIONALS), max_size=1))
+def test_stability_by_construction(real: list[Fraction], pairs: list[tuple[Fraction, Fraction]]) -> None:
+    """Blocks (x) and (x, -y; y, x), with something above the diagonal: eigenvalues of modulus |x| and sqrt(x^2 + y^2)."""
+    n = len(real) + 2 * len(pairs)
+    a = [[str(int(i < j and (i, j) != (0, 1))) for j in range(n)] for i in range(n)]
+    for i, (x, y) in enumerate(pairs):
+        for (row, column), value in zip(((0, 0), (0, 1), (1, 0), (1, 1)), (x, -y, y, x), strict=True):
+            a[2 * i + row][2 * i + column] = str(value)
+    for i, x in enumerate(real, start=2 * len(pairs)):
+        a[i][i] = str(x)
+    inside = all(abs(x) < 1 for x in real) and all(x * x + y * y < 1 for x, y in pairs)
+    assert truth("schur-stable", {"system": moved(a)}) == inside
 
 
 @FEW

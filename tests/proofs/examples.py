@@ -1,6 +1,7 @@
 """Certificates to try the checker with, and ways to spoil them.
 
     FIELDS, systems    small systems of every shape over Q, Q(a), Q(sqrt 2), GF(2), GF(3)
+    lines, stable      pairs and systems that the kinds left-invertible-line and schur-stable are about
     certificates       certificates of every kind about them, as they come out of files
     base               one certificate of a kind
     spoiled            a copy of a certificate with something replaced or deleted
@@ -35,6 +36,33 @@ def seen(field: Field = QQ, gain: object = 1) -> ResidualSystem:
 def free(field: Field = QQ) -> ResidualSystem:
     """The same with a state that stays: r = (x, v), x+ = x + v. Its second sample gives it away."""
     return ResidualSystem.of([[1]], [[1]], [[1], [0]], [[0], [1]], field=field)
+
+
+def lines(field: Field) -> Iterator[tuple[ResidualSystem, ResidualSystem]]:
+    """Pairs that are left-invertible for every (a : b): one fault and two, as many outputs as faults and more, no states, no faults."""
+    of = ResidualSystem.of
+    yield seen(field), of([[0]], [[0]], [[1], [0]], [[1], [0]], field=field)
+    yield of([[0]], [[1]], [[1]], [[0]], field=field), of([[0]], [[0]], [[1]], [[1]], field=field)
+    if isinstance(field, NumberField):
+        root = [0, 1, *[0] * (field.degree - 2)]
+        yield of([[root]], [[1]], [[1], [0]], [["1/3"], [0]], field=field), of([[root]], [[root]], [[1], [0]], [[0], [1]], field=field)
+    two = [[[1, 0], [0, 1], [0, 0]], [[0, 0], [1, 0], [0, 1]]]
+    yield of([], [], [[]] * 3, two[0], field=field, n=0, m=2, p=3), of([], [], [[]] * 3, two[1], field=field, n=0, m=2, p=3)
+    fed = [of([[1]], [[0, 1]], [[0], [0], [1]], gains, field=field) for gains in ([[1, 0], [0, 1], [0, 0]], [[0, 0], [1, 0], [0, 1]])]
+    yield fed[0], fed[1]
+    for n, m, p in ((1, 0, 1), (0, 0, 0)):
+        bare = of([[1]][:n], [[]][:n], [[1]][:p], [[]][:p], field=field, n=n, m=m, p=p)
+        yield bare, bare
+
+
+def stable(field: Field) -> Iterator[ResidualSystem]:
+    """Over Q or Q(a), with all eigenvalues inside the unit circle: none, nilpotent, complex, and a / 4."""
+    for A in ([], [[0, 5], [0, 0]], [["1/2", "-1/2"], ["1/2", "1/2"]], [["-7/8"]]):
+        n = len(A)
+        yield ResidualSystem.of(A, [[]] * n, [], [], field=field, n=n, m=0, p=0)
+    if isinstance(field, NumberField):
+        quarter = [0, "1/4", *[0] * (field.degree - 2)]
+        yield ResidualSystem.of([[0, quarter], [1, 0]], [[1], [0]], [[1, 0]], [[0]], field=field)
 
 
 def systems(field: Field) -> Iterator[ResidualSystem]:
@@ -76,6 +104,9 @@ def certificates(field: Field) -> Iterator[Certificate]:
     kernel = kernel_representation(seen(field))
     yield written(make.behaviour_difference(free(field), kernel))
     yield written(make.first_column_only(kernel, 2, Matrix.of([[0], [1], [0]], field)))
+    yield from (written(make.left_invertible_line(*pair)) for pair in lines(field))
+    if not isinstance(field, PrimeField):
+        yield from (written(make.schur_stable(system)) for system in stable(field))
 
 
 def spoiled(certificate: Certificate, *changes: tuple[str, Any]) -> Certificate:
@@ -109,6 +140,8 @@ def base(kind: str, field: Field = QQ, system: ResidualSystem | None = None, **m
         "first-column-only": lambda: make.first_column_only(kernel, 2, Matrix.of([[0], [1], [0]], field)),
         "matrix-rank": lambda: make.matrix_rank(more.get("name", "window"), system, window=2),
         "excitation": lambda: make.data_rank("excitation", system, Matrix.of([[1]], field), Matrix.of([[1], [0], [1], [1]], field), 2),
+        "left-invertible-line": lambda: make.left_invertible_line(*next(lines(field))),
+        "schur-stable": lambda: make.schur_stable(system),
         "finite-zeros": lambda: make.finite_zeros(system),
         "infinite-zeros": lambda: make.infinite_zeros(system),
     }
@@ -128,5 +161,6 @@ NULL, FINITE = base("left-invertible", system=TWICE), base("finite-zeros", syste
 SPACE, COLUMN = base("fault-space"), base("first-column-only")
 WINDOW, DATA, SAME, EQUAL = base("matrix-rank"), base("excitation"), base("window-equality"), base("behaviour-equality")
 DIFFERENCE = base("behaviour-difference")
+PAIR, STABLE = base("left-invertible-line"), base("schur-stable")
 EISENSTEIN = {"eisenstein": {"prime": 2, "shift": 0}}
 HUGE = "9" * 20000

@@ -23,6 +23,7 @@ from faultspace.exact.systems import ResidualSystem
 from faultspace.proofs import certificate as make
 from faultspace.proofs import checker
 from tests.oracle import premise_holds, truth
+from tests.proofs.examples import lines, stable
 
 SQRT2 = NumberField(("-2", "0", "1"))  # type: ignore[arg-type]
 CUBIC = NumberField(("1", "-3", "-1", "4"))  # type: ignore[arg-type]
@@ -61,6 +62,19 @@ def of_one_system(system: ResidualSystem) -> Iterator[dict[str, Any]]:
         yield make.data_rank(name, system, x0, v, 2)
     yield make.finite_zeros(system)
     yield make.infinite_zeros(system)
+
+
+def of_lines_and_stable_systems() -> Iterator[dict[str, Any]]:
+    """Lines of faults with one and two faults; stable systems with real and complex eigenvalues."""
+    for field in (QQ, SQRT2, PrimeField(2), PrimeField(3)):
+        yield from (make.left_invertible_line(first, second) for first, second in lines(field))
+    for field in (QQ, SQRT2, CUBIC):
+        yield from (make.schur_stable(system) for system in stable(field))
+
+
+def every_certificate() -> list[dict[str, Any]]:
+    """All of them."""
+    return [c for system in SYSTEMS.values() for c in of_one_system(system)] + [*of_two_systems(), *of_lines_and_stable_systems()]
 
 
 def of_two_systems() -> Iterator[dict[str, Any]]:
@@ -172,15 +186,18 @@ def test_mutations_about_two_systems_are_rejected_or_true() -> None:
     mutate_all(of_two_systems())
 
 
+def test_mutations_about_lines_and_stability_are_rejected_or_true() -> None:
+    mutate_all(of_lines_and_stable_systems())
+
+
 def test_every_kind_is_mutated() -> None:
-    made = {c["kind"] for system in SYSTEMS.values() for c in of_one_system(system)} | {c["kind"] for c in of_two_systems()}
-    assert made == set(checker.KINDS)
+    assert {c["kind"] for c in every_certificate()} == set(checker.KINDS)
 
 
 def test_foreign_systems_are_always_rejected() -> None:
     foreign = ResidualSystem.of([[7]], [[1]], [[1]], [[1]]).to_json()
     kinds = set()
-    for certificate in [c for system in SYSTEMS.values() for c in of_one_system(system)] + list(of_two_systems()):
+    for certificate in every_certificate():
         own = [value for key, value in certificate["statement"].items() if key in ("system", "inner", "outer", "first", "second")]
         checker.verify(certificate, own)
         for others in ([foreign], [*own, foreign]):
@@ -198,6 +215,8 @@ REFUSALS = {
     "are not the degrees of the rows": "window-ranks",
     "window_ranks do not follow": "window-ranks",
     "stays below the number of faults": "left-invertible",
+    "the minors may have a common zero": "left-invertible-line",
+    "an eigenvalue is not inside the unit circle": "schur-stable",
     "C x(q) + G v(q) = 0 fails": "not-left-invertible",
     "the left inverse does not give v(0)": "inversion-delay",
     "the output of the ambiguous word is not zero": "inversion-delay",
@@ -219,6 +238,6 @@ def test_a_checker_without_one_of_its_refusals_lets_something_false_through(refu
             strict(condition, reason, error)
 
     kind = REFUSALS[refusal]
-    certificates = [c for system in SYSTEMS.values() for c in of_one_system(system)] + list(of_two_systems())
+    certificates = every_certificate()
     monkeypatch.setattr(checker, "require", lenient)
     assert any(falsehoods(survivors(c)[1]) for c in certificates if c["kind"] == kind)

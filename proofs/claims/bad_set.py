@@ -1,0 +1,129 @@
+"""bad-set: which P give a pair that is not equivalent, as a set: objection 2 answered with the exact set and its size.
+
+With (A, C) observable: r = 1, none but P = 0; zeta = 0, the zeros of det P; r >= 2 and zeta >= 1, a cone of codimension at least two, in
+which there always is a P of full column rank.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from itertools import islice
+
+import numpy as np
+
+from ...exact.bad_set import bad_set
+from ...exact.exceptional import Exceptional, judge
+from ...exact.exceptional_witnesses import BadPair, bad_pair
+from ...exact.fault_space import with_pair
+from ...exact.fields import QQ, PrimeField
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import Matrix, rank
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from .. import checker
+from ..certificate import Certificate, Unprovable
+from ..families import adversarial, random_systems
+from ..judged_pairs import pencil_of
+from ..pairs import comparison_certificate
+from ..search import Box, systems_in_order
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, accepted, certify_records, counterexample
+from .one_determinant import show, words
+
+
+def one_fault(bench: Workbench) -> Outcome:
+    """(A, C) observable, r = 1: every P other than 0 is good."""
+    records = [d for d in bench.judged if d.observable and d.normal_rank == 1 and d.full_column_rank]
+    return certify_records(records, [d for d in records if not d.equal], words, show)
+
+
+def no_zeros(bench: Workbench) -> Outcome:
+    """zeta = 0: P is square, and good iff det P is not zero; the bad P are a hypersurface of degree r."""
+    records = [d for d in bench.judged if d.zeta == 0]
+    return certify_records(records, [d for d in records if d.equal != d.full_column_rank], words, show)
+
+
+def full_rank(bench: Workbench) -> Outcome:
+    """A bad P of full column rank exists iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1."""
+    systems = {d.system: d for d in bench.judged}
+    with_one = {d.system for d in bench.judged if d.purpose == "bad" and d.full_column_rank and not d.equal}
+    failing = []
+    for system, d in systems.items():
+        predicted = (d.normal_rank >= 1 and not d.observable) or (d.normal_rank >= 2 and d.zeta >= 1)
+        # where none is predicted, every P of full column rank that was judged has to be good
+        contradicted = any(not e.equal and e.full_column_rank for e in bench.judged if e.system == system)
+        if predicted != (system in with_one) or (not predicted and contradicted):
+            failing.append(d)
+    return certify_records([d for d in bench.judged if d.purpose in ("good", "bad")], failing, words, show)
+
+
+def codimension_two(bench: Workbench) -> Outcome:
+    """(A, C) observable, r >= 2, zeta >= 1: codimension at least two, by a line of P that meets no bad one, over any extension field."""
+    tried = [pencil for pencil in _pencils(bench) if pencil.observable and pencil.columns >= 2 and pencil.zeta >= 1]
+    count, missed = 0, 0
+    headline: tuple[Certificate, ...] = ()
+    for done, pencil in enumerate(tried):
+        bench.progress("lines without a bad P", done, len(tried))
+        stated = bad_set(pencil).codimension
+        if stated is not None and stated < 2:
+            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", tuple(_kernel(pencil)), 0)
+        line = _line(pencil)
+        if line is None:
+            missed += 1
+            continue
+        checker.verify(line)
+        count += 1
+        headline = headline or (line, *accepted(_kernel(pencil)))
+    if not count:
+        return Outcome(Verdict.ERROR, "no line was found for any system")
+    note = f"; for {missed} more by counting parameters alone" if missed else ""
+    words = f"on {count} systems, named and random over Q and GF(10007), by a line each{note}"
+    return Outcome(Verdict.CERTIFIED, words, headline, count + 2)
+
+
+def codimension_unobservable(bench: Workbench) -> Outcome:
+    """Codimension at least two when zeta >= 1, (A, C) observable or not."""
+    box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
+    for system in systems_in_order(box, lambda f: np.asarray(~f.observable & f.left_invertible)):
+        pencil = pencil_of(system)
+        size = bad_set(pencil).codimension
+        if pencil.zeta and size == 1:
+            bad = bad_pair(pencil)
+            if isinstance(bad, BadPair) and pencil.n_z == 2 and pencil.columns == 1:
+                pair = kernel_representation(with_pair(pencil.space, bad.verdict.P))
+                shown = [*_kernel(pencil), comparison_certificate(pencil.kernel, pair), make.left_invertible(pair)]
+                text = f"{system}: P has two entries, and every multiple of {bad.verdict.P} is bad"
+                return counterexample(text, box, shown)
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def _kernel(pencil: Exceptional) -> Iterator[Certificate]:
+    yield make.fault_space(pencil.kernel, pencil.space)
+    yield make.window_ranks(pencil.kernel)
+
+
+def _pencils(bench: Workbench) -> Iterator[Exceptional]:
+    systems = [s for _, s in adversarial() if s.n <= 4]
+    systems += islice(random_systems(QQ, 4000, seed=11), 1500 if bench.full else 250)
+    systems += islice(random_systems(PrimeField(10007), 4000, seed=12), 300 if bench.full else 60)
+    for system in systems:
+        if system.field == QQ or isinstance(system.field, PrimeField):
+            yield pencil_of(system)
+
+
+def _line(pencil: Exceptional) -> Certificate | None:
+    """A line through two random P that meets no bad one: nearly every line does where the codimension is two or more."""
+    rng, field = random.Random(str(pencil.system)), pencil.system.field
+    shape = (pencil.n_z, pencil.columns)
+    for _ in range(6):
+        ends: list[ResidualSystem] = []
+        while len(ends) < 2:
+            P = Matrix.of([[rng.randint(-3, 3) for _ in range(shape[1])] for _ in range(shape[0])], field, shape=shape)
+            if rank(P) == shape[1] and judge(pencil, P).good:
+                ends.append(with_pair(pencil.space, P))
+        try:
+            return make.left_invertible_line(*ends)
+        except Unprovable:
+            continue
+    return None

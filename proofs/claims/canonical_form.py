@@ -1,0 +1,81 @@
+"""canonical-form: the reduced row echelon form of Z names a class of fault matrices; what names a behaviour for any (A, C)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...exact.canonical_form import behavior_name, fault_class, with_feedback
+from ...exact.fault_space import fault_space
+from ...exact.kernel_representation import kernel_representation
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..certificate import Certificate
+from ..pairs import PairDossier, RivalDossier, comparison_certificate
+from ..search import Box, systems_in_order
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, certify_records, counterexample
+
+
+def same_a_c(bench: Workbench) -> Outcome:
+    """Two systems with the same (A, C) have the same behaviour iff their Z have the same reduced row echelon form."""
+    failing = [d for d in bench.rivals if d.equal != (_fault_class(d.system) == _fault_class(d.rival))]
+    return certify_records(bench.rivals, failing, lambda d: f"{d.system} and {d.rival}", _show_rival)
+
+
+def any_a_c(bench: Workbench) -> Outcome:
+    """The same for systems with different (A, C): equal behaviours, so equal Z. The smallest system and feedback that say no."""
+    box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
+    for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
+        kernel = kernel_representation(system)
+        for similar in (system, ResidualSystem(system.A, -system.F, -system.C, system.G)):
+            for gain in (0, 1, -1):
+                other = kernel_representation(with_feedback(similar, [[gain]]))
+                if fault_space(other).basis != fault_space(kernel).basis:
+                    shown = [comparison_certificate(kernel, other), make.fault_space(kernel, fault_space(kernel))]
+                    shown.append(make.fault_space(other, fault_space(other)))
+                    text = f"{system} and {other.system}, made of it by a change of basis of the state and v + {gain} x for v"
+                    return counterexample(text, f"{box}, gain in {{0, 1, -1}}", shown)
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def feedback(bench: Workbench) -> Outcome:
+    """B names (A, C): a system with other A and C by feedback of the state into the fault has the same behaviour."""
+    box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
+    for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
+        kernel = kernel_representation(system)
+        other = kernel_representation(with_feedback(system, [[1]]))
+        if (other.system.A, other.system.C) != (system.A, system.C):
+            shown = [comparison_certificate(kernel, other)]
+            if shown[0]["kind"] == "behaviour-equality":
+                return counterexample(f"{system} and, with K = 1, {other.system}", box, shown)
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def popov_rows(bench: Workbench) -> Outcome:
+    """Whatever (A, C), n and m: the behaviours are equal iff the Popov rows of N(q) are."""
+    failing = [d for d in bench.pairs if (d.first_difference is None) != (_name(d.first) == _name(d.second))]
+    return certify_records(bench.pairs, failing, lambda d: f"{d.first} and {d.second}", _show_pair)
+
+
+def _fault_class(system: ResidualSystem) -> object:
+    return fault_class(kernel_representation(system))
+
+
+def _name(system: ResidualSystem) -> object:
+    return behavior_name(kernel_representation(system))
+
+
+def _show_rival(record: RivalDossier) -> Iterator[Certificate]:
+    kernels = kernel_representation(record.system), kernel_representation(record.rival)
+    yield comparison_certificate(*kernels)
+    for kernel in kernels:
+        yield make.fault_space(kernel, fault_space(kernel))
+
+
+def _show_pair(record: PairDossier) -> Iterator[Certificate]:
+    kernels = kernel_representation(record.first), kernel_representation(record.second)
+    yield comparison_certificate(*kernels)
+    for kernel in kernels:
+        yield make.window_ranks(kernel)

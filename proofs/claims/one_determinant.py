@@ -1,0 +1,65 @@
+"""one-determinant: the greatest common divisor of the maximal minors of the pencil of (A, Fhat P, C, Ghat P) is one small determinant.
+
+D(q; P) = det [P | q b - a], n_z x n_z: nothing is expanded in P.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...exact.generic_exceptional import generic_exceptional, generic_exceptional_without_feedthrough
+from ...exact.kernel_representation import kernel_representation
+from .. import certificate as make
+from ..certificate import Certificate
+from ..judged_pairs import JudgedPair
+from ..pairs import comparison_certificate
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, certify_records
+
+
+def formula(bench: Workbench) -> Outcome:
+    """D(q; P), made monic, is the zero polynomial of the pair that the diagonal form of its pencil shows; zero where the rank falls."""
+    failing = [d for d in bench.judged if not agrees(d)]
+    return certify_records(bench.judged, failing, words, show)
+
+
+def parametric(bench: Workbench) -> Outcome:
+    """All entries of A, C, F, G and P indeterminate: every maximal minor is a multiple of D, the cofactors have no common factor."""
+    dimensions = [(1, 1, 1), (1, 2, 1), (1, 2, 2), (2, 2, 1), (2, 1, 1), (1, 1, 2)]
+    if bench.full:
+        dimensions += [(n, p, m) for n in range(3) for p in range(4) for m in range(3) if (n, p, m) not in dimensions]
+    expanded = count = 0
+    for done, (n, p, m) in enumerate(dimensions):
+        bench.progress(f"all entries indeterminate, n={n} p={p} m={m}", done, len(dimensions))
+        cases = [generic_exceptional(n, p, m)]
+        cases += [generic_exceptional_without_feedthrough(n, p, m)] if 0 < m < p and m <= n else []
+        expanded += sum(case.expanded for case in cases)
+        count += len(cases)
+    listed = ", ".join(str(d).replace(" ", "") for d in dimensions)
+    words = (
+        f"{count} cases at (n,p,m) = {listed}, G = 0 apart where m < p: generically D is det P, det(P1 + qP2) or the pencil's "
+        f"own determinant; {expanded} identities of sympy expanded again by FLINT"
+    )
+    return Outcome(Verdict.IDENTITY, words)
+
+
+def agrees(pair: JudgedPair) -> bool:
+    """Whether D and the certificates tell the same of a pair."""
+    if not pair.polynomial:
+        return pair.pair_normal_rank < pair.normal_rank and not pair.equal
+    zeros = len(pair.polynomial) - 1 + pair.infinite_zeros
+    return pair.polynomial == pair.zero_polynomial and pair.pair_normal_rank == pair.normal_rank and pair.equal and zeros == pair.zeta
+
+
+def words(pair: JudgedPair) -> str:
+    """The pair for a reader."""
+    return f"{pair.system} with F' = {pair.pair.F}, G' = {pair.pair.G}"
+
+
+def show(pair: JudgedPair) -> Iterator[Certificate]:
+    """What the certificates of the pair say: equivalent or not, normal rank, zeros."""
+    kernels = kernel_representation(pair.system), kernel_representation(pair.pair)
+    yield comparison_certificate(*kernels)
+    yield make.window_ranks(kernels[1])
+    yield make.finite_zeros(pair.pair)
+    yield make.infinite_zeros(pair.pair)

@@ -1,0 +1,80 @@
+"""sharp-windows: the lag for the rank gap, one sample more for problem (11) and for equality; none of the three can be shortened."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from itertools import islice
+
+from ...exact.behavior import compare
+from ...exact.fault_space import fault_space, with_pair
+from ...exact.fields import QQ
+from ...exact.kernel_representation import KernelRepresentation, kernel_representation
+from ...exact.matrices import Matrix
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from .. import checker
+from ..certificate import Certificate
+from ..corpus import Dossier
+from ..families import adversarial, random_systems
+from ..pairs import comparison_certificate
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, accepted, certify
+from .common import ranks_and_inversion
+from .problem_11 import lag_plus_1
+
+
+def gap(bench: Workbench) -> Outcome:
+    """gap(s) is the normal rank for exactly the s >= lag; where p = r the lag is 0, and it is so for every s."""
+
+    def holds(d: Dossier) -> bool:
+        return all((d.gap(s) == d.normal_rank) == (s >= d.lag) for s in range(0, d.n + 3))
+
+    return certify(bench, lambda d: True, holds, ranks_and_inversion)
+
+
+def solutions(bench: Workbench) -> Outcome:
+    """The solutions of problem (11) are Z for exactly the s >= lag + 1."""
+    return lag_plus_1(bench)
+
+
+def equality(bench: Workbench) -> Outcome:
+    """Left-invertible, m >= 1, lag >= 1: some system with the same (A, C) agrees on lag samples and differs on lag + 1."""
+    systems = [s for _, s in adversarial() if s.n <= 6] + list(islice(random_systems(QQ, 4000, seed=13), 400 if bench.full else 80))
+    headline: tuple[Certificate, ...] = ()
+    tried = count = 0
+    for done, system in enumerate(systems):
+        bench.progress("partners that differ late", done, len(systems))
+        kernel = kernel_representation(system)
+        if kernel.normal_rank < system.m or system.m == 0 or kernel.lag == 0:
+            continue
+        partner = _partner(kernel)
+        if partner is None:
+            return Outcome(Verdict.REFUTED, f"no partner found for {system}", accepted(ranks_and_inversion(system)), count)
+        shown = tuple(_show(kernel, partner))
+        for certificate in shown:
+            checker.verify(certificate)
+        if shown[1]["statement"]["window"] != kernel.lag + 1:
+            return Outcome(Verdict.ERROR, f"the partner of {system} differs elsewhere")
+        tried, count = tried + 1, count + len(shown)
+        headline = headline or shown
+    return Outcome(Verdict.CERTIFIED, f"by one partner each for {tried} systems, named and random over Q", headline, count)
+
+
+def _partner(kernel: KernelRepresentation) -> KernelRepresentation | None:
+    """Fault columns moved by solutions of problem (11) on lag samples that are none on lag + 1."""
+    system: ResidualSystem = kernel.system
+    space, rng = fault_space(kernel, kernel.lag), random.Random(str(system))
+    for _ in range(60):
+        P = Matrix.of([[rng.randint(-2, 2) for _ in range(system.m)] for _ in range(space.dimension)], shape=(space.dimension, system.m))
+        other = kernel_representation(with_pair(space, P))
+        if other.rank(kernel.lag) == kernel.rank(kernel.lag) and compare(kernel, other).first_difference == kernel.lag + 1:
+            return other
+    return None
+
+
+def _show(kernel: KernelRepresentation, partner: KernelRepresentation) -> Iterator[Certificate]:
+    yield make.window_equality(kernel, partner, kernel.lag)
+    yield comparison_certificate(kernel, partner)
+    yield make.left_invertible(kernel)
+    yield make.left_invertible(partner)

@@ -1,0 +1,63 @@
+"""trajectory-recovered: the fault signal from the residual, for a pair (F, G) that one has chosen; with and without the initial state."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import rank
+from ...exact.windows import observability_matrix
+from ...exact.zero_feedthrough import zero_feedthrough
+from ..corpus import Dossier
+from ..search import Box
+from ..verdicts import Outcome
+from ..workbench import Workbench, certify, refute
+from .common import delays, zeros
+
+BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+
+
+def state_known(bench: Workbench) -> Outcome:
+    """x(0) known: v is determined iff the system is left-invertible, with a delay of the largest infinite zero order at most."""
+
+    def holds(d: Dossier) -> bool:
+        if not d.left_invertible:
+            return d.delay_known_state is None
+        return d.delay_known_state == max(d.infinite_zero_orders or (), default=0)
+
+    return certify(bench, lambda d: d.infinite_zero_orders is not None, holds, delays)
+
+
+def state_unknown(bench: Workbench) -> Outcome:
+    """x(0) unknown: left-invertible and observable, so v is determined."""
+    return refute(
+        bench,
+        BOX,
+        lambda f: np.asarray(f.observable & f.left_invertible & (f.delay_unknown_state > f.n)),
+        lambda d: d.observable and d.left_invertible,
+        lambda d: d.delay_unknown_state is not None,
+        delays,
+    )
+
+
+def no_finite_zeros(bench: Workbench) -> Outcome:
+    """x(0) unknown: v is determined iff left-invertible and all finite zeros are unobservable modes, none where (A, C) is observable."""
+
+    def holds(d: Dossier) -> bool:
+        hidden = d.n - rank(observability_matrix(d.system, d.n))
+        return (d.delay_unknown_state is not None) == (d.left_invertible and d.finite_zeros == hidden)
+
+    return certify(bench, lambda d: d.finite_zeros is not None, holds, lambda s: [*zeros(s), *delays(s)])
+
+
+def zero_feedthrough_signal(bench: Workbench) -> Outcome:
+    """G = 0: v is the same in all equivalent pairs, up to a basis, iff rank CF = m and the finite zeros are the unobservable modes."""
+
+    def holds(d: Dossier) -> bool:
+        found = zero_feedthrough(kernel_representation(d.system))
+        hidden = d.n - rank(observability_matrix(d.system, d.n))
+        return found.pins_v == (rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == hidden)
+
+    return certify(
+        bench, lambda d: d.left_invertible and d.m > 0 and d.finite_zeros is not None and d.system.G.is_zero(), holds, zeros
+    )

@@ -1,0 +1,58 @@
+"""window-ranks (L1 and L2): every window at once, from the minimal indices of the pencil, without any hypothesis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...exact.kernel_representation import kernel_representation
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..certificate import Certificate
+from ..corpus import Dossier
+from ..verdicts import Outcome
+from ..workbench import Workbench, certify
+from .common import spaces, zeros
+
+
+def ranks(bench: Workbench) -> Outcome:
+    """rank [O_s T_s] = s r + sum of min(s, eta_i) against the rank of each window by itself, s = 1..n + 2."""
+    return certify(bench, lambda d: True, lambda d: all(d.rank(s) == rank for s, rank in enumerate(d.window_ranks, 1)), _windows)
+
+
+def indices(bench: Workbench) -> Outcome:
+    """n = sum eta + sum eps + n_f + n_inf: left and right minimal indices, finite and infinite zeros, each from certificates of its own."""
+
+    def holds(d: Dossier) -> bool:
+        return d.n == sum(d.left_minimal_indices) + sum(d.right_minimal_indices) + (d.zeta or 0)
+
+    return certify(bench, lambda d: d.zeta is not None, holds, _all_indices)
+
+
+def solutions(bench: Workbench) -> Outcome:
+    """Problem (11) at window s has dimension n + p - sum of (eta_i + 1) over eta_i <= s - 1."""
+
+    def holds(d: Dossier) -> bool:
+        predicted = [d.n + d.p - sum(eta + 1 for eta in d.left_minimal_indices if eta < s) for s in range(1, len(d.space_dimensions) + 1)]
+        return list(d.space_dimensions) == predicted
+
+    return certify(bench, lambda d: True, holds, spaces(lambda s: s.n + 1))
+
+
+def limit(bench: Workbench) -> Outcome:
+    """n_z = r + zeta + sum eps: so n_v + zeta where the system is left-invertible."""
+
+    def holds(d: Dossier) -> bool:
+        return d.limit_dimension == d.normal_rank + (d.zeta or 0) + sum(d.right_minimal_indices)
+
+    return certify(bench, lambda d: d.zeta is not None, holds, _all_indices)
+
+
+def _windows(system: ResidualSystem) -> Iterator[Certificate]:
+    yield make.window_ranks(kernel_representation(system))
+    for s in range(1, system.n + 2):
+        yield make.matrix_rank("window", system, window=s)
+
+
+def _all_indices(system: ResidualSystem) -> Iterator[Certificate]:
+    yield from zeros(system)
+    yield make.window_ranks(kernel_representation(system.transposed()))

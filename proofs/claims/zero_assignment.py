@@ -1,0 +1,78 @@
+"""zero-assignment: a P places the finite zeros of the fault model at will; one leaves none, so that v needs no initial state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+
+from ...exact.exceptional import Exceptional
+from ...exact.fields import QQ
+from ...exact.kernel_representation import kernel_representation
+from ...exact.systems import ResidualSystem
+from ...exact.zero_assignment import recoverable_pair
+from .. import certificate as make
+from .. import checker
+from ..certificate import Certificate
+from ..families import adversarial, random_systems
+from ..judged_pairs import JudgedPair, pencil_of
+from ..pairs import comparison_certificate
+from ..search import Box, systems_in_order
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, accepted, certify_records, counterexample
+from .one_determinant import show, words
+
+
+def every_polynomial(bench: Workbench) -> Outcome:
+    """(A, C) observable: for every monic polynomial of degree at most zeta there is a P whose pair has exactly these finite zeros."""
+    return _placed(bench, lambda pair: pair.observable)
+
+
+def unobservable(bench: Workbench) -> Outcome:
+    """Observable or not: every multiple, of degree at most zeta, of the characteristic polynomial of the unobservable modes."""
+    return _placed(bench, lambda pair: True)
+
+
+def without_observability(bench: Workbench) -> Outcome:
+    """Every polynomial of degree at most zeta, (A, C) not observable: the unobservable mode is a zero of every pair."""
+    box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
+    for system in systems_in_order(box, lambda f: ~f.observable & f.left_invertible):
+        pencil = pencil_of(system)
+        if pencil.zeta:
+            shown = [make.finite_zeros(system), make.matrix_rank("observability", system), *_space(pencil)]
+            note = f"{system}: no pair is without finite zeros, its unobservable mode is a zero of each"
+            return counterexample(note, box, shown)
+    return Outcome(Verdict.ERROR, "no counterexample in the box")
+
+
+def recoverable(bench: Workbench) -> Outcome:
+    """Every system has an equivalent pair with r faults whose v(0) is determined by the outputs, whatever the initial state is."""
+    systems = [s for _, s in adversarial() if s.n <= 4] + list(islice(random_systems(QQ, 600, seed=9), 400 if bench.full else 60))
+    headline: tuple[Certificate, ...] = ()
+    count = 0
+    for done, system in enumerate(systems):
+        bench.progress("pairs whose fault needs no initial state", done, len(systems))
+        found = recoverable_pair(pencil_of(system))
+        kernels = kernel_representation(system), kernel_representation(found.assignment.system)
+        certificates = comparison_certificate(*kernels), make.inversion_delay(kernels[1], known_state=False)
+        for certificate in certificates:
+            checker.verify(certificate)
+        count += len(certificates)
+        if certificates[0]["kind"] != "behaviour-equality" or certificates[1]["statement"]["delay"] is None:
+            return Outcome(Verdict.REFUTED, f"fails on {system}", accepted(certificates), count)
+        headline = headline if headline or not (system.n and system.m) else certificates
+    return Outcome(Verdict.CERTIFIED, f"by one pair each for {len(systems)} systems, named and random", headline, count)
+
+
+def _placed(bench: Workbench, applies: object) -> Outcome:
+    records = [d for d in bench.judged if d.wanted is not None and applies(d)]  # type: ignore[operator]
+    failing = [d for d in records if not (d.equal and d.zero_polynomial == d.wanted)]
+    return certify_records(records, failing, _words, show)
+
+
+def _words(pair: JudgedPair) -> str:
+    return f"{words(pair)}, wanted zero polynomial {list(pair.wanted or ())}"
+
+
+def _space(pencil: Exceptional) -> Iterator[Certificate]:
+    system: ResidualSystem = pencil.system
+    yield make.fault_space(kernel_representation(system), pencil.space)

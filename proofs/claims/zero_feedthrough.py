@@ -1,0 +1,57 @@
+"""zero-feedthrough: if G = 0, fault matrices and trajectory are recovered exactly, up to a choice of basis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...exact.fault_space import fault_space
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import rank
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..certificate import Certificate
+from ..corpus import Dossier
+from ..search import Box
+from ..verdicts import Outcome
+from ..workbench import Workbench, certify, refute
+from .common import zeros
+
+BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+
+
+def fault_matrices(bench: Workbench) -> Outcome:
+    """Left-invertible and observable, G = 0 known: every member of Z without feedthrough lies in im F."""
+    return refute(
+        bench,
+        BOX,
+        lambda f: np.asarray(f.observable & f.left_invertible & ~f.G.any(axis=(1, 2))),
+        lambda d: _applies(d) and d.observable,
+        _pinned,
+        _show,
+    )
+
+
+def exactly_when(bench: Workbench) -> Outcome:
+    """G = 0, left-invertible: im F is determined iff zeta = m, that is iff rank CF = m and there are no finite zeros."""
+
+    def holds(d: Dossier) -> bool:
+        condition = rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == 0
+        return _pinned(d) == condition == (d.zeta == d.m)
+
+    return certify(bench, lambda d: _applies(d) and d.zeta is not None, holds, _show)
+
+
+def _applies(d: Dossier) -> bool:
+    return d.left_invertible and d.system.G.is_zero()
+
+
+def _pinned(d: Dossier) -> bool:
+    return d.without_feedthrough == rank(d.system.F)
+
+
+def _show(system: ResidualSystem) -> Iterator[Certificate]:
+    yield from zeros(system)
+    kernel = kernel_representation(system)
+    yield make.fault_space(kernel, fault_space(kernel))

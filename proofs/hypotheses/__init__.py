@@ -1,0 +1,49 @@
+"""The hypotheses of each claim, as tests on certified subjects: what `ablation` drops, one file a kind of subject.
+
+experiments     all of them, in the order of the claims
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..ablation import Experiment
+from .fault_matrices import theorem_3_ii
+from .pairs import theorem_1, theorem_3_i
+from .pencils import bad_of_full_rank, codimension, placement, zeros_of_pair
+from .systems import (
+    columns,
+    gap,
+    gap_from_lag,
+    range_of_f,
+    rank_formula,
+    signal_from_known_state,
+    signal_from_unknown_state,
+    solutions,
+    solutions_from_lag,
+)
+from .trajectories import excited, persistently_excited
+
+
+def experiments() -> tuple[Experiment[Any], ...]:
+    """Every experiment, by the order of its claim."""
+    return (
+        theorem_1(),
+        rank_formula(),
+        excited(),
+        persistently_excited(),
+        gap(),
+        gap_from_lag(),
+        solutions(),
+        solutions_from_lag(),
+        columns(),
+        theorem_3_i(),
+        theorem_3_ii(),
+        range_of_f(),
+        signal_from_known_state(),
+        signal_from_unknown_state(),
+        zeros_of_pair(),
+        codimension(),
+        bad_of_full_rank(),
+        placement(),
+    )

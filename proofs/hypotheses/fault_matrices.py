@@ -1,0 +1,123 @@
+"""The hypotheses of theorem-3 (ii): when does a pair (Fhat P, Ghat P), taken from problem (11) at a window, give the same outputs?
+
+    Pair          a system, other fault matrices whose columns solve problem (11) at a window, and whether the outputs are the same
+    theorem_3_ii  equivalent: from a window of lag + 1 on, for P such that the normal rank stays
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from ...exact.behavior import compare
+from ...exact.fault_space import fault_space, with_pair
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import Matrix, rank, stacked
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..ablation import Experiment, Found
+from ..certificate import Certificate
+from ..pairs import comparison_certificate
+from ..search import Box, systems_in_order
+from ..workbench import Workbench
+from .facets import facets, flags
+
+BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """`rival` has the (A, C) of `system` and columns [F'; G'] that solve its problem (11) at the window."""
+
+    system: ResidualSystem
+    rival: ResidualSystem
+    window: int
+    equal: bool
+    weight: int
+    accepted: int
+
+    @property
+    def size(self) -> tuple[int, ...]:
+        """n + m + p, then n, m, p, then the window."""
+        s = self.system
+        return (s.n + s.m + s.p, s.n, s.m, s.p, self.window)
+
+    @property
+    def field(self) -> str:
+        """The field in words."""
+        return str(self.system.field)
+
+    def __str__(self) -> str:
+        return f"{self.system} with F' = {self.rival.F}, G' = {self.rival.G}, s = {self.window}"
+
+
+HYPOTHESES: dict[str, Callable[[Pair], bool]] = {
+    "observable": lambda x: facets(x.system).observable,
+    "controllable": lambda x: facets(x.system).controllable,
+    "left-invertible": lambda x: facets(x.system).left_invertible,
+    "A stable": lambda x: facets(x.system).stable,
+    "s >= lag + 1": lambda x: x.window >= facets(x.system).lag + 1,
+    "P of full column rank": lambda x: rank(stacked(x.rival.F, x.rival.G)) == x.rival.m,
+    "P good: normal rank r": lambda x: facets(x.rival).normal_rank == facets(x.system).normal_rank,
+}
+
+
+def theorem_3_ii() -> Experiment[Pair]:
+    """The pair is equivalent to the system."""
+    return Experiment(
+        name="equivalent-pair",
+        claim="theorem-3-ii",
+        conclusion="(A, Fhat P, C, Ghat P) has the same output behaviour",
+        hypotheses=HYPOTHESES,
+        holds=lambda pair: pair.equal,
+        subjects=_subjects,
+        over_q=_smallest,
+        show=_show,
+    )
+
+
+def _subjects(bench: Workbench) -> Iterator[Pair]:
+    """Every rival with columns in Z, at lag + 1; the others at the longest window whose solutions they are, if there is one."""
+    for d in bench.rivals:
+        window = facets(d.system).lag + 1 if d.in_space else _longest(d.system, d.rival)
+        if window:
+            yield Pair(d.system, d.rival, window, d.equal, d.weight, d.accepted)
+
+
+def _longest(system: ResidualSystem, rival: ResidualSystem) -> int:
+    columns = stacked(rival.F, rival.G).transposed()
+    kernel = kernel_representation(system)
+    for s in range(kernel.lag, 0, -1):
+        basis = fault_space(kernel, s).basis
+        if rank(stacked(basis, columns)) == basis.nrows:
+            return s
+    return 0
+
+
+def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
+    """The first system, window and P, in this order, that meets what is kept and is not equivalent."""
+    kept = [test for name, test in HYPOTHESES.items() if name not in dropped]
+    box = f"{BOX}, entries of P in {{-1, 0, 1}}"
+    for system in systems_in_order(BOX, flags(set(HYPOTHESES) - set(dropped))):
+        kernel = kernel_representation(system)
+        windows = range(1, kernel.lag + 2) if "s >= lag + 1" in dropped else range(kernel.lag + 1, kernel.lag + 2)
+        for s in windows:
+            space = fault_space(kernel, s)
+            shape = (space.dimension, system.m)
+            for entries in product((-1, 0, 1), repeat=shape[0] * shape[1]):
+                P = Matrix.of([list(entries[i * system.m : (i + 1) * system.m]) for i in range(shape[0])], shape=shape)
+                pair = Pair(system, with_pair(space, P), s, False, 1, 0)
+                if all(test(pair) for test in kept) and compare(kernel, kernel_representation(pair.rival)).first_difference is not None:
+                    return Found(pair, box)
+    return Found(None, box)
+
+
+def _show(pair: Pair) -> Iterator[Certificate]:
+    kernel, rival = kernel_representation(pair.system), kernel_representation(pair.rival)
+    yield comparison_certificate(kernel, rival)
+    yield make.fault_space(kernel, fault_space(kernel, pair.window))
+    yield make.window_ranks(kernel)
+    yield make.window_ranks(rival)
+    yield make.matrix_rank("observability", pair.system)
+    yield make.matrix_rank("reachability", pair.system)

@@ -1,0 +1,172 @@
+"""The hypotheses of the claims about all P at once: size of the bad set, bad P of full column rank, zero assignment; and about one P.
+
+The size of the bad set is counted from the degrees of L(q) by exact/bad_set, which certificates of lines confirm in the claim itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from ...exact.bad_set import bad_set
+from ...exact.exceptional import polynomial_at
+from ...exact.exceptional_witnesses import BadPair, bad_pair
+from ...exact.fault_space import with_pair
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import Matrix
+from ...exact.pencil import infinite_zero_orders
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..ablation import Experiment, Found
+from ..certificate import Certificate
+from ..claims.one_determinant import show as show_pair
+from ..judged_pairs import JudgedPair, examine_judged, pencil_of
+from ..pairs import comparison_certificate
+from ..search import Box, Facts, Integers, systems_in_order
+from ..workbench import Workbench
+from .facets import facets, flags
+from .systems import MODEL
+from .windowed import NO_WINDOW, Condition, Windowed, windowed
+
+BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
+
+
+def _normal_rank(facts: Facts) -> Integers:
+    return facts.gap(facts.n + 1)
+
+
+def _zeta(facts: Facts) -> Integers:
+    """n less the left minimal indices, read off a late window."""
+    late = facts.n + 1
+    return facts.n - facts.rank(late) + late * _normal_rank(facts)
+
+
+TWO_FAULTS = Condition(lambda w: w.dossier.normal_rank >= 2, lambda f, s: np.asarray(_normal_rank(f) >= 2))
+SOME_ZERO = Condition(lambda w: pencil_of(w.dossier.system).zeta >= 1, lambda f, s: np.asarray(_zeta(f) >= 1))
+SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
+
+
+def codimension() -> Experiment[Windowed]:
+    """bad-set: codimension at least two."""
+
+    def at_least_two(subject: Windowed) -> bool:
+        size = bad_set(pencil_of(subject.dossier.system)).codimension
+        return size is None or size >= 2
+
+    conclusion = Condition(at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
+    return _of_pencils("codimension", "bad-set", "the bad P have codimension at least 2", conclusion)
+
+
+def bad_of_full_rank() -> Experiment[Windowed]:
+    """bad-set: full column rank is not enough."""
+
+    def exists(subject: Windowed) -> bool:
+        return isinstance(bad_pair(pencil_of(subject.dossier.system)), BadPair)
+
+    conclusion = Condition(exists, lambda f, s: np.asarray((_normal_rank(f) >= 2) & (_zeta(f) >= 1)))
+    return _of_pencils("bad-of-full-rank", "bad-set", "some P of full column rank is bad", conclusion)
+
+
+def placement() -> Experiment[Windowed]:
+    """zero-assignment: the modes that no P moves are none."""
+
+    def every(subject: Windowed) -> bool:
+        pencil = pencil_of(subject.dossier.system)
+        return pencil.zeta == 0 or (len(pencil.fixed) == 1 and pencil.columns > 0)
+
+    words = "every polynomial of degree at most zeta is the zero polynomial of some pair"
+    conclusion = Condition(every, lambda f, s: np.asarray((f.observable & (_normal_rank(f) >= 1)) | (_zeta(f) == 0)))
+    return windowed("placement", "zero-assignment", words, MODEL, conclusion, _show, windows=lambda n: NO_WINDOW, box=BOX)
+
+
+def _of_pencils(name: str, claim: str, words: str, conclusion: Condition) -> Experiment[Windowed]:
+    return windowed(name, claim, words, SIZES, conclusion, _show, windows=lambda n: NO_WINDOW, box=BOX)
+
+
+def _show(system: ResidualSystem) -> Iterator[Certificate]:
+    """Z, the indices, and a bad P of full column rank where there is one."""
+    pencil = pencil_of(system)
+    yield make.fault_space(pencil.kernel, pencil.space)
+    yield make.window_ranks(pencil.kernel)
+    yield make.matrix_rank("observability", system)
+    bad = bad_pair(pencil)
+    if isinstance(bad, BadPair):
+        pair = kernel_representation(with_pair(pencil.space, bad.verdict.P))
+        yield comparison_certificate(pencil.kernel, pair)
+        yield make.window_ranks(pair)
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A judged pair as a subject."""
+
+    record: JudgedPair
+
+    @property
+    def size(self) -> tuple[int, ...]:
+        """n + m + p, then n, m, p."""
+        s = self.record.system
+        return (s.n + s.m + s.p, s.n, s.m, s.p)
+
+    @property
+    def weight(self) -> int:
+        """Systems of the orbit."""
+        return self.record.weight
+
+    @property
+    def field(self) -> str:
+        """The field in words."""
+        return str(self.record.system.field)
+
+    @property
+    def accepted(self) -> int:
+        """Accepted certificates."""
+        return self.record.accepted
+
+    def __str__(self) -> str:
+        return f"{self.record.system} with F' = {self.record.pair.F}, G' = {self.record.pair.G}"
+
+
+def zeros_of_pair() -> Experiment[Judged]:
+    """zeros-of-pairs: as many zeros as the system has."""
+    hypotheses: dict[str, Callable[[Judged], bool]] = {
+        "observable": lambda j: facets(j.record.system).observable,
+        "controllable": lambda j: facets(j.record.system).controllable,
+        "left-invertible": lambda j: facets(j.record.system).left_invertible,
+        "A stable": lambda j: facets(j.record.system).stable,
+        "P good: normal rank r": lambda j: j.record.pair_normal_rank == j.record.normal_rank,
+    }
+
+    def as_many(subject: Judged) -> bool:
+        d = subject.record
+        return len(d.zero_polynomial) - 1 + d.infinite_zeros == d.zeta
+
+    def smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Judged]:
+        kept = [test for name, test in hypotheses.items() if name not in dropped]
+        box = f"{BOX}, entries of P in {{-1, 0, 1}}"
+        for system in systems_in_order(BOX, flags(set(hypotheses) - set(dropped))):
+            pencil = pencil_of(system)
+            shape = (pencil.n_z, pencil.columns)
+            for entries in product((-1, 0, 1), repeat=shape[0] * shape[1]):
+                P = Matrix.of([list(entries[i * shape[1] : (i + 1) * shape[1]]) for i in range(shape[0])], shape=shape)
+                pair = kernel_representation(with_pair(pencil.space, P))
+                count = len(polynomial_at(pencil, P)) - 1 + sum(infinite_zero_orders(pair))
+                if pair.normal_rank < pencil.columns or count != pencil.zeta:
+                    subject = Judged(examine_judged("search", "search", system, P, None, 1))
+                    if all(test(subject) for test in kept) and not as_many(subject):
+                        return Found(subject, box)
+        return Found(None, box)
+
+    return Experiment(
+        name="zeros-of-pair",
+        claim="zeros-of-pairs",
+        conclusion="the pair has zeta zeros, finite and infinite",
+        hypotheses=hypotheses,
+        holds=as_many,
+        subjects=lambda bench: (Judged(record) for record in bench.judged),
+        over_q=smallest,
+        show=lambda subject: show_pair(subject.record),
+    )

@@ -1,0 +1,128 @@
+"""The hypotheses of the claims about one system: rank formula, rank gap, problem (11), the number of fault columns, zero feedthrough."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...exact.matrices import rank
+from ..ablation import Experiment
+from ..claims.common import delays, spaces, zeros
+from ..search import Box, Facts, Flags
+from .windowed import (
+    CONTROLLABLE,
+    FROM_DELAY,
+    LEFT_INVERTIBLE,
+    NO_WINDOW,
+    OBSERVABLE,
+    STABLE,
+    Condition,
+    Windowed,
+    from_lag,
+    from_n,
+    windowed,
+)
+
+MODEL = {"observable": OBSERVABLE, "controllable": CONTROLLABLE, "left-invertible": LEFT_INVERTIBLE, "A stable": STABLE}
+
+
+
+def _formula(subject: Windowed) -> bool:
+    d, s = subject.dossier, subject.window
+    return d.zeta is not None and d.rank(s) == d.n + s * d.m - d.zeta
+
+
+def _formula_look(facts: Facts, s: int) -> Flags:
+    """Left-invertible systems: zeta read off a late rank. Others stay open."""
+    late = facts.n + 1
+    zeta = facts.n + late * facts.m - facts.rank(late)
+    return np.asarray(facts.left_invertible & (facts.rank(s) == facts.n + s * facts.m - zeta))
+
+
+def _settled(facts: Facts, s: int) -> Flags:
+    """No left minimal index above s - 1."""
+    return np.asarray(facts.gap(s - 1) == facts.gap(facts.n + 1))
+
+
+ZEROS_KNOWN = Condition(lambda w: w.dossier.zeta is not None, lambda f, s: np.full(len(f.A), True))
+GAP_IS_M = Condition(lambda w: w.dossier.gap(w.window) == w.dossier.m, lambda f, s: np.asarray(f.gap(s) == f.m))
+LIMIT_REACHED = Condition(lambda w: w.dossier.space_dimensions[w.window - 1] == w.dossier.limit_dimension, _settled)
+
+
+def rank_formula() -> Experiment[Windowed]:
+    """theorem-2, zeros of the pencil counted."""
+    hypotheses = {**MODEL, "s >= n": from_n()}
+    conclusion = Condition(_formula, _formula_look)
+    return windowed("rank-formula", "theorem-2", "rank [O_s T_s] = n + s m - zeta", hypotheses, conclusion, zeros, ZEROS_KNOWN)
+
+
+def gap() -> Experiment[Windowed]:
+    """proposition-3 as the paper bounds s."""
+    hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= n": from_n()}
+    return windowed("gap", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays)
+
+
+def gap_from_lag() -> Experiment[Windowed]:
+    """proposition-3 with the sharp bound."""
+    hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= lag": from_lag()}
+    return windowed("gap-from-lag", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays)
+
+
+def solutions() -> Experiment[Windowed]:
+    """problem (11) at a window: are its solutions those of every longer one?"""
+    hypotheses = {**MODEL, "s >= n + 1": from_n(1)}
+    words = "the solutions of problem (11) at s are Z"
+    return windowed("solutions", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n))
+
+
+def solutions_from_lag() -> Experiment[Windowed]:
+    """The same with the sharp bound."""
+    hypotheses = {**MODEL, "s >= lag + 1": from_lag(1)}
+    words = "the solutions of problem (11) at s are Z"
+    return windowed("solutions-from-lag", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n))
+
+
+def columns() -> Experiment[Windowed]:
+    """The number of columns of (Fhat, Ghat)."""
+    conclusion = Condition(
+        lambda w: w.dossier.limit_dimension == w.dossier.m + (w.dossier.zeta or 0), lambda f, s: f.left_invertible
+    )
+    words = "Z has dimension n_z = m + zeta"
+    return windowed("columns", "problem-11", words, MODEL, conclusion, zeros, ZEROS_KNOWN, windows=lambda n: NO_WINDOW)
+
+
+NO_FEEDTHROUGH = Condition(
+    lambda w: w.dossier.zeta is not None and w.dossier.system.G.is_zero(), lambda f, s: np.asarray(~f.G.any(axis=(1, 2)))
+)
+RELATIVE_DEGREE_ONE = Condition(
+    lambda w: rank(w.dossier.system.C @ w.dossier.system.F) == w.dossier.m,
+    lambda f, s: np.asarray(f.rank_from_rest(2) == f.m),
+)
+NO_FINITE_ZEROS = Condition(lambda w: w.dossier.finite_zeros == 0, lambda f, s: np.full(len(f.A), True))
+
+
+def range_of_f() -> Experiment[Windowed]:
+    """zero-feedthrough: with G = 0 known, is im F determined by the outputs?"""
+    hypotheses = {**MODEL, "rank CF = m": RELATIVE_DEGREE_ONE, "no finite zeros": NO_FINITE_ZEROS}
+    conclusion = Condition(
+        lambda w: w.dossier.without_feedthrough == rank(w.dossier.system.F), lambda f, s: np.full(len(f.A), False)
+    )
+    words = "the members of Z without feedthrough are im F"
+    box = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+    return windowed("range-of-F", "zero-feedthrough", words, hypotheses, conclusion, zeros, NO_FEEDTHROUGH, lambda n: NO_WINDOW, box)
+
+
+def signal_from_known_state() -> Experiment[Windowed]:
+    """trajectory-recovered: v from the outputs and x(0)."""
+    conclusion = Condition(lambda w: w.dossier.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n))
+    words = "the outputs and x(0) determine v"
+    return windowed("signal-known-state", "trajectory-recovered", words, MODEL, conclusion, delays, windows=lambda n: NO_WINDOW)
+
+
+def signal_from_unknown_state() -> Experiment[Windowed]:
+    """trajectory-recovered: v from the outputs alone."""
+    hypotheses = {**MODEL, "no finite zeros": NO_FINITE_ZEROS}
+    conclusion = Condition(lambda w: w.dossier.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n))
+    words = "the outputs alone determine v"
+    return windowed(
+        "signal-unknown-state", "trajectory-recovered", words, hypotheses, conclusion, delays, ZEROS_KNOWN, lambda n: NO_WINDOW
+    )

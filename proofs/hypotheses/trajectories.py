@@ -1,0 +1,175 @@
+"""The hypotheses of the rank gap read off data: which trajectories show m = rank R_(s+1) - rank R_s?
+
+    Record                 a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
+    excited                with [X; V_(s+1)] of full row rank
+    persistently_excited   with v persistently exciting of order n + s + 1
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import islice
+
+from ...exact.fields import QQ, Field
+from ...exact.matrices import Matrix
+from ...exact.signals import persistency
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from .. import checker
+from ..ablation import Experiment, Found
+from ..certificate import Certificate
+from ..exhaustive import orbits
+from ..families import adversarial, random_systems
+from ..search import Box, systems_in_order
+from ..workbench import Workbench
+from .facets import facets, flags
+
+BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
+
+
+@dataclass(frozen=True)
+class Record:
+    """`gap` is rank R_(s+1) - rank R_s, `excitation` the rank of [X; V_(s+1)], both of certificates; `order` that of persistency of v."""
+
+    system: ResidualSystem
+    x0: Matrix
+    v: Matrix
+    window: int
+    gap: int
+    excitation: int
+    order: int
+    weight: int
+    accepted: int
+
+    @property
+    def size(self) -> tuple[int, ...]:
+        """n + m + p, then n, m, p, then the window, then the number of samples."""
+        s = self.system
+        return (s.n + s.m + s.p, s.n, s.m, s.p, self.window, self.v.nrows)
+
+    @property
+    def field(self) -> str:
+        """The field in words."""
+        return str(self.system.field)
+
+    def __str__(self) -> str:
+        return f"{self.system}, x(0) = {self.x0}, v = {self.v}, s = {self.window}"
+
+
+MODEL: dict[str, Callable[[Record], bool]] = {
+    "observable": lambda r: facets(r.system).observable,
+    "controllable": lambda r: facets(r.system).controllable,
+    "left-invertible": lambda r: facets(r.system).left_invertible,
+    "A stable": lambda r: facets(r.system).stable,
+    "s >= lag": lambda r: r.window >= facets(r.system).lag,
+}
+FULL_ROW_RANK = "[X; V_(s+1)] of full row rank"
+PERSISTENT = "v persistently exciting of order n + s + 1"
+
+
+def excited() -> Experiment[Record]:
+    """Full row rank of [X; V_(s+1)], in which the paper's assumption has s."""
+
+    def full(record: Record) -> bool:
+        return record.excitation == record.system.n + record.system.m * (record.window + 1)
+
+    return _experiment("gap-on-data", {**MODEL, FULL_ROW_RANK: full})
+
+
+def persistently_excited() -> Experiment[Record]:
+    """Persistency of v of order n + s + 1, whatever the modes that F does not reach do."""
+
+    def persistent(record: Record) -> bool:
+        return record.order >= record.system.n + record.window + 1
+
+    return _experiment("gap-on-persistent-data", {**MODEL, PERSISTENT: persistent})
+
+
+def _experiment(name: str, hypotheses: Mapping[str, Callable[[Record], bool]]) -> Experiment[Record]:
+    return Experiment(
+        name=name,
+        claim="assumption-4",
+        conclusion="rank R_(s+1) - rank R_s = m",
+        hypotheses=hypotheses,
+        holds=lambda record: record.gap == record.system.m,
+        subjects=_subjects,
+        over_q=partial(_smallest, hypotheses),
+        show=_certificates,
+    )
+
+
+def signals(system: ResidualSystem, s: int, count: int) -> Iterator[tuple[Matrix, Matrix]]:
+    """(x0, v): zero state with constant v, with v1 = v2 = ... = 1, 0, 0, ..., and `count` random ones, entries in {-1, 0, 1}."""
+    rng = random.Random(f"{system} {s}")
+    samples = (system.m + 1) * (system.n + s + 1) + system.n + 2
+    field: Field = system.field
+
+    def made(state: list[int], rows: list[list[int]]) -> tuple[Matrix, Matrix]:
+        x0 = Matrix.of([[x] for x in state], field, shape=(system.n, 1))
+        return x0, Matrix.of(rows, field, shape=(samples, system.m))
+
+    rest = [0] * system.n
+    yield made(rest, [[1] * system.m] * samples)
+    yield made(rest, [[int(k == 0)] * system.m for k in range(samples)])
+    for _ in range(count):
+        start = [rng.choice((0, 1, -1)) for _ in range(system.n)]
+        yield made(start, [[rng.choice((-1, 0, 1)) for _ in range(system.m)] for _ in range(samples)])
+
+
+def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int = 1) -> Record:
+    """A record, with its ranks certified."""
+    bare = Record(system, x0, v, s, 0, 0, persistency(v), weight, 0)
+    ranks = []
+    for certificate in _data_ranks(bare):
+        checker.verify(certificate)
+        ranks.append(certificate["statement"]["rank"])
+    return replace(bare, gap=ranks[1] - ranks[0], excitation=ranks[2], accepted=len(ranks))
+
+
+def _subjects(bench: Workbench) -> Iterator[Record]:
+    return iter(bench.records("trajectories", partial(_made, bench.full)))
+
+
+def _made(full: bool) -> list[Record]:
+    sources = [(system, 1) for _, system in adversarial() if 0 < system.n <= 3 and system.m]
+    sources += [(s, 1) for s in islice(random_systems(QQ, 400, seed=5, largest=3), 300 if full else 60) if s.n and s.m]
+    for n, p, m in ((1, 1, 1), (1, 2, 1), *(((2, 2, 1), (1, 2, 2)) if full else ())):
+        sources += [(orbit.system, orbit.size) for orbit in orbits(2, n, p, m)]
+    found = []
+    for system, weight in sources:
+        lag = facets(system).lag
+        for s in sorted({1, max(lag, 1)}):
+            found += [examined(system, x0, v, s, weight) for x0, v in signals(system, s, 6 if full else 2)]
+    return found
+
+
+def _smallest(hypotheses: Mapping[str, Callable[[Record], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Record]:
+    """The first system and window, in this order, with one of the signals that meets what is kept and shows another gap."""
+    kept = {name: test for name, test in hypotheses.items() if name not in dropped}
+    box = f"{BOX}, v constant, a pulse, or one of ten random signals, entries in {{-1, 0, 1}}"
+    excitation_kept = FULL_ROW_RANK in kept or PERSISTENT in kept
+    for system in systems_in_order(BOX, flags(kept)):
+        lag = facets(system).lag
+        if excitation_kept and facets(system).left_invertible and lag <= 1:
+            continue  # excited data show the model's gap, which is m from the lag on: nothing to find
+        for s in range(1 if "s >= lag" in dropped else max(lag, 1), max(lag, 1) + 1):
+            for x0, v in signals(system, s, 10):
+                record = examined(system, x0, v, s)
+                if record.gap != system.m and all(test(record) for test in kept.values()):
+                    return Found(record, box)
+    return Found(None, box)
+
+
+def _data_ranks(record: Record) -> Iterator[Certificate]:
+    for k in (record.window, record.window + 1):
+        yield make.data_rank("residual-hankel", record.system, record.x0, record.v, k)
+    yield make.data_rank("excitation", record.system, record.x0, record.v, record.window + 1)
+
+
+def _certificates(record: Record) -> Iterator[Certificate]:
+    yield from _data_ranks(record)
+    yield make.matrix_rank("observability", record.system)
+    yield make.matrix_rank("reachability", record.system)

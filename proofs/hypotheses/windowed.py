@@ -1,0 +1,166 @@
+"""Claims about one system and a window: their hypotheses, and the search for the smallest system where dropping one lets them fail.
+
+    Windowed      a dossier and a window
+    Condition     a test on a Windowed, and its vectorised first look at many systems at once
+    windowed      an experiment made of conditions
+
+A first look never decides: it only leaves out what surely violates a hypothesis or surely meets the conclusion; what is left is decided
+by the certificates of the system.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+import numpy as np
+
+from ..ablation import Experiment, Found
+from ..certificate import Certificate
+from ..corpus import Dossier, examine
+from ..search import Box, Facts, Flags, chunks
+from ..workbench import Show, Workbench
+from .facets import facets, nilpotent
+
+BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
+
+
+@dataclass(frozen=True)
+class Windowed:
+    """A system by its accepted certificates, and a number of samples; 0 where the claim is about no window."""
+
+    dossier: Dossier
+    window: int
+
+    @property
+    def size(self) -> tuple[int, ...]:
+        """n + m + p, then n, m, p, then the window."""
+        d = self.dossier
+        return (d.n + d.m + d.p, d.n, d.m, d.p, self.window)
+
+    @property
+    def weight(self) -> int:
+        """Systems of the orbit; windows are not counted as more of them."""
+        return self.dossier.weight
+
+    @cached_property
+    def field(self) -> str:
+        """The field in words."""
+        return str(self.dossier.system.field)
+
+    @property
+    def accepted(self) -> int:
+        """Accepted certificates, told once a system: at its first window."""
+        return self.dossier.accepted if self.window <= 1 else 0
+
+    def __str__(self) -> str:
+        return f"{self.dossier.system}, s = {self.window}" if self.window else str(self.dossier.system)
+
+
+@dataclass(frozen=True)
+class Condition:
+    """`holds` decides on certificates; `possible` (of a hypothesis) and `certain` (of a conclusion) are first looks at integer systems."""
+
+    holds: Callable[[Windowed], bool]
+    first_look: Callable[[Facts, int], Flags]
+
+
+OBSERVABLE = Condition(lambda w: w.dossier.observable, lambda f, s: f.observable)
+CONTROLLABLE = Condition(lambda w: w.dossier.controllable, lambda f, s: f.controllable)
+LEFT_INVERTIBLE = Condition(lambda w: w.dossier.left_invertible, lambda f, s: f.left_invertible)
+STABLE = Condition(lambda w: facets(w.dossier.system).stable, lambda f, s: nilpotent(f))
+
+
+def from_n(extra: int = 0) -> Condition:
+    """s >= n + extra."""
+    return Condition(lambda w: w.window >= w.dossier.n + extra, lambda f, s: np.full(len(f.A), s >= f.n + extra))
+
+
+def from_lag(extra: int = 0) -> Condition:
+    """s >= lag + extra."""
+
+    def first_look(facts: Facts, s: int) -> Flags:
+        reached = facts.gap(s - extra) == facts.gap(facts.n + 1) if s > extra else np.zeros(len(facts.A), dtype=np.bool_)
+        return np.asarray(reached | (facts.gap(0) == facts.gap(facts.n + 1)))
+
+    return Condition(lambda w: w.window >= w.dossier.lag + extra, first_look)
+
+
+def _from_delay(subject: Windowed) -> bool:
+    """s >= l, the delay of left inversion with known initial state; no bound where there is no delay."""
+    delay = subject.dossier.delay_known_state
+    return delay is None or subject.window >= delay
+
+
+def _delay_look(facts: Facts, s: int) -> Flags:
+    return np.asarray((facts.delay_known_state <= s) | (facts.delay_known_state > facts.n))
+
+
+EVERYTHING = Condition(lambda w: True, lambda f, s: np.full(len(f.A), True))
+FROM_DELAY = Condition(_from_delay, _delay_look)
+
+NO_WINDOW = range(0, 1)
+Search = Callable[[Workbench, Sequence[str]], Found[Windowed]]
+
+
+def windowed(
+    name: str,
+    claim: str,
+    words: str,
+    hypotheses: Mapping[str, Condition],
+    conclusion: Condition,
+    show: Show,
+    scope: Condition = EVERYTHING,
+    windows: Callable[[int], range] = lambda n: range(1, n + 3),
+    box: Box = BOX,
+) -> Experiment[Windowed]:
+    """The experiment on every system of the corpus in the scope, at every window."""
+
+    def subjects(bench: Workbench) -> Iterator[Windowed]:
+        for dossier in bench.corpus.dossiers:
+            for s in windows(dossier.n):
+                if scope.holds(subject := Windowed(dossier, s)):
+                    yield subject
+
+    def certificates(subject: Windowed) -> Iterator[Certificate]:
+        yield from show(subject.dossier.system)
+
+    return Experiment(
+        name=name,
+        claim=claim,
+        conclusion=words,
+        hypotheses={key: condition.holds for key, condition in hypotheses.items()},
+        holds=conclusion.holds,
+        subjects=subjects,
+        over_q=partial(_smallest, hypotheses, conclusion, scope, windows, box),
+        show=certificates,
+    )
+
+
+def _smallest(
+    hypotheses: Mapping[str, Condition],
+    conclusion: Condition,
+    scope: Condition,
+    windows: Callable[[int], range],
+    box: Box,
+    bench: Workbench,
+    dropped: Sequence[str],
+) -> Found[Windowed]:
+    kept = [scope, *(condition for name, condition in hypotheses.items() if name not in dropped)]
+    for facts in chunks(box):
+        looks: dict[int, Flags] = {}
+        for s in windows(facts.n):
+            open_still = ~conclusion.first_look(facts, s)
+            for condition in kept:
+                if not open_still.any():
+                    break
+                open_still &= condition.first_look(facts, s)
+            looks[s] = open_still
+        for index in np.flatnonzero(np.logical_or.reduce(list(looks.values()))):
+            dossier = examine("search", facts.system(int(index)))
+            for s in windows(facts.n):
+                subject = Windowed(dossier, s)
+                if looks[s][index] and all(c.holds(subject) for c in kept) and not conclusion.holds(subject):
+                    return Found(subject, str(box))
+    return Found(None, str(box))

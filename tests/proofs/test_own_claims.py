@@ -1,0 +1,108 @@
+"""Judged pairs: what D(q; P) says before is what certificates say after, and a claim notices when either is tampered with."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from faultspace.exact.exceptional_witnesses import BadPair, bad_pair, good_columns
+from faultspace.exact.matrices import Matrix
+from faultspace.exact.systems import ResidualSystem
+from faultspace.proofs import judged_pairs
+from faultspace.proofs.claims import bad_set, canonical_form, one_determinant, sharp_windows, zero_assignment, zeros_of_pairs
+from faultspace.proofs.families import adversarial
+from faultspace.proofs.judged_pairs import JudgedPair, examine_judged, pencil_of
+from faultspace.proofs.pairs import rival_dossiers
+from faultspace.proofs.verdicts import Verdict
+from faultspace.proofs.workbench import Workbench
+from tests.oracle import truth
+
+
+def quiet(stage: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
+@pytest.fixture(scope="module")
+def bench() -> Workbench:
+    """A workbench with the pairs of every sixth system of the quick run."""
+    made = Workbench("quick", 1, quiet)
+    made.judged = tuple(judged_pairs._all(list(judged_pairs._systems(False))[::6]))
+    made.rivals = rival_dossiers("quick", 1, quiet)[::9]
+    return made
+
+
+def good_and_bad() -> tuple[JudgedPair, JudgedPair]:
+    system = ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]])
+    pencil = pencil_of(system)
+    bad = bad_pair(pencil)
+    assert isinstance(bad, BadPair)
+    return (
+        examine_judged("named", "good", system, good_columns(pencil).verdict.P, None, 1),
+        examine_judged("named", "bad", system, bad.verdict.P, None, 1),
+    )
+
+
+def test_a_good_and_a_bad_pair_of_full_column_rank() -> None:
+    good, bad = good_and_bad()
+    assert good.equal and good.polynomial and one_determinant.agrees(good)
+    assert not bad.equal and not bad.polynomial and bad.full_column_rank and one_determinant.agrees(bad)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"polynomial": ("1", "1", "1")}, {"equal": False}, {"zero_polynomial": ("2", "1")}, {"pair_normal_rank": 0}, {"infinite_zeros": 9}],
+    ids=lambda change: next(iter(change)),
+)
+def test_what_is_tampered_with_no_longer_agrees(change: dict[str, object]) -> None:
+    good, bad = good_and_bad()
+    assert not one_determinant.agrees(replace(good, **change))  # type: ignore[arg-type]
+    assert not one_determinant.agrees(replace(bad, equal=True)) and not one_determinant.agrees(replace(bad, pair_normal_rank=2))
+
+
+def test_readings_are_refuted_by_tampered_pairs(bench: Workbench) -> None:
+    spoilt = Workbench("quick", 1, quiet)
+    spoilt.judged = tuple(replace(d, equal=not d.equal, zeta=d.zeta + 1) for d in bench.judged)
+    for reading in (one_determinant.formula, zeros_of_pairs.number, bad_set.one_fault, zero_assignment.every_polynomial):
+        assert reading(bench).verdict == Verdict.CERTIFIED, reading
+        assert reading(spoilt).verdict in (Verdict.REFUTED, Verdict.ERROR), reading
+
+
+def test_counterexamples_are_found_and_true_by_the_oracle(bench: Workbench) -> None:
+    for reading in (zeros_of_pairs.split, bad_set.codimension_unobservable, zero_assignment.without_observability):
+        outcome = reading(bench)
+        assert outcome.verdict == Verdict.REFUTED and outcome.certificates
+        assert all(truth(c["kind"], c["statement"]) for c in outcome.certificates)
+    for reading in (canonical_form.any_a_c, canonical_form.feedback):
+        outcome = reading(bench)
+        assert outcome.verdict == Verdict.REFUTED
+        assert all(truth(c["kind"], c["statement"]) for c in outcome.certificates)
+
+
+def test_names_broken_on_purpose_are_noticed(bench: Workbench, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert canonical_form.same_a_c(bench).verdict == Verdict.CERTIFIED
+    monkeypatch.setattr(canonical_form, "_fault_class", lambda system: system.F)
+    assert canonical_form.same_a_c(bench).verdict == Verdict.REFUTED
+
+
+def test_every_left_invertible_named_system_with_a_fault_and_a_lag_has_a_late_partner() -> None:
+    for _, system in adversarial():
+        kernel = pencil_of(system).kernel
+        if kernel.normal_rank == system.m > 0 and kernel.lag:
+            partner = sharp_windows._partner(kernel)
+            assert partner is not None and (partner.system.A, partner.system.C) == (system.A, system.C), system
+
+
+def test_a_line_of_good_pairs_is_found_where_the_codimension_is_two() -> None:
+    pencil = pencil_of(ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]]))
+    line = bad_set._line(pencil)
+    assert line is not None and truth(line["kind"], line["statement"])
+    hypersurface = pencil_of(ResidualSystem.of([[0]], [[1, 0]], [[0], [0]], [[1, 0], [0, 1]]))
+    assert bad_set._line(hypersurface) is None, "every line meets a hypersurface, over the closure"
+
+
+def test_a_p_of_deficient_rank_is_bad() -> None:
+    system = ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]])
+    pencil = pencil_of(system)
+    found = examine_judged("named", "deficient", system, Matrix.zero(system.field, pencil.n_z, pencil.columns), None, 1)
+    assert not found.full_column_rank and not found.polynomial and one_determinant.agrees(found)
