@@ -2,9 +2,9 @@
 
     python benchmarks/exceptional.py [--repeats K] [--limit SECONDS]
 
-Systems with n states, p = m + 5 outputs and a planted output-nulling subspace of dimension zeta, n_z = m + zeta. A row a size: seconds for
-the kernel representation, for [b, a], for D at a P, for all h_J (with their number), and for D expanded in the entries of P (with the number of
-terms). A method that took more than the limit is not tried at larger sizes.
+Systems with n states, p = m + 5 outputs and a planted output-nulling subspace of dimension zeta, n_z = m + zeta. A row a size: seconds
+for the kernel representation, for [b, a], for D at a P, for all h_J (with their number), and for D expanded in the entries of P (with
+the number of terms). A method that took more than the limit is not tried at larger sizes.
 """
 
 from __future__ import annotations

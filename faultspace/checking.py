@@ -60,7 +60,7 @@ def _system(name: str) -> Any:
     document = read_json(name)
     with placed(name):
         try:
-            checker.System(document)
+            checker.subject(document)
         except (checker.Malformed, checker.Rejected) as error:
             raise InvalidInput(f"got no system: {error}") from None
     return document

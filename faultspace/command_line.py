@@ -170,6 +170,27 @@ def compare(
 
 
 @app.command()
+def limit(
+    experiment: Annotated[
+        list[str], typer.Argument(metavar="EXPERIMENT...", show_default=False, help="Experiment files, - or example:NAME.")
+    ],
+    json: Json = False,
+    floats_exactly: Floats = False,
+) -> None:
+    """What subspace identification converges to, exactly: PI-MOESP and PO-MOESP, for filtered white noise as input and fault.
+
+    An experiment is a system with B and D, the block rows "s" and "past", and "u_filter", "v_filter", "w_filter": matrices over lag.
+    """
+
+    def body() -> int:
+        from . import limiting
+
+        return limiting.run(experiment, as_json=json, floats_exactly=floats_exactly)
+
+    _leave(body)
+
+
+@app.command()
 def identify(
     data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ, NPY or MAT file of measurements.")],
     inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
@@ -224,7 +245,7 @@ def examples(
     folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", show_default=False, help="Copy them there.")] = None,
     json: Json = False,
 ) -> None:
-    """List the systems that come with the package, or copy them into a folder, with a small record of faulty data."""
+    """List the systems and experiments that come with the package, or copy them into a folder, with a small record of faulty data."""
 
     def body() -> int:
         from . import example_listing

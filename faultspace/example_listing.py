@@ -1,4 +1,4 @@
-"""`faultspace examples`: the systems that come with the package, listed or copied into a folder, with a record of faulty data.
+"""`faultspace examples`: what comes with the package, listed or copied into a folder, with a record of faulty data.
 
 run          the command's body
 """
@@ -13,7 +13,7 @@ from rich.text import Text
 from .consoles import answers, print_json
 from .example_data import FILE_NAME, INPUTS, OUTPUTS, csv_text, faulty_record
 from .failures import ANSWERED, printable, say
-from .packaged_examples import DESCRIPTIONS, PREFIX, content
+from .packaged_examples import DESCRIPTIONS, EXPERIMENTS, PREFIX, content
 from .reading_files import prepare_folder, write_json, write_text
 
 
@@ -21,16 +21,16 @@ def run(folder: Path | None, *, as_json: bool) -> int:
     """Lists the examples; with a folder copies them there first, overwriting files of these names only."""
     if folder is not None:
         prepare_folder(folder)
-        for name in DESCRIPTIONS:
+        for name in DESCRIPTIONS | EXPERIMENTS:
             write_json(folder / f"{name}.json", json.loads(content(PREFIX + name)))
         write_text(folder / FILE_NAME, csv_text(faulty_record()))
-        say(f"{len(DESCRIPTIONS)} systems are in {printable(str(folder))}")
+        say(f"{len(DESCRIPTIONS)} systems and {len(EXPERIMENTS)} experiments are in {printable(str(folder))}")
         say(f"and {FILE_NAME}, for: faultspace identify --inputs {','.join(INPUTS)} --outputs {','.join(OUTPUTS)}")
     if as_json:
-        print_json({PREFIX + name: description for name, description in DESCRIPTIONS.items()})
+        print_json({PREFIX + name: description for name, description in (DESCRIPTIONS | EXPERIMENTS).items()})
         return ANSWERED
     console = answers()
-    width = max(len(PREFIX + name) for name in DESCRIPTIONS) + 2
-    for name, description in DESCRIPTIONS.items():
+    width = max(len(PREFIX + name) for name in DESCRIPTIONS | EXPERIMENTS) + 2
+    for name, description in (DESCRIPTIONS | EXPERIMENTS).items():
         console.print(Text.assemble((f"{PREFIX + name:<{width}}", "bold"), description), soft_wrap=True)
     return ANSWERED

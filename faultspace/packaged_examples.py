@@ -1,7 +1,8 @@
 """The systems that come with the package, to try every command on: `example:NAME` names one wherever a system file is expected.
 
 PREFIX         "example:"
-DESCRIPTIONS   name -> what is to be seen in it
+DESCRIPTIONS   name -> what is to be seen in it, for systems
+EXPERIMENTS    the same for experiments, which `faultspace limit` reads
 content        the bytes of one, by its name with the prefix
 """
 
@@ -23,10 +24,16 @@ DESCRIPTIONS = {
     "same-behaviour": "zeros with A + FK in place of A: another system, the same outputs",
 }
 
+EXPERIMENTS = {
+    "fault-leads-input": "v(k) = u(k+1), white: PI-MOESP finds A and C, and B + AF, D + CF in place of B, D",
+    "fault-follows-input": "v(k) = u(k-1) / 2, white: the limit has rank n + 1, and A and C of order n are wrong",
+    "independent-fault": "a coloured fault independent of the input: PI-MOESP finds A, B, C, D, past outputs as instruments do not",
+}
+
 
 def content(name: str) -> bytes:
     """The file behind `example:NAME`. Raises InvalidInput for a name that is none."""
     stem = name.removeprefix(PREFIX)
-    if stem not in DESCRIPTIONS:
-        raise InvalidInput(f"got example {shown(stem)}, expected one of {', '.join(DESCRIPTIONS)}")
+    if stem not in DESCRIPTIONS | EXPERIMENTS:
+        raise InvalidInput(f"got example {shown(stem)}, expected one of {', '.join(DESCRIPTIONS | EXPERIMENTS)}")
     return resources.files(__package__).joinpath("examples", f"{stem}.json").read_bytes()

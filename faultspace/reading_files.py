@@ -1,9 +1,10 @@
 """Opening the JSON files that people exchange; what is in them is judged by `faultspace.exact` and the checker.
 
-    read_json      the document in a file, strictly: UTF-8, no key twice, no NaN, bounded size
-    read_system    the system in a file; the model of `identify` too, where floats are taken exactly
-    write_json     a document into a file, whole or not at all; write_text a text
-    prepare_folder makes a folder to write into, or says why not
+    read_json       the document in a file, strictly: UTF-8, no key twice, no NaN, bounded size
+    read_system     the system in a file; the model of `identify` too, where floats are taken exactly
+    read_experiment the experiment in a file
+    write_json      a document into a file, whole or not at all; write_text a text
+    prepare_folder  makes a folder to write into, or says why not
 
 A name is a path, "-" for standard input or "example:NAME" for an example that comes with the package. Everything that is wrong raises
 InvalidInput with one line: the file, the place in it, what was got, what was expected.
@@ -20,6 +21,8 @@ from pathlib import Path
 from typing import Any
 
 from . import packaged_examples
+from .exact.experiments import Experiment
+from .exact.experiments import read_experiment as experiment_of
 from .exact.input_rules import MAX_FILE_BYTES, InvalidInput, shown
 from .exact.systems import FaultySystem, ResidualSystem, from_float_exactly
 from .exact.systems import read_system as system_of
@@ -42,6 +45,16 @@ def read_system(name: str, *, floats_exactly: bool = False) -> ResidualSystem | 
             document = _system_of_model(document)
         try:
             return system_of(document)
+        except InvalidInput as error:
+            raise InvalidInput(str(error).replace(_HINT, _ADVICE)) from None
+
+
+def read_experiment(name: str, *, floats_exactly: bool = False) -> Experiment:
+    """The experiment in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
+    document = read_json(name, number=_dyadic if floats_exactly else float)
+    with placed(name):
+        try:
+            return experiment_of(document)
         except InvalidInput as error:
             raise InvalidInput(str(error).replace(_HINT, _ADVICE)) from None
 

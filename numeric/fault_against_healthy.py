@@ -95,7 +95,8 @@ def fault_dimension_against_healthy(
 ) -> FaultsAgainstHealthy:
     """Faults in a residual r (N, p) that the healthy record does not explain; give u (N, n_u) if the reference was learnt with inputs.
 
-    `level` (0, 1): probability of counting too many by chance, turning directions apart. Raises InvalidData where r does not fit the reference. Sources: [K64], [RS95].
+    `level` (0, 1): probability of counting too many by chance, turning directions apart. Raises InvalidData where r does not fit the
+    reference. Sources: [K64], [RS95].
     """
     if not 0.0 < level < 1.0:
         raise InvalidData(f"level: got {level}; needed a chance strictly between 0 and 1, such as 0.001")

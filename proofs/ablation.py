@@ -21,6 +21,7 @@ from .certificate import Certificate
 from .verdicts import Row, Verdict
 from .workbench import Workbench, accepted
 
+
 class Subject(Protocol):
     """What a claim is about. `size` orders, `weight` is how many this one stands for, `field` names K, `accepted` counts certificates."""
 

@@ -15,8 +15,10 @@ looked at itself. What has to be believed is this file, and these arguments:
                 spanned by the rows and their shifts.
   lines         The maximal minors of the pencil at a point are binary forms of degree m. Once their multiples by the forms of degree m - 1
                 span all of degree 2m - 1 modulo the prime, they do over K, and leave no common zero over any extension.
-  stability     Exact. The characteristic polynomial of the blocks is the product over all embeddings. A polynomial with leading coefficient
-                f_d and last one f_0 has its roots inside the unit circle iff |f_d| > |f_0| and (f_d f - f_0 f*) / q has (Schur and Cohn).
+  stability     Exact. The characteristic polynomial of the blocks is the product over all embeddings. A polynomial f of degree d, f* the
+                same reversed, has all its roots inside the unit circle iff |f_d| > |f_0| and (f_d f - f_0 f*) / q has (Schur and Cohn).
+  covariances   Exact. With Phi stable, P = Phi P Phi' + Gamma Gamma' has one solution, the stationary covariance. The others follow.
+  regressions   Exact. What minimises a sum of squares are the solutions of the normal equations; that there is one only is seen by ranks.
 
 Public: verify(certificate, systems=()) -> the statement in words; load(path); sha256(certificate); Malformed; Rejected; main(argv).
 """
@@ -138,6 +140,16 @@ def binary_form(rows: list[list[int]], prime: int) -> list[int]:
     return minors[2**m - 1]
 
 
+def inside_circle(f: list[int]) -> bool:
+    """Whether all roots of a polynomial, coefficients descending, lie inside the unit circle, by Schur and Cohn."""
+    while len(f) > 1 and abs(f[0]) > abs(f[-1]):
+        charge(len(f) * (100 + (max(map(int.bit_length, f)) ** 2 >> 12)))
+        f = [f[0] * x - f[-1] * y for x, y in zip(f[:-1], reversed(f[1:]), strict=True)]
+        content = gcd(*f)
+        f = [c // content for c in f]
+    return len(f) == 1
+
+
 def shown(value: Json) -> str:
     """JSON for a reader, cut when it is long."""
     text = json.dumps(value, separators=(",", ":")).replace('"', "")
@@ -177,6 +189,19 @@ class Mat:
 
     def __bool__(self) -> bool:  # whether it is not zero
         return any(map(any, self.rows))
+
+    def at(self, rows: Sequence[int], columns: Sequence[int]) -> Mat:
+        """These rows and columns, not over Q(a)."""
+        return Mat(self.field, [[self.rows[i][j] for j in columns] for i in rows], len(columns), self.den)
+
+    @property
+    def T(self) -> Mat:
+        """The transpose, not over Q(a)."""
+        return Mat(self.field, [[row[j] for row in self.rows] for j in range(self.nc)], len(self.rows), self.den)
+
+    def rank(self) -> int:
+        """The rank modulo the prime, never more than the rank."""
+        return len(echelon(self.residues(), self.field.modulus[0]))
 
     def residues(self) -> list[list[int]]:
         """The rows over K modulo the prime of the modular bound, a going to its root; Rejected when a denominator vanishes."""
@@ -230,6 +255,11 @@ class Field:
         den = lcm(*dens)
         rows = [[x * (den // part.den) for part in line for x in part.rows[i]] for line in grid for i in range(len(line[0].rows))]
         return Mat(self, rows, nc * self.degree, den)
+
+    def diagonal(self, *blocks: Mat) -> Mat:
+        """The matrix with these blocks on its diagonal."""
+        grid = [[b if i == j else self.scalar(len(a.rows), b.nc) for j, b in enumerate(blocks)] for i, a in enumerate(blocks)]
+        return self.assembled(grid, sum(block.nc for block in blocks))
 
     def entry(self, value: Json, where: str, integral: bool = False) -> Mat:
         """An ENTRY as the d x d matrix of multiplication by it: row i holds the coordinates of a^i times it."""
@@ -313,6 +343,14 @@ class Field:
             require(len(rows[-2:][0]) <= len(vectors) <= longest, "the degrees of the kernel rows do not ascend, or not below the window")
         return rows
 
+    def ranked(self, built: Mat, size: int, left_null: Json) -> None:
+        """Reject unless the matrix has that rank: no more by the rows that vanish on it, no less modulo the prime."""
+        height = len(built.rows) // self.degree
+        rows = self.triangular_rows(left_null, "row", height)
+        require(len(rows) == height - size, "the number of left null rows is not the number of rows minus the rank")
+        require(not self.assembled(rows, height) @ built, "a left null row does not vanish on the matrix")
+        require(built.rank() >= size, "the rank modulo the prime is smaller")
+
 
 class System:
     """A SYSTEM: equal ones have equal keys, `words` shows one. Below, one method a kind, or a few, with statement s and witness w."""
@@ -332,7 +370,8 @@ class System:
         expect(self.n + self.m + self.p <= MAX_DIMENSION, f"system: n + m + p is above {MAX_DIMENSION}")
         blocks = [self.field.matrix(data[name], sizes[nr], sizes[nc], name) for name, nr, nc in self.SHAPES if name in data]
         self.A, self.F, self.C, self.G = blocks[:4]
-        self.key = (self.field.key, self.n, self.m, self.p, blocks[:4])
+        self.nu, self.inputs = sizes.get("nu", 0), blocks[4:]
+        self.key: tuple[Any, ...] = (self.field.key, self.n, self.m, self.p, blocks[:4])
         dimensions = "" if self.n and self.m and self.p else f" (n={self.n}, m={self.m}, p={self.p})"
         over = "" if self.field.key == "Q" else f" over {shown(data['field'])}"
         self.words = f"({', '.join(f'{name}={shown(data[name])}' for name in 'AFCG')}){dimensions}{over}"
@@ -500,11 +539,7 @@ class System:
             delays = range(window) if name == "residual-hankel" else [0, *range(window)]
             charge(window * columns)
             built = field.assembled([signal[i : i + columns] for signal, i in zip(signals, delays, strict=True)], columns)
-        height = len(built.rows) // field.degree
-        rows = field.triangular_rows(w["left_null"], "row", height)
-        require(len(rows) == height - size, "the number of left null rows is not the number of rows minus the rank")
-        require(not field.assembled(rows, height) @ built, "a left null row does not vanish on the matrix")
-        require(len(echelon(built.residues(), field.modulus[0])) >= size, "the rank modulo the prime is smaller")
+        field.ranked(built, size, w["left_null"])
 
     def schur_stable(self, s: Json, w: Json) -> None:
         size, den, one = self.A.nc, self.A.den, self.field.scalar(self.n, self.n, 1)
@@ -515,13 +550,7 @@ class System:
             power = scaled @ power
             f.append(-sum(row[i] for i, row in enumerate(power.rows)) // k)
             power = power + one.times(f[-1])
-        f = [c * den ** (size - k) for k, c in enumerate(f)]
-        while len(f) > 1 and abs(f[0]) > abs(f[-1]):
-            charge(len(f) * (100 + (max(map(int.bit_length, f)) ** 2 >> 12)))
-            f = [f[0] * x - f[-1] * y for x, y in zip(f[:-1], reversed(f[1:]), strict=True)]
-            content = gcd(*f)
-            f = [c // content for c in f]
-        require(len(f) == 1, "an eigenvalue is not inside the unit circle")
+        require(inside_circle([c * den ** (size - k) for k, c in enumerate(f)]), "an eigenvalue is not inside the unit circle")
 
     def zeros(self, s: Json, w: Json) -> None:
         field, nr, nc, one = self.field, self.n + self.p, self.n + self.m, self.field.scalar(1, 1, 1)
@@ -547,6 +576,127 @@ class System:
             require(found and found == product(stated, {0: found[max(found)]}), "the product of the diagonal is not the polynomial")
 
 
+class Experiment(System):
+    """An EXPERIMENT. f = (u; v; w) is filtered white noise: f = N_0 e + s_1, s_i(k+1) = s_(i+1)(k) + N_i e(k) - d_i f(k) for i = 1..L.
+    With xi = (x; s_1; ...; s_L): xi(k+1) = Phi xi(k) + Gamma e(k), z = (u; y) = H xi + J e."""
+
+    OWN = ("s", "past", "u_filter", "v_filter", "w_filter")
+
+    def __init__(self, data: Json) -> None:
+        keys(data, "A F C G B D s past u_filter v_filter w_filter? field? n? m? p? nu?", "experiment")
+        super().__init__({name: value for name, value in data.items() if name not in self.OWN})
+        expect(self.field.key == "Q" and self.nu, "experiment: over Q only, and with an input")
+        self.s, self.past = (index(data[name], name, MAX_WINDOW) for name in ("s", "past"))
+        expect(self.s and self.past, "s, past: one block row at least")
+        u = self.filter(data["u_filter"], self.nu, "u_filter")
+        v = self.filter(data["v_filter"], self.m, "v_filter", u[0][0].nc)
+        w = self.filter(data.get("w_filter", [[[]] * self.p]), self.p, "w_filter")
+        self.chain = list[tuple[Mat, Mat]]()  # N_i and -d_i
+        for i in range(max(map(len, (u, v, w)))):
+            (a, c), (b, d), (g, h) = (one[i] if i < len(one) else (one[0][0].times(0), one[0][1].times(0)) for one in (u, v, w))
+            self.chain.append((self.field.diagonal(self.field.assembled([[a], [b]], a.nc), g), self.field.diagonal(c, d, h)))
+        self.key += ([self.nu, self.s, self.past, len(self.chain), u[0][0].nc, w[0][0].nc], self.inputs, self.chain)
+        self.words += f" with {', '.join(f'{name}={shown(data[name])}' for name in ('B', 'D', *self.OWN) if name in data)}"
+
+    def filter(self, value: Json, height: int, where: str, width: int | None = None) -> list[tuple[Mat, Mat]]:
+        """N_i and -d_i of a FILTER, i = 0, 1, ..."""
+        given = keys(value, "num den", where) if type(value) is dict else {"num": value, "den": [1]}
+        num, den = (items(given[key], where, MAX_DIMENSION, 1) for key in ("num", "den"))
+        pairs = [rational(d, where) for d in den]
+        expect(pairs[0] == (1, 1), f"{where}: the denominator does not begin with 1")
+        charge(sum(bottom.bit_length() for _, bottom in pairs) ** 2 >> 14)
+        common = lcm(*(bottom for _, bottom in pairs))
+        require(inside_circle([top * (common // bottom) for top, bottom in pairs]), f"{where}: the denominator is not stable")
+        if width is None:
+            width = len(items(rows[0], where, MAX_DIMENSION)) if (rows := items(num[0], where, height)) else 0
+        unit, extra = self.field.scalar(height, height, 1), [0] * abs(len(num) - len(den))
+        forward = [self.field.matrix(part, height, width, where) for part in num] + [self.field.scalar(height, width) for _ in extra]
+        return list(zip(forward, [unit.times(-top, bottom) for top, bottom in pairs] + [unit.times(0) for _ in extra], strict=False))
+
+    def process(self, B: Mat, D: Mat) -> tuple[Mat, Mat, Mat, Mat]:
+        """Phi, Gamma, H, J with these in the place of B and D."""
+        zero, joined, first, steps = self.field.scalar, self.field.assembled, self.chain[0][0], range(1, len(self.chain))
+        height, size = len(first.rows), len(first.rows) * len(steps)
+        moves = [[self.chain[i][1], *(zero(height, height, int(j == i + 1)) for j in steps[1:])] for i in steps]
+        enter = [[num + minus @ first] for num, minus in self.chain[1:]]
+        into, seen = joined([[B, self.F, zero(self.n, self.p)]], height), joined([[D, self.G, zero(self.p, self.p, 1)]], height)
+        direct, reads = joined([[zero(self.nu, height, 1)], [seen]], height), zero(height, size, 1)
+        Phi = joined([[self.A, into @ reads], [zero(size, self.n), joined(moves, size)]], self.n + size)
+        H = joined([[joined([[zero(self.nu, self.n)], [self.C]], self.n), direct @ reads]], self.n + size)
+        return Phi, joined([[into @ first], *enter], first.nc), H, direct @ first
+
+    def covariances(self, value: Json, samples: int, width: int, B: Mat, D: Mat) -> tuple[Mat, Mat, Mat, Mat]:
+        """Phi, H, Cov(xi(k+1), t(k)) and Cov(z(0..samples-1), t(0..samples-1)), t the first `width` of the channels of z: u, or all.
+
+        The value is Cov(xi), or for t = u the part Cov(xi, (s_1; ...; s_L)) that is enough.
+        """
+        charge(100 * samples**2)
+        self.schur_stable({}, {})
+        Phi, Gamma, H, J = self.process(B, D)
+        part, some = range(self.n if width == self.nu else 0, Phi.nc), range(width)
+        a, b, h, j = Phi.at(part, part), Gamma.at(part, range(Gamma.nc)), H.at(some, part), J.at(some, range(J.nc))
+        P = self.field.matrix(value, Phi.nc, len(part), "covariance")
+        require(Phi @ P @ a.T + Gamma @ b.T == P, "the covariance does not solve the Lyapunov equation")
+        following, backward = Phi @ P @ h.T + Gamma @ j.T, a @ P.T @ H.T + b @ J.T
+        later = [H @ block for block in accumulate(repeat(Phi, samples - 2), lambda block, step: step @ block, initial=following)]
+        sooner = [(h @ block).T for block in accumulate(repeat(a, samples - 2), lambda block, step: step @ block, initial=backward)]
+        lags = [*reversed(sooner), H @ P @ h.T + J @ j.T, *later]  # Cov(z(k), t(0)) at len(sooner) + k
+        grid = [lags[len(sooner) + i - samples + 1 : len(sooner) + i + 1][::-1] for i in range(samples)]
+        return Phi, H, following, self.field.assembled(grid, samples * width)
+
+    def places(self, samples: range, channels: range, width: int) -> list[int]:
+        """Where these channels stand in (z(0); z(1); ...) with `width` channels a sample."""
+        return [k * width + i for k in samples for i in channels]
+
+    def moesp_limit(self, s: Json, w: Json) -> None:
+        nu, width, field = self.nu, self.nu + self.p, self.field
+        expect(s["instruments"] in ("past-inputs", "past-inputs-and-outputs"), "instruments: past-inputs or past-inputs-and-outputs")
+        right, past, future = nu if s["instruments"] == "past-inputs" else width, range(self.past), range(self.past, self.past + self.s)
+        *_, moments = self.covariances(w["covariance"], self.past + self.s, right, *self.inputs)
+        rows = self.places(future, range(nu), width) + self.places(future, range(nu, width), width)
+        first = moments.at(rows, self.places(future, range(nu), right))
+        limit = moments.at(rows, self.places(past, range(right), right))
+        size = first.nc
+        require(first.at(range(size), range(size)).rank() == size, "the covariance of the inputs may be singular")
+        seen = field.assembled([[field.scalar(size, self.n)], [self.window(self.s, faults=False)]], self.n)
+        for name, parts in (("limit", [limit]), ("observability", [seen]), ("joint", [limit, seen])):
+            table = field.assembled([[first, *parts]], size + sum(part.nc for part in parts))
+            field.ranked(table, size + index(s[f"{name}_rank"], f"{name}_rank"), w.get(name, w["joint"]))
+
+    def input_limit(self, s: Json, w: Json) -> None:
+        field, n, p, nu, true = self.field, self.n, self.p, self.nu, s["regression"] == "true-AC"
+        expect(true or s["regression"] == "moesp", "regression: true-AC or moesp")
+        given = {*w} - {"prime", "covariance", "irreducible"}
+        expect(given == ({"errors", "series"} if true else {"response", "inverse"}), "witness: errors and series, or response and inverse")
+        window, stated = n + 1 if true else self.s, [field.matrix(s["B"], n, nu, "B"), field.matrix(s["D"], p, nu, "D")]
+        *_, moments = self.covariances(w["covariance"], window, nu, *self.inputs)
+        outputs, size = self.places(range(window), range(nu, nu + p), nu + p), nu * window
+        inputs = moments.at(self.places(range(window), range(nu), nu + p), range(size))
+        before, seen = (self.window(k, faults=False) for k in (window - 1, window))
+        require(inputs.rank() == size, "the covariance of the inputs may be singular")
+        require(before.rank() == n, "the observability matrix may lose rank")
+        if true:
+            errors = (mine + other.times(-1) for mine, other in zip(self.inputs, stated, strict=True))
+            Phi, H, following, present = self.covariances(w["errors"], 1, nu, *errors)  # y is here what the stated B and D leave of it
+            series = field.matrix(w["series"], n, Phi.nc, "series")  # sum of A'^k C' (the rows of y in H) Phi^k
+            solved = self.A.T @ series @ Phi + self.C.T @ H.at(range(nu, nu + p), range(Phi.nc))
+            require(solved == series, "the series does not solve its equation")
+            require(not series @ following, "the error is correlated with the past inputs")
+            require(not present.at(range(nu, nu + p), range(nu)), "the error is correlated with the present input")
+            return
+        response, inverse = field.matrix(w["response"], p * window, size, "response"), field.matrix(w["inverse"], n, p * window, "inverse")
+        require(response @ inputs == moments.at(outputs, range(size)), "the response is not that of the future inputs")
+        require(seen.T @ (seen @ inverse) == seen.T, "the inverse does not project on the observability matrix")
+        column = field.assembled([[field.scalar(p, n), field.scalar(p, p, 1)], [before, field.scalar(p * window - p, p)]], n + p)
+        theta, slope = field.assembled([[part.times(-1)] for part in stated], nu), field.scalar(n + p, nu)
+        for j in range(window):  # block column j of response - T_s(B, D), and what of it is orthogonal to the observability matrix
+            shifted = field.assembled([[field.scalar(p * j, n + p)], [column.at(range(p * (window - j)), range(n + p))]], n + p)
+            rest = response.at(range(p * window), range(nu * j, nu * j + nu)) + shifted @ theta
+            slope = slope + shifted.T @ (rest + seen @ (inverse @ rest).times(-1))
+        require(not slope, "the normal equations fail")
+
+
+SUBJECTS = ("experiment", "system", "inner", "outer", "first", "second")
 MODULAR, KERNEL, DIAGONAL = "prime? root?", "prime? root? kernel", "diagonal left left_inverse right right_inverse"
 MATRICES = {"observability": "", "reachability": "", "toeplitz": "window", "window": "window"}  # what is stated beside the system
 MATRICES |= {"residual-hankel": "x0 v window", "excitation": "x0 v window"}
@@ -571,10 +721,20 @@ KINDS: dict[str, tuple[Callable[..., None], str, str, str]] = {  # what verifies
         "at window {window}, N_s annihilates the first block column of T_s(z) but not all of it, for z = {column}"),
     "matrix-rank": (System.matrix_rank, "matrix rank system window? x0? v?", f"{MODULAR} left_null", "the {matrix} matrix has rank {rank}"),
     "schur-stable": (System.schur_stable, "system", "", "all eigenvalues of A lie inside the unit circle (over Q(a): for every root a)"),
+    "moesp-limit": (Experiment.moesp_limit, "experiment instruments limit_rank observability_rank joint_rank",
+        "prime covariance joint limit? observability?", "with {instruments} as instruments and many samples, the projected outputs tend to "
+        "a matrix of rank {limit_rank}, beside O_s of rank {joint_rank}, O_s having rank {observability_rank}"),
+    "input-limit": (Experiment.input_limit, "experiment regression B D", "prime covariance errors? series? response? inverse?",
+        "with the true A and C and many samples, the {regression} regression has one solution: B = {B}, D = {D}"),
     "finite-zeros": (System.zeros, "system normal_rank invariant_zero_polynomial", DIAGONAL,
         "the pencil has normal rank n + {normal_rank} and invariant zero polynomial {invariant_zero_polynomial} (ascending)"),
     "infinite-zeros": (System.zeros, "system infinite_zero_orders", DIAGONAL, "the infinite zeros have the orders {infinite_zero_orders}"),
 }  # fmt: skip
+
+
+def subject(data: Json) -> System:
+    """The EXPERIMENT where it has a filter of u, else the SYSTEM."""
+    return (Experiment if type(data) is dict and "u_filter" in data else System)(data)
 
 
 def verify(certificate: Json, systems: Iterable[Json] = ()) -> str:
@@ -586,16 +746,16 @@ def verify(certificate: Json, systems: Iterable[Json] = ()) -> str:
     check, statement_keys, witness_keys, template = KINDS[kind]
     s = keys(certificate["statement"], statement_keys, "statement")
     w = keys(certificate["witness"], f"irreducible? {witness_keys}", "witness")
-    insisted = [System(data) for data in systems]
-    about = [System(s[key]) for key in ("system", "inner", "outer", "first", "second") if key in s]
+    insisted = [subject(data) for data in systems]
+    about = [(Experiment if key == "experiment" else System)(s[key]) for key in SUBJECTS if key in s]
     alike = all(system.field.key == about[0].field.key and system.p == about[0].p for system in about)
     expect(alike, "the two systems differ in field or number of outputs")
-    for system in about if "prime?" in witness_keys else []:
+    for system in about if "prime" in witness_keys else []:
         system.field.reduce(w)
     check(about[0], s, w, *about[1:])
     words = "" if about[0].field.irreducible(w) else "assuming f irreducible: "
     for system in insisted:
-        require(any(system.key == other.key for other in about), f"the statement is not about {system.words}")
+        require(any(system.key == other.key[: len(system.key)] for other in about), f"the statement is not about {system.words}")
     words += template.format_map({key: shown(value) for key, value in s.items()})
     words += "".join(f", {key[:-1]} = {shown(s[key[:-1]])}" for key in statement_keys.split() if key[-1] == "?" and key[:-1] in s)
     return f"{words}; for {' and '.join(system.words for system in about)}"
@@ -633,7 +793,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("certificates", nargs="+", metavar="CERTIFICATE")
     options = parser.parse_args(argv)
     try:
-        systems = [data for path in options.system if System(data := load(path))]
+        systems = [data for path in options.system if subject(data := load(path))]
     except (Malformed, Rejected) as error:
         parser.error(f"--system: {error}")
     results = list[dict[str, str]]()

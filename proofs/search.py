@@ -142,7 +142,7 @@ class Facts:
 
 
 def ranks(matrices: Integers) -> Integers:
-    """The ranks of many small integer matrices (N, rows, cols). Raises ArithmeticError when a minor could reach the prime, or an entry 2^20."""
+    """The ranks of many small integer matrices (N, rows, cols). Raises ArithmeticError when a minor could reach the prime."""
     if matrices.size and max(-int(matrices.min()), int(matrices.max())) >= 2**20:
         raise ArithmeticError("entries beyond 2^20")
     lengths = np.sort((matrices * matrices).sum(axis=2).max(axis=0)) if matrices.size else np.zeros(0)  # below 2^63: no row is that long

@@ -17,6 +17,7 @@ from ..exact.systems import ResidualSystem
 from . import checker
 from .certificate import Certificate
 from .corpus import Corpus, Dossier, Progress, build, describe, examine
+from .experiments_tried import LimitDossier, limit_dossiers
 from .judged_pairs import JudgedPair, judged_pairs
 from .pairs import PairDossier, RivalDossier, pair_dossiers, rival_dossiers
 from .search import Box, Facts, Flags, smallest
@@ -24,7 +25,7 @@ from .verdicts import Outcome, Verdict
 
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
 Test = Callable[[Dossier], bool]
-Record = TypeVar("Record", PairDossier, RivalDossier, JudgedPair)
+Record = TypeVar("Record", PairDossier, RivalDossier, JudgedPair, LimitDossier)
 Made = TypeVar("Made")
 
 
@@ -55,6 +56,11 @@ class Workbench:
     def judged(self) -> tuple[JudgedPair, ...]:
         """Pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
         return judged_pairs(self.effort, self.jobs, self.progress)
+
+    @cached_property
+    def limits(self) -> tuple[LimitDossier, ...]:
+        """Experiments with certified population limits."""
+        return limit_dossiers(self.effort, self.jobs, self.progress)
 
     def once(self, name: str, find: Callable[[], Outcome]) -> Outcome:
         """An outcome that several readings share, found the first time it is asked for."""
@@ -133,16 +139,20 @@ def counterexample(words: str, box: object, certificates: Iterable[Certificate])
 
 
 def certify_records(
-    records: Sequence[Record], failing: Sequence[Record], words: Callable[[Record], str], show: Callable[[Record], Iterable[Certificate]]
+    records: Sequence[Record],
+    failing: Sequence[Record],
+    words: Callable[[Record], str],
+    show: Callable[[Record], Iterable[Certificate]],
+    unit: str = "pairs",
 ) -> Outcome:
     """The same for pairs and rivals: `records` meet the hypotheses, `failing` are those among them that refute the statement."""
     if failing:
         shown = accepted(show(failing[0]))
         return Outcome(Verdict.REFUTED, f"fails on {words(failing[0])}", shown, failing[0].accepted)
     if not records:
-        return Outcome(Verdict.ERROR, "no pair meets the hypotheses")
+        return Outcome(Verdict.ERROR, f"none of the {unit} meets the hypotheses")
     totals: dict[str, int] = {}
     for record in records:
         totals[record.origin] = totals.get(record.origin, 0) + record.weight
-    evidence = f"on {sum(totals.values())} pairs: " + "; ".join(f"{count} {origin}" for origin, count in totals.items())
+    evidence = f"on {sum(totals.values())} {unit}: " + "; ".join(f"{count} {origin}" for origin, count in totals.items())
     return Outcome(Verdict.CERTIFIED, evidence, accepted(show(records[0])), sum(r.accepted for r in records))

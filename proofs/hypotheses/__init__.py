@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..ablation import Experiment
+from .experiments import consistency
 from .fault_matrices import theorem_3_ii
 from .pairs import theorem_1, theorem_3_i
 from .pencils import bad_of_full_rank, codimension, placement, zeros_of_pair
@@ -28,6 +29,7 @@ from .trajectories import excited, persistently_excited
 def experiments() -> tuple[Experiment[Any], ...]:
     """Every experiment, by the order of its claim."""
     return (
+        consistency(),
         theorem_1(),
         rank_formula(),
         excited(),

@@ -25,7 +25,7 @@ from faultspace.command_line import app
 from faultspace.exact.kernel_representation import kernel_representation
 from faultspace.exact.systems import read_system
 from faultspace.example_data import FILE_NAME
-from faultspace.packaged_examples import DESCRIPTIONS
+from faultspace.packaged_examples import DESCRIPTIONS, EXPERIMENTS
 from faultspace.proofs import certificate as certificates
 from tests.end_to_end.commands import EXAMPLES, ROOT, Run, call, command, environment, example, validator
 from tests.oracle.strategies import system_pairs, systems
@@ -75,7 +75,7 @@ def test_without_a_command_the_commands_are_listed_on_standard_error() -> None:
     assert all(name in run.err for name in ("verify", "check", "inspect", "compare", "examples"))
 
 
-@pytest.mark.parametrize("name", ["verify", "check", "inspect", "compare", "examples"])
+@pytest.mark.parametrize("name", ["verify", "check", "inspect", "compare", "limit", "examples"])
 def test_every_command_takes_json_and_has_help(name: str) -> None:
     run = CliRunner().invoke(app, [name, "--help"])
     assert run.exit_code == 0
@@ -321,10 +321,11 @@ def test_check_insists_on_a_system(tmp_path: Path, certificate: Any) -> None:
 # -- examples ----------------------------------------------------------------------------------------------------------
 
 
-def test_every_packaged_system_is_described_and_no_other() -> None:
+def test_every_packaged_file_is_described_and_no_other() -> None:
     files = sorted(path.name.removesuffix(".json") for path in EXAMPLES.iterdir())
-    assert files == sorted(DESCRIPTIONS)
-    assert [line.split()[0] for line in call("examples").out.splitlines()] == [f"example:{name}" for name in DESCRIPTIONS]
+    assert files == sorted([*DESCRIPTIONS, *EXPERIMENTS])
+    listed = [line.split()[0] for line in call("examples").out.splitlines()]
+    assert listed == [f"example:{name}" for name in (*DESCRIPTIONS, *EXPERIMENTS)]
 
 
 @pytest.mark.parametrize("name", list(DESCRIPTIONS))
@@ -333,7 +334,7 @@ def test_packaged_systems_are_valid_and_copied_whole(tmp_path: Path, name: str) 
     run = call("examples", str(tmp_path / "new" / "folder"))
     assert run.code == 0
     assert json.loads((tmp_path / "new" / "folder" / f"{name}.json").read_text("utf-8")) == example(name)
-    copied = [FILE_NAME, *(f"{n}.json" for n in DESCRIPTIONS)]
+    copied = [FILE_NAME, *(f"{n}.json" for n in (*DESCRIPTIONS, *EXPERIMENTS))]
     assert sorted(path.name for path in (tmp_path / "new" / "folder").iterdir()) == sorted(copied)
 
 

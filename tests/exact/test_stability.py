@@ -59,8 +59,8 @@ def test_a_number_field_is_judged_in_every_embedding() -> None:
 
 
 def test_characteristic_polynomial() -> None:
-    assert characteristic_polynomial(Matrix.of([[0, 1], [-6, 5]])) == (6, -5, 1)
-    assert characteristic_polynomial(Matrix.of([], shape=(0, 0))) == (1,)
+    assert [int(c) for c in characteristic_polynomial(Matrix.of([[0, 1], [-6, 5]]))] == [6, -5, 1]
+    assert [int(c) for c in characteristic_polynomial(Matrix.of([], shape=(0, 0)))] == [1]
 
 
 def test_bad_input() -> None:

@@ -15,6 +15,7 @@ is what the fast code and the certificates are checked against.
     pencil, quantities              indices and zeros   behaviours            comparison of behaviours, Hankel matrices
     fault_space                     problem (11)        statements            the kinds of certificates
     lines                           a F + b F'          stability             the unit circle
+    limits                          stationary covariances, regressions
     structured, families, strategies   systems to test with: of planted structure, named, drawn by hypothesis
 """
 

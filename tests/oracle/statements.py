@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from . import behaviours, lines, polynomials, stability
+from . import behaviours, limits, lines, polynomials, stability
 from .fault_space import annihilated_columns, fault_space
 from .fields import Element, Field, Json, is_irreducible, parse_index
 from .linear import Matrix, rank, rref
@@ -38,6 +38,8 @@ def premise_holds(kind: str, statement: dict[str, Any]) -> bool:
     """Whether every "field" in the statement is one; raises ValueError as `truth` does on malformed systems."""
     if kind not in KINDS or not isinstance(statement, dict):
         raise ValueError(f"not a statement of a known kind: {kind!r}")
+    if "experiment" in statement:
+        limits.parse_experiment(statement["experiment"])
     return all(is_irreducible(parse_system(statement[key]).field) for key in SYSTEM_KEYS if key in statement)
 
 
@@ -199,6 +201,8 @@ KINDS: dict[str, Callable[[Json], bool]] = {
     "first-column-only": first_column_only,
     "matrix-rank": matrix_rank,
     "schur-stable": schur_stable,
+    "moesp-limit": limits.moesp_limit,
+    "input-limit": limits.input_limit,
     "finite-zeros": finite_zeros,
     "infinite-zeros": infinite_zeros,
 }

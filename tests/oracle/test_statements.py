@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from . import first_difference, premise_holds, truth
+from . import first_difference, limits, premise_holds, truth
 from .families import SQRT2, Q, adversarial, paper_example, shift_register, system
 from .fields import Element, Field, PrimeField
 from .linear import Matrix, matrix
@@ -61,6 +61,28 @@ def fed(f: list[list[int]], g: list[list[int]], a: int = 0) -> Any:
     return system(Q, [[a]], f, [[1], [0]], g, n=1, p=2, m=len(f[0]))
 
 
+def driven(**changes: Any) -> dict[str, Any]:
+    """x+ = x / 2 + u + v, y = x + v with v(k) = u(k+1) white, two samples of either side."""
+    data = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[1]], "s": 2, "past": 2}
+    return {**data, "u_filter": [[[0]], [[1]]], "v_filter": [[[1]]], **changes}
+
+
+def ranks(limit: int, seen: int, joint: int, instruments: str = "past-inputs", **changes: Any) -> dict[str, Any]:
+    """The statement of a moesp-limit."""
+    stated = {"instruments": instruments, "limit_rank": limit, "observability_rank": seen, "joint_rank": joint}
+    return {"experiment": driven(**changes), **stated}
+
+
+def inputs(regression: str, b: object, d: object, **changes: Any) -> dict[str, Any]:
+    """The statement of an input-limit for one input, state and output."""
+    return {"experiment": driven(**changes), "regression": regression, "B": [[b]], "D": [[d]]}
+
+
+NOT_LED: dict[str, Any] = {"u_filter": [[[1]]], "v_filter": [[[0]], [[1]]]}  # v(k) = u(k-1)
+ALONE: dict[str, Any] = {"u_filter": [[["1", "0"]], [["1/2", "0"]]], "v_filter": [[["0", "1"]]]}  # v independent of u
+LASTING: dict[str, Any] = {"v_filter": {"num": [[["0", "1"]]], "den": ["1", "-1/2"]}}
+NOISY: dict[str, Any] = {"w_filter": {"num": [[["1"]], [["2"]]], "den": ["1", "-1/3"]}}
+
 CASES: list[tuple[str, dict[str, Any], bool]] = [
     ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [2]}, True),
     ("window-ranks", {"system": PAPER, "normal_rank": 1, "left_minimal_indices": [3]}, False),
@@ -109,6 +131,45 @@ CASES: list[tuple[str, dict[str, Any], bool]] = [
     # 1/2 sqrt 2 and its conjugate are inside; 1 - sqrt 2 is, and its conjugate 1 + sqrt 2 is not.
     ("schur-stable", {"system": moved([[["0", "1/2"]]], SQRT2)}, True),
     ("schur-stable", {"system": moved([[["1", "-1"]]], SQRT2)}, False),
+    # v(k) = u(k+1): y sees B + A F, D + C F beside a v that u does not explain; from v(k) = u(k-1) a second rank.
+    ("moesp-limit", ranks(1, 1, 1), True),
+    ("moesp-limit", ranks(1, 1, 2), False),
+    ("moesp-limit", ranks(2, 1, 2, **NOT_LED), True),
+    ("moesp-limit", ranks(1, 1, 1, **NOT_LED), False),
+    ("moesp-limit", ranks(1, 1, 1, **ALONE), True),
+    # White v is in Yp and not in Yf, but by the state; coloured v is in both.
+    ("moesp-limit", ranks(1, 1, 1, "past-inputs-and-outputs", **ALONE), True),
+    ("moesp-limit", ranks(2, 1, 2, "past-inputs-and-outputs", **{**ALONE, **LASTING}), True),
+    ("moesp-limit", ranks(1, 1, 1, **{**ALONE, **LASTING}), True),
+    # So is w.
+    ("moesp-limit", ranks(1, 1, 1, "past-inputs-and-outputs", w_filter=[[["3"]]]), True),
+    ("moesp-limit", ranks(2, 1, 2, "past-inputs-and-outputs", **NOISY), True),
+    ("moesp-limit", ranks(1, 1, 1, **NOISY), True),
+    # B + A F = 0: nothing of the state is seen, although (A, B) is controllable.
+    ("moesp-limit", ranks(0, 1, 1, B=[["-1/2"]]), True),
+    ("moesp-limit", ranks(1, 1, 1, B=[["-1/2"]]), False),
+    # Unstable, and an input that is its own past.
+    ("moesp-limit", ranks(1, 1, 1, A=[[1]]), False),
+    ("moesp-limit", ranks(0, 1, 1, u_filter=[[[0]]]), False),
+    ("moesp-limit", ranks(1, 1, 1, v_filter={"num": [[[1]]], "den": [1, -1]}), False),
+    ("input-limit", inputs("true-AC", "3/2", 1), True),
+    ("input-limit", inputs("true-AC", 1, 0), False),
+    # v(k) = u(k+1) in y(k) is right of the diagonal, where no T_s(B, D) has anything.
+    ("input-limit", inputs("moesp", "3/2", 1, G=[[0]]), True),
+    ("input-limit", inputs("moesp", "3/2", 1), False),
+    ("input-limit", inputs("moesp", 1, 0), False),
+    ("input-limit", inputs("true-AC", 1, 0, **ALONE, **NOISY), True),
+    ("input-limit", inputs("moesp", 1, 0, **ALONE, **NOISY), True),
+    # y(k) = x(k) + u(k-1): beside x, G(q) = b / (q - 1/2) makes q^-1 of b = 1 and of what follows nothing.
+    ("input-limit", inputs("true-AC", "7/4", 0, **NOT_LED, F=[[0]]), True),
+    ("input-limit", inputs("true-AC", 2, 0, **NOT_LED, F=[[0]]), False),
+    # One sample sees no B; nor does C = 0, nor a u that is zero.
+    ("input-limit", inputs("moesp", "3/2", 1, s=1), False),
+    ("input-limit", inputs("true-AC", "3/2", 1, s=1), True),
+    ("input-limit", inputs("true-AC", 1, 1, C=[[0]]), False),
+    ("input-limit", inputs("true-AC", 1, 0, u_filter=[[[0]]]), False),
+    ("input-limit", inputs("moesp", 1, 0, u_filter=[[[0]]]), False),
+    ("input-limit", inputs("true-AC", 1, 0, A=[["-3/2"]]), False),
     ("not-left-invertible", {"system": BLIND}, True),
     ("not-left-invertible", {"system": UNSEEN}, False),
     ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": 3}, True),
@@ -187,6 +248,19 @@ MALFORMED: list[tuple[str, Any]] = [
     ("left-invertible-line", {"first": SEEN, "second": {**SEEN, "C": [[1], [1]]}}),
     ("schur-stable", {"system": shift_register({"prime": 2}, 1)}),
     ("schur-stable", {"system": SEEN, "radius": 1}),
+    ("moesp-limit", ranks(1, 1, -1)),
+    ("moesp-limit", ranks(1, 1, 1, "past-outputs")),
+    ("moesp-limit", ranks(1, 1, 1, s=0)),
+    ("moesp-limit", ranks(1, 1, 1, past=4097)),
+    ("moesp-limit", ranks(1, 1, 1, seed=1)),
+    ("moesp-limit", ranks(1, 1, 1, field=SQRT2)),
+    ("moesp-limit", ranks(1, 1, 1, field={"prime": 3}, A=[[0]])),
+    ("moesp-limit", ranks(1, 1, 1, u_filter=[])),
+    ("moesp-limit", ranks(1, 1, 1, v_filter=[[[1, 1]]])),
+    ("moesp-limit", ranks(1, 1, 1, v_filter={"num": [[[1]]], "den": [2]})),
+    ("moesp-limit", ranks(1, 1, 1, B=[[]], D=[[]], n=1, m=1, p=1, nu=0)),
+    ("input-limit", inputs("least squares", 1, 0)),
+    ("input-limit", {**inputs("moesp", 1, 0), "B": [[1, 1]]}),
     ("inversion-delay", {"system": LINE, "initial_state": "free", "delay": 3}),
     ("inversion-delay", {"system": LINE, "initial_state": "known"}),
     ("inversion-delay", {"system": LINE, "initial_state": "known", "delay": "3"}),
@@ -338,3 +412,60 @@ def test_ranks_are_what_elimination_finds(json: Any, seed: int) -> None:
     for about in statements:
         truths = [truth("matrix-rank", {**about, "system": json, "rank": k}) for k in range(largest + 1)]
         assert truths.count(True) == 1
+
+
+@FEW
+@given(st.integers(0, 2**32), st.booleans())
+def test_covariances_are_sums_of_impulse_responses(seed: int, rational: bool) -> None:
+    """With A nilpotent and no denominators the sums are finite; else they are summed until they have converged."""
+    rng = Random(seed)
+
+    def table(height: int, width: int) -> list[list[str]]:
+        return [[rng.choice(["0", "1", "-1", "1/2"]) for _ in range(width)] for _ in range(height)]
+
+    shapes = {"B": (2, 1), "C": (1, 2), "D": (1, 1), "F": (2, 1), "G": (1, 1)}
+    json = driven(A=[["0", "1"], ["0", "1/3" if rational else "0"]], **{name: table(*shape) for name, shape in shapes.items()})
+    json["u_filter"], json["v_filter"] = [table(1, 2) for _ in range(3)], [table(1, 2) for _ in range(2)]
+    den = [Fraction(1)]
+    if rational:
+        den += [Fraction(1, 2), Fraction(-1, 4)]
+        json["v_filter"] = {"num": json["v_filter"], "den": [str(d) for d in den]}
+    e = limits.parse_experiment(json)
+    length = 150 if rational else 8
+    answers: dict[str, list[list[Fraction]]] = {"u": [], "y": []}  # the responses to an impulse of e_0 or of e_1 at time 0, by hand
+    for channel in range(2):
+        u = [b.rows[0][channel] for b in e.u.numerator] + [Fraction(0)] * length
+        v = list[Fraction]()
+        for k in range(length):
+            forced = e.v.numerator[k].rows[0][channel] if k < len(e.v.numerator) else Fraction(0)
+            v.append(forced - sum((d * v[k - j] for j, d in enumerate(den) if 1 <= j <= k), Fraction(0)))
+        x, y = [Fraction(0), Fraction(0)], list[Fraction]()
+        for k in range(length):
+            y.append(sum((c * s for c, s in zip(e.system.C.rows[0], x, strict=True)), e.D.rows[0][0] * u[k] + e.system.G.rows[0][0] * v[k]))
+            moved = [sum((a * s for a, s in zip(row, x, strict=True)), Fraction(0)) for row in e.system.A.rows]
+            x = [m + e.B.rows[i][0] * u[k] + e.system.F.rows[i][0] * v[k] for i, m in enumerate(moved)]
+        answers["u"].append(u[:length])
+        answers["y"].append(y)
+    assert limits.is_stationary(e)
+    process, signals = limits.process(e)
+    for a, b in (("u", "u"), ("y", "u"), ("u", "y"), ("y", "y")):
+        for lag in (-3, -1, 0, 1, 2, 4):
+            pairs = [(k + lag, k) for k in range(length) if 0 <= k + lag < length]
+            summed = sum((answers[a][c][i] * answers[b][c][k] for c in range(2) for i, k in pairs), Fraction(0))
+            found = process.covariance(signals[a], signals[b], lag).rows[0][0]
+            assert abs(found - summed) < Fraction(1, 10**20) if rational else found == summed
+
+
+@FEW
+@given(st.integers(0, 2**32))
+def test_regressions_are_right_about_an_independent_fault(seed: int) -> None:
+    """Whatever u, A, B, C, D: with v independent of u both regressions find B and D, and L has the columns of O_s."""
+    rng = Random(seed)
+    pick = rng.choice
+    values = ["1", "-1", "1/2", "2"]
+    json = driven(A=[[pick(["0", "1/2", "-1/3"])]], B=[[pick(values)]], C=[[pick(values)]], D=[[pick(values)]], F=[[pick(values)]], **ALONE)
+    about = {"experiment": json, "B": json["B"], "D": json["D"]}
+    for regression in ("true-AC", "moesp"):
+        assert truth("input-limit", {**about, "regression": regression})
+        assert not truth("input-limit", {**about, "regression": regression, "D": [["7"]]})
+    assert truth("moesp-limit", {**ranks(1, 1, 1), "experiment": json})

@@ -1,25 +1,33 @@
 """Certificates to try the checker with, and ways to spoil them.
 
-    FIELDS, systems    small systems of every shape over Q, Q(a), Q(sqrt 2), GF(2), GF(3)
-    lines, stable      pairs and systems that the kinds left-invertible-line and schur-stable are about
-    certificates       certificates of every kind about them, as they come out of files
-    base               one certificate of a kind
-    spoiled            a copy of a certificate with something replaced or deleted
-    RANKS, ...         the certificates that the tests spoil
+FIELDS, systems    small systems of every shape over Q, Q(a), Q(sqrt 2), GF(2), GF(3)
+lines, stable      pairs and systems that the kinds left-invertible-line and schur-stable are about
+experiments        what the kinds moesp-limit and input-limit are about, small
+limit_certificates those of one experiment
+forged_inputs      what output_error_inputs makes of B and D that are not the solution
+certificates       certificates of every kind about them, as they come out of files
+base               one certificate of a kind
+spoiled            a copy of a certificate with something replaced or deleted
+RANKS, ...         the certificates that the tests spoil
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
+from faultspace.exact.experiments import Experiment, read_experiment
 from faultspace.exact.fault_space import fault_space
 from faultspace.exact.fields import QQ, Field, NumberField, PrimeField
+from faultspace.exact.input_limits import InputLimit
 from faultspace.exact.kernel_representation import kernel_representation
 from faultspace.exact.matrices import Matrix
+from faultspace.exact.population_limits import population_limits
 from faultspace.exact.systems import ResidualSystem
 from faultspace.proofs import certificate as make
+from faultspace.proofs import limit_certificates as make_limit
 
 Certificate = dict[str, Any]
 CUBIC = NumberField(("1", "-3", "-1", "4"))  # type: ignore[arg-type]
@@ -65,6 +73,46 @@ def stable(field: Field) -> Iterator[ResidualSystem]:
         yield ResidualSystem.of([[0, quarter], [1, 0]], [[1], [0]], [[1, 0]], [[0]], field=field)
 
 
+def experiment(**changes: Any) -> Experiment:
+    """x+ = x / 2 + u + v, y = x + v / 2 with v(k) = u(k+1), and whatever is changed."""
+    data = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [["1/2"]], "s": 2, "past": 1}
+    return read_experiment(data | {"u_filter": [[[0]], [[1]]], "v_filter": [[[1]]]} | changes)
+
+
+def experiments() -> dict[str, Experiment]:
+    """With leads and lags, coloured u, noise, two inputs, no faults, no states, unseen states; without a solution that is only one."""
+    nothing = {"n": 0, "m": 1, "p": 1, "nu": 1, "A": [], "B": [], "C": [[]], "F": []}
+    still = {"n": 1, "m": 0, "p": 1, "nu": 1, "F": [[]], "G": [[]], "v_filter": [[]]}
+    two = {"B": [[1, 0]], "D": [[0, "1/3"]], "u_filter": [[[1, 0], [0, 1]], [[0, 0], [1, 0]]], "v_filter": [[[0, 0]], [[1, "-1/2"]]]}
+    return {
+        "lead": experiment(),
+        "lag": experiment(u_filter=[[["-2"]]], v_filter=[[[0]], [["2/3"]]]),
+        "coloured": experiment(u_filter={"num": [[[1]]], "den": [1, "-1/2"]}, v_filter=[[[0]], [[1]]]),
+        "noise": experiment(v_filter={"num": [[[1]], [["1/2"]]], "den": ["1", "1/3"]}, w_filter={"num": [[[2]]], "den": [1, "1/4"]}),
+        "two inputs": experiment(**two),
+        "no faults": experiment(**still),
+        "no states": experiment(**nothing),
+        "unseen": experiment(C=[[0]], s=1, past=1),
+    }
+
+
+def limit_certificates(about: Experiment) -> Iterator[Certificate]:
+    """By both instruments and both regressions, where these have one solution."""
+    found = population_limits(about)
+    yield make_limit.past_input_limit(found)
+    yield make_limit.past_input_and_output_limit(found)
+    if found.true_AC is not None:
+        yield make_limit.output_error_inputs(found)
+    if found.moesp is not None:
+        yield make_limit.moesp_inputs(found)
+
+
+def forged_inputs(about: Experiment, B: object, D: object) -> Certificate:
+    """As if these B and D were what the true-AC regression gives."""
+    found = population_limits(about)
+    return written(make_limit.output_error_inputs(replace(found, true_AC=InputLimit(Matrix.of(B), Matrix.of(D)))))
+
+
 def systems(field: Field) -> Iterator[ResidualSystem]:
     """Small systems of every shape: with and without states, faults, outputs, relations, zeros, left inverse."""
     yield seen(field)
@@ -107,6 +155,8 @@ def certificates(field: Field) -> Iterator[Certificate]:
     yield from (written(make.left_invertible_line(*pair)) for pair in lines(field))
     if not isinstance(field, PrimeField):
         yield from (written(make.schur_stable(system)) for system in stable(field))
+    if field == QQ:
+        yield from (written(certificate) for about in experiments().values() for certificate in limit_certificates(about))
 
 
 def spoiled(certificate: Certificate, *changes: tuple[str, Any]) -> Certificate:
@@ -162,5 +212,7 @@ SPACE, COLUMN = base("fault-space"), base("first-column-only")
 WINDOW, DATA, SAME, EQUAL = base("matrix-rank"), base("excitation"), base("window-equality"), base("behaviour-equality")
 DIFFERENCE = base("behaviour-difference")
 PAIR, STABLE = base("left-invertible-line"), base("schur-stable")
+LEADING, OUTPUTS, NORMAL, PROJECTED = (written(certificate) for certificate in limit_certificates(experiment()))
+SEVEN_B, SEVEN_D = (forged_inputs(experiment(), B, D) for B, D in (([[7]], NORMAL["statement"]["D"]), (NORMAL["statement"]["B"], [[7]])))
 EISENSTEIN = {"eisenstein": {"prime": 2, "shift": 0}}
 HUGE = "9" * 20000

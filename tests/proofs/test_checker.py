@@ -1,7 +1,7 @@
 """What the checker accepts, and every reason it has for refusing.
 
-    REJECTED, MALFORMED     name -> (part of the reason, a certificate spoiled accordingly); every reason in the source is met here
-    reasons                 the reasons in the source
+REJECTED, MALFORMED     name -> (part of the reason, a certificate spoiled accordingly); every reason in the source is met here
+reasons                 the reasons in the source
 """
 
 from __future__ import annotations
@@ -33,13 +33,19 @@ from tests.proofs.examples import (
     FLAT_RANKS,
     GONE,
     HUGE,
+    LEADING,
     LINE,
+    NORMAL,
     NULL,
     OPEN,
+    OUTPUTS,
     PAIR,
+    PROJECTED,
     RANKS,
     ROOTED,
     SAME,
+    SEVEN_B,
+    SEVEN_D,
     SPACE,
     SQRT2,
     STABLE,
@@ -50,6 +56,8 @@ from tests.proofs.examples import (
     S,
     base,
     certificates,
+    experiment,
+    limit_certificates,
     seen,
     spoiled,
     written,
@@ -67,7 +75,9 @@ def test_every_kind_is_accepted(name: str) -> None:
         assert certificate == before
         assert "assuming" not in words
         kinds.add(certificate["kind"])
-    assert kinds == set(checker.KINDS) - ({"schur-stable"} if isinstance(FIELDS[name], PrimeField) else set())
+    over_numbers, over_rationals = {"schur-stable"}, {"moesp-limit", "input-limit"}
+    elsewhere = over_rationals if name != "Q" else set()
+    assert kinds == set(checker.KINDS) - (elsewhere | over_numbers if isinstance(FIELDS[name], PrimeField) else elsewhere)
 
 
 def test_the_statement_in_words_tells_statement_and_system() -> None:
@@ -79,6 +89,9 @@ def test_the_statement_in_words_tells_statement_and_system() -> None:
 
 
 M = "witness.minors"
+E = "statement.experiment"
+# Modulo 101 the input is zero; the output is.
+DEAF, BLIND = ([*limit_certificates(experiment(**changes))] for changes in ({"u_filter": [[[0]], [[101]]]}, {"C": [[101]]}))
 # The minor of these rows is a^2 - 2 b^2: without a zero over Q, and with two over Q(sqrt 2).
 OVER_AN_EXTENSION = spoiled(
     PAIR,
@@ -214,6 +227,23 @@ REJECTED: dict[str, tuple[str, Certificate]] = {
         "not inside the unit circle",
         spoiled(STABLE, (S, ResidualSystem.of([[[1, -1]]], [[1]], [[1]], [[1]], field=SQRT2).to_json())),
     ),
+    "covariance wrong": ("does not solve the Lyapunov equation", spoiled(LEADING, ("witness.covariance.0.0", "7/5"))),
+    "covariance of the outputs wrong": ("does not solve the Lyapunov equation", spoiled(OUTPUTS, ("witness.covariance.0.0", "7/5"))),
+    "errors wrong": ("does not solve the Lyapunov equation", spoiled(NORMAL, ("witness.errors.1.0", "7/5"))),
+    "another fault filter": ("does not solve the Lyapunov equation", spoiled(LEADING, (f"{E}.v_filter.0.0.0", "2"))),
+    "unstable system of an experiment": ("not inside the unit circle", spoiled(PROJECTED, (f"{E}.A.0.0", "-1"))),
+    "unstable filter": ("v_filter: the denominator is not stable", spoiled(LEADING, (f"{E}.v_filter", {"num": [[[1]]], "den": [1, -1]}))),
+    "input zero modulo the prime": ("the covariance of the inputs may be singular", spoiled(DEAF[0], ("witness.prime", 101))),
+    "input zero modulo the prime, regression": ("the covariance of the inputs may be singular", spoiled(DEAF[2], ("witness.prime", 101))),
+    "output zero modulo the prime": ("the observability matrix may lose rank", spoiled(BLIND[2], ("witness.prime", 101))),
+    "limit rank too large": ("the number of left null rows", spoiled(LEADING, ("statement.limit_rank", 2))),
+    "joint row wrong": ("does not vanish on the matrix", spoiled(LEADING, ("witness.joint.0.row.0", "17"))),
+    "series wrong": ("the series does not solve its equation", spoiled(NORMAL, ("witness.series.0.0", "7"))),
+    "B wrong": ("the error is correlated with the past inputs", SEVEN_B),
+    "D wrong": ("the error is correlated with the present input", SEVEN_D),
+    "response wrong": ("the response is not that of the future inputs", spoiled(PROJECTED, ("witness.response.0.0", "7"))),
+    "inverse of O_s wrong": ("the inverse does not project", spoiled(PROJECTED, ("witness.inverse.0.0", "7"))),
+    "normal equations wrong": ("the normal equations fail", spoiled(PROJECTED, ("statement.B.0.0", "7"))),
     "left multiplier": ("left is not unimodular", spoiled(FINITE, ("witness.left_inverse.0.0", ["7"]))),
     "right multiplier": ("right is not unimodular", spoiled(FINITE, ("witness.right.0.0", ["7"]))),
     "diagonal wrong": ("do not give the diagonal", spoiled(FINITE, ("witness.diagonal.0", ["7"]))),
@@ -308,6 +338,36 @@ MALFORMED: dict[str, tuple[str, Any]] = {
     "minor with a key": ("minor: expected an object", spoiled(PAIR, (f"{M}.0.value", 1))),
     "line without a prime": ("witness: a prime over Q", spoiled(PAIR, ("witness.prime", GONE))),
     "stable over a prime field": ("a finite one has no unit circle", spoiled(STABLE, (f"{S}.field", {"prime": 5}))),
+    "experiment over a prime field": (
+        "over Q only, and with an input",
+        spoiled(LEADING, (f"{E}.field", {"prime": 5}), (f"{E}.A", [[1]]), (f"{E}.G", [[1]])),
+    ),
+    "experiment over Q(a)": ("over Q only, and with an input", spoiled(LEADING, (f"{E}.field", {"minimal_polynomial": ["-2", "0", "1"]}))),
+    "experiment without inputs": (
+        "over Q only, and with an input",
+        spoiled(LEADING, (E, lambda e: {**e, "B": [[]], "D": [[]], "n": 1, "m": 1, "p": 1, "nu": 0})),
+    ),
+    "experiment without B": ("experiment: expected an object", spoiled(LEADING, (f"{E}.B", GONE))),
+    "experiment without a filter": ("experiment: expected an object", spoiled(LEADING, (f"{E}.v_filter", GONE))),
+    "experiment with a key": ("experiment: expected an object", spoiled(LEADING, (f"{E}.seed", 1))),
+    "experiment null": ("experiment: expected an object", spoiled(LEADING, (E, None))),
+    "no future": ("one block row at least", spoiled(LEADING, (f"{E}.s", 0))),
+    "no past": ("one block row at least", spoiled(LEADING, (f"{E}.past", 0))),
+    "past too long": ("past: expected an integer in 0..4096", spoiled(LEADING, (f"{E}.past", 4097))),
+    "filter empty": ("u_filter: expected a list of 1 to 512", spoiled(LEADING, (f"{E}.u_filter", []))),
+    "filter with a key": ("u_filter: expected an object", spoiled(LEADING, (f"{E}.u_filter", {"num": [[[1]]], "den": [1], "lag": 1}))),
+    "filter of a number": ("u_filter: expected a list", spoiled(LEADING, (f"{E}.u_filter", 1))),
+    "filter with rows missing": ("v_filter: expected a list of 1 to 1", spoiled(LEADING, (f"{E}.v_filter.0", []))),
+    "filters of two noises": ("v_filter[0]: expected a list of 1 to 1", spoiled(LEADING, (f"{E}.v_filter.0.0", ["1", "1"]))),
+    "filter with a long lag": ("u_filter[0]: expected a list of 1 to 1", spoiled(LEADING, (f"{E}.u_filter.1.0", ["1", "1"]))),
+    "denominator empty": ("u_filter: expected a list of 1 to 512", spoiled(LEADING, (f"{E}.u_filter", {"num": [[[1]]], "den": []}))),
+    "denominator of 2": ("the denominator does not begin with 1", spoiled(LEADING, (f"{E}.u_filter", {"num": [[[1]]], "den": [2, 1]}))),
+    "instruments unknown": ("instruments: past-inputs or past-inputs-and-outputs", spoiled(LEADING, ("statement.instruments", "past"))),
+    "instruments more": ("covariance[0]: expected a list of 4", spoiled(LEADING, ("statement.instruments", "past-inputs-and-outputs"))),
+    "regression unknown": ("regression: true-AC or moesp", spoiled(NORMAL, ("statement.regression", "true-ac"))),
+    "regression other": ("witness: errors and series, or", spoiled(NORMAL, ("statement.regression", "moesp"))),
+    "regression without its series": ("witness: errors and series, or", spoiled(NORMAL, ("witness.series", GONE))),
+    "limit without a prime": ("witness: expected an object", spoiled(LEADING, ("witness.prime", GONE))),
     "initial state": ("initial_state: expected known or unknown", spoiled(DELAY, ("statement.initial_state", "free"))),
     "delay as a string": ("delay: expected an integer", spoiled(DELAY, ("statement.delay", "2"))),
     "inverse missing": ("no inverse with null", spoiled(DELAY, ("witness.inverse", GONE))),

@@ -1,8 +1,8 @@
 """Every mutation of a certificate is rejected, or its statement is still true: decided by the slow oracle, never by us.
 
-    certificates     small ones of every kind over Q, Q(a), GF(2), GF(3), zero dimensions included
-    mutations        every leaf changed in several ways; every element deleted, doubled, swapped with the next; every key deleted
-    survivors        the mutations that a checker accepts
+certificates     small ones of every kind over Q, Q(a), GF(2), GF(3), zero dimensions included
+mutations        every leaf changed in several ways; every element deleted, doubled, swapped with the next; every key deleted
+survivors        the mutations that a checker accepts
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from faultspace.exact.systems import ResidualSystem
 from faultspace.proofs import certificate as make
 from faultspace.proofs import checker
 from tests.oracle import premise_holds, truth
-from tests.proofs.examples import lines, stable
+from tests.proofs.examples import experiments, limit_certificates, lines, stable
 
 SQRT2 = NumberField(("-2", "0", "1"))  # type: ignore[arg-type]
 CUBIC = NumberField(("1", "-3", "-1", "4"))  # type: ignore[arg-type]
@@ -74,7 +74,14 @@ def of_lines_and_stable_systems() -> Iterator[dict[str, Any]]:
 
 def every_certificate() -> list[dict[str, Any]]:
     """All of them."""
-    return [c for system in SYSTEMS.values() for c in of_one_system(system)] + [*of_two_systems(), *of_lines_and_stable_systems()]
+    of_one = [c for system in SYSTEMS.values() for c in of_one_system(system)]
+    return [*of_one, *of_two_systems(), *of_lines_and_stable_systems(), *of_experiments()]
+
+
+def of_experiments() -> Iterator[dict[str, Any]]:
+    """Population limits."""
+    for about in experiments().values():
+        yield from limit_certificates(about)
 
 
 def of_two_systems() -> Iterator[dict[str, Any]]:
@@ -103,7 +110,7 @@ def changed(leaf: object) -> Iterator[object]:
             top = leaf.split("/")[0]
             yield from ("0", "1", leaf + "/2", *(f"{number}{leaf[len(top) :]}" for number in (-int(top), int(top) + 1, 2 * int(top))))
         else:
-            yield from ("", "known", "unknown", "window", "toeplitz", "Q", *checker.KINDS)
+            yield from ("", "known", "unknown", "window", "toeplitz", "Q", "past-inputs", "true-AC", "moesp", *checker.KINDS)
 
 
 def mutations(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
@@ -190,6 +197,11 @@ def test_mutations_about_lines_and_stability_are_rejected_or_true() -> None:
     mutate_all(of_lines_and_stable_systems())
 
 
+@pytest.mark.parametrize("name", experiments())
+def test_mutations_about_experiments_are_rejected_or_true(name: str) -> None:
+    mutate_all(limit_certificates(experiments()[name]))
+
+
 def test_every_kind_is_mutated() -> None:
     assert {c["kind"] for c in every_certificate()} == set(checker.KINDS)
 
@@ -198,7 +210,7 @@ def test_foreign_systems_are_always_rejected() -> None:
     foreign = ResidualSystem.of([[7]], [[1]], [[1]], [[1]]).to_json()
     kinds = set()
     for certificate in every_certificate():
-        own = [value for key, value in certificate["statement"].items() if key in ("system", "inner", "outer", "first", "second")]
+        own = [value for key, value in certificate["statement"].items() if key in checker.SUBJECTS]
         checker.verify(certificate, own)
         for others in ([foreign], [*own, foreign]):
             with pytest.raises(checker.Rejected, match="the statement is not about"):
@@ -217,6 +229,10 @@ REFUSALS = {
     "stays below the number of faults": "left-invertible",
     "the minors may have a common zero": "left-invertible-line",
     "an eigenvalue is not inside the unit circle": "schur-stable",
+    "the covariance does not solve the Lyapunov equation": "input-limit",
+    "the series does not solve its equation": "input-limit",
+    "the response is not that of the future inputs": "input-limit",
+    "the normal equations fail": "input-limit",
     "C x(q) + G v(q) = 0 fails": "not-left-invertible",
     "the left inverse does not give v(0)": "inversion-delay",
     "the output of the ambiguous word is not zero": "inversion-delay",

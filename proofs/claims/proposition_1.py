@@ -1,0 +1,125 @@
+"""proposition-1: under assumptions 1 to 3 PI-MOESP recovers A, B, C, D consistently. Decided on exact population limits.
+
+white_leads        u white, v(k) = sum phi_j u(k+j), written in the drives below
+smallest_limit     the first small experiment that meets a condition, with its certificates
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
+
+from ...exact.experiments import Experiment
+from ...exact.matrices import Matrix
+from ...exact.population_limits import population_limits
+from ..certificate import Certificate
+from ..experiments_tried import Drive, LimitDossier, certificates_of, examine_experiment, experiments_in_order, leading
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, certify_records, counterexample
+
+WHITE = (["1"], ["1"])
+MOVING_AVERAGE = (["1", "1/2"], ["1"])
+BOX = "n = m = nu = 1, F = 1, D = 0, p <= 2, A in {0, 1/2}, entries of B, C, G in {-1, 0, 1, 2}"
+
+
+def drives(inputs: Sequence[tuple[list[str], list[str]]], phis: Sequence[list[str]]) -> list[Drive]:
+    """v(k) = sum phi_j u(k+j) for each u and phi."""
+    return [partial(_lead, u=u, den=den, phi=phi) for u, den in inputs for phi in phis]
+
+
+def _lead(system: dict[str, Any], u: list[str], den: list[str], phi: list[str]) -> Experiment:
+    return leading(system, u, den, phi)
+
+
+LEADS = [["0", "1"], ["0", "2"], ["0", "0", "1"]]
+
+
+def white_a_c(bench: Workbench) -> Outcome:
+    """u white, one-sided, (A, B) controllable, (A, C) observable: the limit has the range of O_s."""
+    return smallest_limit(drives([WHITE], LEADS), lambda d: _regular(d) and not d.equal, "v leads u by one or two samples")
+
+
+def white_a_c_seen(bench: Workbench) -> Outcome:
+    """u white, v leads it: the limit lies in the range of O_s, and is all of it iff (A, B + sum A^j F phi_j) is controllable."""
+    records = [d for d in bench.limits if d.origin == "u white, v leads it" and d.observable]
+    return certify_limits(records, lambda d: d.within and d.equal == d.seen_controllable)
+
+
+def white_b_d(bench: Workbench) -> Outcome:
+    """u white, one-sided: B and D by regression with the true A and C are right."""
+    return smallest_limit(drives([WHITE], LEADS), lambda d: _regular(d) and not d.inputs_right, "v leads u by one or two samples")
+
+
+def white_b_d_seen(bench: Workbench) -> Outcome:
+    """u white: with the true A, C output error gives B + sum A^j F phi_j and D + G phi_0 + sum over j >= 1 of C A^(j-1) F phi_j."""
+    records = [d for d in bench.limits if d.origin in ("u white, v leads it", "u white, v(k) = u(k)") and d.state_inputs is not None]
+    return certify_limits(records, lambda d: d.state_inputs == _seen(d))
+
+
+def coloured_a_c(bench: Workbench) -> Outcome:
+    """u coloured, one-sided, (A, B) controllable, (A, C) observable: the limit lies in the range of O_s."""
+    return smallest_limit(
+        drives([MOVING_AVERAGE], [["0", "0", "1"]]), lambda d: _regular(d) and not d.within, "u = e(k) + e(k-1)/2, v(k) = u(k+2)"
+    )
+
+
+def autoregressive(bench: Workbench) -> Outcome:
+    """u autoregressive of order below s, v leads it: the limit still lies in the range of O_s."""
+    return certify_limits([d for d in bench.limits if d.origin.startswith("u autoregressive")], lambda d: d.within)
+
+
+def lead_one(bench: Workbench) -> Outcome:
+    """G = 0 and v(k) = u(k+1), u of any colour: the limit still lies in the range of O_s."""
+    return certify_limits([d for d in bench.limits if d.origin == "u coloured, v(k) = u(k+1), G = 0"], lambda d: d.within)
+
+
+def two_sided(bench: Workbench) -> Outcome:
+    """u and v uncorrelated at all lags: the limit lies in the range of O_s, is all of it where (A, B) is controllable; B, D are right."""
+    records = [d for d in bench.limits if d.uncorrelated]
+    return certify_limits(records, lambda d: d.within and d.inputs_right and (d.equal or not (d.controllable and d.observable)))
+
+
+def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitDossier], bool], scope: str) -> Outcome:
+    """The first of the small experiments that fails, as the checker accepted it."""
+    for experiment in experiments_in_order(inputs):
+        dossier = examine_experiment("search", experiment)
+        if fails(dossier):
+            return counterexample(show_words(dossier), f"{BOX}, {scope}", show(dossier))
+    return Outcome(Verdict.ERROR, "no counterexample among the small experiments")
+
+
+def show(dossier: LimitDossier) -> list[Certificate]:
+    """Both limits and the regressions."""
+    return certificates_of(population_limits(dossier.experiment))
+
+
+def show_words(dossier: LimitDossier) -> str:
+    """The experiment for a reader."""
+    e = dossier.experiment
+    u, v = e.u_filter.to_json(), e.v_filter.to_json()
+    return f"{e.system.residual}, B={e.system.B}, D={e.system.D}, s = {e.s}, past = {e.past}, u = {u}, v = {v}".replace("'", "")
+
+
+def certify_limits(records: Sequence[LimitDossier], holds: Callable[[LimitDossier], bool]) -> Outcome:
+    """`holds` on all of these experiments."""
+    return certify_records(records, [d for d in records if not holds(d)], show_words, show, unit="experiments")
+
+
+def _regular(d: LimitDossier) -> bool:
+    return d.one_sided and d.controllable and d.observable
+
+
+def _seen(d: LimitDossier) -> tuple[Matrix, Matrix]:
+    """B and D as the lead of v makes them look."""
+    residual, B, D = d.experiment.system.residual, d.experiment.system.B, d.experiment.system.D
+    delay = len(d.experiment.u_filter.numerator) - 1
+    phi = [d.experiment.v_filter.numerator[delay - j] for j in range(delay + 1)]
+    column = residual.F
+    D = D + residual.G @ phi[0]
+    for j, weight in enumerate(phi):
+        B = B + column @ weight
+        if j + 1 < len(phi):
+            D = D + residual.C @ column @ phi[j + 1]
+        column = residual.A @ column
+    return B, D

@@ -1,0 +1,265 @@
+"""Experiments whose population limits are known exactly, with certificates that the checker accepted: proposition-1 rests on these.
+
+    LimitDossier     an experiment, what its signals are like, and what accepted certificates say of both methods and both regressions
+    limit_dossiers   of an effort, in families named after how v and u belong together
+    FAMILIES         family: how an experiment of it is drawn
+    experiments_in_order   small experiments, for the smallest counterexample
+
+Correlations of v and u are decided for all lags: beyond the size of the joint state they are combinations of those before
+(Cayley-Hamilton).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+from joblib import Parallel, delayed
+
+from ..exact.experiments import Experiment, read_experiment
+from ..exact.fields import QQ
+from ..exact.matrices import Matrix, rank
+from ..exact.population_limits import PopulationLimits, population_limits
+from ..exact.stability import is_stable
+from ..exact.systems import ResidualSystem
+from ..exact.windows import observability_matrix, reachability_matrix
+from . import checker
+from . import limit_certificates as make
+from .certificate import Certificate, Unprovable
+from .corpus import Progress
+
+Rows = list[list[str]]
+
+
+@dataclass(frozen=True)
+class LimitDossier:
+    """`past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
+
+    `within`: the limit of PI-MOESP lies in the range of O_s; `equal`: is that range; the same for PO-MOESP. `inputs_right`: every
+    regression that has a unique limit gives the true B and D. `weight` is 1.
+    """
+
+    origin: str
+    experiment: Experiment
+    past_lags: bool
+    same_time: bool
+    leads: bool
+    white: bool
+    controllable: bool
+    seen_controllable: bool
+    observable: bool
+    within: bool
+    equal: bool
+    past_outputs_within: bool
+    past_outputs_equal: bool
+    limit_rank: int
+    inputs_right: bool
+    state_inputs: tuple[Matrix, Matrix] | None
+    weight: int
+    accepted: int
+
+    @property
+    def uncorrelated(self) -> bool:
+        """At all lags of both signs."""
+        return self.past_lags and self.same_time and self.leads
+
+    @property
+    def one_sided(self) -> bool:
+        """At l >= 0, as the assumption is printed."""
+        return self.past_lags and self.same_time
+
+
+def certificates_of(found: PopulationLimits) -> list[Certificate]:
+    """Both limits, and each regression with a unique limit."""
+    made = [make.past_input_limit(found), make.past_input_and_output_limit(found)]
+    for regression in (make.output_error_inputs, make.moesp_inputs):
+        try:
+            made.append(regression(found))
+        except Unprovable:
+            continue
+    return made
+
+
+def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
+    """Certify the limits of an experiment and say what its signals are like."""
+    found = population_limits(experiment)
+    certificates = certificates_of(found)
+    for certificate in certificates:
+        checker.verify(certificate)
+    process, residual = found.known.process, experiment.system.residual
+    largest = process.Phi.nrows + 1
+    lags = found.known.sequence(process.v, process.u, -largest, largest)  # Cov(v(k + l), u(k))
+    of_input = found.known.sequence(process.u, process.u, 1, largest)
+    inputs = [c["statement"] for c in certificates[2:]]
+    true = experiment.system.B.to_json(), experiment.system.D.to_json()
+    state_inputs = None if found.true_AC is None else (found.true_AC.B, found.true_AC.D)
+    inside, outside = (certificate["statement"] for certificate in certificates[:2])
+    return LimitDossier(
+        origin=origin,
+        experiment=experiment,
+        past_lags=all(c.is_zero() for lag, c in lags.items() if lag >= 1),
+        same_time=lags[0].is_zero(),
+        leads=all(c.is_zero() for lag, c in lags.items() if lag <= -1),
+        white=all(c.is_zero() for c in of_input.values()),
+        controllable=_controllable(residual.A, experiment.system.B),
+        seen_controllable=state_inputs is not None and _controllable(residual.A, state_inputs[0]),
+        observable=rank(observability_matrix(residual, max(experiment.s - 1, 0))) == residual.n,
+        within=inside["joint_rank"] == inside["observability_rank"],
+        equal=inside["joint_rank"] == inside["observability_rank"] == inside["limit_rank"],
+        past_outputs_within=outside["joint_rank"] == outside["observability_rank"],
+        past_outputs_equal=outside["joint_rank"] == outside["observability_rank"] == outside["limit_rank"],
+        limit_rank=inside["limit_rank"],
+        inputs_right=all((says["B"], says["D"]) == true for says in inputs),
+        state_inputs=state_inputs,
+        weight=1,
+        accepted=len(certificates),
+    )
+
+
+def limit_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[LimitDossier, ...]:
+    """All experiments of the effort."""
+    count = 400 if effort == "full" else 40
+    sources = [(name, seed) for name in FAMILIES for seed in range(3 * count if name == "v independent of u" else count)]
+    found: list[LimitDossier] = []
+    batches = [sources[i : i + 10] for i in range(0, len(sources), 10)]
+    for batch in Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(b) for b in batches):
+        found += batch
+        progress("population limits", len(found), len(sources))
+    return tuple(found)
+
+
+def _all(batch: list[tuple[str, int]]) -> list[LimitDossier]:
+    return [examine_experiment(name, FAMILIES[name](Random(f"{name} {seed}"))) for name, seed in batch]
+
+
+def _controllable(A: Matrix, B: Matrix) -> bool:
+    nothing = Matrix.zero(QQ, 1, A.nrows), Matrix.zero(QQ, 1, B.ncols)
+    return rank(reachability_matrix(ResidualSystem(A, B, *nothing))) == A.nrows
+
+
+# -- how experiments are drawn ---------------------------------------------------------------------------------------------
+
+
+def _rows(random: Random, nrows: int, ncols: int) -> Rows:
+    return [[str(Fraction(random.randint(-3, 3), random.choice((1, 2, 3)))) for _ in range(ncols)] for _ in range(nrows)]
+
+
+def _stable(random: Random, n: int) -> Rows:
+    A = _rows(random, n, n)
+    while not is_stable(Matrix.of(A, shape=(n, n))):
+        A = [[str(Fraction(x) / 2) for x in row] for row in A]
+    return A
+
+
+def _system(random: Random, m: int, nu: int) -> dict[str, Any]:
+    n, p = random.randint(1, 2), random.randint(1, 2)
+    shapes = {"F": (n, m), "C": (p, n), "G": (p, m), "B": (n, nu), "D": (p, nu)}
+    return {"A": _stable(random, n)} | {name: _rows(random, *shape) for name, shape in shapes.items()}
+
+
+def experiment_of(system: dict[str, Any], u: object, v: object, w: object = None, extra: int = 0) -> Experiment:
+    """s = n + 1 + extra and past = n + 1 block rows."""
+    n = len(system["A"])
+    given = system | {"s": n + 1 + extra, "past": n + 1, "u_filter": u, "v_filter": v}
+    return read_experiment(given if w is None else given | {"w_filter": w})
+
+
+def leading(system: dict[str, Any], u: Sequence[str], den: Sequence[str], phi: Sequence[str], extra: int = 0) -> Experiment:
+    """One input u = (sum u_j q^-j / den) e and one fault v(k) = sum_j phi_j u(k+j): all of it delayed by the largest lead."""
+    delay = len(phi) - 1
+    product = [Fraction(0)] * (len(u) + delay)
+    for j, weight in enumerate(phi):
+        for i, x in enumerate(u):
+            product[i + delay - j] += Fraction(weight) * Fraction(x)
+    numerator = [[["0"]]] * delay + [[[x]] for x in u]
+    fault = [[[str(x)]] for x in product]
+    return experiment_of(system, {"num": numerator, "den": list(den)}, {"num": fault, "den": list(den)}, None, extra)
+
+
+def _independent(random: Random) -> Experiment:
+    m, nu = random.randint(1, 2), random.randint(1, 2)
+    system = _system(random, m, nu)
+    unit = [[*("1" if i == j else "0" for j in range(nu)), *["0"] * m] for i in range(nu)]
+    later = [row + ["0"] * m for row in _rows(random, nu, nu)]
+    v = [[["0"] * nu + row for row in _rows(random, m, m)] for _ in range(2)]
+    w = [_rows(random, len(system["C"]), 1)] if random.random() < 0.5 else None
+    return experiment_of(system, {"num": [unit, later], "den": ["1", "-1/2"]}, {"num": v, "den": ["1", "1/3"]}, w)
+
+
+def _white_leads(random: Random) -> Experiment:
+    return leading(_system(random, 1, 1), ["1"], ["1"], ["0", *(str(random.randint(-2, 2)) for _ in range(random.randint(0, 1))), "1"])
+
+
+def _simultaneous(random: Random) -> Experiment:
+    return leading(_system(random, 1, 1), ["1"], ["1"], ["1"])
+
+
+def _moving_average(random: Random) -> Experiment:
+    return leading(_system(random, 1, 1), ["1", "1/2"], ["1"], ["0"] * random.randint(1, 2) + ["1"])
+
+
+def _lead_one(random: Random) -> Experiment:
+    system = _system(random, 1, 1)
+    system["G"] = [["0"] for _ in system["C"]]
+    return leading(system, ["1", "1/2"], ["1", "-1/3"], ["0", "1"])
+
+
+def _autoregressive(random: Random) -> Experiment:
+    den = ["1", *random.choice((["-1/2"], ["-1/2", "1/4"]))]
+    return leading(_system(random, 1, 1), ["1"], den, ["0"] * random.randint(1, 2) + ["1"], 1)
+
+
+def following(system: dict[str, Any], gain: str) -> Experiment:
+    """u white, v(k) = gain u(k-1)."""
+    return experiment_of(system, [[["1"]]], [[["0"]], [[gain]]])
+
+
+def independent_white(system: dict[str, Any]) -> Experiment:
+    """u and v white, each of its own."""
+    return experiment_of(system, [[["1", "0"]]], [[["0", "1"]]])
+
+
+def _feedback(random: Random) -> Experiment:
+    return following(_system(random, 1, 1), random.choice(("1", "-1", "2")))
+
+
+def _white_fault(random: Random) -> Experiment:
+    return independent_white(_system(random, 1, 1))
+
+
+FAMILIES: dict[str, Callable[[Random], Experiment]] = {
+    "v independent of u": _independent,
+    "u white, v leads it": _white_leads,
+    "u white, v(k) = u(k)": _simultaneous,
+    "u a moving average, v leads it": _moving_average,
+    "u coloured, v(k) = u(k+1), G = 0": _lead_one,
+    "u autoregressive of order < s, v leads it": _autoregressive,
+    "u white, v(k) = K u(k-1)": _feedback,
+    "u and v white and independent": _white_fault,
+}
+
+
+Drive = Callable[[dict[str, Any]], Experiment]
+
+
+def experiments_in_order(drives: Sequence[Drive]) -> Iterator[Experiment]:
+    """Small experiments, n = m = nu = 1, F = 1, D = 0: p = 1, 2; A = 0, 1/2; B, C, G with entries 0, 1, -1, 2; then the drives."""
+    values = ("0", "1", "-1", "2")
+    for p in (1, 2):
+        for A in ("0", "1/2"):
+            for B in values:
+                for columns in _columns(values, p):
+                    C, G = columns[:p], columns[p:]
+                    system = {"A": [[A]], "F": [["1"]], "B": [[B]], "C": [[c] for c in C], "G": [[g] for g in G], "D": [["0"]] * p}
+                    for drive in drives:
+                        yield drive(system)
+
+
+def _columns(values: Sequence[str], p: int) -> Iterator[tuple[str, ...]]:
+    columns: list[tuple[str, ...]] = [()]
+    for _ in range(2 * p):
+        columns = [(*column, value) for column in columns for value in values]
+    return iter(columns)

@@ -1,0 +1,96 @@
+"""The claims on population limits follow from what certificates say, and change when that is tampered with."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from random import Random
+
+import pytest
+
+from faultspace.exact.experiments import Experiment
+from faultspace.proofs import experiments_tried
+from faultspace.proofs.ablation import ablate
+from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
+from faultspace.proofs.experiments_tried import FAMILIES, LimitDossier, examine_experiment
+from faultspace.proofs.hypotheses.experiments import consistency
+from faultspace.proofs.ledger import expected_without
+from faultspace.proofs.verdicts import Verdict
+from faultspace.proofs.workbench import Workbench
+from tests.oracle import truth
+
+
+def quiet(stage: str, done: int, total: int) -> None:
+    """Progress that nobody watches."""
+
+
+@pytest.fixture(scope="module")
+def bench() -> Workbench:
+    """A workbench with fourteen experiments of each family, more of those that meet the hypotheses."""
+    made = Workbench("quick", 1, quiet)
+    counts = {name: 60 if "independent" in name else 14 for name in FAMILIES}
+    made.limits = tuple(experiments_tried._all([(name, seed) for name, count in counts.items() for seed in range(count)]))
+    return made
+
+
+READINGS = (
+    proposition_1.two_sided,
+    proposition_1.white_a_c_seen,
+    proposition_1.white_b_d_seen,
+    proposition_1.autoregressive,
+    proposition_1.lead_one,
+    settle_1.biased,
+    past_outputs.white_fault,
+    past_outputs.past_inputs,
+)
+
+
+@pytest.mark.parametrize("reading", READINGS, ids=lambda f: f.__name__)
+def test_a_reading_holds_and_falls_when_what_certificates_say_is_turned_round(reading: object, bench: Workbench) -> None:
+    assert reading(bench).verdict == Verdict.CERTIFIED  # type: ignore[operator]
+
+    def turned(d: LimitDossier) -> LimitDossier:
+        follows = d.origin.endswith("K u(k-1)")
+        wrong = {"within": False, "equal": follows, "inputs_right": follows, "past_outputs_within": not d.past_outputs_within}
+        return replace(d, state_inputs=None if d.state_inputs is None else d.state_inputs[::-1], **wrong)  # type: ignore[arg-type]
+
+    spoilt = Workbench("quick", 1, quiet)
+    spoilt.limits = tuple(turned(d) for d in bench.limits)
+    if reading is proposition_1.white_b_d_seen:
+        assert any(d.state_inputs is not None and d.state_inputs[0] != d.state_inputs[1] for d in bench.limits)
+    assert reading(spoilt).verdict in (Verdict.REFUTED, Verdict.ERROR)  # type: ignore[operator]
+
+
+REFUTED = (
+    assumption_2.one_sided,
+    assumption_2.without_lag_zero,
+    proposition_1.white_a_c,
+    proposition_1.white_b_d,
+    proposition_1.coloured_a_c,
+    settle_1.a_c_wrong,
+    past_outputs.coloured_fault,
+)
+
+
+@pytest.mark.parametrize("reading", REFUTED, ids=lambda f: f.__name__)
+def test_counterexamples_are_true_by_the_oracle(reading: object, bench: Workbench) -> None:
+    outcome = reading(bench)  # type: ignore[operator]
+    assert outcome.verdict == Verdict.REFUTED
+    assert all(truth(c["kind"], c["statement"]) for c in outcome.certificates)
+
+
+def test_every_hypothesis_of_consistency_but_the_colour_is_needed(bench: Workbench) -> None:
+    expected = expected_without()["consistency"]
+    rows = ablate(bench, consistency(), expected)
+    assert all(row.as_expected for row in rows) and len(rows) == 6 + 15
+    blind = ablate(bench, replace(consistency(), holds=lambda subject: True), expected)
+    assert not all(row.as_expected for row in blind)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_a_family_is_what_its_name_says(name: str) -> None:
+    experiment = FAMILIES[name](Random(5))
+    assert isinstance(experiment, Experiment)
+    d = examine_experiment(name, experiment)
+    assert d.uncorrelated == ("independent" in name)
+    assert d.white == (name.startswith(("u white", "u and v white")))
+    assert d.past_lags or "K u(k-1)" in name or "coloured" in name or "moving" in name or "autoregressive" in name
