@@ -27,7 +27,8 @@ from benchmarks.identification_data import Setting, write
 from benchmarks.identification_methods import METHODS, Method
 from benchmarks.identification_run import OURS, Run, to_json
 from benchmarks.identification_study import compare
-from benchmarks.identification_tables import MODELS, markdown, show
+from benchmarks.identification_tables import MODELS, notes, sheets
+from benchmarks.sheets import markdown, show
 
 NOISE = 0.01  # of the input's effect: 40 dB down
 GROWING = ("ours", "ours-gram", "ours-qr")
@@ -64,9 +65,9 @@ def main(arguments: list[str] | None = None) -> int:
     if options.json:
         options.json.write_text(json.dumps(to_json(run, MODELS), indent=1) + "\n", "utf-8")
     if options.markdown:
-        print(markdown(run))
+        print(markdown(sheets(run), notes(run)))
     else:
-        show(run, Console(markup=False, highlight=False, width=None if sys.stdout.isatty() else 200))
+        show(sheets(run), notes(run), Console(markup=False, highlight=False, width=None if sys.stdout.isatty() else 200))
     failed = [(setting, name) for setting, by in cells.items() for name in OURS if by[name].outcome != "finished"]
     for setting, name in failed:
         print(f"identification: {setting}: {name} {cells[setting][name].outcome}: {cells[setting][name].why}", file=sys.stderr)

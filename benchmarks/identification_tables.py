@@ -1,4 +1,4 @@
-"""The tables of the identification benchmark, for a terminal (rich) and in Markdown: the same rows, written twice.
+"""The tables of the identification benchmark, as sheets.
 
 time_table      seconds and extra memory of every method in every setting
 error_table     eigenvalue and Markov-parameter errors of the models
@@ -8,14 +8,11 @@ aim_table       what was hoped for
 
 from __future__ import annotations
 
-from rich.console import Console
-from rich.table import Table
-
 from benchmarks.identification_bounds import bound
 from benchmarks.identification_cells import Cell
 from benchmarks.identification_methods import BRIEF, METHODS, REPEATS
 from benchmarks.identification_run import Run, aims, slopes
-from benchmarks.ladder_tables import Sheet
+from benchmarks.sheets import Sheet
 
 MODELS = {method.name for method in METHODS if method.gives == "model"}
 
@@ -88,28 +85,6 @@ def notes(run: Run) -> list[str]:
         lines.append(f"study: {ours}; {theirs}")
     return lines
 
-
-def markdown(run: Run) -> str:
-    """All of it in Markdown."""
-    parts = []
-    for sheet in sheets(run):
-        lines = [" | ".join(cells) for cells in (sheet.head, ["---"] * len(sheet.head), *sheet.rows)]
-        parts.append(f"### {sheet.title[0].upper()}{sheet.title[1:]}\n\n" + "\n".join(f"| {line} |" for line in lines))
-    parts.append("\n".join(f"- {line}" for line in notes(run)))
-    return "\n\n".join(parts)
-
-
-def show(run: Run, console: Console) -> None:
-    """All of it on a terminal."""
-    for sheet in sheets(run):
-        table = Table(title=sheet.title, title_justify="left")
-        for name in sheet.head:
-            table.add_column(name)
-        for row in sheet.rows:
-            table.add_row(*row)
-        console.print(table)
-    for line in notes(run):
-        console.print(line)
 
 
 def _time(cell: Cell) -> str:

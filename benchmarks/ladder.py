@@ -22,7 +22,8 @@ from benchmarks.ladder_cells import Cell, Limits, measure
 from benchmarks.ladder_methods import METHODS, Method, System
 from benchmarks.ladder_run import OURS, Record, Run, disagreements, machine, to_json
 from benchmarks.ladder_systems import FAMILIES, Family
-from benchmarks.ladder_tables import markdown, show
+from benchmarks.ladder_tables import notes, sheets
+from benchmarks.sheets import markdown, show
 
 SIZES = (4, 10, 20, 40, 80)
 QUICK_SIZES = (4, 10, 20, 40)
@@ -48,9 +49,9 @@ def main(arguments: list[str] | None = None) -> int:
             records.append(_record(family, n, here, limits, beaten))
     run = Run(machine(here), limits, absent, tuple(records))
     if options.markdown:
-        print(markdown(run))
+        print(markdown(sheets(run), notes(run)))
     else:
-        show(run, Console(markup=False, highlight=False, width=None if sys.stdout.isatty() else 160))
+        show(sheets(run), notes(run), Console(markup=False, highlight=False, width=None if sys.stdout.isatty() else 160))
     if options.json:
         options.json.write_text(json.dumps(to_json(run), indent=1) + "\n", "utf-8")
     wrong = disagreements(run)

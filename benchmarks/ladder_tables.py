@@ -1,4 +1,4 @@
-"""The tables of the ladder benchmark, for a terminal (rich) and in Markdown: the same rows, written twice.
+"""The tables of the ladder benchmark, as sheets.
 
 ratio_table       n, kind, ours (made, checked, memory), and how many times slower every other method is
 seconds_table     CPU seconds of every method
@@ -8,23 +8,10 @@ aim_table         what was hoped for
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from rich.console import Console
-from rich.table import Table
-
 from benchmarks.ladder_cells import BRIEF, Cell
 from benchmarks.ladder_methods import METHODS
 from benchmarks.ladder_run import OURS, Record, Run, aims, disagreements, exponent, ratio
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """A table before it is written."""
-
-    title: str
-    head: list[str]
-    rows: list[list[str]]
+from benchmarks.sheets import Sheet
 
 
 def ratio_table(run: Run) -> Sheet:
@@ -88,28 +75,6 @@ def notes(run: Run) -> list[str]:
     lines.append(f"{compared} ranks compared with ours: " + (f"{wrong} disagreements or failures" if wrong else "all agree"))
     return lines
 
-
-def markdown(run: Run) -> str:
-    """All of it in Markdown."""
-    parts = []
-    for sheet in sheets(run):
-        lines = [" | ".join(cells) for cells in (sheet.head, ["---"] * len(sheet.head), *sheet.rows)]
-        parts.append(f"### {sheet.title[0].upper()}{sheet.title[1:]}\n\n" + "\n".join(f"| {line} |" for line in lines))
-    parts.append("\n".join(f"- {line}" for line in notes(run)))
-    return "\n\n".join(parts)
-
-
-def show(run: Run, console: Console) -> None:
-    """All of it on a terminal."""
-    for sheet in sheets(run):
-        table = Table(title=sheet.title, title_justify="left")
-        for name in sheet.head:
-            table.add_column(name, justify="left" if name in ("system", "aim", "") else "right")
-        for row in sheet.rows:
-            table.add_row(*row)
-        console.print(table)
-    for line in notes(run):
-        console.print(line)
 
 
 def _seconds(value: float) -> str:

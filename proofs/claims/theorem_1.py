@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -35,9 +36,19 @@ def n_samples_same_a_c(bench: Workbench) -> Outcome:
 
 
 def n_plus_1_samples(bench: Workbench) -> Outcome:
-    """n + 1 samples, n the larger number of states."""
+    """n + 1 samples, n the larger number of states.
+
+    Pair by pair, and by grouping on kernel rows: the rows of degree at most n, which n + 1 samples show, name the behaviour where no
+    row has a larger degree; systems that share them are equal for ever. So one look at the degrees decides all pairs at once.
+    """
     failing = [d for d in bench.pairs if d.first_difference is not None and d.first_difference > max(d.first.n, d.second.n) + 1]
-    return certify_records(bench.pairs, failing, _words, _show)
+    outcome = certify_records(bench.pairs, failing, _words, _show)
+    longer = [d for d in bench.corpus.dossiers if d.lag > d.n]
+    if longer:
+        return Outcome(Verdict.REFUTED, f"{longer[0].system} has a kernel row of degree {longer[0].lag}", accepted(_of_one(longer[0].system)))
+    total, count = sum(d.weight for d in bench.corpus.dossiers), sum(d.accepted for d in bench.corpus.dossiers)
+    words = f"{outcome.evidence}; by kernel rows, none of degree above n, every pair of the {total} systems of the corpus"
+    return replace(outcome, evidence=words, accepted=outcome.accepted + count)
 
 
 def lag_plus_1(bench: Workbench) -> Outcome:
@@ -109,6 +120,10 @@ def _pair_certificates(first: ResidualSystem, second: ResidualSystem) -> Iterato
 
 def _words(record: PairDossier) -> str:
     return f"{record.first} against {record.second}, first difference on {record.first_difference} samples"
+
+
+def _of_one(system: ResidualSystem) -> Iterator[Certificate]:
+    yield make.window_ranks(kernel_representation(system))
 
 
 def _show(record: PairDossier) -> Iterator[Certificate]:

@@ -14,7 +14,8 @@ from benchmarks.identification_data import FAULT_POLE, ORDER, POLES, Setting, er
 from benchmarks.identification_methods import METHODS, PREPARATIONS, Method
 from benchmarks.identification_run import OURS, Run, aims
 from benchmarks.identification_study import Comparison, sections
-from benchmarks.identification_tables import MODELS, markdown
+from benchmarks.identification_tables import MODELS, notes, sheets
+from benchmarks.sheets import markdown
 from faultspace.numeric.models import StateSpaceModel
 
 SETTING = Setting(2, 3, 5, 20_000)
@@ -153,7 +154,7 @@ def test_the_study_is_judged_and_absent_peers_have_a_row() -> None:
     study = Comparison(one_process=0.5, all_cores=0.4, error=0.5, author=4.0, author_error=0.7)
     run = run_of(SETTING, {"ours": done(1.0)}, study)
     assert [aim.met for aim in aims(run, MODELS) if "study" in aim.words] == [False]
-    text = markdown(run)
+    text = markdown(sheets(run), notes(run))
     assert any(line.startswith("| sippy ") and "not installed" in line for line in text.splitlines())
 
 

@@ -11,7 +11,8 @@ from benchmarks.ladder_cells import Cell, Limits, measure, ranks_from_indices, r
 from benchmarks.ladder_methods import METHODS, RUNNERS, Method
 from benchmarks.ladder_run import Record, Run, aims, disagreements, exponent, ratio
 from benchmarks.ladder_systems import FAMILIES, Family
-from benchmarks.ladder_tables import markdown
+from benchmarks.ladder_tables import notes, sheets
+from benchmarks.sheets import markdown
 from faultspace.exact.inversion import largest_output_nulling
 from faultspace.exact.kernel_representation import kernel_representation
 from faultspace.exact.matrices import Matrix, beside, rank, stacked
@@ -109,7 +110,7 @@ def test_exponents_ratios_and_aims_are_computed_from_the_cells() -> None:
     last = ratio(run.records[3], "flint")
     assert last is not None and last.at_least and last.value == pytest.approx(1.0 / 6.4e-3)
     assert [aim.met for aim in aims(run)] == [True, True]
-    assert "> 156" in markdown(run)
+    assert "> 156" in markdown(sheets(run), notes(run))
 
 
 def test_a_wrong_rank_is_a_disagreement_even_when_the_method_was_stopped() -> None:

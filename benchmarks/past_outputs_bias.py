@@ -1,0 +1,193 @@
+"""How biased past outputs are under a coloured fault: the exact limit of PO-MOESP beside what ours and a peer find in the benchmark's data.
+
+    python benchmarks/past_outputs_bias.py [--largest 1000000] [--shapes 1x1 2x3] [--peer-python PATH]
+
+benchmark_experiment   the identification benchmark's system and signals with every float taken as the rational it is, the fault at 0 dB
+predicted      the model of a given order that PI-MOESP or PO-MOESP tends to, from the exact L
+free_order     what the exact L of PO-MOESP says where the order is its rank
+measured       PI-MOESP and PO-MOESP of numeric/, and ctrlsys where it is installed (here, or for --peer-python)
+
+Data, order and errors are the identification benchmark's. There the fault is scaled by the record's own root mean squares, here by the stationary ones.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from math import sqrt
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
+
+from benchmarks.identification_cells import Limits, measure, python_command
+from benchmarks.identification_data import FAULT_POLE, ORDER, Setting, errors, record, system, write
+from faultspace.exact.covariances import covariances
+from faultspace.exact.experiments import Experiment, read_experiment
+from faultspace.exact.input_limits import by_output_error
+from faultspace.exact.limits import state_part
+from faultspace.exact.matrices import Matrix, beside, column_basis, stacked
+from faultspace.exact.population_limits import PopulationLimits, markov_parameters, population_limits
+from faultspace.exact.stability import characteristic_polynomial
+from faultspace.numeric.models import StateSpaceModel
+from faultspace.numeric.pi_moesp import pi_moesp
+from faultspace.numeric.po_moesp import po_moesp
+from tests.numeric.predicted_limits import floats
+
+BLOCK_ROWS = 10
+
+
+@dataclass(frozen=True)
+class Row:
+    """Eigenvalue and Markov-parameter errors as `identification_data.errors`; NaN where the method gave no model, `who` saying why."""
+
+    who: str
+    samples: str
+    eigenvalues: float
+    markov: float
+
+
+@dataclass(frozen=True)
+class FreeOrder:
+    """rank: of L of PO-MOESP; contains: the range of O_s is in that of L; shift_invariant: of that rank.
+
+    poles_are_system_and_fault: det(qI - A) is that of the system times q - FAULT_POLE, exactly; markov_exact: output error gives D, CB, ... exactly.
+    """
+
+    rank: int
+    contains: bool
+    shift_invariant: bool
+    poles_are_system_and_fault: bool
+    markov_exact: bool
+
+
+def benchmark_experiment(n_u: int, p: int, block_rows: int) -> Experiment:
+    """past = block_rows. The scale of the fault is the float nearest to the root of the exact ratio of variances."""
+    unscaled = _experiment(n_u, p, block_rows, 1.0)
+    silent = _experiment(n_u, p, block_rows, 0.0)
+    both, driven = (sum(Fraction(x) for x in _variances(one)) for one in (unscaled, silent))
+    return _experiment(n_u, p, block_rows, sqrt(driven / (both - driven)))
+
+
+def _variances(experiment: Experiment) -> list[str]:
+    known = covariances(experiment)
+    now = known.now(known.process.y, known.process.y)
+    return [str(now[i, i]) for i in range(now.nrows)]
+
+
+def _experiment(n_u: int, p: int, block_rows: int, scale: float) -> Experiment:
+    true = system(n_u, p)
+    given: dict[str, Any] = {name: _rational(getattr(true.from_input, name)) for name in "ABCD"}
+    # The scale is on v, so that F and G stay the benchmark's.
+    given |= {"F": _rational(true.from_fault.B), "G": _rational(true.from_fault.D), "s": block_rows, "past": block_rows}
+    given["u_filter"] = [[["1" if i == j else "0" for j in range(n_u + 1)] for i in range(n_u)]]
+    given["v_filter"] = {"num": [[["0"] * n_u + [str(Fraction(scale))]]], "den": ["1", str(-Fraction(FAULT_POLE))]}
+    return read_experiment(given)
+
+
+def _rational(matrix: Any) -> list[list[str]]:
+    return [[str(Fraction(float(x))) for x in row] for row in matrix]
+
+
+def predicted(found: PopulationLimits, order: int, *, past_outputs: bool) -> tuple[StateSpaceModel, Any]:
+    """The limit of the model at this order, and the singular values of L Cov(Z | Uf)^-1/2 that it is cut from.
+
+    Floats begin at the square root: left singular vectors of the weighted L, A and C from their shift, B and D by exact output error.
+    """
+    known, blocks, before = found.known, found.blocks, range(-found.experiment.past, 0)
+    u, y = known.process.u, known.process.y
+    limit = found.past_outputs if past_outputs else found.past_inputs
+    whole, crossed = known.windows(u, u, before, before), blocks.uf_up
+    p, s = y.H.nrows, found.experiment.s
+    scale = np.sqrt(np.diag(floats(known.now(y, y))))  # PI-MOESP takes outputs in units of their root mean square
+    if past_outputs:
+        mixed = known.windows(u, y, before, before)
+        whole = stacked(beside(whole, mixed), beside(mixed.transposed(), known.windows(y, y, before, before)))
+        crossed, scale = beside(crossed, blocks.uf_yp), np.ones(p)
+    values, directions = np.linalg.eigh(floats(whole - crossed.transposed() @ limit.projection))
+    kept = values > values[-1] * 1e-12  # noise-free past outputs are combinations of states: L vanishes on the rest
+    weighted = floats(limit.matrix) @ directions[:, kept] / np.sqrt(values[kept]) / np.tile(scale, s)[:, np.newaxis]
+    vectors, singular, _ = np.linalg.svd(weighted)
+    left = vectors[:, :order]
+    A, C = np.linalg.lstsq(left[:-p], left[p:], rcond=None)[0], left[:p] * scale[:, np.newaxis]
+    inputs = by_output_error(known, Matrix.of(_rational(A)), Matrix.of(_rational(C)))
+    if inputs is None:
+        raise ArithmeticError("the limit of A is unstable, or B and D are not unique")
+    return StateSpaceModel(A, floats(inputs.B), C, floats(inputs.D)), singular
+
+
+def free_order(found: PopulationLimits) -> FreeOrder:
+    """At the order that a gap in the singular values would tell."""
+    limit, residual, given = found.past_outputs, found.experiment.system.residual, found.experiment.system
+    state = state_part(column_basis(limit.matrix), residual.p)
+    poles = markov = False
+    if state is not None:
+        own, pole = characteristic_polynomial(residual.A), Fraction(FAULT_POLE)
+        longer = [low - pole * high for low, high in zip((Fraction(0), *own), (*own, Fraction(0)), strict=True)]
+        poles = tuple(longer) == state.characteristic_polynomial
+        inputs = by_output_error(found.known, state.A, state.C)
+        if inputs is not None:
+            count = 2 * (residual.n + limit.rank) + 1  # enough for equality at all lags: Cayley-Hamilton for the difference
+            true = markov_parameters(residual.A, given.B, residual.C, given.D, count)
+            markov = markov_parameters(state.A, inputs.B, state.C, inputs.D, count) == true
+    return FreeOrder(limit.rank, limit.contains_observability_range, state is not None, poles, markov)
+
+
+def measured(setting: Setting, rank: int, peer_python: str | None) -> Iterator[Row]:
+    """On the benchmark's record."""
+    samples = f"{setting.samples:.0e}".replace("e+0", "e")
+    y, u = record(setting)
+    for who, method, order in (("PI-MOESP", pi_moesp, ORDER), ("PO-MOESP", po_moesp, ORDER), ("PO-MOESP", po_moesp, rank)):
+        model = method(y, u, order=order, block_rows=setting.block_rows).model
+        yield Row(f"{who}, order {order}", samples, *errors(model, setting.n_u, setting.p))
+    with tempfile.TemporaryDirectory() as name:
+        write(setting, Path(name))
+        command = python_command("ctrlsys")
+        cell = measure([peer_python or command[0], *command[1:]], setting, Path(name), Limits(seconds=120))
+    if cell.eigenvalue_error is None or cell.markov_error is None:
+        yield Row(f"ctrlsys: {cell.outcome}, {cell.why}", samples, float("nan"), float("nan"))
+    else:
+        yield Row(f"ctrlsys, order {ORDER}", samples, cell.eigenvalue_error, cell.markov_error)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Prints a section for each shape."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--largest", type=int, default=10**6, help="samples of the longest record (default 1e6)")
+    parser.add_argument("--shapes", nargs="+", default=["1x1", "2x3"], choices=["1x1", "2x3"], help="inputs x outputs")
+    parser.add_argument("--peer-python", metavar="PATH", help="a Python that has ctrlsys, numpy and scipy (default: this one)")
+    options = parser.parse_args(arguments)
+    if options.largest < 1000:
+        parser.error(f"got --largest {options.largest}, needed at least 1000")
+    lengths = [N for N in (10**4, 10**5) if N < options.largest] + [options.largest]
+    for shape in options.shapes:
+        n_u, p = map(int, shape.split("x"))
+        found = population_limits(benchmark_experiment(n_u, p, BLOCK_ROWS))
+        print(f"\n{n_u}-in {p}-out, s = past = {BLOCK_ROWS}, order {ORDER}\n")
+        print("| | N | eigenvalue error | Markov error |\n|---|---|---|---|")
+        told = free_order(found)
+        spectra = {}
+        for past_outputs, order in ((False, ORDER), (True, ORDER), (True, told.rank)):
+            model, singular = predicted(found, order, past_outputs=past_outputs)
+            who = "PO-MOESP" if past_outputs else "PI-MOESP"
+            spectra[who] = ", ".join(f"{x:.3g}" for x in singular[: told.rank + 1])
+            print(_line(Row(f"{who}, order {order}", "exact limit", *errors(model, n_u, p))))
+        for N in lengths:
+            for row in measured(Setting(n_u, p, BLOCK_ROWS, N), told.rank, options.peer_python):
+                print(_line(row), flush=True)
+        print(f"\n{told}\nleading singular values: {spectra}")
+    return 0
+
+
+def _line(row: Row) -> str:
+    return f"| {row.who} | {row.samples} | {row.eigenvalues:.4g} | {row.markov:.4g} |"
+
+
+if __name__ == "__main__":
+    sys.exit(main())
