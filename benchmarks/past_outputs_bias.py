@@ -1,22 +1,25 @@
 """How biased past outputs are under a coloured fault: the exact limit of PO-MOESP beside what ours and a peer find in the benchmark's data.
 
-    python benchmarks/past_outputs_bias.py [--largest 1000000] [--shapes 1x1 2x3] [--peer-python PATH]
+    python benchmarks/past_outputs_bias.py [--largest 1000000] [--quick] [--peer-python PATH]
 
 benchmark_experiment   the identification benchmark's system and signals with every float taken as the rational it is, the fault at 0 dB
 predicted      the model of a given order that PI-MOESP or PO-MOESP tends to, from the exact L
 free_order     what the exact L of PO-MOESP says where the order is its rank
 measured       PI-MOESP and PO-MOESP of numeric/, and ctrlsys where it is installed (here, or for --peer-python)
+examined       all of it for one cell of the benchmark, as a sheet with notes
 
-Data, order and errors are the identification benchmark's. There the fault is scaled by the record's own root mean squares, here by the stationary ones.
+Data, order and errors are the identification benchmark's. There fault and noise are scaled by the record's own root mean squares, here by
+the stationary ones. The double pole at 0.9 of system and fault makes the eigenvalues of order 5 as inaccurate as the root of an error.
 """
 
 from __future__ import annotations
 
 import argparse
+import shutil
 import sys
 import tempfile
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import sqrt
 from pathlib import Path
@@ -26,8 +29,12 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
 
+from rich.console import Console
+from rich.progress import track
+
 from benchmarks.identification_cells import Limits, measure, python_command
 from benchmarks.identification_data import FAULT_POLE, ORDER, Setting, errors, record, system, write
+from benchmarks.sheets import Sheet, markdown
 from faultspace.exact.covariances import covariances
 from faultspace.exact.experiments import Experiment, read_experiment
 from faultspace.exact.input_limits import by_output_error
@@ -40,7 +47,8 @@ from faultspace.numeric.pi_moesp import pi_moesp
 from faultspace.numeric.po_moesp import po_moesp
 from tests.numeric.predicted_limits import floats
 
-BLOCK_ROWS = 10
+# Inputs, outputs, block rows, sensor noise: the benchmark's four cells.
+CELLS = ((1, 1, 10, 0.0), (2, 3, 10, 0.0), (2, 3, 20, 0.0), (2, 3, 20, 0.01))
 
 
 @dataclass(frozen=True)
@@ -57,7 +65,8 @@ class Row:
 class FreeOrder:
     """rank: of L of PO-MOESP; contains: the range of O_s is in that of L; shift_invariant: of that rank.
 
-    poles_are_system_and_fault: det(qI - A) is that of the system times q - FAULT_POLE, exactly; markov_exact: output error gives D, CB, ... exactly.
+    poles_are_system_and_fault: det(qI - A) is that of the system times q - FAULT_POLE, exactly; markov_exact: output error gives the true
+    D, CB, ... exactly.
     """
 
     rank: int
@@ -67,27 +76,31 @@ class FreeOrder:
     markov_exact: bool
 
 
-def benchmark_experiment(n_u: int, p: int, block_rows: int) -> Experiment:
-    """past = block_rows. The scale of the fault is the float nearest to the root of the exact ratio of variances."""
-    unscaled = _experiment(n_u, p, block_rows, 1.0)
-    silent = _experiment(n_u, p, block_rows, 0.0)
-    both, driven = (sum(Fraction(x) for x in _variances(one)) for one in (unscaled, silent))
-    return _experiment(n_u, p, block_rows, sqrt(driven / (both - driven)))
+def benchmark_experiment(setting: Setting) -> Experiment:
+    """past = s = block_rows. The levels of fault and noise are the floats nearest to the roots of exact ratios of variances."""
+    both, driven = (_power(_experiment(setting, fault, 0.0)) for fault in (1.0, 0.0))
+    size = sqrt(driven / setting.p)
+    return _experiment(setting, sqrt(driven / (both - driven)), setting.noise * size)
 
 
-def _variances(experiment: Experiment) -> list[str]:
+def _power(experiment: Experiment) -> Fraction:
+    """E|y|^2."""
     known = covariances(experiment)
     now = known.now(known.process.y, known.process.y)
-    return [str(now[i, i]) for i in range(now.nrows)]
+    return sum((Fraction(str(now[i, i])) for i in range(now.nrows)), Fraction(0))
 
 
-def _experiment(n_u: int, p: int, block_rows: int, scale: float) -> Experiment:
+def _experiment(setting: Setting, fault: float, noise: float) -> Experiment:
+    n_u, p = setting.n_u, setting.p
     true = system(n_u, p)
     given: dict[str, Any] = {name: _rational(getattr(true.from_input, name)) for name in "ABCD"}
-    # The scale is on v, so that F and G stay the benchmark's.
-    given |= {"F": _rational(true.from_fault.B), "G": _rational(true.from_fault.D), "s": block_rows, "past": block_rows}
-    given["u_filter"] = [[["1" if i == j else "0" for j in range(n_u + 1)] for i in range(n_u)]]
-    given["v_filter"] = {"num": [[["0"] * n_u + [str(Fraction(scale))]]], "den": ["1", str(-Fraction(FAULT_POLE))]}
+    # The level is that of v, so that F and G stay the benchmark's.
+    given |= {"F": _rational(true.from_fault.B), "G": _rational(true.from_fault.D)}
+    given |= {"s": setting.block_rows, "past": setting.block_rows}
+    given["u_filter"] = [_rational(np.eye(n_u, n_u + 1))]
+    given["v_filter"] = {"num": [_rational(fault * np.eye(n_u + 1)[n_u:])], "den": ["1", str(-Fraction(FAULT_POLE))]}
+    if noise:
+        given["w_filter"] = [_rational(noise * np.eye(p))]
     return read_experiment(given)
 
 
@@ -160,33 +173,47 @@ def main(arguments: list[str] | None = None) -> int:
     """Prints a section for each shape."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--largest", type=int, default=10**6, help="samples of the longest record (default 1e6)")
-    parser.add_argument("--shapes", nargs="+", default=["1x1", "2x3"], choices=["1x1", "2x3"], help="inputs x outputs")
+    parser.add_argument("--quick", action="store_true", help="the first two of the benchmark's four cells")
     parser.add_argument("--peer-python", metavar="PATH", help="a Python that has ctrlsys, numpy and scipy (default: this one)")
     options = parser.parse_args(arguments)
     if options.largest < 1000:
         parser.error(f"got --largest {options.largest}, needed at least 1000")
-    lengths = [N for N in (10**4, 10**5) if N < options.largest] + [options.largest]
-    for shape in options.shapes:
-        n_u, p = map(int, shape.split("x"))
-        found = population_limits(benchmark_experiment(n_u, p, BLOCK_ROWS))
-        print(f"\n{n_u}-in {p}-out, s = past = {BLOCK_ROWS}, order {ORDER}\n")
-        print("| | N | eigenvalue error | Markov error |\n|---|---|---|---|")
-        told = free_order(found)
-        spectra = {}
-        for past_outputs, order in ((False, ORDER), (True, ORDER), (True, told.rank)):
-            model, singular = predicted(found, order, past_outputs=past_outputs)
-            who = "PO-MOESP" if past_outputs else "PI-MOESP"
-            spectra[who] = ", ".join(f"{x:.3g}" for x in singular[: told.rank + 1])
-            print(_line(Row(f"{who}, order {order}", "exact limit", *errors(model, n_u, p))))
-        for N in lengths:
-            for row in measured(Setting(n_u, p, BLOCK_ROWS, N), told.rank, options.peer_python):
-                print(_line(row), flush=True)
-        print(f"\n{told}\nleading singular values: {spectra}")
+    if options.peer_python and shutil.which(options.peer_python) is None:
+        parser.error(f"got --peer-python {options.peer_python}, needed a program that can be run")
+    lengths = [N for N in (10**4, 10**5) if options.largest > N] + [options.largest]
+    steps = track(CELLS[: 2 if options.quick else None], "past outputs", console=Console(stderr=True), transient=True)
+    for n_u, p, block_rows, noise in steps:
+        sheet, note = examined(Setting(n_u, p, block_rows, options.largest, noise), lengths, options.peer_python)
+        print(markdown([sheet], note), end="\n\n", flush=True)
     return 0
 
 
-def _line(row: Row) -> str:
-    return f"| {row.who} | {row.samples} | {row.eigenvalues:.4g} | {row.markov:.4g} |"
+def examined(setting: Setting, lengths: list[int], peer_python: str | None) -> tuple[Sheet, list[str]]:
+    """The exact limits, then what was measured at each N, with notes on the order left free."""
+    found = population_limits(benchmark_experiment(setting))
+    told = free_order(found)
+    rows, notes = [], []
+    for past_outputs, order in ((False, ORDER), (True, ORDER), (True, told.rank)):
+        model, singular = predicted(found, order, past_outputs=past_outputs)
+        who = "PO-MOESP" if past_outputs else "PI-MOESP"
+        rows.append(Row(f"{who}, order {order}", "exact limit", *errors(model, setting.n_u, setting.p)))
+        if order == ORDER:
+            leading = ", ".join(f"{x:.3g}" for x in singular[: told.rank + 1])
+            notes.append(f"{who}: leading singular values of L Cov(Z given Uf)^-1/2: {leading}")
+    for N in lengths:
+        rows += measured(replace(setting, samples=N), told.rank, peer_python)
+    said = {
+        "contains the range of O_s": told.contains,
+        "is shift-invariant": told.shift_invariant,
+        f"has the poles of the system and {FAULT_POLE:g}": told.poles_are_system_and_fault,
+        "has the true Markov parameters": told.markov_exact,
+    }
+    notes.append(
+        f"exact L of PO-MOESP: rank {told.rank}; " + ", ".join(f"{words}: {'yes' if true else 'no'}" for words, true in said.items())
+    )
+    title = f"{setting.n_u}-in {setting.p}-out, s = past = {setting.block_rows}{', sensor noise' if setting.noise else ''}"
+    cells = [[row.who, row.samples, f"{row.eigenvalues:.3g}", f"{row.markov:.3g}"] for row in rows]
+    return Sheet(title, ["", "N", "eigenvalue error", "Markov error"], cells), notes
 
 
 if __name__ == "__main__":

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import product
 from typing import Any
 
 from ...exact.experiments import Experiment
 from ...exact.matrices import Matrix
 from ...exact.population_limits import population_limits
+from ...exact.symbolic_leads import lead_identities
 from ..certificate import Certificate
 from ..experiments_tried import Drive, LimitDossier, certificates_of, examine_experiment, experiments_in_order, leading
 from ..verdicts import Outcome, Verdict
@@ -78,6 +80,18 @@ def two_sided(bench: Workbench) -> Outcome:
     """u and v uncorrelated at all lags: the limit lies in the range of O_s, is all of it where (A, B) is controllable; B, D are right."""
     records = [d for d in bench.limits if d.uncorrelated]
     return certify_limits(records, lambda d: d.within and d.inputs_right and (d.equal or not (d.controllable and d.observable)))
+
+
+def parametric(bench: Workbench) -> Outcome:
+    """All entries indeterminate: the response to a pulse of u is that of B + sum A^j F phi_j and D + G phi_0 + sum C A^(j-1) F phi_j."""
+    largest = range(3) if bench.full else range(2)
+    dimensions = list(product((1, 2), (1, 2), (1, 2), (1, 2), largest))
+    found = [lead_identities(*sizes) for sizes in dimensions]
+    words = (
+        f"at {len(found)} dimensions n, nu, m, p <= 2, leads up to {max(largest)}: Cov(Yf, Up) = O_s [...] for white u; "
+        f"{sum(record.expanded for record in found)} identities of sympy expanded again by FLINT"
+    )
+    return Outcome(Verdict.IDENTITY, words)
 
 
 def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitDossier], bool], scope: str) -> Outcome:
