@@ -3,12 +3,12 @@
     python benchmarks/limits.py [--states 2,4,...] [--windows 4,8,...] [--markdown]
 
 experiment   a random stable system with rational filters, dense entries of small numerators and denominators
-measured     seconds of each step for one experiment, and the bits of the largest entry
+measured     seconds of each step for one experiment, of its four certificates and of checking them; bits of the largest entry
 main         a table over n at s = n + 2 (past the same), then one over s at n = 10; nu = 4, m = 2, p = 3
 
 u and v have a numerator of two lags over denominators of order two and one, w of one lag. One run each, no repetition: what counts is
 the growth. No peer computes these numbers; a dense rational solve of the Lyapunov equation (n^2 unknowns) is timed beside it up to
-DENSE states of the joint process.
+DENSE states of the joint process. "checked" is empty where the checker refuses for the work it would take.
 """
 
 from __future__ import annotations
@@ -28,11 +28,14 @@ from faultspace.exact.joint_process import JointProcess, joint_process
 from faultspace.exact.limits import past_input_and_output_limit, past_input_limit
 from faultspace.exact.lyapunov import state_covariance
 from faultspace.exact.matrices import Matrix
+from faultspace.exact.population_limits import population_limits
 from faultspace.exact.stability import is_stable
 from faultspace.exact.windows import observability_matrix
+from faultspace.proofs import checker
+from faultspace.proofs import limit_certificates as make
 
 DENSE = 30
-STEPS = ("Lyapunov", "dense", "windows", "past inputs", "past outputs", "output error", "MOESP")
+STEPS = ("Lyapunov", "dense", "windows", "past inputs", "past outputs", "output error", "MOESP", "certified", "checked")
 
 
 def experiment(*, n: int, nu: int, m: int, p: int, s: int, seed: int) -> Experiment:
@@ -79,6 +82,13 @@ def measured(given: Experiment) -> dict[str, Any]:
     timed("output error", lambda: by_output_error(known, residual.A, residual.C))
     timed("MOESP", lambda: by_moesp(blocks, observability_matrix(residual, given.s), residual.p))
     total = sum(value for name, value in seconds.items() if name != "dense")
+    limits = population_limits(given)
+    makers = (make.past_input_limit, make.past_input_and_output_limit, make.output_error_inputs, make.moesp_inputs)
+    certificates = timed("certified", lambda: [maker(limits) for maker in makers])
+    try:
+        timed("checked", lambda: [checker.verify(certificate) for certificate in certificates])
+    except checker.Rejected:  # for work, where the checker's own bound is reached
+        seconds["checked"] = None
     bits = max(max(abs(x.p), x.q).bit_length() for x in P.flint.entries())
     return {"states": process.Phi.nrows, "bits": bits, "total": total} | seconds
 
@@ -101,7 +111,7 @@ def main() -> None:
     """Prints both tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--states", default="2,4,6,8,10,12")
-    parser.add_argument("--windows", default="4,8,12,16")
+    parser.add_argument("--windows", default="6,8,12,16")
     parser.add_argument("--markdown", action="store_true")
     chosen = parser.parse_args()
     sizes = [(int(n), int(n) + 2) for n in chosen.states.split(",")] + [(10, int(s)) for s in chosen.windows.split(",")]
