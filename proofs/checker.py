@@ -178,6 +178,7 @@ class Mat:
         charge(self.den.bit_length() * other.den.bit_length() >> 14)
         den, pairs = lcm(self.den, other.den), zip(self.rows, other.rows, strict=True)
         a, b = den // self.den, den // other.den
+        charge(len(self.rows) * self.nc * (a.bit_length() * self.bits + b.bit_length() * other.bits >> 16))
         return Mat(self.field, [[a * x + b * y for x, y in zip(r, s, strict=True)] for r, s in pairs], self.nc, den)
 
     def __eq__(self, other: object) -> bool:
@@ -253,7 +254,8 @@ class Field:
         bottom, cells = sum(map(int.bit_length, dens)), sum([len(part.rows) * part.nc for part in parts])
         charge((bottom * bottom >> 14) + cells * (64 + (bottom + bits) // 4))
         den = lcm(*dens)
-        rows = [[x * (den // part.den) for part in line for x in part.rows[i]] for line in grid for i in range(len(line[0].rows))]
+        scale = {bottom: den // bottom for bottom in dens}
+        rows = [[x * scale[part.den] for part in line for x in part.rows[i]] for line in grid for i in range(len(line[0].rows))]
         return Mat(self, rows, nc * self.degree, den)
 
     def diagonal(self, *blocks: Mat) -> Mat:

@@ -38,8 +38,9 @@ Rows = list[list[str]]
 class LimitDossier:
     """`past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
 
-    `within`: the limit of PI-MOESP lies in the range of O_s; `equal`: is that range; the same for PO-MOESP. `inputs_right`: every
-    regression that has a unique limit gives the true B and D. `weight` is 1.
+    `observable`: on s - 1 samples already, which shift invariance takes; `long_past`: past >= n. `within`: the limit of PI-MOESP lies in
+    the range of O_s; `equal`: is that range; the same for PO-MOESP. `inputs_right`: every regression that has a unique limit gives the
+    true B and D. `weight` is 1.
     """
 
     origin: str
@@ -51,6 +52,7 @@ class LimitDossier:
     controllable: bool
     seen_controllable: bool
     observable: bool
+    long_past: bool
     within: bool
     equal: bool
     past_outputs_within: bool
@@ -107,6 +109,7 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
         controllable=_controllable(residual.A, experiment.system.B),
         seen_controllable=state_inputs is not None and _controllable(residual.A, state_inputs[0]),
         observable=rank(observability_matrix(residual, max(experiment.s - 1, 0))) == residual.n,
+        long_past=experiment.past >= residual.n,
         within=inside["joint_rank"] == inside["observability_rank"],
         equal=inside["joint_rank"] == inside["observability_rank"] == inside["limit_rank"],
         past_outputs_within=outside["joint_rank"] == outside["observability_rank"],
@@ -160,14 +163,14 @@ def _system(random: Random, m: int, nu: int) -> dict[str, Any]:
     return {"A": _stable(random, n)} | {name: _rows(random, *shape) for name, shape in shapes.items()}
 
 
-def experiment_of(system: dict[str, Any], u: object, v: object, w: object = None, extra: int = 0) -> Experiment:
-    """s = n + 1 + extra and past = n + 1 block rows."""
+def experiment_of(system: dict[str, Any], u: object, v: object, w: object = None, past: int | None = None) -> Experiment:
+    """s = n + 1 block rows, and as many of the past where nothing else is said."""
     n = len(system["A"])
-    given = system | {"s": n + 1 + extra, "past": n + 1, "u_filter": u, "v_filter": v}
+    given = system | {"s": n + 1, "past": past or n + 1, "u_filter": u, "v_filter": v}
     return read_experiment(given if w is None else given | {"w_filter": w})
 
 
-def leading(system: dict[str, Any], u: Sequence[str], den: Sequence[str], phi: Sequence[str], extra: int = 0) -> Experiment:
+def leading(system: dict[str, Any], u: Sequence[str], den: Sequence[str], phi: Sequence[str], past: int | None = None) -> Experiment:
     """One input u = (sum u_j q^-j / den) e and one fault v(k) = sum_j phi_j u(k+j): all of it delayed by the largest lead."""
     delay = len(phi) - 1
     product = [Fraction(0)] * (len(u) + delay)
@@ -176,7 +179,7 @@ def leading(system: dict[str, Any], u: Sequence[str], den: Sequence[str], phi: S
             product[i + delay - j] += Fraction(weight) * Fraction(x)
     numerator = [[["0"]]] * delay + [[[x]] for x in u]
     fault = [[[str(x)]] for x in product]
-    return experiment_of(system, {"num": numerator, "den": list(den)}, {"num": fault, "den": list(den)}, None, extra)
+    return experiment_of(system, {"num": numerator, "den": list(den)}, {"num": fault, "den": list(den)}, None, past)
 
 
 def _independent(random: Random) -> Experiment:
@@ -186,11 +189,13 @@ def _independent(random: Random) -> Experiment:
     later = [row + ["0"] * m for row in _rows(random, nu, nu)]
     v = [[["0"] * nu + row for row in _rows(random, m, m)] for _ in range(2)]
     w = [_rows(random, len(system["C"]), 1)] if random.random() < 0.5 else None
-    return experiment_of(system, {"num": [unit, later], "den": ["1", "-1/2"]}, {"num": v, "den": ["1", "1/3"]}, w)
+    past = random.choice((1, None, None))
+    return experiment_of(system, {"num": [unit, later], "den": ["1", "-1/2"]}, {"num": v, "den": ["1", "1/3"]}, w, past)
 
 
 def _white_leads(random: Random) -> Experiment:
-    return leading(_system(random, 1, 1), ["1"], ["1"], ["0", *(str(random.randint(-2, 2)) for _ in range(random.randint(0, 1))), "1"])
+    phi = ["0", *(str(random.randint(-2, 2)) for _ in range(random.randint(0, 1))), "1"]
+    return leading(_system(random, 1, 1), ["1"], ["1"], phi, random.choice((1, None, None)))
 
 
 def _simultaneous(random: Random) -> Experiment:
@@ -208,8 +213,9 @@ def _lead_one(random: Random) -> Experiment:
 
 
 def _autoregressive(random: Random) -> Experiment:
-    den = ["1", *random.choice((["-1/2"], ["-1/2", "1/4"]))]
-    return leading(_system(random, 1, 1), ["1"], den, ["0"] * random.randint(1, 2) + ["1"], 1)
+    system = _system(random, 1, 1)
+    den = ["1", "-1/2", "1/4", "-1/8"][: random.randint(2, len(system["A"]) + 2)]  # of order 1 to s = n + 1
+    return leading(system, ["1"], den, ["0"] * random.randint(1, 2) + ["1"])
 
 
 def following(system: dict[str, Any], gain: str) -> Experiment:
@@ -236,7 +242,7 @@ FAMILIES: dict[str, Callable[[Random], Experiment]] = {
     "u white, v(k) = u(k)": _simultaneous,
     "u a moving average, v leads it": _moving_average,
     "u coloured, v(k) = u(k+1), G = 0": _lead_one,
-    "u autoregressive of order < s, v leads it": _autoregressive,
+    "u autoregressive of order at most s, v leads it": _autoregressive,
     "u white, v(k) = K u(k-1)": _feedback,
     "u and v white and independent": _white_fault,
 }

@@ -31,5 +31,5 @@ def white_fault(bench: Workbench) -> Outcome:
 
 def past_inputs(bench: Workbench) -> Outcome:
     """On the experiments with a coloured fault independent of u where PO-MOESP fails, PI-MOESP is right."""
-    records = [d for d in bench.limits if d.uncorrelated and not d.past_outputs_within and d.controllable and d.observable]
+    records = [d for d in bench.limits if d.uncorrelated and not d.past_outputs_within and d.controllable and d.observable and d.long_past]
     return certify_limits(records, lambda d: d.equal and d.inputs_right)

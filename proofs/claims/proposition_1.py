@@ -44,7 +44,7 @@ def white_a_c(bench: Workbench) -> Outcome:
 
 def white_a_c_seen(bench: Workbench) -> Outcome:
     """u white, v leads it: the limit lies in the range of O_s, and is all of it iff (A, B + sum A^j F phi_j) is controllable."""
-    records = [d for d in bench.limits if d.origin == "u white, v leads it" and d.observable]
+    records = [d for d in bench.limits if d.origin == "u white, v leads it" and d.observable and d.long_past]
     return certify_limits(records, lambda d: d.within and d.equal == d.seen_controllable)
 
 
@@ -67,8 +67,14 @@ def coloured_a_c(bench: Workbench) -> Outcome:
 
 
 def autoregressive(bench: Workbench) -> Outcome:
-    """u autoregressive of order below s, v leads it: the limit still lies in the range of O_s."""
+    """u autoregressive of order at most s, v leads it: the limit still lies in the range of O_s."""
     return certify_limits([d for d in bench.limits if d.origin.startswith("u autoregressive")], lambda d: d.within)
+
+
+def autoregressive_longer(bench: Workbench) -> Outcome:
+    """u autoregressive of order s + 1, v leads it."""
+    den = ["1", "-1/2", "1/4", "-1/8"]
+    return smallest_limit(drives([(["1"], den)], [["0", "1"], ["0", "0", "1"]]), lambda d: not d.within, "u of order 3, s = 2")
 
 
 def lead_one(bench: Workbench) -> Outcome:
@@ -79,7 +85,12 @@ def lead_one(bench: Workbench) -> Outcome:
 def two_sided(bench: Workbench) -> Outcome:
     """u and v uncorrelated at all lags: the limit lies in the range of O_s, is all of it where (A, B) is controllable; B, D are right."""
     records = [d for d in bench.limits if d.uncorrelated]
-    return certify_limits(records, lambda d: d.within and d.inputs_right and (d.equal or not (d.controllable and d.observable)))
+
+    def holds(d: LimitDossier) -> bool:
+        whole = d.equal or not (d.controllable and d.observable and d.long_past)
+        return d.within and d.inputs_right and whole
+
+    return certify_limits(records, holds)
 
 
 def parametric(bench: Workbench) -> Outcome:
@@ -121,7 +132,7 @@ def certify_limits(records: Sequence[LimitDossier], holds: Callable[[LimitDossie
 
 
 def _regular(d: LimitDossier) -> bool:
-    return d.one_sided and d.controllable and d.observable
+    return d.one_sided and d.controllable and d.observable and d.long_past
 
 
 def _seen(d: LimitDossier) -> tuple[Matrix, Matrix]:

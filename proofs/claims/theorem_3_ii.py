@@ -16,6 +16,8 @@ from ..pairs import RivalDossier, comparison_certificate
 from ..search import Box, systems_in_order
 from ..verdicts import Outcome, Verdict
 from ..workbench import Workbench, certify_records, counterexample
+from .one_determinant import show as show_judged
+from .one_determinant import words as judged_words
 
 BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
 
@@ -25,6 +27,12 @@ def every_p(bench: Workbench) -> Outcome:
     return _smallest_bad_pair(
         lambda kernel: kernel.lag + 1, lambda rival: True, "s = lag + 1, P with entries in {-1, 0, 1} and full column rank"
     )
+
+
+def almost_every(bench: Workbench) -> Outcome:
+    """D(q; P) is no zero polynomial in P: one good P a system, and the bad ones are zeros of polynomials that do not all vanish."""
+    records = [d for d in bench.judged if d.purpose == "good"]
+    return certify_records(records, [d for d in records if not d.equal], judged_words, show_judged, unit="systems")
 
 
 def criterion(bench: Workbench) -> Outcome:

@@ -54,7 +54,8 @@ HYPOTHESES: dict[str, Callable[[Driven], bool]] = {
     "v(k), u(k) uncorrelated": lambda x: x.record.same_time,
     "v(k), u(k+l) uncorrelated, l >= 1": lambda x: x.record.leads,
     "(A, B) controllable": lambda x: x.record.controllable,
-    "(A, C) observable": lambda x: x.record.observable,
+    "(A, C) observable on s - 1": lambda x: x.record.observable,
+    "past >= n": lambda x: x.record.long_past,
     "u white": lambda x: x.record.white,
 }
 
@@ -81,6 +82,8 @@ def _right(subject: Driven) -> bool:
 def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Driven]:
     kept = [test for name, test in HYPOTHESES.items() if name not in dropped]
     tried: list[Drive] = [independent_white, partial(following, gain="1"), *drives([WHITE, MOVING_AVERAGE], [["1"], ["0", "1"]])]
+    if set(dropped) <= {"past >= n", "u white"}:
+        return Found(None, "n = 1, where past >= n always")  # and the colour of u is not needed
     box = f"{BOX}, v white of its own, u(k-1), u(k) or u(k+1), u white or e(k) + e(k-1)/2"
     for experiment in experiments_in_order(tried):
         subject = Driven(examine_experiment("search", experiment))

@@ -27,7 +27,7 @@ def quiet(stage: str, done: int, total: int) -> None:
 def bench() -> Workbench:
     """A workbench with fourteen experiments of each family, more of those that meet the hypotheses."""
     made = Workbench("quick", 1, quiet)
-    counts = {name: 60 if "independent" in name else 14 for name in FAMILIES}
+    counts = {name: 120 if "independent" in name else 14 for name in FAMILIES}
     made.limits = tuple(experiments_tried._all([(name, seed) for name, count in counts.items() for seed in range(count)]))
     return made
 
@@ -81,7 +81,7 @@ def test_counterexamples_are_true_by_the_oracle(reading: object, bench: Workbenc
 def test_every_hypothesis_of_consistency_but_the_colour_is_needed(bench: Workbench) -> None:
     expected = expected_without()["consistency"]
     rows = ablate(bench, consistency(), expected)
-    assert all(row.as_expected for row in rows) and len(rows) == 6 + 15
+    assert all(row.as_expected for row in rows) and len(rows) == 7 + 21
     blind = ablate(bench, replace(consistency(), holds=lambda subject: True), expected)
     assert not all(row.as_expected for row in blind)
 

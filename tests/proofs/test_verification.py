@@ -68,7 +68,7 @@ def test_a_claim_is_as_expected_only_with_all_its_readings() -> None:
 
 
 def test_unknown_names_are_bad_input() -> None:
-    with pytest.raises(InvalidInput, match="expected one of theorem-1"):
+    with pytest.raises(InvalidInput, match="expected one of assumption-2"):
         verify(["theorem-9"])
     with pytest.raises(InvalidInput, match="effort"):
         verify(effort="medium")

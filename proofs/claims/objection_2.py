@@ -1,0 +1,23 @@
+"""objection-2: for which P part (ii) of theorem-3 fails is not said, and full column rank is not enough."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench
+from .one_determinant import formula
+from .theorem_3_ii import every_p
+
+
+def full_rank_is_not_enough(bench: Workbench) -> Outcome:
+    """Some P of full column rank gives a pair that is not equivalent."""
+    found = every_p(bench)
+    if found.verdict != Verdict.REFUTED:
+        return replace(found, verdict=Verdict.REFUTED)
+    return replace(found, verdict=Verdict.CERTIFIED, evidence=f"by one witness: {found.evidence}")
+
+
+def exact_set(bench: Workbench) -> Outcome:
+    """It fails for exactly the P with D(q; P) = 0."""
+    return formula(bench)
