@@ -241,6 +241,34 @@ def monte_carlo(
 
 
 @app.command()
+def audit(
+    adapter: Annotated[
+        str | None,
+        typer.Argument(metavar="[ADAPTER]", show_default=False, help="module:object, file.py:object, module or file; else our own code."),
+    ] = None,
+    command: Annotated[
+        str | None, typer.Option("--exec", metavar="CMD", help="A program that speaks JSON lines instead.", show_default=False)
+    ] = None,
+    check: Annotated[
+        list[str] | None, typer.Option("--check", metavar="SLUG", help="Only this check, or SLUG[VECTOR]; may be repeated.")
+    ] = None,
+    timeout: Annotated[float, typer.Option(min=0.1, metavar="SECONDS", help="How long a program may take for an answer.")] = 60.0,
+    json: Json = False,
+) -> None:
+    """Put a numeric implementation through checks whose answers are known exactly. Exit 1 if a must is not met.
+
+    The adapter has some of: identify, residual, window_ranks, fault_dimension, fault_space, reconstruct, structure.
+    """
+
+    def body() -> int:
+        from . import auditing
+
+        return auditing.run(adapter, command=command, only=check or [], timeout=timeout, as_json=json)
+
+    _leave(body)
+
+
+@app.command()
 def examples(
     folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", show_default=False, help="Copy them there.")] = None,
     json: Json = False,

@@ -25,6 +25,8 @@ The paper's experiments
     monte_carlo.run_study              its study, as published and as corrected; study_systems, study_experiments,
                                        study_cases, study_workers
 
+The audit (numeric/audit, which imports the exact branch too): anyone's implementation against exact ground truth.
+
 Inside: input_checks, residual_arguments, residual_windows, kernel_likelihood, kernel_basis_likelihood, joint_kernel_basis,
 fault_space_estimate, tapered_moments, largest_root.
 

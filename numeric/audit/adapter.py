@@ -1,0 +1,154 @@
+"""What an implementation offers to be tested: a few functions, all optional; those that are there declare what is tested.
+
+    identify(y, u, order, block_rows) -> A, B, C, D       from y (N, p), u (N, n_u); any state basis
+    residual(y, u, A, B, C, D) -> r                       y less the model's response to u, (N, p); any initial state
+    window_ranks(r, windows) -> ranks                     of the block Hankel matrices of 1, ..., windows block rows
+    fault_dimension(r) -> n_v                             the number of independent faults
+    fault_space(r, A, C, n_v) -> Z                        all columns [f; g] that explain r, (n + p, n_z); any basis
+    reconstruct(r, A, F, C, G, x0) -> v                   the fault signal (N, m) from the known initial state
+    structure(A, F, C, G) -> Structure                    zeros and ranks of the system from v to r
+
+Arrays are time-major float64. To refuse is to raise ValueError or ArithmeticError, or to return None; any other exception is a crash.
+
+    FUNCTIONS    the names above
+    offered      the functions that an object or module has
+    guarded      a function whose refusals raise Refused and whose crashes raise Broken
+    load         the object that `module:object`, `file.py:object`, a module or a file names
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..input_checks import InvalidData
+from .records import Broken, Function, Refused
+
+Array = NDArray[np.float64]
+FUNCTIONS = ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct", "structure")
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Of x(k+1) = A x + F v, r = C x + G v: normal rank of the transfer function, finite invariant zeros, orders of the infinite zeros
+    (ascending, one per unit of normal rank, zeros included), left-invertibility.
+    """
+
+    normal_rank: int
+    finite_zeros: Sequence[complex]
+    infinite_zero_orders: Sequence[int]
+    left_invertible: bool
+
+
+class Identifies(Protocol):
+    """An implementation that identifies."""
+
+    def identify(self, y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]: ...
+
+
+class Simulates(Protocol):
+    """An implementation that makes residuals."""
+
+    def residual(self, y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Any: ...
+
+
+class RanksWindows(Protocol):
+    """An implementation that ranks Hankel matrices."""
+
+    def window_ranks(self, r: Array, windows: int) -> Sequence[int]: ...
+
+
+class CountsFaults(Protocol):
+    """An implementation that counts faults."""
+
+    def fault_dimension(self, r: Array) -> int | None: ...
+
+
+class FindsFaults(Protocol):
+    """An implementation that finds fault matrices."""
+
+    def fault_space(self, r: Array, A: Array, C: Array, n_v: int) -> Any: ...
+
+
+class Reconstructs(Protocol):
+    """An implementation that reconstructs fault signals."""
+
+    def reconstruct(self, r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Any: ...
+
+
+class KnowsStructure(Protocol):
+    """An implementation that finds zeros. A mapping with the names of `Structure` will do for the record."""
+
+    def structure(self, A: Array, F: Array, C: Array, G: Array) -> Structure | Mapping[str, Any]: ...
+
+
+def offered(implementation: object) -> dict[str, Function]:
+    """name -> function for those of FUNCTIONS that the implementation has. Raises InvalidData where it has none."""
+    found = {name: getattr(implementation, name) for name in FUNCTIONS if callable(getattr(implementation, name, None))}
+    if not found:
+        raise InvalidData(f"the adapter has none of the functions {', '.join(FUNCTIONS)}: define one at least")
+    return found
+
+
+def guarded(function: Function) -> Function:
+    """`function` with its refusals and crashes told apart."""
+
+    def call(*arguments: Any) -> Any:
+        try:
+            with np.errstate(all="ignore"):
+                answer = function(*arguments)
+        except (Refused, Broken):
+            raise
+        except (ValueError, ArithmeticError) as error:
+            raise Refused(f"{type(error).__name__}: {error}") from error
+        except Exception as error:
+            raise Broken(f"crashed with {type(error).__name__}: {error}") from error
+        if answer is None:
+            raise Refused("gave no answer")
+        return answer
+
+    return call
+
+
+def load(name: str) -> object:
+    """The adapter of that name, an instance where it is a class. Raises InvalidData."""
+    place, _, attribute = name.rpartition(":")
+    if not place:
+        place, attribute = name, ""
+    try:
+        module: Any = _from_file(Path(place)) if place.endswith(".py") else importlib.import_module(place)
+    except ImportError as error:
+        raise InvalidData(f"adapter {name}: {error}; needed is module:object or file.py:object") from None
+    except Exception as error:
+        raise InvalidData(f"adapter {name}: importing it failed with {type(error).__name__}: {error}") from None
+    found: Any = module
+    for part in attribute.split(".") if attribute else ():
+        if not hasattr(found, part):
+            raise InvalidData(f"adapter {name}: {place} has no {attribute}; it has {', '.join(n for n in vars(module) if n[0] != '_')}")
+        found = getattr(found, part)
+    if not isinstance(found, type):
+        return found
+    try:
+        return found()
+    except Exception as error:
+        raise InvalidData(f"adapter {name}: {attribute}() failed with {type(error).__name__}: {error}") from None
+
+
+def _from_file(path: Path) -> object:
+    if not path.is_file():
+        raise ImportError(f"there is no file {path}")
+    spec = importlib.util.spec_from_file_location(f"audited_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{path} is no Python file")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module

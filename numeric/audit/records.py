@@ -1,0 +1,163 @@
+"""What a check is, and what it leaves behind.
+
+Check         slug, function tested, vector, claim, effect on a user, severity, kind, and `measure`, which calls the function
+Measurement   quantity, got, bound: a distance from the exact answer, and what rounding may make of it
+Record        a check's outcome: verdict, the worst measurement, in words what happened
+Kind          must-hold, must-refuse (an answer is the failure) or free (told, never failed)
+Refused       the implementation declined to answer; Broken: it crashed, hung or answered what is no answer
+perform       runs one check; never raises for what the implementation does
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass
+from enum import StrEnum
+from math import inf, isnan
+from typing import Any
+
+Function = Callable[..., Any]
+
+
+class Refused(Exception):
+    """The implementation declined to answer; the message is its own."""
+
+
+class Broken(Exception):
+    """The implementation crashed, hung, or answered what is no answer."""
+
+
+class Kind(StrEnum):
+    """What the check asks for."""
+
+    MUST_HOLD = "must-hold"
+    MUST_REFUSE = "must-refuse"
+    FREE = "free"
+
+
+class Severity(StrEnum):
+    """What a failure does: a wrong answer without a warning, a wrong one in some uses, or trouble that is seen at once."""
+
+    SILENT = "silently wrong"
+    SOMETIMES = "wrong in some uses"
+    NUISANCE = "nuisance"
+
+
+class Verdict(StrEnum):
+    """PASS; FAIL: measured beyond the bound, or an answer where none can be; REFUSED: no answer where one is due; BROKEN."""
+
+    PASS = "pass"
+    FAIL = "fail"
+    REFUSED = "refused"
+    BROKEN = "broken"
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """A distance `got` >= 0 from the exact answer beside its `bound`; a bound of 0 asks for equality."""
+
+    quantity: str
+    got: float
+    bound: float
+
+    @property
+    def ratio(self) -> float:
+        """got / bound: at most one where all is well."""
+        if isnan(self.got):
+            return inf
+        return self.got / self.bound if self.bound > 0 else (0.0 if self.got == 0 else inf)
+
+
+@dataclass(frozen=True)
+class Check:
+    """One question to one function on one vector. `measure` takes the guarded function and gives measurements.
+
+    `claim`: the statement in the ledger that the expected answer rests on, None where it is plain good manners.
+    """
+
+    slug: str
+    function: str
+    vector: str
+    claim: str | None
+    effect: str
+    severity: Severity
+    measure: Callable[[Function], Iterable[Measurement]]
+    kind: Kind = Kind.MUST_HOLD
+
+    @property
+    def name(self) -> str:
+        """slug[vector]: what `--check` takes."""
+        return f"{self.slug}[{self.vector}]"
+
+
+@dataclass(frozen=True)
+class Record:
+    """The outcome of one check; got, bound, ratio are those of the worst measurement (None where nothing was measured)."""
+
+    slug: str
+    vector: str
+    function: str
+    claim: str | None
+    effect: str
+    severity: str
+    kind: str
+    verdict: str
+    quantity: str | None
+    got: float | None
+    bound: float | None
+    ratio: float | None
+    detail: str
+    seconds: float
+
+    @property
+    def name(self) -> str:
+        """slug[vector]."""
+        return f"{self.slug}[{self.vector}]"
+
+    @property
+    def failed(self) -> bool:
+        """Whether a must is not met."""
+        return self.kind != Kind.FREE and self.verdict != Verdict.PASS
+
+    def to_json(self) -> dict[str, Any]:
+        """JSON-ready; numbers that are not finite as strings."""
+        shown = {name: str(value) if isinstance(value, float) and abs(value) == inf else value for name, value in asdict(self).items()}
+        return {"check": self.name, **shown, "failed": self.failed}
+
+
+def perform(check: Check, function: Function) -> Record:
+    """The record of one check on a guarded function."""
+    begun = time.perf_counter()
+    worst: Measurement | None = None
+    detail = ""
+    try:
+        measured = list(check.measure(function))
+        if check.kind is Kind.MUST_REFUSE:
+            verdict, detail = Verdict.FAIL, "answered where no answer can be right"
+        else:
+            worst = max(measured, key=lambda one: one.ratio)
+            verdict = Verdict.PASS if worst.ratio <= 1 else Verdict.FAIL
+            beyond = [one.quantity for one in measured if one.ratio > 1]
+            detail = f"beyond the bound: {', '.join(dict.fromkeys(beyond))}" if beyond else ""
+    except Refused as refusal:
+        verdict = Verdict.PASS if check.kind is Kind.MUST_REFUSE else Verdict.REFUSED
+        detail = str(refusal)
+    except Broken as failure:
+        verdict, detail = Verdict.BROKEN, str(failure)
+    return Record(
+        check.slug,
+        check.vector,
+        check.function,
+        check.claim,
+        check.effect,
+        str(check.severity),
+        str(check.kind),
+        str(verdict),
+        worst.quantity if worst else None,
+        None if worst is None or isnan(worst.got) else float(worst.got),
+        worst.bound if worst else None,
+        worst.ratio if worst else None,
+        detail,
+        time.perf_counter() - begun,
+    )

@@ -1,0 +1,90 @@
+"""Our own numeric branch as an implementation: what `faultspace audit` tests when nothing is named, and a pattern for adapters.
+
+Where a function of ours warns and goes on, the adapter refuses: A that the window does not determine, ranks that are not clear.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..fault_dimension import fault_dimension as count
+from ..fault_space import noise_free_fault_space
+from ..fault_zeros import fault_zeros
+from ..hankel_ranks import rounding_ranks
+from ..input_checks import InvalidData, enough_samples, signal
+from ..models import StateSpaceModel
+from ..pi_moesp import UNDETERMINED, pi_moesp
+from ..reconstruction import reconstruct_fault
+from ..residual_windows import EPS, channel_sizes
+from ..residuals import residual as subtract
+from .adapter import Structure
+
+Array = NDArray[np.float64]
+RANK = 1e-10  # of the largest singular value: ranks of small matrices with entries of a few digits
+
+
+def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Array, Array, Array, Array]:
+    """PI-MOESP."""
+    found = pi_moesp(y, u, order=order, block_rows=block_rows)
+    if not found.condition_numbers["observability"] <= UNDETERMINED:
+        raise InvalidData("; ".join(found.warnings))
+    return found.A, found.B, found.C, found.D
+
+
+def residual(y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Array:
+    """With the initial state fitted."""
+    return subtract(y, u, StateSpaceModel(A, B, C, D)).r
+
+
+def window_ranks(r: Array, windows: int) -> tuple[int, ...]:
+    """At the rounding threshold, channels in unit mean square."""
+    data = signal(r, "r")
+    enough_samples(len(data), (data.shape[1] + 1) * windows - 1, f"a window of {windows} block rows", data.shape)
+    return rounding_ranks(data / channel_sizes(data), windows, unit=EPS).ranks
+
+
+def fault_dimension(r: Array) -> int | None:
+    """None where undecided."""
+    return count(r).n_v
+
+
+def fault_space(r: Array, A: Array, C: Array, n_v: int) -> Array:
+    """From the exact ranks of the windows up to n + 1."""
+    found = noise_free_fault_space(r, A, C, n_v=n_v)
+    if not found.meaningful:
+        raise InvalidData(found.reason)
+    return found.basis
+
+
+def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Array:
+    """By the smoother."""
+    return reconstruct_fault(r, A, F, C, G, x0=x0).v
+
+
+def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:
+    """Orders of infinite zeros from #{order <= k} = rank T_(k+1) - rank T_k; finite zeros from the output-nulling subspace."""
+    if not all(np.all(np.isfinite(matrix)) for matrix in (A, F, C, G)):
+        raise InvalidData("A, F, C, G: got entries that are NaN or infinite")
+    orders = _infinite_zero_orders(A, F, C, G)
+    found = fault_zeros(A, F, C, G)
+    return Structure(len(orders), [complex(z) for z in found.zeros], orders, len(orders) == F.shape[1])
+
+
+def _infinite_zero_orders(A: Array, F: Array, C: Array, G: Array) -> list[int]:
+    n, m = F.shape
+    model = StateSpaceModel(A, F, C, G)
+    pulse = model.markov(n + 1).reshape(-1, m)
+    p, orders, before = len(C), list[int](), 0
+    for k in range(n + 1):
+        rows = p * (k + 1)
+        T = np.hstack([np.vstack([np.zeros((p * j, m)), pulse[: rows - p * j]]) for j in range(k + 1)])
+        rank = _rank(T)
+        orders += [k] * (rank - before - len(orders))
+        before = rank
+    return orders
+
+
+def _rank(matrix: Array) -> int:
+    values = np.linalg.svd(matrix, compute_uv=False)
+    return int(np.sum(values > RANK * values[0]))

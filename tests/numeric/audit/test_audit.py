@@ -1,0 +1,141 @@
+"""The audit's own behaviour: the reference passes without one expected failure, faces agree, refusals and crashes are told apart."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from faultspace.numeric.audit import adapter, reference
+from faultspace.numeric.audit.adapter import FUNCTIONS, load
+from faultspace.numeric.audit.records import Kind, Measurement, Record
+from faultspace.numeric.audit.running import ExpectedFailure, all_checks, audit, parametrize_with_checks, told
+from faultspace.numeric.input_checks import InvalidData
+
+# What mypy checks: the reference is what the protocols describe.
+_identifies: adapter.Identifies = reference
+_simulates: adapter.Simulates = reference
+_ranks: adapter.RanksWindows = reference
+_counts: adapter.CountsFaults = reference
+_finds: adapter.FindsFaults = reference
+_reconstructs: adapter.Reconstructs = reference
+_knows: adapter.KnowsStructure = reference
+
+
+@parametrize_with_checks(reference)
+def test_the_reference_passes_every_check(check: Any) -> None:
+    record: Record = check()
+    if record.ratio is not None:
+        print(f"{record.name}: got {record.got:.2g}, bound {record.bound:.2g}, ratio {record.ratio:.2g}")
+
+
+def test_every_function_has_checks_that_hold_and_that_refuse() -> None:
+    checks = list(all_checks())
+    assert {one.function for one in checks} == set(FUNCTIONS)
+    assert {one.function for one in checks if one.kind is Kind.MUST_REFUSE} == set(FUNCTIONS) - {"residual"}
+    named = [(one.name, one.function) for one in checks]
+    assert len(named) == len(set(named))
+
+
+def test_every_claim_is_in_the_ledger() -> None:
+    ledger = tomllib.loads((Path(__file__).resolve().parents[3] / "proofs" / "ledger.toml").read_text("utf-8"))
+    known = set(ledger["claim"])
+    named = {one.claim for one in all_checks()} - {None}
+    assert len(named) >= 6 and named <= known
+
+
+def test_only_what_is_there_is_tested() -> None:
+    records = audit(SimpleNamespace(window_ranks=reference.window_ranks))
+    assert {record.function for record in records} == {"window_ranks"} and not any(record.failed for record in records)
+    with pytest.raises(InvalidData, match="none of the functions"):
+        audit(SimpleNamespace(identity=1))
+
+
+def _raises(error: Exception) -> Any:
+    def function(*arguments: Any) -> Any:
+        raise error
+
+    return function
+
+
+@pytest.mark.parametrize(
+    ("function", "verdict"),
+    [
+        (_raises(ValueError("no")), "refused"),
+        (_raises(np.linalg.LinAlgError("singular")), "refused"),
+        (lambda r: None, "refused"),
+        (_raises(IndexError("out of range")), "broken"),
+        (_raises(MemoryError()), "broken"),
+        (lambda: 3, "broken"),
+        (lambda r: "many", "broken"),
+        (lambda r: float("nan"), "fail"),
+        (lambda r: 2, "fail"),
+        (lambda r: 1, "pass"),
+    ],
+)
+def test_verdicts(function: Any, verdict: str) -> None:
+    (record,) = audit(SimpleNamespace(fault_dimension=function), only=["fault-dimension[one-fault]"])
+    assert record.verdict == verdict
+    assert record.failed == (verdict != "pass")
+
+
+def test_a_crash_on_data_to_be_refused_is_no_refusal() -> None:
+    (record,) = audit(SimpleNamespace(fault_dimension=_raises(IndexError("x"))), only=["refuses-nan-residual"])
+    assert record.verdict == "broken" and record.failed
+
+
+@pytest.mark.parametrize("answer", [3, (1, 2, 3, 4), ([[1.0]], [[1.0]], [[1.0]], [[np.nan]]), (np.eye(3),) * 4, "four"])
+def test_what_is_no_model_is_broken(answer: Any) -> None:
+    (record,) = audit(SimpleNamespace(identify=lambda *_: answer), only=["exact-recovery[n2-u1-p1]"])
+    assert record.verdict == "broken" and record.detail
+
+
+def test_a_failure_is_told_with_the_line_that_shows_it_again() -> None:
+    (record,) = audit(SimpleNamespace(fault_dimension=lambda r: 3), only=["fault-dimension[one-fault]"])
+    words = told(record, "mine.py")
+    for part in ("fault-dimension[one-fault]", "got 2", "bound 0", "ratio inf", "a wrong number of faults"):
+        assert part in words
+    assert words.endswith("faultspace audit mine.py --check 'fault-dimension[one-fault]'")
+    assert record.to_json()["ratio"] == "inf"
+
+
+def test_an_expected_failure_passes_and_turns_red_when_it_passes() -> None:
+    mark = ExpectedFailure("fault-dimension[one-fault]", "counts to two")
+    (record,) = audit(SimpleNamespace(fault_dimension=lambda r: 2), only=[mark.name], expected=[mark])
+    assert not record.failed and "counts to two" in record.detail
+    (record,) = audit(reference, only=[mark.name], expected=[mark])
+    assert record.failed and "take the mark away" in record.detail
+    with pytest.raises(InvalidData, match="needs a reason"):
+        ExpectedFailure("fault-dimension", " ")
+    with pytest.raises(InvalidData, match="none of that name"):
+        audit(reference, expected=[ExpectedFailure("no-such-check", "why")])
+
+
+def test_the_pytest_face_is_red_where_the_records_are() -> None:
+    decorated: Any = parametrize_with_checks(SimpleNamespace(fault_dimension=lambda r: 2))
+    cases = {case.id: case.values[0] for case in decorated.args[1]}
+    with pytest.raises(AssertionError, match=r"fault-dimension\[one-fault\].*ratio inf"):
+        cases["fault-dimension[one-fault]-fault_dimension"]()
+    cases["fault-dimension[two-faults]-fault_dimension"]()
+
+
+def test_a_ratio_is_never_hidden() -> None:
+    assert Measurement("x", 0.0, 0.0).ratio == 0 and Measurement("x", 1e-300, 0.0).ratio == np.inf
+    assert Measurement("x", float("nan"), 1.0).ratio == np.inf and Measurement("x", 1.0, 2.0).ratio == 0.5
+
+
+def test_adapters_by_name(tmp_path: Path) -> None:
+    file = tmp_path / "mine.py"
+    file.write_text("class Mine:\n    def fault_dimension(self, r):\n        return 1\n\ndef fault_dimension(r):\n    return 2\n", "utf-8")
+    assert load(f"{file}:Mine").fault_dimension(None) == 1  # type: ignore[attr-defined]
+    assert load(str(file)).fault_dimension(None) == 2  # type: ignore[attr-defined]
+    assert load("faultspace.numeric.audit.reference") is reference
+    broken = tmp_path / "broken.py"
+    broken.write_text("1 / 0\n", "utf-8")
+    for name in (f"{file}:Yours", str(tmp_path / "none.py"), "no.such.module:x", str(broken)):
+        with pytest.raises(InvalidData, match="adapter"):
+            load(name)

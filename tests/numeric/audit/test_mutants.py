@@ -1,0 +1,72 @@
+"""Each broken implementation is caught by the check that is named for it; the matrix of mutants against checks is printed (-s)."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from faultspace.numeric.audit.adapter import Structure
+from faultspace.numeric.audit.records import Kind
+from faultspace.numeric.audit.running import all_checks, audit
+from faultspace.numeric.audit.vectors import shipped
+from tests.numeric.audit.mutants import MUTANTS, Mutant
+
+
+def test_there_are_enough_and_they_are_told_apart() -> None:
+    assert len(MUTANTS) >= 15
+    assert len({mutant.name for mutant in MUTANTS}) == len(MUTANTS)
+
+
+@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.name)
+def test_the_named_check_catches_it(mutant: Mutant) -> None:
+    records = audit(mutant.adapter, only=[mutant.caught_by])
+    failed = [record for record in records if record.failed]
+    print(f"{mutant.name}: {len(failed)} of {len(records)} {mutant.caught_by}: {', '.join(record.vector for record in failed)}")
+    assert failed, mutant.wrong
+    # A model of another order is no answer at all.
+    assert all(record.verdict == ("broken" if mutant.name == "order-ignored" else "fail") for record in failed)
+
+
+def _answers_everything() -> SimpleNamespace:
+    """Some answer of the right kind whatever the question."""
+    return SimpleNamespace(
+        identify=lambda y, u, order, block_rows: (
+            np.eye(order) / 2,
+            np.ones((order, u.shape[1])),
+            np.ones((y.shape[1], order)),
+            np.ones((y.shape[1], u.shape[1])),
+        ),
+        window_ranks=lambda r, windows: [r.shape[1]] * windows,
+        fault_dimension=lambda r: 1,
+        fault_space=lambda r, A, C, n_v: np.eye(len(A) + len(C))[:, :n_v],
+        reconstruct=lambda r, A, F, C, G, x0: np.zeros((len(r), F.shape[1])),
+        structure=lambda A, F, C, G: Structure(1, [], [0], True),
+    )
+
+
+REFUSALS = sorted({check.slug for check in all_checks() if check.kind is Kind.MUST_REFUSE})
+
+
+def test_who_answers_everything_fails_every_check_that_asks_for_a_refusal() -> None:
+    records = audit(_answers_everything(), only=REFUSALS)
+    assert {record.slug for record in records} == set(REFUSALS)
+    assert {record.verdict for record in records} == {"fail"}
+
+
+def test_every_must_is_seen_to_fail() -> None:
+    """By a mutant, or by who answers everything."""
+    musts = {check.slug for check in all_checks() if check.kind is not Kind.FREE}
+    assert musts == {mutant.caught_by for mutant in MUTANTS} | set(REFUSALS)
+
+
+def test_an_absolute_threshold_is_right_in_the_units_that_it_was_made_for() -> None:
+    """What the check sees is the units: the same method passes at one scale and gives all of R^(n+p) at another."""
+    (mutant,) = (one for one in MUTANTS if one.name == "space-at-1e-9")
+    (here,) = audit(mutant.adapter, only=["fault-space[one-fault]"])
+    assert not here.failed
+    (there,) = audit(mutant.adapter, only=["fault-space-1e6[one-fault]"])
+    (vector,) = (one for one in shipped("faults") if one.slug == "one-fault")
+    assert there.failed and there.quantity == "dimension of the fault space"
+    assert there.got == vector.system.n + vector.system.p - vector.space.ncols

@@ -1,0 +1,122 @@
+"""Programs behind JSON lines: what works, and what hangs, crashes, prints garbage or forks, each told as that while the run goes on."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+import time
+from importlib.resources import as_file, files
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from faultspace.numeric.audit.running import audit
+from faultspace.numeric.audit.subprocess_adapter import Exec
+from faultspace.numeric.input_checks import InvalidData
+
+EXAMPLES = files("faultspace.numeric.audit").joinpath("examples")
+PREAMBLE = "import json, os, sys, time\nfor line in sys.stdin:\n    q = json.loads(line)\n    a = {}\n"
+OFFER = "    if q['call'] == 'functions':\n        a = {'functions': ['fault_dimension']}\n"
+
+
+def _program(tmp_path: Path, body: str) -> list[str]:
+    """A Python program that answers by `body`, which sets `a` from `q`."""
+    file = tmp_path / "program.py"
+    file.write_text(f"{PREAMBLE}{OFFER}    else:\n        {body}\n    print(json.dumps(a), flush=True)\n", "utf-8")
+    return [sys.executable, str(file)]
+
+
+def _verdict(command: list[str], check: str = "fault-dimension[one-fault]", timeout: float = 10.0) -> Any:
+    with Exec(command, timeout=timeout) as program:
+        (record,) = audit(program, only=[check])
+    return record
+
+
+@pytest.mark.parametrize(
+    ("body", "verdict", "words"),
+    [
+        ("a = {'n_v': 1}", "pass", ""),
+        ("a = {'n_v': 2}", "fail", "n_v"),
+        ("a = {'refused': 'not today'}", "refused", "not today"),
+        ("a = {'m': 1}", "broken", "lacks n_v"),
+        ("print('garbage', flush=True)", "broken", "no JSON line"),
+        ("a = [1]", "broken", "no JSON object"),
+        ("sys.exit('out of luck')", "broken", "out of luck"),
+        ("os.abort()", "broken", "ended without an answer"),
+        ("a = {'n_v': float('nan')}", "fail", "n_v"),
+    ],
+)
+def test_verdicts(tmp_path: Path, body: str, verdict: str, words: str) -> None:
+    record = _verdict(_program(tmp_path, body))
+    assert record.verdict == verdict and words in record.detail
+
+
+def test_a_program_that_hangs_is_killed_with_all_that_it_started(tmp_path: Path) -> None:
+    mark = tmp_path / "alive"
+    child = f"import time, pathlib; time.sleep(2.5); pathlib.Path({str(mark)!r}).touch()"
+    begun = time.monotonic()
+    command = _program(tmp_path, f"import subprocess; subprocess.Popen([sys.executable, '-c', {child!r}]); time.sleep(60)")
+    record = _verdict(command, timeout=1.0)
+    assert record.verdict == "broken" and "no answer within 1 s" in record.detail
+    assert time.monotonic() - begun < 10
+    time.sleep(2.0)
+    assert not mark.exists()
+
+
+def test_the_run_goes_on_after_a_crash(tmp_path: Path) -> None:
+    with Exec(_program(tmp_path, "a = {'n_v': 1} if len(q['r'][0]) == 3 else sys.exit(1)")) as program:
+        records = audit(program, only=["fault-dimension"])
+    verdicts = {record.vector: record.verdict for record in records}
+    assert verdicts["longest-lag"] == "broken" and verdicts["one-fault"] == verdicts["delayed"] == "pass"
+
+
+def test_nan_crosses_as_a_string(tmp_path: Path) -> None:
+    """Strict JSON both ways: the program sees "NaN" and refuses."""
+    body = "a = {'refused': 'NaN'} if any('NaN' in row for row in q['r']) else {'n_v': 1}"
+    assert _verdict(_program(tmp_path, body), "refuses-nan-residual").verdict == "pass"
+
+
+def test_what_does_not_speak_the_protocol() -> None:
+    for command in ("no-such-program-anywhere", [sys.executable, "-c", "print('hello')"], [sys.executable, "-c", ""]):
+        with pytest.raises(InvalidData, match="the program"):
+            Exec(command, timeout=5.0)
+    silly = [sys.executable, "-c", "input(); print('{\"functions\": [\"sing\"]}', flush=True); input()"]
+    with pytest.raises(InvalidData, match="sing"):
+        Exec(silly, timeout=5.0)
+
+
+@pytest.mark.parametrize(("shell", "name"), [("octave-cli", "adapter.m"), ("sh", "adapter.sh")])
+def test_the_examples_pass(shell: str, name: str) -> None:
+    found = shutil.which(shell)
+    if found is None:
+        pytest.skip(f"no {shell} here")
+    with as_file(EXAMPLES.joinpath(name)) as path, Exec([found, *(["--quiet"] if name.endswith(".m") else []), str(path)]) as program:
+        records = audit(program)
+    assert len(records) > 20 and [record.name for record in records if record.failed] == []
+
+
+def _command(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "faultspace", "audit", *arguments], capture_output=True, text=True, timeout=60)
+
+
+def test_the_command(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.py"
+    mine.write_text("class Mine:\n    def fault_dimension(self, r):\n        return 1\n", "utf-8")
+    run = _command(f"{mine}:Mine", "--check", "fault-dimension", "--json")
+    document = json.loads(run.stdout)
+    assert run.returncode == 1 and document["failed"] == 2
+    assert {one["vector"] for one in document["records"] if one["failed"]} == {"two-faults", "bad-units"}
+    run = _command("--check", "fault-dimension")
+    assert run.returncode == 0 and "7 checks of fault_dimension: 0 failed" in run.stdout and "Traceback" not in run.stderr
+    run = _command(f"{mine}:Mine", "--check", "fault-dimension[two-faults]")
+    assert run.returncode == 1 and f"faultspace audit {mine}:Mine --check 'fault-dimension[two-faults]'" in run.stdout
+
+
+@pytest.mark.parametrize("arguments", [("no.module:x",), ("math",), ("--check", "zork"), ("math", "--exec", "cat"), ("--exec", "cat")])
+def test_bad_input_is_told_in_one_line(arguments: tuple[str, ...]) -> None:
+    run = _command(*arguments)
+    assert run.returncode == 2 and run.stdout == ""
+    assert run.stderr.startswith("faultspace: ") and run.stderr.count("\n") == 1
