@@ -66,15 +66,15 @@ def _implementation(adapter: str, command: str | None, timeout: float) -> Iterat
 def table(records: Sequence[Record]) -> Table:
     """One row a check."""
     result = Table(box=None, pad_edge=False, header_style="bold")
-    for column in ("check", "function", "claim", "asks", "verdict"):
+    for column in ("check", "claim", "asks", "verdict"):
         result.add_column(column, no_wrap=True)
-    result.add_column("quantity", overflow="fold")
+    result.add_column("quantity", overflow="fold", min_width=24)
     for column in ("got", "bound", "ratio"):
         result.add_column(column, justify="right", no_wrap=True)
     for record in records:
         style = "red" if record.failed else ""
         numbers = [("" if x is None else f"{x:.2g}") for x in (record.got, record.bound, record.ratio)]
         asks = str(record.kind) if record.kind != Kind.MUST_HOLD else ""
-        cells = (record.name, record.function, record.claim or "", asks, record.verdict, record.quantity or "", *numbers)
+        cells = (record.name, record.claim or "", asks, record.verdict, record.quantity or "", *numbers)
         result.add_row(*(Text(cell, style=style) for cell in cells))
     return result
