@@ -11,13 +11,15 @@ from ..ablation import Experiment
 from .experiments import consistency
 from .fault_matrices import theorem_3_ii
 from .pairs import theorem_1, theorem_3_i
-from .pencils import bad_of_full_rank, codimension, placement, zeros_of_pair
+from .pencils import bad_of_full_rank, codimension, determinant, placement, zeros_of_pair
 from .systems import (
     columns,
+    every_window,
     gap,
     gap_from_lag,
     range_of_f,
     rank_formula,
+    sharp_gap,
     signal_from_known_state,
     signal_from_unknown_state,
     solutions,
@@ -44,6 +46,9 @@ def experiments() -> tuple[Experiment[Any], ...]:
         range_of_f(),
         signal_from_known_state(),
         signal_from_unknown_state(),
+        every_window(),
+        sharp_gap(),
+        determinant(),
         zeros_of_pair(),
         codimension(),
         bad_of_full_rank(),

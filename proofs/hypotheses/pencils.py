@@ -22,6 +22,7 @@ from ...exact.systems import ResidualSystem
 from .. import certificate as make
 from ..ablation import Experiment, Found
 from ..certificate import Certificate
+from ..claims.one_determinant import agrees
 from ..claims.one_determinant import show as show_pair
 from ..judged_pairs import JudgedPair, examine_judged, pencil_of
 from ..pairs import comparison_certificate
@@ -130,13 +131,32 @@ class Judged:
         return f"{self.record.system} with F' = {self.record.pair.F}, G' = {self.record.pair.G}"
 
 
+OF_SYSTEM: dict[str, Callable[[Judged], bool]] = {
+    "observable": lambda j: facets(j.record.system).observable,
+    "controllable": lambda j: facets(j.record.system).controllable,
+    "left-invertible": lambda j: facets(j.record.system).left_invertible,
+    "A stable": lambda j: facets(j.record.system).stable,
+}
+
+
+def determinant() -> Experiment[Judged]:
+    """one-determinant: what D(q; P) says is what the certificates say; there is nothing to search for where no pair tried disagrees."""
+    return Experiment(
+        name="determinant",
+        claim="one-determinant",
+        conclusion="D(q; P) is the zero polynomial of the pair, and 0 iff P is bad",
+        hypotheses=OF_SYSTEM,
+        holds=lambda subject: agrees(subject.record),
+        subjects=lambda bench: (Judged(record) for record in bench.judged),
+        over_q=lambda bench, dropped: Found(None, "the pairs judged"),
+        show=lambda subject: show_pair(subject.record),
+    )
+
+
 def zeros_of_pair() -> Experiment[Judged]:
     """zeros-of-pairs: as many zeros as the system has."""
     hypotheses: dict[str, Callable[[Judged], bool]] = {
-        "observable": lambda j: facets(j.record.system).observable,
-        "controllable": lambda j: facets(j.record.system).controllable,
-        "left-invertible": lambda j: facets(j.record.system).left_invertible,
-        "A stable": lambda j: facets(j.record.system).stable,
+        **OF_SYSTEM,
         "P good: normal rank r": lambda j: j.record.pair_normal_rank == j.record.normal_rank,
     }
 

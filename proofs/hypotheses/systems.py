@@ -126,3 +126,22 @@ def signal_from_unknown_state() -> Experiment[Windowed]:
     return windowed(
         "signal-unknown-state", "trajectory-recovered", words, hypotheses, conclusion, delays, ZEROS_KNOWN, lambda n: NO_WINDOW
     )
+
+
+def every_window() -> Experiment[Windowed]:
+    """window-ranks: the formula of the indices against the rank of the window by itself."""
+    conclusion = Condition(
+        lambda w: w.dossier.rank(w.window) == w.dossier.window_ranks[w.window - 1], lambda f, s: np.full(len(f.A), False)
+    )
+    words = "rank [O_s T_s] = s r + sum of min(s, eta_i)"
+    return windowed("every-window", "window-ranks", words, MODEL, conclusion, spaces(lambda s: s.n + 1))
+
+
+def sharp_gap() -> Experiment[Windowed]:
+    """sharp-windows: the gap is r for exactly the s >= lag."""
+    conclusion = Condition(
+        lambda w: (w.dossier.gap(w.window) == w.dossier.normal_rank) == (w.window >= w.dossier.lag),
+        lambda f, s: np.full(len(f.A), False),
+    )
+    words = "gap(s) = r iff s >= lag"
+    return windowed("sharp-gap", "sharp-windows", words, MODEL, conclusion, delays)
