@@ -4,7 +4,6 @@
     exceptional          of a kernel representation
     PairVerdict          a P with D(q; P), its rank, and where it is bad a null vector of the pencil
     judge                the verdict on a P of r columns, r the normal rank (m where the system is left-invertible)
-    window_warning       why a fault space may be too large, or None
 
     D(q; P) = det [ P | q b - a ]            n_z x n_z, n_z = r + zeta, linear in the r x r minors of P
 
@@ -213,17 +212,6 @@ def pair_matrix(pencil: Exceptional, P: object) -> Matrix:
             f"fault space, and as many columns as the normal rank of the system"
         )
     return matrix
-
-
-def window_warning(space: FaultSpace) -> str | None:
-    """Why a solution of problem (11) on a window is not yet the limit Z, naming the lag and what to ask for; None where it is."""
-    if space.is_limit:
-        return None
-    lag = space.exact_from - 1
-    return (
-        f"window: {space.window} samples are fewer than lag + 1 = {lag + 1} (the lag is {lag}), so that the {space.dimension} columns "
-        f"found include some that are no fault columns of an equivalent model; ask for {lag + 1} samples or for the limit"
-    )
 
 
 def _inverse(matrix: Matrix) -> Matrix:

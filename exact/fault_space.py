@@ -45,6 +45,17 @@ class FaultSpace:
         return self.window is None or self.window >= self.exact_from
 
     @property
+    def warning(self) -> str | None:
+        """Why the solutions on a short window are not yet the limit Z, naming the lag and what to ask for; None where they are."""
+        if self.is_limit:
+            return None
+        lag, samples = self.exact_from - 1, "1 sample is" if self.window == 1 else f"{self.window} samples are"
+        return (
+            f"window: {samples} fewer than lag + 1 = {lag + 1} (the lag is {lag}), so that the {self.dimension} columns "
+            f"found include some that are no fault columns of an equivalent model; ask for {lag + 1} samples or for the limit"
+        )
+
+    @property
     def F(self) -> Matrix:
         """Fhat, n x n_z."""
         return self.basis.columns(range(self.system.n)).transposed()

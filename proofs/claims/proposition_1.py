@@ -82,6 +82,13 @@ def lead_one(bench: Workbench) -> Outcome:
     return certify_limits([d for d in bench.limits if d.origin == "u coloured, v(k) = u(k+1), G = 0"], lambda d: d.within)
 
 
+def lead_one_with_feedthrough(bench: Workbench) -> Outcome:
+    """The same with G other than 0."""
+    return smallest_limit(
+        drives([MOVING_AVERAGE], [["0", "1"]]), lambda d: d.observable and not d.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
+    )
+
+
 def two_sided(bench: Workbench) -> Outcome:
     """u and v uncorrelated at all lags: the limit lies in the range of O_s, is all of it where (A, B) is controllable; B, D are right."""
     records = [d for d in bench.limits if d.uncorrelated]

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from faultspace.exact.bad_set import bad_equations, bad_set, dimension_of
-from faultspace.exact.exceptional import exceptional, judge, polynomial_at, window_warning
+from faultspace.exact.exceptional import exceptional, judge, polynomial_at
 from faultspace.exact.exceptional_minors import coefficient_forms, forms_of_determinant, pluecker_forms
 from faultspace.exact.exceptional_witnesses import BadPair, NoBadPair, bad_pair, bad_share, good_columns
 from faultspace.exact.fault_space import fault_space
@@ -253,9 +253,9 @@ def test_wrong_pairs_are_told() -> None:
 
 def test_a_short_window_is_warned_about() -> None:
     kernel = kernel_representation(read(Q["shift-register-3"]))
-    warning = window_warning(fault_space(kernel, 3))
+    warning = fault_space(kernel, 3).warning
     assert warning is not None and "the lag is 3" in warning and "ask for 4 samples" in warning
-    assert window_warning(fault_space(kernel, 4)) is None and window_warning(fault_space(kernel)) is None
+    assert fault_space(kernel, 4).warning is None and fault_space(kernel).warning is None
 
 
 def test_sizes_that_are_not_written_out() -> None:
