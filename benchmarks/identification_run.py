@@ -73,10 +73,10 @@ def aims(run: Run, models: set[str]) -> list[Aim]:
                 found.append(Aim(f"{setting}: extra memory below {MEGABYTES:g} MB", f"{most:.1f} MB", most < MEGABYTES))
         if (setting.n_u, setting.p) == (1, 1) and cells[CHOLESKY].outcome == "finished":
             for name in ("ours-gram", "ours-moesp", "ours"):
-                peer = "ctrlsys" if name == "ours" else CHOLESKY
-                seconds, theirs = cells[name].seconds, cells[peer].seconds
+                rival = "ctrlsys" if name == "ours" else CHOLESKY
+                seconds, theirs = cells[name].seconds, cells[rival].seconds
                 measured = f"{seconds / theirs:.2f} of its time ({seconds:.3g} s, {theirs:.3g} s)"
-                found.append(Aim(f"{setting}: {name} no slower than {peer}", measured, seconds <= theirs))
+                found.append(Aim(f"{setting}: {name} no slower than {rival}", measured, seconds <= theirs))
         for route in ROUTES:
             if cells[route].outcome == "finished":
                 least = bound(route, setting, run.rates)
