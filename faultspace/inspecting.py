@@ -8,45 +8,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from rich.console import Console
-from rich.text import Text
-
-from .consoles import answers, print_json, working
+from .consoles import working
 from .exact.fields import QQ, NumberField
-from .exact.input_rules import InvalidInput
 from .exact.structure import Structure, structure
 from .exact.systems import FaultySystem, ResidualSystem
-from .failures import ANSWERED, BAD_INPUT, placed, printable, say
+from .failures import placed, printable
+from .file_by_file import Answer, answer_each
 from .notation import matrix_lines, polynomial, several
 from .reading_files import read_system
 
-NAME_WIDTH = 36
-
 
 def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
-    """Inspects one file after the other; a bad one is told and the rest is still done. The largest exit code.
+    """Inspects one file after the other. The largest exit code."""
 
-    As JSON one file gives an object, several an array of objects that also say which "file" they are about.
-    """
-    code = ANSWERED
-    console = answers()
-    documents = []
-    for name in names:
-        try:
-            system = read_system(name, floats_exactly=floats_exactly)
-            with placed(name), working(f"inspecting {printable(name)}"):
-                found = structure(system.residual)
-                documents.append({"file": name, **found.to_json()})
-                if not as_json:
-                    _print(console, name, system, found)
-        except InvalidInput as error:
-            say(str(error))
-            code = BAD_INPUT
-    if as_json and len(names) > 1:
-        print_json(documents)
-    elif as_json and documents:
-        print_json({key: value for key, value in documents[0].items() if key != "file"})
-    return code
+    def answer(name: str) -> Answer:
+        system = read_system(name, floats_exactly=floats_exactly)
+        with placed(name), working(f"inspecting {printable(name)}"):
+            found = structure(system.residual)
+        return Answer(_sizes(system), sheet(system, found), found)
+
+    return answer_each(names, answer, as_json=as_json)
 
 
 def sheet(system: ResidualSystem | FaultySystem, found: Structure) -> Iterator[tuple[str, str]]:
@@ -77,19 +58,12 @@ def sheet(system: ResidualSystem | FaultySystem, found: Structure) -> Iterator[t
         yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
 
 
-def _print(console: Console, name: str, system: ResidualSystem | FaultySystem, found: Structure) -> None:
-    """Lines without a frame: a terminal may wrap them, a pipe gets them whole."""
+def _sizes(system: ResidualSystem | FaultySystem) -> str:
     parts = [(system.residual.n, "state"), (system.residual.m, "fault"), (system.residual.p, "output")]
     if isinstance(system, FaultySystem):
         parts.append((system.nu, "input"))
     sizes = ", ".join(f"{count} {word}{'' if count == 1 else 's'}" for count, word in parts)
-    console.print(Text.assemble((printable(name), "bold"), f"   {sizes}, over {_field(system)}"), soft_wrap=True)
-    for label, value in sheet(system, found):
-        if not value:
-            console.print(Text(f"  {label}", style="bold cyan"), soft_wrap=True)
-        else:
-            console.print(Text(f"    {label:<{NAME_WIDTH}}{value}"), soft_wrap=True)
-    console.print()
+    return f"{sizes}, over {_field(system)}"
 
 
 def _field(system: ResidualSystem | FaultySystem) -> str:

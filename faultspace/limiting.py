@@ -9,55 +9,32 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from rich.text import Text
-
-from .consoles import answers, print_json, working
+from .consoles import working
 from .exact.experiments import Experiment
 from .exact.fields import QQ
 from .exact.input_limits import InputLimit
-from .exact.input_rules import InvalidInput
 from .exact.limits import Limit
 from .exact.matrices import Matrix
 from .exact.population_limits import PopulationLimits, population_limits
 from .exact.stability import characteristic_polynomial
-from .failures import ANSWERED, BAD_INPUT, placed, printable, say
+from .failures import placed, printable
+from .file_by_file import Answer, answer_each
 from .notation import matrix_lines, polynomial
 from .reading_files import read_experiment
 
-NAME_WIDTH = 36
 LONGEST_ENTRY = 24
 
 
 def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
-    """Answers one file after the other; a bad one is told and the rest is still done. The largest exit code.
+    """Answers one file after the other. The largest exit code."""
 
-    As JSON one file gives an object, several an array of objects that also say which "file" they are about.
-    """
-    code = ANSWERED
-    console = answers()
-    documents = []
-    for name in names:
-        try:
-            experiment = read_experiment(name, floats_exactly=floats_exactly)
-            with placed(name), working(f"taking {printable(name)} to the limit"):
-                found = population_limits(experiment)
-                if as_json:
-                    documents.append({"file": name, **found.to_json()})
-        except InvalidInput as error:
-            say(str(error))
-            code = BAD_INPUT
-            continue
-        if not as_json:
-            console.print(Text.assemble((printable(name), "bold"), f"   {_sizes(experiment)}"), soft_wrap=True)
-            for label, value in sheet(found):
-                line = Text(f"    {label:<{NAME_WIDTH}}{value}") if value else Text(f"  {label}", style="bold cyan")
-                console.print(line, soft_wrap=True)
-            console.print()
-    if as_json and len(names) > 1:
-        print_json(documents)
-    elif as_json and documents:
-        print_json({key: value for key, value in documents[0].items() if key != "file"})
-    return code
+    def answer(name: str) -> Answer:
+        experiment = read_experiment(name, floats_exactly=floats_exactly)
+        with placed(name), working(f"taking {printable(name)} to the limit"):
+            found = population_limits(experiment)
+        return Answer(_sizes(experiment), sheet(found), found)
+
+    return answer_each(names, answer, as_json=as_json)
 
 
 def sheet(found: PopulationLimits) -> Iterator[tuple[str, str]]:

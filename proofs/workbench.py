@@ -3,13 +3,14 @@
 Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, rivals
 certify       the statement on every dossier that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
 refute        the smallest counterexample in a box, found by search: REFUTED, or what `certify` says when there is none
+witnessed     the opposite of a statement, by the counterexample to it
 accepted      certificates, each put before the checker once more: headline certificates are never shown unchecked
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -130,6 +131,17 @@ def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], appl
     if found is None:
         return certify(bench, applies, holds, show)
     return counterexample(str(found), box, show(found))
+
+
+def witnessed(found: Outcome) -> Outcome:
+    """The opposite of a statement, by the counterexample to it: CERTIFIED by one witness, REFUTED where there is none, ERROR as it is."""
+    match found.verdict:
+        case Verdict.ERROR:
+            return found
+        case Verdict.REFUTED:
+            return replace(found, verdict=Verdict.CERTIFIED, evidence=f"by one witness: {found.evidence}")
+        case _:
+            return replace(found, verdict=Verdict.REFUTED, evidence=f"no witness; the opposite holds {found.evidence}")
 
 
 def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:

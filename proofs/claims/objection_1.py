@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench
+from ..verdicts import Outcome
+from ..workbench import Workbench, witnessed
 from .proposition_1 import two_sided, white_b_d
 
 
 def one_sided_is_not_enough(bench: Workbench) -> Outcome:
     """Some fault uncorrelated with u at all l >= 0 moves B and D, u white: the counterexample to proposition-1 as printed."""
-    found = white_b_d(bench)
-    if found.verdict != Verdict.REFUTED:
-        return replace(found, verdict=Verdict.REFUTED)
-    return replace(found, verdict=Verdict.CERTIFIED, evidence=f"by one witness: {found.evidence}")
+    return witnessed(white_b_d(bench))
 
 
 def two_sided_suffices(bench: Workbench) -> Outcome:

@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench
+from ..verdicts import Outcome
+from ..workbench import Workbench, witnessed
 from .one_determinant import formula
 from .theorem_3_ii import every_p
 
 
 def full_rank_is_not_enough(bench: Workbench) -> Outcome:
     """Some P of full column rank gives a pair that is not equivalent."""
-    found = every_p(bench)
-    if found.verdict != Verdict.REFUTED:
-        return replace(found, verdict=Verdict.REFUTED)
-    return replace(found, verdict=Verdict.CERTIFIED, evidence=f"by one witness: {found.evidence}")
+    return witnessed(every_p(bench))
 
 
 def exact_set(bench: Workbench) -> Outcome:

@@ -2,6 +2,7 @@
 
     Facets   observable, controllable, left-invertible, stable, normal rank, lag
     facets   those of a system
+    of_system   the hypotheses about one system, of subjects that have one
     flags    which of many systems meet all of some hypotheses about one system
 """
 
@@ -10,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TypeVar
 
 import numpy as np
 
@@ -20,6 +22,8 @@ from ...exact.stability import is_stable
 from ...exact.systems import ResidualSystem
 from ...exact.windows import observability_matrix, reachability_matrix
 from ..search import Facts, Flags
+
+S = TypeVar("S")
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,16 @@ def facets(system: ResidualSystem) -> Facets:
         normal_rank=kernel.normal_rank,
         lag=kernel.lag,
     )
+
+
+def of_system(system: Callable[[S], ResidualSystem]) -> dict[str, Callable[[S], bool]]:
+    """The hypotheses about one system, of subjects that have one: the names are those of `flags`."""
+    return {
+        "observable": lambda subject: facets(system(subject)).observable,
+        "controllable": lambda subject: facets(system(subject)).controllable,
+        "left-invertible": lambda subject: facets(system(subject)).left_invertible,
+        "A stable": lambda subject: facets(system(subject)).stable,
+    }
 
 
 def nilpotent(facts: Facts) -> Flags:

@@ -20,8 +20,8 @@ from ..ablation import Experiment, Found
 from ..certificate import Certificate
 from ..pairs import comparison_certificate
 from ..search import Box, systems_in_order
-from ..workbench import Workbench
-from .facets import facets, flags
+from ..workbench import Workbench, size
+from .facets import facets, flags, of_system
 
 BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
 
@@ -40,8 +40,7 @@ class Pair:
     @property
     def size(self) -> tuple[int, ...]:
         """n + m + p, then n, m, p, then the window."""
-        s = self.system
-        return (s.n + s.m + s.p, s.n, s.m, s.p, self.window)
+        return (*size(self.system), self.window)
 
     @property
     def field(self) -> str:
@@ -53,10 +52,7 @@ class Pair:
 
 
 HYPOTHESES: dict[str, Callable[[Pair], bool]] = {
-    "observable": lambda x: facets(x.system).observable,
-    "controllable": lambda x: facets(x.system).controllable,
-    "left-invertible": lambda x: facets(x.system).left_invertible,
-    "A stable": lambda x: facets(x.system).stable,
+    **of_system(lambda x: x.system),
     "s >= lag + 1": lambda x: x.window >= facets(x.system).lag + 1,
     "P of full column rank": lambda x: rank(stacked(x.rival.F, x.rival.G)) == x.rival.m,
     "P good: normal rank r": lambda x: facets(x.rival).normal_rank == facets(x.system).normal_rank,

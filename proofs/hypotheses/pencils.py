@@ -27,8 +27,8 @@ from ..claims.one_determinant import show as show_pair
 from ..judged_pairs import JudgedPair, examine_judged, pencil_of
 from ..pairs import comparison_certificate
 from ..search import Box, Facts, Integers, systems_in_order
-from ..workbench import Workbench
-from .facets import facets, flags
+from ..workbench import Workbench, size
+from .facets import flags, of_system
 from .systems import MODEL
 from .windowed import NO_WINDOW, Condition, Windowed, windowed
 
@@ -109,8 +109,7 @@ class Judged:
     @property
     def size(self) -> tuple[int, ...]:
         """n + m + p, then n, m, p."""
-        s = self.record.system
-        return (s.n + s.m + s.p, s.n, s.m, s.p)
+        return size(self.record.system)
 
     @property
     def weight(self) -> int:
@@ -131,12 +130,7 @@ class Judged:
         return f"{self.record.system} with F' = {self.record.pair.F}, G' = {self.record.pair.G}"
 
 
-OF_SYSTEM: dict[str, Callable[[Judged], bool]] = {
-    "observable": lambda j: facets(j.record.system).observable,
-    "controllable": lambda j: facets(j.record.system).controllable,
-    "left-invertible": lambda j: facets(j.record.system).left_invertible,
-    "A stable": lambda j: facets(j.record.system).stable,
-}
+OF_SYSTEM: dict[str, Callable[[Judged], bool]] = of_system(lambda j: j.record.system)
 
 
 def determinant() -> Experiment[Judged]:

@@ -24,8 +24,8 @@ from ..certificate import Certificate
 from ..exhaustive import orbits
 from ..families import adversarial, random_systems
 from ..search import Box, systems_in_order
-from ..workbench import Workbench
-from .facets import facets, flags
+from ..workbench import Workbench, size
+from .facets import facets, flags, of_system
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 
@@ -47,8 +47,7 @@ class Record:
     @property
     def size(self) -> tuple[int, ...]:
         """n + m + p, then n, m, p, then the window, then the number of samples."""
-        s = self.system
-        return (s.n + s.m + s.p, s.n, s.m, s.p, self.window, self.v.nrows)
+        return (*size(self.system), self.window, self.v.nrows)
 
     @property
     def field(self) -> str:
@@ -60,10 +59,7 @@ class Record:
 
 
 MODEL: dict[str, Callable[[Record], bool]] = {
-    "observable": lambda r: facets(r.system).observable,
-    "controllable": lambda r: facets(r.system).controllable,
-    "left-invertible": lambda r: facets(r.system).left_invertible,
-    "A stable": lambda r: facets(r.system).stable,
+    **of_system(lambda r: r.system),
     "s >= lag": lambda r: r.window >= facets(r.system).lag,
 }
 FULL_ROW_RANK = "[X; V_(s+1)] of full row rank"

@@ -60,7 +60,8 @@ class Windowed:
 
 @dataclass(frozen=True)
 class Condition:
-    """`holds` decides on certificates; `possible` (of a hypothesis) and `certain` (of a conclusion) are first looks at integer systems."""
+    """`holds` decides on certificates. `first_look` at integer systems leaves out what surely violates it (of a hypothesis) or surely
+    meets it (of a conclusion)."""
 
     holds: Callable[[Windowed], bool]
     first_look: Callable[[Facts, int], Flags]
@@ -101,7 +102,6 @@ EVERYTHING = Condition(lambda w: True, lambda f, s: np.full(len(f.A), True))
 FROM_DELAY = Condition(_from_delay, _delay_look)
 
 NO_WINDOW = range(0, 1)
-Search = Callable[[Workbench, Sequence[str]], Found[Windowed]]
 
 
 def windowed(

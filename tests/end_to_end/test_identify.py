@@ -31,7 +31,7 @@ from faultspace.numeric.models import StateSpaceModel
 from faultspace.numeric.reconstruction import reconstruct_fault
 from faultspace.records import recorded
 from tests.end_to_end.commands import call, command, validator
-from tests.end_to_end.identify_runs import CHANNELS, identified, refused, valid
+from tests.end_to_end.identify_runs import CHANNELS, identified, refused, small_csv, valid
 
 Array = NDArray[np.float64]
 
@@ -45,9 +45,7 @@ def record() -> made.FaultyRecord:
 
 @pytest.fixture
 def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
-    path = tmp_path / made.FILE_NAME
-    path.write_text(made.csv_text(record), encoding="utf-8")
-    return path
+    return small_csv(tmp_path, made.csv_text(record), made.FILE_NAME)
 
 
 def response(A: Any, F: Any, C: Any, G: Any, count: int = 8) -> Array:

@@ -170,3 +170,11 @@ def test_workbench_makes_shared_outcomes_once() -> None:
 
     made = workbench.Workbench("quick", 1, quiet)
     assert made.once("x", find) is made.once("x", find) and calls == [1]
+
+
+@pytest.mark.parametrize(
+    "found, opposite", [(Verdict.REFUTED, Verdict.CERTIFIED), (Verdict.CERTIFIED, Verdict.REFUTED), (Verdict.ERROR, Verdict.ERROR)]
+)
+def test_a_counterexample_witnesses_the_opposite_and_an_error_stays_one(found: Verdict, opposite: Verdict) -> None:
+    outcome = workbench.witnessed(Outcome(found, "evidence", (), 3))
+    assert outcome.verdict == opposite and "evidence" in outcome.evidence and outcome.accepted == 3
