@@ -1,14 +1,13 @@
 """`faultspace audit`: an implementation through the checks of `faultspace.numeric.audit`.
 
 run          the command's body
+list_peers   the published packages that adapters come for
 table        what a person reads
 """
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 
 from rich.table import Table
 from rich.text import Text
@@ -16,23 +15,50 @@ from rich.text import Text
 from .consoles import answers, print_json, stages
 from .exact.input_rules import InvalidInput
 from .failures import ANSWERED, NOT_AS_EXPECTED, printable
-from .numeric.audit.adapter import load
+from .numeric.audit.peers import PEERS
+from .numeric.audit.peers import peer as peer_named
+from .numeric.audit.programs import Limits
 from .numeric.audit.records import Kind, Record
-from .numeric.audit.running import audit, told
+from .numeric.audit.running import audit, audit_named, told
+from .numeric.audit.scoreboard import audit_peer
 from .numeric.audit.subprocess_adapter import Exec
 from .numeric.input_checks import InvalidData
 
 REFERENCE = "faultspace.numeric.audit.reference"
 
 
-def run(adapter: str | None, *, command: str | None, only: Sequence[str], timeout: float, as_json: bool) -> int:
-    """Audits the adapter of that name, or the program `command`. 0 where every must is met, else 1; raises InvalidInput."""
-    if adapter is not None and command is not None:
-        raise InvalidInput("got an adapter and --exec, expected one of them")
-    name = adapter or (f"--exec '{command}'" if command else REFERENCE)
+def run(
+    adapter: str | None,
+    *,
+    command: str | None,
+    peer: str | None,
+    only: Sequence[str],
+    seconds: float,
+    gibibytes: float,
+    as_json: bool,
+) -> int:
+    """Audits the adapter of that name, the program `command` or the package `peer`, each check within so many seconds and GiB.
+
+    0 where every must is met, else 1; raises InvalidInput.
+    """
+    if sum(one is not None for one in (adapter, command, peer)) > 1:
+        raise InvalidInput("got more than one of an adapter, --exec and --peer, expected one of them")
+    name = adapter or (f"--exec '{command}'" if command else f"--peer {peer}" if peer else REFERENCE)
+    limits = Limits(seconds, int(gibibytes * 2**30))
     try:
-        with _implementation(adapter or REFERENCE, command, timeout) as implementation, stages() as tell:
-            records = audit(implementation, only=only, tell=lambda check, done, total: tell("auditing", done, total))
+        audited = peer_named(peer) if peer is not None else None
+        with stages() as tell:
+
+            def told_of(check: str, done: int, total: int) -> None:
+                tell("auditing", done, total)
+
+            if audited is not None:
+                records = audit_peer(audited, limits=limits, only=only, tell=told_of)
+            elif command is not None:
+                with Exec(command, limits) as program:
+                    records = audit(program, only=only, tell=told_of)
+            else:
+                records = audit_named(adapter or REFERENCE, limits=limits, only=only, tell=told_of)
     except InvalidData as error:
         raise InvalidInput(str(error)) from None
     failed = [record for record in records if record.failed]
@@ -41,26 +67,36 @@ def run(adapter: str | None, *, command: str | None, only: Sequence[str], timeou
     else:
         console = answers()
         console.print(table(records))
-        for record in failed:
-            console.print(Text(told(record, printable(name) if command is None else name)), soft_wrap=True)
+        for group in _by_slug(failed):
+            others = f" Also: {', '.join(one.vector for one in group[1:])}." if len(group) > 1 else ""
+            console.print(Text(told(group[0], name if command else printable(name)) + others), soft_wrap=True)
         functions = ", ".join(dict.fromkeys(record.function for record in records))
         tally = f"{len(records)} checks of {functions or 'nothing'}: {len(failed)} failed"
         console.print(Text(tally, style="bold red" if failed else "bold"), soft_wrap=True)
     return NOT_AS_EXPECTED if failed else ANSWERED
 
 
-@contextmanager
-def _implementation(adapter: str, command: str | None, timeout: float) -> Iterator[object]:
-    if command is not None:
-        with Exec(command, timeout=timeout) as program:
-            yield program
-        return
-    # An adapter may import what lies beside it, as it could if it were run.
-    sys.path.insert(0, "")
-    try:
-        yield load(adapter)
-    finally:
-        sys.path.remove("")
+def _by_slug(failed: Sequence[Record]) -> list[list[Record]]:
+    """Failures of one slug and function together, in their order."""
+    groups: dict[tuple[str, str], list[Record]] = {}
+    for record in failed:
+        groups.setdefault((record.slug, record.function), []).append(record)
+    return list(groups.values())
+
+
+def list_peers(*, as_json: bool) -> int:
+    """The packages that adapters come for: version where it is here, else what it needs. 0."""
+    found = [(one, one.version()) for one in PEERS]
+    if as_json:
+        print_json([{"name": one.name, "language": one.language, "version": version, "needs": one.needs} for one, version in found])
+        return ANSWERED
+    result = Table(box=None, pad_edge=False, header_style="bold")
+    for column in ("--peer", "what it is", "language", "version here", "needs"):
+        result.add_column(column)
+    for one, version in found:
+        result.add_row(*(Text(cell) for cell in (one.name, one.title, one.language, version or "-", one.needs)))
+    answers().print(result)
+    return ANSWERED
 
 
 def table(records: Sequence[Record]) -> Table:

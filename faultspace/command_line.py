@@ -248,22 +248,28 @@ def audit(
     ] = None,
     command: Annotated[
         str | None, typer.Option("--exec", metavar="CMD", help="A program that speaks JSON lines instead.", show_default=False)
+    peer: Annotated[str | None, typer.Option(metavar="NAME", help="A published package instead; see --peers.", show_default=False)] = None,
+    peers: Annotated[bool, typer.Option("--peers", help="List the packages that adapters come for, and what each needs.")] = False,
     ] = None,
     check: Annotated[
         list[str] | None, typer.Option("--check", metavar="SLUG", help="Only this check, or SLUG[VECTOR]; may be repeated.")
     ] = None,
-    timeout: Annotated[float, typer.Option(min=0.1, metavar="SECONDS", help="How long a program may take for an answer.")] = 60.0,
+    timeout: Annotated[float, typer.Option(min=0.1, metavar="SECONDS", help="How long a check may take.")] = 60.0,
+    memory: Annotated[float, typer.Option(min=0.1, metavar="GIB", help="How much memory a check may take.")] = 4.0,
     json: Json = False,
 ) -> None:
     """Put a numeric implementation through checks whose answers are known exactly. Exit 1 if a must is not met.
 
-    The adapter has some of: identify, residual, window_ranks, fault_dimension, fault_space, reconstruct, structure.
+    The adapter has some of: identify, residual, window_ranks, fault_dimension, fault_space, reconstruct, structure. It runs in a process of
+    its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
     """
 
     def body() -> int:
         from . import auditing
 
-        return auditing.run(adapter, command=command, only=check or [], timeout=timeout, as_json=json)
+        if peers:
+            return auditing.list_peers(as_json=json)
+        return auditing.run(adapter, command=command, peer=peer, only=check or [], seconds=timeout, gibibytes=memory, as_json=json)
 
     _leave(body)
 

@@ -102,4 +102,6 @@ def fault_signal_error(
     rows = inverse[(0 if known else n) :][first * m : last * m]
     amplified = float(np.linalg.norm(rows, 2)) if rows.size else 0.0
     left = _norm(r - found.simulated)
+    if x0 is not None:
+        left += UNIT * _norm(free) * _norm(x0)
     return amplified * (left + _simulation_error(model, r, found.v, _norm(found.x)))

@@ -5,9 +5,13 @@
     adapter, subprocess_adapter       what an implementation is: a few optional functions, in Python or behind JSON lines
     reference                         our own numeric branch as an implementation
     records                           Check, Measurement, Record, and `perform`
-    vectors, vector_files             exact systems, data, answers and derived bounds as JSON; `python -m faultspace.numeric.audit.vectors`
-    making_vectors                    how they are computed, by the exact branch; bounds by `conditioning` and `residual_conditioning`
+    vectors, fault_vectors, recipe_vectors
+                                      exact systems, data, answers and derived bounds as JSON; `python -m faultspace.numeric.audit.vectors`
+    making_vectors, making_fault_vectors
+                                      how they are computed, by the exact branch; bounds by `conditioning` and `residual_conditioning`
+    rationals, drawing                rational matrices, their rounding, and how they are drawn
 
-Checks: identification_checks, fault_checks, structure_checks, consistency_checks, refusal_checks, good_manners.
+Checks: identification_checks, fault_checks, excitation_checks, structure_checks, consistency_checks, refusal_checks, good_manners,
+growth_checks.
 Comparisons are of what no state basis changes, in exact arithmetic where the answer allows (`exact_comparison`).
 """

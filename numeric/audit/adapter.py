@@ -4,11 +4,13 @@
     residual(y, u, A, B, C, D) -> r                       y less the model's response to u, (N, p); any initial state
     window_ranks(r, windows) -> ranks                     of the block Hankel matrices of 1, ..., windows block rows
     fault_dimension(r) -> n_v                             the number of independent faults
-    fault_space(r, A, C, n_v) -> Z                        all columns [f; g] that explain r, (n + p, n_z); any basis
+    fault_space(r, A, C, n_v, block_rows) -> Z            all columns [f; g] that explain r, (n + p, n_z); any basis
     reconstruct(r, A, F, C, G, x0) -> v                   the fault signal (N, m) from the known initial state
     structure(A, F, C, G) -> Structure                    zeros and ranks of the system from v to r
 
-Arrays are time-major float64. To refuse is to raise ValueError or ArithmeticError, or to return None; any other exception is a crash.
+Arrays are time-major float64. The `block_rows` of `fault_space` is a window that suffices, longer than the lag (in `fault-space-at-the-lag`
+it is not: that may be refused); whether it is used is the
+implementation's own affair. To refuse is to raise ValueError or ArithmeticError, or to return None; any other exception is a crash.
 
     FUNCTIONS    the names above
     offered      the functions that an object or module has
@@ -75,7 +77,7 @@ class CountsFaults(Protocol):
 class FindsFaults(Protocol):
     """An implementation that finds fault matrices."""
 
-    def fault_space(self, r: Array, A: Array, C: Array, n_v: int) -> Any: ...
+    def fault_space(self, r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Any: ...
 
 
 class Reconstructs(Protocol):
@@ -85,7 +87,7 @@ class Reconstructs(Protocol):
 
 
 class KnowsStructure(Protocol):
-    """An implementation that finds zeros. A mapping with the names of `Structure` will do for the record."""
+    """An implementation that finds zeros. A mapping with some names of `Structure` will do."""
 
     def structure(self, A: Array, F: Array, C: Array, G: Array) -> Structure | Mapping[str, Any]: ...
 
@@ -126,7 +128,8 @@ def load(name: str) -> object:
     try:
         module: Any = _from_file(Path(place)) if place.endswith(".py") else importlib.import_module(place)
     except ImportError as error:
-        raise InvalidData(f"adapter {name}: {error}; needed is module:object or file.py:object") from None
+        hint = "name its module instead: package.module" if "relative import" in str(error) else "needed is module:object or file.py:object"
+        raise InvalidData(f"adapter {name}: {error}; {hint}") from None
     except Exception as error:
         raise InvalidData(f"adapter {name}: importing it failed with {type(error).__name__}: {error}") from None
     found: Any = module

@@ -1,70 +1,105 @@
-"""Checks of residuals, window ranks, the number of faults, the fault space and the fault signal.
+"""Checks of residuals, window ranks, the number of faults, the fault space and the fault signal, on each record in all views.
 
-residual_checks, rank_checks, count_checks, space_checks, signal_checks     the generators
-with_input                                                                  data whose residual is known
+checks           what is asked of every function, as given and in the views of SUFFIXES, each against the exact answer of its view
+with_input       data whose residual is known
+spaces_off       dimension and two-sided distance of a fault space
+as_number        n_v as a number
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, stacked
-from faultspace.exact.signals import simulate
+from faultspace.exact.matrices import Matrix, beside
+from faultspace.exact.signals import hankel, simulate
 from faultspace.exact.systems import ResidualSystem
 
 from ..distances import compare_subspaces
 from ..input_checks import InvalidData
 from .exact_comparison import lifted
+from .fault_vectors import FaultVector, channel_units
+from .rationals import floats, matrix, scaled
 from .records import Broken, Check, Function, Kind, Measurement, Severity
-from .vectors import FaultVector, floats, matrix, scaled, shipped
+from .vectors import shipped
 
-Array = NDArray[np.float64]
-SCALES = (-12, -6, 6)  # powers of ten
+LONG_WINDOW = 10
+# Suffix of the slug, what the answer then depends on, the views compared.
+SUFFIXES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "": ("", ("as-given",)),
+    "-1e-12": (" whenever the units change", ("1e-12",)),
+    "-1e-6": (" whenever the units change", ("1e-6",)),
+    "-1e6": (" whenever the units change", ("1e6",)),
+    "-other-units": (" whenever outputs have unlike units", ("other-units",)),
+    "-permuted-outputs": (", depending on the order of the outputs", ("permuted-outputs",)),
+    "-other-basis": (", depending on the basis of the states, which nobody sees", ("other-basis",)),
+    "-time-shift": (", depending on where the record begins", ("time-shift",)),
+    "-split-data": (", depending on which half of the record is read", ("first-half", "second-half")),
+}
+Measure = Callable[[FaultVector, Function], Iterator[Measurement]]
 
 
 def checks() -> Iterator[Check]:
     """All of this module."""
     for vector in shipped("faults"):
-        yield from residual_checks(vector)
-        yield from rank_checks(vector)
-        yield from count_checks(vector)
-        yield from space_checks(vector)
-        yield from signal_checks(vector)
+        effect = "the residual still holds the response to the input: input and fault cannot be told apart"
+        yield from _in_views("residual-free-of-input", "residual", vector, "proposition-1", effect, _residual_off)
+        effect = "wrong ranks of windows: wrong number of faults, wrong lag"
+        yield from _in_views("window-ranks", "window_ranks", vector, "window-ranks", effect, _ranks_off)
+        yield from _in_views("fault-dimension", "fault_dimension", vector, "proposition-3", "a wrong number of faults", _count_off)
+        yield _as_many_as_outputs(vector)
+        effect = "fault matrices that do not explain the data, or true ones left out"
+        yield from _in_views("fault-space", "fault_space", vector, "problem-11", effect, space_off)
+        yield _window("fault-space-long-window", vector, LONG_WINDOW)
+        yield _window("fault-space-shortest-window", vector, vector.lag + 1)
+        effect = "a wrong fault signal: wrong size or time of a fault"
+        yield from _in_views("fault-signal", "reconstruct", vector, "trajectory-recovered", effect, _signal_off)
 
 
-def with_input(r: Matrix, system: ResidualSystem) -> tuple[Matrix, Matrix]:
-    """(y, u): r plus the response from rest to u = 1, -1, 1, ... in every channel, for the model B = F, D = G."""
-    u = matrix([[(-1) ** k] * system.m for k in range(r.nrows)], system.m)
+def _in_views(slug: str, function: str, vector: FaultVector, claim: str, effect: str, compare: Measure) -> Iterator[Check]:
+    """As given and in every view that changes the question."""
+
+    def measure(views: tuple[str, ...], called: Function) -> Iterator[Measurement]:
+        for view in views:
+            yield from compare(vector.seen(view), called)
+
+    for suffix, (when, views) in SUFFIXES.items():
+        if suffix == "-other-basis" and function in ("window_ranks", "fault_dimension"):
+            continue  # they see the residual alone
+        if function == "window_ranks" and not all(vector.seen(view).clear for view in views):
+            continue
+        if function == "reconstruct" and any(vector.seen(view).bounds["signal"] is None for view in views):
+            continue
+        yield Check(slug + suffix, function, vector.slug, claim, effect + when, Severity.SILENT, partial(measure, views))
+
+
+def with_input(r: Matrix, system: ResidualSystem, size: Fraction) -> tuple[Matrix, Matrix]:
+    """(y, u): r plus the response from rest to u = size, -size, size, ... in every channel, for the model B = F, D = G."""
+    u = matrix([[(-1) ** k * size] * system.m for k in range(r.nrows)], system.m)
     return r + simulate(system, Matrix.zero(system.field, system.n, 1), u).residuals, u
 
 
-def residual_checks(vector: FaultVector) -> Iterator[Check]:
+def _residual_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
     """What the free response of the model cannot touch, M(q) r with M(q) C A^k = 0, against the exact one: any initial state will do."""
-
-    def measure(function: Function) -> Iterator[Measurement]:
-        system = vector.system
-        y, u = with_input(vector.r, system)
-        got = function(floats(y), floats(u), *(floats(M) for M in (system.A, system.F, system.C, system.G)))
-        off = lifted(got, "r", vector.r.shape) - vector.r
-        free = ResidualSystem.of(system.A, _no_columns(system.n), system.C, _no_columns(system.p), n=system.n, m=0, p=system.p)
-        bound = vector.bounds["residual"]
-        assert bound is not None
-        for number, row in enumerate(kernel_representation(free).rows):
-            coefficients = row.coefficients
-            degree = coefficients.nrows - 1
-            seen = stacked(*(_applied(coefficients, off, k) for k in range(off.nrows - degree)))
-            # |M(q) d| <= sum_k |c_k| |d|
-            size = float(np.sum(np.linalg.norm(floats(coefficients), axis=1)))
-            yield Measurement(f"kernel row {number} of r", float(np.linalg.norm(floats(seen))), size * bound)
-
-    effect = "the residual still holds the response to the input: input and fault cannot be told apart"
-    yield Check("residual-free-of-input", "residual", vector.slug, "proposition-1", effect, Severity.SILENT, measure)
+    system = vector.system
+    y, u = with_input(vector.r, system, vector.view.scale)
+    got = function(floats(y), floats(u), *(floats(M) for M in (system.A, system.F, system.C, system.G)))
+    off = lifted(got, "r", vector.r.shape) - vector.r
+    free = ResidualSystem.of(system.A, _no_columns(system.n), system.C, _no_columns(system.p), n=system.n, m=0, p=system.p)
+    bound = vector.bounds["residual"]
+    assert bound is not None
+    units = channel_units(vector.r)
+    for number, row in enumerate(kernel_representation(free).rows):
+        coefficients = row.coefficients
+        seen = beside(*(coefficients.rows([k]) for k in range(coefficients.nrows))) @ hankel(off, coefficients.nrows)
+        # |M(q) d| <= sum_k |c_k U| |U^-1 d| for the channels' units U
+        size = float(np.sum(np.linalg.norm(floats(scaled(coefficients, units)), axis=1)))
+        yield Measurement(f"kernel row {number} of r", float(np.linalg.norm(floats(seen))), size * bound)
 
 
 def _no_columns(rows: int) -> Matrix:
@@ -72,51 +107,22 @@ def _no_columns(rows: int) -> Matrix:
     return matrix([[] for _ in range(rows)], 0)
 
 
-def _applied(coefficients: Matrix, signal: Matrix, first: int) -> Matrix:
-    """sum_k c_k signal(first + k), 1 x 1."""
-    total = Matrix.zero(signal.field, 1, 1)
-    for k in range(coefficients.nrows):
-        total = total + coefficients.rows([k]) @ signal.rows([first + k]).transposed()
-    return total
+def _ranks_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
+    """rank R_s for s = 1, 2, ...."""
+    yield from ranks_off(function(floats(vector.r), len(vector.ranks)), vector.ranks)
 
 
-def rank_checks(vector: FaultVector) -> Iterator[Check]:
-    """rank R_s for s = 1, 2, ..., as given and in other units."""
-
-    def at(power: int) -> Check:
-        def measure(function: Function) -> Iterator[Measurement]:
-            ranks = list(function(scaled_record(vector, power), len(vector.ranks)))
-            if len(ranks) != len(vector.ranks):
-                raise Broken(f"{len(ranks)} ranks for {len(vector.ranks)} windows")
-            for s, (got, due) in enumerate(zip(ranks, vector.ranks, strict=True), start=1):
-                yield Measurement(f"rank R_{s}", abs(float(got) - due), 0.0)
-
-        slug = "window-ranks" + (f"-1e{power}" if power else "")
-        effect = "wrong ranks of windows: wrong number of faults, wrong lag" + (" whenever the units change" if power else "")
-        return Check(slug, "window_ranks", vector.slug, "window-ranks", effect, Severity.SILENT, measure)
-
-    yield from (at(power) for power in (0, *SCALES))
+def ranks_off(answer: Any, due: tuple[int, ...]) -> Iterator[Measurement]:
+    """One measurement for each window."""
+    ranks = list(answer)
+    if len(ranks) != len(due):
+        raise Broken(f"{len(ranks)} ranks for {len(due)} windows")
+    for s, (got, exact) in enumerate(zip(ranks, due, strict=True), start=1):
+        yield Measurement(f"rank R_{s}", abs(float(got) - exact), 0.0)
 
 
-def scaled_record(vector: FaultVector, power: int) -> Array:
-    """The floats of 10^power r, rounded once."""
-    return floats(scaled(vector.r, [Fraction(10) ** power] * vector.system.p))
-
-
-def count_checks(vector: FaultVector) -> Iterator[Check]:
-    """n_v, as given and in other units."""
-
-    def at(power: int) -> Check:
-        def measure(function: Function) -> Iterator[Measurement]:
-            got = function(scaled_record(vector, power))
-            yield Measurement("n_v", abs(_number(got) - vector.n_v), 0.0)
-
-        slug = "fault-dimension" + (f"-1e{power}" if power else "")
-        effect = "a wrong number of faults" + (" whenever the units change" if power else "")
-        return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SILENT, measure)
-
-    yield from (at(power) for power in (0, *SCALES))
-    yield _as_many_as_outputs(vector)
+def _count_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
+    yield Measurement("n_v", abs(as_number(function(floats(vector.r))) - vector.n_v), 0.0)
 
 
 def _as_many_as_outputs(vector: FaultVector) -> Check:
@@ -124,63 +130,39 @@ def _as_many_as_outputs(vector: FaultVector) -> Check:
 
     def measure(function: Function) -> Iterator[Measurement]:
         got = function(floats(vector.r.columns(range(vector.n_v))))
-        yield Measurement("n_v, as many as outputs", abs(_number(got) - vector.n_v), 0.0)
+        yield Measurement("n_v, as many as outputs", abs(as_number(got) - vector.n_v), 0.0)
 
     effect = "noise is taken for faults, or faults for noise"
     slug, severity = "as-many-faults-as-outputs", Severity.SOMETIMES
     return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, severity, measure, Kind.FREE)
 
 
-def _number(value: Any) -> float:
+def as_number(value: Any) -> float:
+    """Of an answer. Raises Broken for what is no number."""
     try:
         return float(value)
     except (TypeError, ValueError):
         raise Broken(f"n_v is {value!r}, no number") from None
 
 
-def space_checks(vector: FaultVector) -> Iterator[Check]:
-    """The fault space by the two-sided distance: neither too small nor too large."""
+def space_off(vector: FaultVector, function: Function, block_rows: int | None = None) -> Iterator[Measurement]:
+    """The fault space by the two-sided distance, neither too small nor too large, from windows of so many block rows, n + 1 by default.
 
-    def at(power: int) -> Check:
-        def measure(function: Function) -> Iterator[Measurement]:
-            # A scaled residual is that of a scaled fault signal: the columns stay what they are.
-            system = vector.system
-            got = function(scaled_record(vector, power), floats(system.A), floats(system.C), vector.n_v)
-            bound = vector.bounds["space"]
-            assert bound is not None
-            yield from _spaces_off(got, vector.space, bound)
-
-        slug = "fault-space" + (f"-1e{power}" if power else "")
-        effect = "fault matrices that do not explain the data, or true ones left out" + (", whenever the units change" if power else "")
-        return Check(slug, "fault_space", vector.slug, "problem-11", effect, Severity.SILENT, measure)
-
-    yield from (at(power) for power in (0, *SCALES))
-    yield _other_basis(vector)
-
-
-def _other_basis(vector: FaultVector) -> Check:
-    """With T A T^-1 and C T^-1, T upper triangular of ones. The map diag(T, I) stretches no angle by more than its condition, and neither
-    does it the errors that rounding makes in the new basis: the bound grows by its square.
+    Who takes n + 1 all the same may: the bound is that of the worse window (n + 1 alone where the window is too short to have one).
     """
-
-    def measure(function: Function) -> Iterator[Measurement]:
-        system = vector.system
-        n = system.n
-        T = matrix([[int(j >= i) for j in range(n)] for i in range(n)], n)
-        inverse = matrix([[int(j == i) - int(j == i + 1) for j in range(n)] for i in range(n)], n)
-        A, C = T @ system.A @ inverse, system.C @ inverse
-        truth = stacked(T @ vector.space.rows(range(n)), vector.space.rows(range(n, n + system.p)))
-        got = function(floats(vector.r), floats(A), floats(C), vector.n_v)
-        values = np.append(np.linalg.svd(floats(T), compute_uv=False), 1.0)
-        bound = vector.bounds["space"]
-        assert bound is not None
-        yield from _spaces_off(got, truth, bound * float(values.max() / values.min()) ** 2)
-
-    effect = "fault matrices that depend on the basis of the states, which nobody sees"
-    return Check("fault-space-other-basis", "fault_space", vector.slug, "problem-11", effect, Severity.SILENT, measure)
+    system = vector.system
+    windows = block_rows or system.n + 1, system.n + 1
+    got = function(floats(vector.r), floats(system.A), floats(system.C), vector.n_v, windows[0])
+    yield from spaces_off(got, vector.space, max(vector.space_bounds[s] for s in windows if s in vector.space_bounds))
 
 
-def _spaces_off(got: Any, truth: Matrix, bound: float) -> Iterator[Measurement]:
+def _window(slug: str, vector: FaultVector, block_rows: int) -> Check:
+    effect = "fault matrices that change with the length of the window"
+    measure = partial(space_off, vector, block_rows=block_rows)
+    return Check(slug, "fault_space", vector.slug, "sharp-windows", effect, Severity.SILENT, measure)
+
+
+def spaces_off(got: Any, truth: Matrix, bound: float) -> Iterator[Measurement]:
     """Dimension and two-sided distance of the columns `got` from those of `truth`."""
     try:
         compared = compare_subspaces(np.asarray(got, dtype=float), floats(truth))
@@ -190,18 +172,11 @@ def _spaces_off(got: Any, truth: Matrix, bound: float) -> Iterator[Measurement]:
     yield Measurement("sine of the largest angle, two-sided", compared.two_sided, bound)
 
 
-def signal_checks(vector: FaultVector) -> Iterator[Check]:
+def _signal_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
     """v from the known initial state, up to the delay at the end of the record."""
-    bound = vector.bounds["signal"]
-    if bound is None:
-        return
-
-    def measure(function: Function) -> Iterator[Measurement]:
-        system = vector.system
-        start = floats(vector.x0).ravel()
-        got = function(floats(vector.r), *(floats(M) for M in (system.A, system.F, system.C, system.G)), start)
-        off = floats(lifted(got, "v", vector.v.shape) - vector.v)[: vector.trusted]
-        yield Measurement("v", float(np.linalg.norm(off)), bound)
-
-    effect = "a wrong fault signal: wrong size or time of a fault"
-    yield Check("fault-signal", "reconstruct", vector.slug, "trajectory-recovered", effect, Severity.SILENT, measure)
+    system, bound = vector.system, vector.bounds["signal"]
+    assert bound is not None
+    start = floats(vector.x0).ravel()
+    got = function(floats(vector.r), *(floats(M) for M in (system.A, system.F, system.C, system.G)), start)
+    off = floats(lifted(got, "v", vector.v.shape) - vector.v)[: vector.trusted]
+    yield Measurement("v", float(np.linalg.norm(off)), bound)

@@ -27,12 +27,12 @@ def _questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
     """(function, vector, arguments)."""
     model, fault, system = (shipped(kind)[0] for kind in ("identification", "faults", "structure"))
     r, A, F, C, G = (floats(M) for M in (fault.r, fault.system.A, fault.system.F, fault.system.C, fault.system.G))
-    y, u = (floats(M) for M in with_input(fault.r, fault.system))
+    y, u = (floats(M) for M in with_input(fault.r, fault.system, fault.view.scale))
     yield "identify", model.slug, (floats(model.y), floats(model.u), model.order, model.block_rows)
     yield "residual", fault.slug, (y, u, A, F, C, G)
     yield "window_ranks", fault.slug, (r, 3)
     yield "fault_dimension", fault.slug, (r,)
-    yield "fault_space", fault.slug, (r, A, C, fault.n_v)
+    yield "fault_space", fault.slug, (r, A, C, fault.n_v, len(A) + 1)
     yield "reconstruct", fault.slug, (r, A, F, C, G, floats(fault.x0).ravel())
     yield "structure", system.slug, tuple(floats(M) for M in (system.system.A, system.system.F, system.system.C, system.system.G))
 

@@ -1,6 +1,7 @@
 """Checks of `identify` on records without noise and fault: what no state basis changes, each within its own bound.
 
-checks      exact recovery; the same with channels in another order and in other units; the record split and shifted
+checks      exact recovery; the same with channels in another order, in other units, at other sizes; from parts of the record; from a
+            long window
 models_off  the measurements that compare (A, B, C, D) with a vector
 """
 
@@ -16,10 +17,13 @@ from numpy.typing import NDArray
 from faultspace.exact.matrices import Matrix
 
 from .exact_comparison import characteristic_polynomial, distances, lifted, markov, matched, poles, transfer
+from .rationals import floats, scaled
 from .records import Broken, Check, Function, Measurement, Severity
-from .vectors import POINTS, IdentificationVector, floats, scaled, shipped
+from .vectors import POINTS, IdentificationVector, shipped
 
 Array = NDArray[np.float64]
+SCALES = (-12, -6, 6)  # powers of ten
+LONG = 20  # block rows of a long window
 RECOVERY = "the model is wrong although the data determine it: every prediction and every residual made with it"
 
 
@@ -28,12 +32,22 @@ def checks() -> Iterator[Check]:
     for vector in shipped("identification"):
         p, n_u = vector.C.nrows, vector.B.ncols
         ones = [Fraction(1)]
-        yield _recovery("exact-recovery", RECOVERY, vector, range(p), range(n_u), ones * p, ones * n_u)
+        slug = "exact-recovery" if vector.block_rows < LONG else "long-window"
+        yield _recovery(slug, RECOVERY, vector, range(p), range(n_u), ones * p, ones * n_u)
         if p > 1 or n_u > 1:
             effect = "the answer depends on the order of the channels"
             yield _recovery("permuted-channels", effect, vector, range(p)[::-1], range(n_u)[::-1], ones * p, ones * n_u)
         units = [Fraction(10) ** (4 * (j % 2) - 6) for j in range(p)], [Fraction(10) ** (6 - 3 * j) for j in range(n_u)]
         yield _recovery("other-units", "the answer depends on the units of the channels", vector, range(p), range(n_u), *units)
+        for power in SCALES:
+            size = [Fraction(10) ** power]
+            effect = "the answer depends on the size of the signals"
+            yield _recovery(f"exact-recovery-1e{power}", effect, vector, range(p), range(n_u), size * p, size * n_u)
+        if "time-shift" in vector.parts:
+            yield _from_parts("time-shift", "the answer depends on where the record begins", vector, ["time-shift"])
+        if "first-half" in vector.parts:
+            effect = "the answer depends on which half of the record is read"
+            yield _from_parts("split-data", effect, vector, ["first-half", "second-half"])
 
 
 def _recovery(
@@ -50,6 +64,20 @@ def _recovery(
     return Check(slug, "identify", vector.slug, "proposition-1", effect, Severity.SILENT, measure)
 
 
+def _from_parts(slug: str, effect: str, vector: IdentificationVector, parts: Sequence[str]) -> Check:
+    """Recovery from each of these parts of the record: whatever the initial state, the model is the same."""
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        p, n_u = vector.C.nrows, vector.B.ncols
+        ones = [Fraction(1)]
+        for part in parts:
+            first, last, _ = vector.parts[part]
+            answer = function(floats(vector.y)[first:last], floats(vector.u)[first:last], vector.order, vector.block_rows)
+            yield from models_off(answer, vector, range(p), range(n_u), ones * p, ones * n_u, part=part)
+
+    return Check(slug, "identify", vector.slug, "proposition-1", effect, Severity.SILENT, measure)
+
+
 def matrices(answer: Any, n: int, n_u: int, p: int) -> tuple[Matrix, Matrix, Matrix, Matrix]:
     """(A, B, C, D) over Q. Raises Broken for anything but four matrices of these sizes."""
     try:
@@ -60,11 +88,16 @@ def matrices(answer: Any, n: int, n_u: int, p: int) -> tuple[Matrix, Matrix, Mat
 
 
 def models_off(
-    answer: Any, vector: IdentificationVector, outputs: Sequence[int], inputs: Sequence[int], *units: Sequence[Fraction]
+    answer: Any,
+    vector: IdentificationVector,
+    outputs: Sequence[int],
+    inputs: Sequence[int],
+    *units: Sequence[Fraction],
+    part: str | None = None,
 ) -> Iterator[Measurement]:
     """Markov parameters, transfer function, characteristic polynomial and poles of an answer against the vector's.
 
-    Each of them is told by its worst entry. Bounds move with the units as the entries do.
+    Each of them is told by its worst entry. Bounds are those of the whole record or of `part`, and move with the units as the entries do.
     """
     n, n_u, p = vector.order, vector.B.ncols, vector.C.nrows
     A, B, C, D = matrices(answer, n, n_u, p)
@@ -73,14 +106,14 @@ def models_off(
     truth = vector.A, vector.B.columns(inputs), vector.C.rows(outputs), vector.D.rows(outputs).columns(inputs)
     entries = np.ix_(outputs, inputs)
     count = 2 * n + 2
-    moved = vector.bound("markov")[:, entries[0], entries[1]]
+    moved = vector.bound("markov", part)[:, entries[0], entries[1]]
     yield _worst("Markov parameters", distances(markov(*found, count), markov(*truth, count)), moved)
-    for z, bound in zip(POINTS, vector.bound("transfer"), strict=True):
+    for z, bound in zip(POINTS, vector.bound("transfer", part), strict=True):
         yield _worst(f"transfer function at {z}", distances([transfer(*found, z)], [transfer(*truth, z)])[0], bound[entries])
     polynomials = [characteristic_polynomial(one)[1:] for one in (A, vector.A)]
     off = np.array([abs(float(x - y)) for x, y in zip(*polynomials, strict=True)])
-    yield _worst("characteristic polynomial", off, vector.bound("characteristic_polynomial"))
-    yield _worst("eigenvalues", matched(poles(A), poles(vector.A))[1], vector.bound("poles"))
+    yield _worst("characteristic polynomial", off, vector.bound("characteristic_polynomial", part))
+    yield _worst("eigenvalues", matched(poles(A), poles(vector.A))[1], vector.bound("poles", part))
 
 
 def _rows_over(given: Matrix, units: Sequence[Fraction]) -> Matrix:

@@ -1,9 +1,8 @@
 """How the vectors are computed: systems drawn from fixed seeds, data and answers by the exact branch, bounds from conditioning.
 
-    MAKERS                  kind -> function that makes its vectors
-    identification_vectors  n_u, p = 1, 2, 3, with and without D and initial state; smooth inputs
-    fault_vectors           zeros at infinity and outside the unit circle, uncontrollable (A, F), the longest lag, bad units, G = 0
-    structure_vectors       the same questions for the system itself; not left-invertible, without zeros
+    MAKERS                  kind -> function that makes its vectors; those of faults are in `making_fault_vectors`
+    identification_vectors  n_u, p = 1, 2, 3, with and without D and initial state; smooth inputs; a long window
+    structure_vectors       the same questions for the system itself; not left-invertible, without zeros; other coordinates
     consistency_vectors     a coloured fault
 
 The bounds are those of the problem, not of one program. A model: the largest over two ways to compress (QR, Gram) and two regressions for B
@@ -14,8 +13,8 @@ pencil times the rounding of a backward stable algorithm [GVL13].
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from math import sqrt
 from random import Random
 from typing import Any
 
@@ -23,41 +22,21 @@ import numpy as np
 
 from faultspace.exact.experiments import Experiment
 from faultspace.exact.filters import Filter
-from faultspace.exact.matrices import Matrix, rank
+from faultspace.exact.matrices import Matrix
 from faultspace.exact.population_limits import population_limits
-from faultspace.exact.signals import excitation_matrix, hankel, simulate
-from faultspace.exact.structure import structure
+from faultspace.exact.structure import Structure, structure
 from faultspace.exact.systems import FaultySystem, ResidualSystem
 
 from ..compression import EPS, compress
 from ..conditioning import SMALL, ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
-from ..fault_space import noise_free_fault_space
-from ..models import StateSpaceModel
 from ..pi_moesp import pi_moesp, pi_moesp_from_compression
-from ..reconstruction import reconstruct_fault
-from ..residual_conditioning import fault_signal_error, fitted_state_error
-from ..residuals import residual
+from .drawing import drawn, stable, upward
 from .exact_comparison import matched, poles, roots
-from .vectors import POINTS, ConsistencyVector, FaultVector, IdentificationVector, StructureVector, floats, matrix
-
-
-def drawn(rng: Random, height: int, width: int, denominator: int) -> Matrix:
-    """Digits over a denominator, none of them zero."""
-    digits = [d for d in range(-9, 10) if d]
-    return matrix([[Fraction(rng.choice(digits), denominator) for _ in range(width)] for _ in range(height)], width)
-
-
-def stable(rng: Random, n: int) -> Matrix:
-    """Entries over 16 or a multiple of it, spectral radius below 0.9."""
-    entries = [[rng.randint(-12, 12) for _ in range(n)] for _ in range(n)]
-    radius = float(np.max(np.abs(np.linalg.eigvals(np.array(entries, dtype=float)))))
-    denominator = 16 * max(1, int(np.ceil(radius / 14.4)))
-    return matrix([[Fraction(entry, denominator) for entry in row] for row in entries], n)
-
-
-def upward(value: float) -> float:
-    """Two digits, never below the value: a bound needs no more, and equal programs then write equal files."""
-    return float(f"{value * 1.05:.1e}") if value > 0 else 0.0
+from .fault_vectors import FaultView
+from .making_fault_vectors import fault_vectors, noisy_vectors, unexciting_vectors
+from .rationals import Array, floats, matrix, scaled
+from .recipe_vectors import ConsistencyVector
+from .vectors import POINTS, IdentificationVector, StructureVector
 
 
 def _upward(values: Any) -> Any:
@@ -72,26 +51,49 @@ def identification_vectors() -> list[IdentificationVector]:
     cases = [(n, n_u, p, True, True, 0) for n, n_u, p in [(2, 1, 1), (1, 2, 1), (2, 3, 1), (2, 1, 2), (3, 2, 2), (2, 3, 2)]]
     cases += [(3, 1, 3, True, True, 0), (2, 2, 3, True, True, 0), (3, 3, 3, True, True, 0)]
     cases += [(2, 2, 2, False, True, 0), (2, 2, 2, True, False, 0), (2, 2, 2, False, False, 0), (3, 1, 2, True, True, 4)]
-    return [_identification(*case) for case in cases]
+    return [_identification(*case) for case in cases] + [_long_window()]
 
 
 def _identification(n: int, n_u: int, p: int, feedthrough: bool, moving: bool, smoothing: int) -> IdentificationVector:
     rng = Random(f"{n} {n_u} {p}")
     A, B, C, D = stable(rng, n), drawn(rng, n, n_u, 3), drawn(rng, p, n, 5), drawn(rng, p, n_u, 7)
-    u = drawn(rng, 70 + smoothing, n_u, 3)
+    u = drawn(rng, 80 + smoothing, n_u, 3)
     for _ in range(smoothing):
         u = u.rows(range(u.nrows - 1)) + u.rows(range(1, u.nrows))
     x0 = matrix([[20 + rng.randint(-9, 9)] for _ in range(n)], 1)
     D = D if feedthrough else Matrix.zero(D.field, p, n_u)
     x0 = x0 if moving else Matrix.zero(x0.field, n, 1)
     slug = f"n{n}-u{n_u}-p{p}" + ("" if feedthrough else "-no-D") + ("" if moving else "-at-rest") + ("-smooth" if smoothing else "")
-    blank = IdentificationVector(slug, A, B, C, D, x0, u, n + 2, {})
-    return IdentificationVector(slug, A, B, C, D, x0, u, n + 2, _model_bounds(blank))
+    return _bounded(IdentificationVector(slug, A, B, C, D, x0, u, n + 2, {}))
 
 
-def _model_bounds(vector: IdentificationVector) -> dict[str, Any]:
-    """The largest bound of four routes."""
-    y, u, s, n = floats(vector.y), floats(vector.u), vector.block_rows, vector.order
+def _long_window() -> IdentificationVector:
+    """Twenty block rows. The entries of A are halves, so that so many samples do not grow too long to write."""
+    rng = Random("long window")
+    halves = [[1, 1, 0, 1], [-1, 0, 1, 0], [0, 0, 1, 1], [0, 0, 0, -1]]
+    A = matrix([[Fraction(entry, 2) for entry in row] for row in halves], 4)
+    B, C, D = drawn(rng, 4, 2, 1), drawn(rng, 3, 4, 1), drawn(rng, 3, 2, 1)
+    u, x0 = drawn(rng, 380, 2, 1), drawn(rng, 4, 1, 1)
+    return _bounded(IdentificationVector("n4-u2-p3-s20", A, B, C, D, x0, u, 20, {}))
+
+
+def _bounded(blank: IdentificationVector) -> IdentificationVector:
+    """With the bounds of the whole record and of those parts of it that are long enough."""
+    y, u = floats(blank.y), floats(blank.u)
+    N, s, n_u, p = len(y), blank.block_rows, blank.B.ncols, blank.C.nrows
+    needed = 2 * (n_u + p + 1) * s - 1  # as many windows as rows of [U; Y], past and future: with past outputs there are more
+    cuts = {"time-shift": (7, N), "first-half": (0, N // 2), "second-half": (N // 2, N)}
+    parts = {
+        slug: (first, last, _model_bounds(blank, y[first:last], u[first:last]))
+        for slug, (first, last) in cuts.items()
+        if last - first >= needed
+    }
+    return replace(blank, bounds=_model_bounds(blank, y, u), parts=parts)
+
+
+def _model_bounds(vector: IdentificationVector, y: Array, u: Array) -> dict[str, Any]:
+    """The largest bound of four routes from these samples."""
+    s, n = vector.block_rows, vector.order
     errors: list[ModelError] = []
     for route, backward_error in (("qr", by_qr), ("gram", by_gram)):
         compressed = compress(y, u, block_rows=s, route=route)
@@ -108,109 +110,6 @@ def _model_bounds(vector: IdentificationVector) -> dict[str, Any]:
         "transfer": _upward([np.max([one.transfer(z) for one in errors], axis=0) for z in POINTS]),
         "poles": _upward(np.max(of_poles, axis=0)),
     }
-
-
-# -- faults -------------------------------------------------------------------------------------------------------------------------
-
-
-def fault_systems() -> list[tuple[str, ResidualSystem]]:
-    """Left-invertible systems with m < p, all stable."""
-    rng = Random("faults")
-
-    def plain(n: int, m: int, p: int) -> ResidualSystem:
-        return ResidualSystem(stable(rng, n), drawn(rng, n, m, 3), drawn(rng, p, n, 5), drawn(rng, p, m, 7))
-
-    two = plain(3, 2, 3)
-    three = plain(3, 1, 3)
-    without = three.with_faults(three.F, Matrix.zero(three.field, 3, 1))
-    units = matrix([[1, 0, 0], [0, Fraction(1, 10**4), 0], [0, 0, 10**3]], 3)
-    return [
-        ("one-fault", three),
-        ("two-faults", two),
-        ("delayed", without),
-        ("bad-units", ResidualSystem(two.A, two.F, units @ two.C, units @ two.G)),
-        ("longest-lag", plain(4, 1, 2)),
-        (
-            "zero-outside",  # r = [1; 2] times the output of a single channel with the zero 3/2, beside one that sees the second state
-            ResidualSystem.of(
-                [["1/2", "1", "0"], ["0", "1/3", "0"], ["0", "0", "1/4"]],
-                [["1"], ["-7/6"], ["0"]],
-                [["1", "0", "1"], ["2", "0", "0"]],
-                [["0"], ["0"]],
-            ),
-        ),
-        (
-            "uncontrollable",  # the third state moves by itself
-            ResidualSystem.of(
-                [["1/2", "1/5", "1/3"], ["-1/4", "1/3", "1/7"], ["0", "0", "9/10"]],
-                [["1"], ["2/3"], ["0"]],
-                [["1", "2/5", "1/3"], ["-1/3", "1", "1"]],
-                [["1/7"], ["1"]],
-            ),
-        ),
-    ]
-
-
-def fault_vectors() -> list[FaultVector]:
-    """See the module."""
-    return [_faults(slug, system) for slug, system in fault_systems()]
-
-
-def _faults(slug: str, system: ResidualSystem) -> FaultVector:
-    rng = Random(slug)
-    n, windows = system.n, system.n + 2
-    x0, v = drawn(rng, n, 1, 1), drawn(rng, 90, system.m, 3)
-    known = structure(system)
-    trajectory = simulate(system, x0, v)
-    if rank(excitation_matrix(trajectory, windows)) < n + system.m * windows:
-        raise ArithmeticError(f"{slug}: the record does not excite the system")
-    r, basis = trajectory.residuals, known.fault_space.basis.transposed()
-    found = noise_free_fault_space(floats(r), floats(system.A), floats(system.C), n_v=system.m)
-    if not found.meaningful or found.error_bound is None:
-        raise ArithmeticError(f"{slug}: no bound for the fault space")
-    delay = known.delay_known_state
-    if delay is None:
-        raise ArithmeticError(f"{slug}: not left-invertible")
-    return FaultVector(
-        slug,
-        system,
-        x0,
-        v,
-        tuple(rank(hankel(r, s)) for s in range(1, windows + 1)),
-        tuple(singular_values(hankel(r, s)) for s in range(1, windows + 1)),
-        system.m,
-        basis,
-        v.nrows - delay,
-        {"residual": _residual_bound(r, system), "space": upward(found.error_bound), "signal": _signal_bound(r, system, x0)},
-    )
-
-
-def _residual_bound(r: Matrix, system: ResidualSystem) -> float:
-    """For y = r + the response from rest to u = 1, -1, 1, ... with B = F, D = G (see `fault_checks.with_input`)."""
-    from .fault_checks import with_input
-
-    y, u = with_input(r, system)
-    model = StateSpaceModel(*(floats(M) for M in (system.A, system.F, system.C, system.G)))
-    return upward(fitted_state_error(floats(y), floats(u), model, residual(floats(y), floats(u), model).r))
-
-
-def _signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix) -> float | None:
-    """None where a zero on or outside the unit circle lets errors of the last samples grow backwards into the record."""
-    A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
-    start = floats(x0).ravel()
-    found = reconstruct_fault(floats(r), A, F, C, G, x0=start)
-    if found.zeros.size and float(np.max(np.abs(found.zeros))) >= 1:
-        return None
-    return upward(fault_signal_error(floats(r), A, F, C, G, found, x0=start))
-
-
-def singular_values(H: Matrix) -> tuple[float, float]:
-    """(below the least nonzero, above the largest) singular value of H, certified: root enclosures of the exact polynomial of H H'."""
-    polynomial = (H @ H.transposed()).flint.charpoly()
-    enclosures = [root.real for root, _ in polynomial.numer().complex_roots() if not root.contains(0)]
-    lowest, highest = min(float(one.lower()) for one in enclosures), max(float(one.upper()) for one in enclosures)
-    # One rounding of the root and of writing three digits: a thousandth away on the safe side.
-    return float(f"{sqrt(lowest) * 0.999:.4e}"), float(f"{sqrt(highest) * 1.001:.4e}")
 
 
 # -- structure ----------------------------------------------------------------------------------------------------------------------
@@ -245,15 +144,32 @@ def _doubled(given: Matrix) -> Matrix:
 
 
 def structure_vectors() -> list[StructureVector]:
-    """See the module."""
-    result = []
-    for slug, system in structure_systems():
-        known = structure(system)
-        zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
-        asked = zeros if known.left_invertible else ()
-        bounds = tuple(upward(zero_bound(system, z)) for z in asked)
-        result.append(StructureVector(slug, system, known.kernel.normal_rank, asked, bounds, known.infinite_zero_orders))
+    """See the module; those left-invertible in three views as well, whose units are powers of two."""
+    plain = [(slug, system, structure(system)) for slug, system in structure_systems()]
+    result = [_structure(slug, system, known) for slug, system, known in plain]
+    for slug, system, known in plain:
+        if known.left_invertible:
+            result += [_structure(f"{slug}-{name}", seen, structure(seen)) for name, seen in _otherwise(system)]
     return result
+
+
+def _otherwise(system: ResidualSystem) -> list[tuple[str, ResidualSystem]]:
+    """In another state basis, with outputs turned round, and in other units."""
+    units = [Fraction(2) ** (10 - 13 * i) for i in range(system.p)]
+    C, G = (scaled(one.transposed(), units).transposed() for one in (system.C, system.G))
+    basis, turned = FaultView("", other_basis=True), FaultView("", reversed_outputs=True)
+    return [
+        ("other-basis", basis.system(system)),
+        *([("permuted-outputs", turned.system(system))] if system.p > 1 else []),
+        ("other-units", ResidualSystem(system.A, system.F, C, G)),
+    ]
+
+
+def _structure(slug: str, system: ResidualSystem, known: Structure) -> StructureVector:
+    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
+    asked = zeros if known.left_invertible else ()
+    bounds = tuple(upward(zero_bound(system, z)) for z in asked)
+    return StructureVector(slug, system, known.kernel.normal_rank, asked, bounds, known.infinite_zero_orders)
 
 
 def zero_bound(system: ResidualSystem, zero: complex) -> float:
@@ -274,22 +190,35 @@ def zero_bound(system: ResidualSystem, zero: complex) -> float:
 
 
 def consistency_vectors() -> list[ConsistencyVector]:
-    """One: a = 1/2, c = 9/10."""
-    a, c, s = Fraction(1, 2), Fraction(9, 10), 3
-    system = FaultySystem(ResidualSystem.of([[str(a)]], [[1]], [[1]], [[0]]), matrix([[1]], 1), matrix([[0]], 1))
-    u_filter = Filter.of([[["1", "0"]]])
-    v_filter = Filter.of([[["0", "1"]]], ["1", str(-c)])
+    """One channel with a = 1/2; two inputs and two outputs. Both faults have c = 9/10."""
+    one = FaultySystem(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), matrix([[1]], 1), matrix([[0]], 1))
+    two = FaultySystem(
+        ResidualSystem.of([["1/2", "1/4"], ["-1/4", "1/2"]], [["1"], ["-1"]], [["1", "0"], ["1/2", "1"]], [["1"], ["0"]]),
+        matrix([["1", "0"], ["1/2", "1"]], 2),
+        matrix([["0", "1"], ["1", "0"]], 2),
+    )
+    return [_consistency("coloured", one, 3, 20250519), _consistency("coloured-u2-p2", two, 4, 20250520)]
+
+
+def _consistency(slug: str, system: FaultySystem, s: int, seed: int) -> ConsistencyVector:
+    c, n, p = Fraction(9, 10), system.residual.n, system.residual.p
+    unit = [["1" if j == i else "0" for j in range(system.nu + 1)] for i in range(system.nu + 1)]
+    u_filter = Filter.of([unit[: system.nu]])
+    v_filter = Filter.of([unit[system.nu :]], ["1", str(-c)])
     limits = population_limits(Experiment(system, s, s, u_filter, v_filter))
     if not limits.past_inputs.equals_observability_range:
-        raise ArithmeticError("past inputs are not consistent here")
-    left = np.linalg.svd(floats(limits.past_outputs.matrix))[0][:, :1]
-    biased = float((left[:-1].T @ left[1:])[0, 0] / (left[:-1].T @ left[:-1])[0, 0])
-    return [ConsistencyVector("coloured", a, c, s, 20000, 20250519, round(biased, 6))]
+        raise ArithmeticError(f"{slug}: past inputs are not consistent here")
+    left = np.linalg.svd(floats(limits.past_outputs.matrix))[0][:, :n]
+    biased = np.linalg.eigvals(np.linalg.lstsq(left[:-p], left[p:], rcond=None)[0])
+    rounded = tuple(sorted((complex(round(z.real, 6), round(z.imag, 6)) for z in biased), key=lambda z: (abs(z), z.imag)))
+    return ConsistencyVector(slug, system, c, s, 5000, seed, rounded)
 
 
 MAKERS: dict[str, Callable[[], Sequence[Any]]] = {
     "identification": identification_vectors,
     "faults": fault_vectors,
+    "unexciting": unexciting_vectors,
+    "noisy": noisy_vectors,
     "structure": structure_vectors,
     "consistency": consistency_vectors,
 }

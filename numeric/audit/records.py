@@ -6,6 +6,7 @@ Record        a check's outcome: verdict, the worst measurement, in words what h
 Kind          must-hold, must-refuse (an answer is the failure) or free (told, never failed)
 Refused       the implementation declined to answer; Broken: it crashed, hung or answered what is no answer
 perform       runs one check; never raises for what the implementation does
+broken        the record of a check during which the implementation broke
 """
 
 from __future__ import annotations
@@ -28,6 +29,10 @@ class Broken(Exception):
     """The implementation crashed, hung, or answered what is no answer."""
 
 
+class NotOffered(Exception):
+    """The implementation answers, but not what this check asks of it: some do not tell all that a function can."""
+
+
 class Kind(StrEnum):
     """What the check asks for."""
 
@@ -45,12 +50,13 @@ class Severity(StrEnum):
 
 
 class Verdict(StrEnum):
-    """PASS; FAIL: measured beyond the bound, or an answer where none can be; REFUSED: no answer where one is due; BROKEN."""
+    """PASS; FAIL: measured beyond the bound, or an answer where none can be; REFUSED: no answer where one is due; BROKEN; NOT_OFFERED."""
 
     PASS = "pass"
     FAIL = "fail"
     REFUSED = "refused"
     BROKEN = "broken"
+    NOT_OFFERED = "not offered"
 
 
 @dataclass(frozen=True)
@@ -118,7 +124,7 @@ class Record:
     @property
     def failed(self) -> bool:
         """Whether a must is not met."""
-        return self.kind != Kind.FREE and self.verdict != Verdict.PASS
+        return self.kind != Kind.FREE and self.verdict not in (Verdict.PASS, Verdict.NOT_OFFERED)
 
     def to_json(self) -> dict[str, Any]:
         """JSON-ready; numbers that are not finite as strings."""
@@ -145,6 +151,19 @@ def perform(check: Check, function: Function) -> Record:
         detail = str(refusal)
     except Broken as failure:
         verdict, detail = Verdict.BROKEN, str(failure)
+    except NotOffered as absent:
+        verdict, detail = Verdict.NOT_OFFERED, str(absent)
+    except Exception as error:  # the comparison did not expect such an answer
+        verdict, detail = Verdict.BROKEN, f"the answer cannot be read: {type(error).__name__}: {error}"
+    return _record(check, verdict, worst, detail, time.perf_counter() - begun)
+
+
+def broken(check: Check, failure: Broken, seconds: float) -> Record:
+    """BROKEN, in the words of the failure."""
+    return _record(check, Verdict.BROKEN, None, str(failure), seconds)
+
+
+def _record(check: Check, verdict: Verdict, worst: Measurement | None, detail: str, seconds: float) -> Record:
     return Record(
         check.slug,
         check.vector,
@@ -159,5 +178,5 @@ def perform(check: Check, function: Function) -> Record:
         worst.bound if worst else None,
         worst.ratio if worst else None,
         detail,
-        time.perf_counter() - begun,
+        seconds,
     )

@@ -49,9 +49,9 @@ def fault_dimension(r: Array) -> int | None:
     return count(r).n_v
 
 
-def fault_space(r: Array, A: Array, C: Array, n_v: int) -> Array:
-    """From the exact ranks of the windows up to n + 1."""
-    found = noise_free_fault_space(r, A, C, n_v=n_v)
+def fault_space(r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Array:
+    """From the exact ranks of the windows."""
+    found = noise_free_fault_space(r, A, C, n_v=n_v, block_rows=block_rows)
     if not found.meaningful:
         raise InvalidData(found.reason)
     return found.basis
@@ -59,7 +59,10 @@ def fault_space(r: Array, A: Array, C: Array, n_v: int) -> Array:
 
 def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Array:
     """By the smoother."""
-    return reconstruct_fault(r, A, F, C, G, x0=x0).v
+    found = reconstruct_fault(r, A, F, C, G, x0=x0)
+    if not found.left_invertible:
+        raise InvalidData(found.reason)
+    return found.v
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:

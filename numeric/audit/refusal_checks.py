@@ -1,11 +1,13 @@
 """What must be refused: data and arguments for which every answer is wrong. To refuse is to raise or to return nothing.
 
-checks      NaN, infinity, short data, unequal lengths, an order that cannot be, a window at the lag, shapes that do not fit
+checks      NaN, infinity, short data, unequal lengths, an order that cannot be, a window at the lag, shapes that do not fit, faults
+            that no residual tells apart; where a right answer is possible all the same, it may be given instead
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,8 +16,11 @@ from numpy.typing import NDArray
 from faultspace.exact.signals import simulate
 from faultspace.exact.systems import ResidualSystem
 
-from .records import Check, Function, Kind, Measurement, Severity
-from .vectors import FaultVector, IdentificationVector, floats, matrix, shipped
+from .fault_checks import as_number, space_off
+from .fault_vectors import FaultVector
+from .rationals import floats, matrix
+from .records import Check, Function, Kind, Measurement, Refused, Severity
+from .vectors import IdentificationVector, shipped
 
 Array = NDArray[np.float64]
 MISSING = "a missing sample goes into the estimate unnoticed"
@@ -25,6 +30,8 @@ def checks() -> Iterator[Check]:
     """All of this module."""
     yield from _of_identify(next(v for v in shipped("identification") if v.C.nrows > 1 and v.B.ncols > 1))
     yield from _of_faults(next(v for v in shipped("faults") if v.slug == "two-faults"))
+    for vector in shipped("faults"):
+        yield from _below_the_lag(vector)
 
 
 def _refuses(
@@ -82,21 +89,79 @@ def _window_at_the_lag() -> Check:
 
 
 def _of_faults(vector: FaultVector) -> Iterator[Check]:
-    system, slug = vector.system, vector.slug
+    system, slug, s = vector.system, vector.slug, vector.system.n + 1
 
     def r() -> Array:
         return floats(vector.r)
 
+    def nan() -> Array:
+        return _with(r(), np.nan)
+
+    def infinite() -> Array:
+        return _with(r(), np.inf)
+
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
-    yield _refuses("refuses-nan-residual", "window_ranks", slug, MISSING, lambda: (_with(r(), np.nan), 3))
-    yield _refuses("refuses-nan-residual", "fault_dimension", slug, MISSING, lambda: (_with(r(), np.nan),))
-    yield _refuses("refuses-nan-residual", "fault_space", slug, MISSING, lambda: (_with(r(), np.nan), A, C, vector.n_v))
-    yield _refuses("refuses-nan-residual", "reconstruct", slug, MISSING, lambda: (_with(r(), np.nan), A, F, C, G, np.zeros(len(A))))
+    x0, n_v = np.zeros(len(A)), vector.n_v
+    others: dict[str, tuple[Any, ...]] = {
+        "window_ranks": (3,),
+        "fault_dimension": (),
+        "fault_space": (A, C, n_v, s),
+        "reconstruct": (A, F, C, G, x0),
+    }
+    for function, rest in others.items():
+        yield _refuses("refuses-nan-residual", function, slug, MISSING, partial(_before, nan, rest))
+        yield _refuses("refuses-infinite-residual", function, slug, MISSING, partial(_before, infinite, rest))
     short = "ranks of matrices with fewer columns than rows say nothing of the system"
+    yield _refuses("refuses-short-residual", "window_ranks", slug, "ranks of windows longer than the record", lambda: (r()[:5], 8))
     yield _refuses("refuses-short-residual", "fault_dimension", slug, short, lambda: (r()[:7],), "settle-2")
-    yield _refuses("refuses-short-residual", "fault_space", slug, short, lambda: (r()[:7], A, C, vector.n_v), "sharp-windows")
+    yield _refuses("refuses-short-residual", "fault_space", slug, short, lambda: (r()[:7], A, C, n_v, s), "sharp-windows")
     wrong = "matrices of another system are taken for those of the residual"
-    yield _refuses("refuses-shapes", "fault_space", slug, wrong, lambda: (r(), A, C[:-1], vector.n_v))
+    yield _refuses("refuses-shapes", "fault_space", slug, wrong, lambda: (r(), A, C[:-1], n_v, s))
+    yield _refuses("refuses-shapes", "reconstruct", slug, wrong, lambda: (r(), A, F, C[:-1], G[:-1], x0))
+    yield _refuses("refuses-shapes", "residual", slug, wrong, lambda: (r(), r()[:, : system.m], A, F, C[:-1], G[:-1]))
+    yield _refuses("refuses-shapes", "structure", slug, wrong, lambda: (A, F[:-1], C, G))
     many = "more faults than outputs cannot be told apart"
-    yield _refuses("refuses-too-many-faults", "fault_space", slug, many, lambda: (r(), A, C, system.p + 1), "proposition-3")
-    yield _refuses("refuses-nan-model", "structure", slug, "zeros of no system", lambda: (A * np.nan, F, C, G))
+    yield _refuses("refuses-too-many-faults", "fault_space", slug, many, lambda: (r(), A, C, system.p + 1, s), "proposition-3")
+    twice = "one of many fault signals that fit, without a word"
+    F2, G2 = F[:, [0, 0]], G[:, [0, 0]]
+    yield _refuses("refuses-same-fault-twice", "reconstruct", slug, twice, lambda: (r(), A, F2, C, G2, x0), "trajectory-recovered")
+    none = "answers about no system"
+    yield _refuses("refuses-nan-model", "residual", slug, none, lambda: (r(), r()[:, : system.m], A * np.nan, F, C, G))
+    yield _refuses("refuses-nan-model", "fault_space", slug, none, lambda: (r(), A * np.nan, C, n_v, s))
+    yield _refuses("refuses-nan-model", "reconstruct", slug, none, lambda: (r(), A * np.nan, F, C, G, x0))
+    yield _refuses("refuses-nan-model", "structure", slug, none, lambda: (A * np.nan, F, C, G))
+    u = floats(vector.v)
+    yield _refuses("refuses-nan-output", "residual", slug, MISSING, lambda: (nan(), u, A, F, C, G))
+    yield _refuses("refuses-nan-input", "residual", slug, MISSING, lambda: (r(), _with(u.copy(), np.nan), A, F, C, G))
+    unequal = "inputs paired with the wrong outputs"
+    yield _refuses("refuses-unequal-lengths", "residual", slug, unequal, lambda: (r(), u[:-5], A, F, C, G))
+
+
+def _before(record: Callable[[], Array], rest: tuple[Any, ...]) -> tuple[Any, ...]:
+    return record(), *rest
+
+
+def _right_or_refused(
+    slug: str, function: str, vector: FaultVector, effect: str, claim: str, compare: Callable[[Function], Iterator[Measurement]]
+) -> Check:
+    def measure(called: Function) -> Iterator[Measurement]:
+        try:
+            yield from compare(called)
+        except Refused:
+            yield Measurement("refused, as it may be", 0.0, 0.0)
+
+    return Check(slug, function, vector.slug, claim, effect, Severity.SILENT, measure)
+
+
+def _below_the_lag(vector: FaultVector) -> Iterator[Check]:
+    """What a window no longer than the lag shows is not the answer: it may be refused, or be found in some other way."""
+    effect = "wrong columns are accepted: fault matrices of no such system"
+    compare = partial(space_off, vector, block_rows=vector.lag)
+    yield _right_or_refused("fault-space-at-the-lag", "fault_space", vector, effect, "sharp-windows", compare)
+    few = (vector.system.p + 1) * (vector.lag + 1) - 2  # one sample less, and R_(lag + 1) has fewer columns than rows
+
+    def count(called: Function) -> Iterator[Measurement]:
+        yield Measurement("n_v", abs(as_number(called(floats(vector.r)[:few])) - vector.n_v), 0.0)
+
+    effect = "the gap of windows below the lag is taken for the number of faults"
+    yield _right_or_refused("fault-dimension-below-the-lag", "fault_dimension", vector, effect, "sharp-windows", count)

@@ -1,7 +1,8 @@
 """One generator of checks, and its faces: records, pytest cases, the command line.
 
 all_checks                every check, in order
-audit                     records of the checks on what an implementation offers
+audit                     records of the checks on what an object offers, in this process
+audit_named               the same for an adapter by name, in a process of its own under limits of time and memory
 parametrize_with_checks   decorates a test that takes `check`: `check()` raises AssertionError with slug, effect, got, bound, ratio
 ExpectedFailure           a failure with its reason; turns red when the check passes
 told                      a failed record in words, with the line that reproduces it
@@ -9,18 +10,39 @@ told                      a failed record in words, with the line that reproduce
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import atexit
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from ..input_checks import InvalidData
-from . import consistency_checks, fault_checks, good_manners, identification_checks, refusal_checks, structure_checks
+from . import (
+    consistency_checks,
+    excitation_checks,
+    fault_checks,
+    good_manners,
+    growth_checks,
+    identification_checks,
+    refusal_checks,
+    structure_checks,
+)
 from .adapter import guarded, offered
+from .isolation import Isolated
+from .programs import STANDARD, Limits
 from .records import Check, Record, Verdict, perform
 
 Test = TypeVar("Test", bound=Callable[..., object])
-MODULES = (identification_checks, consistency_checks, fault_checks, structure_checks, refusal_checks, good_manners)
+MODULES = (
+    identification_checks,
+    consistency_checks,
+    fault_checks,
+    excitation_checks,
+    structure_checks,
+    refusal_checks,
+    good_manners,
+    growth_checks,
+)
 
 
 @dataclass(frozen=True)
@@ -41,7 +63,7 @@ def all_checks() -> Iterator[Check]:
         yield from module.checks()
 
 
-def chosen(functions: Mapping[str, Any], only: Sequence[str] = ()) -> list[Check]:
+def chosen(functions: Collection[str], only: Sequence[str] = ()) -> list[Check]:
     """The checks of these functions, those named by slug or slug[vector] alone if any are. Raises InvalidData for an unknown name."""
     known = list(all_checks())
     for name in only:
@@ -57,19 +79,40 @@ def audit(
     expected: Sequence[ExpectedFailure] = (),
     tell: Callable[[str, int, int], None] = lambda name, done, total: None,
 ) -> tuple[Record, ...]:
-    """A record for every check of the functions that the implementation has; never raises for what they do.
+    """A record for every check of the functions that the implementation, any object, has; never raises for what they do.
 
-    `only`: slugs, or slug[vector]. `expected`: failures that are known. `tell` hears of the progress. Raises InvalidData for an
-    implementation without a function, and for unknown names.
+    In this process, so nothing limits them: see `audit_named`. `only`: slugs, or slug[vector]. `expected`: failures that are known. `tell`
+    hears of the progress. Raises InvalidData for an implementation without a function, and for unknown names.
     """
     functions = {name: guarded(one) for name, one in offered(implementation).items()}
-    todo = chosen(functions, only)
+    return _records(chosen(functions, only), lambda check: perform(check, functions[check.function]), expected, tell)
+
+
+def audit_named(
+    name: str,
+    *,
+    limits: Limits = STANDARD,
+    only: Sequence[str] = (),
+    expected: Sequence[ExpectedFailure] = (),
+    tell: Callable[[str, int, int], None] = lambda name, done, total: None,
+) -> tuple[Record, ...]:
+    """The same for the adapter of that name (see `adapter.load`) in a process of its own, under the limits."""
+    with Isolated(name, limits) as adapter:
+        return _records(chosen(adapter.functions, only), adapter.perform, expected, tell)
+
+
+def _records(
+    todo: Sequence[Check],
+    made: Callable[[Check], Record],
+    expected: Sequence[ExpectedFailure],
+    tell: Callable[[str, int, int], None],
+) -> tuple[Record, ...]:
     if expected:
-        chosen({}, [one.name for one in expected])
+        chosen((), [one.name for one in expected])
     records = []
     for done, check in enumerate(todo):
         tell(check.name, done, len(todo))
-        records.append(_expecting(perform(check, functions[check.function]), expected))
+        records.append(_expecting(made(check), expected))
     return tuple(records)
 
 
@@ -95,19 +138,30 @@ def told(record: Record, adapter: str = "ADAPTER") -> str:
     )
 
 
-def parametrize_with_checks(implementation: object, *, expected: Sequence[ExpectedFailure] = ()) -> Callable[[Test], Test]:
-    """A pytest decorator: the test gets `check`, a function to call, once for each check; ids are slug[vector]-function."""
+def parametrize_with_checks(
+    implementation: object, *, limits: Limits = STANDARD, expected: Sequence[ExpectedFailure] = ()
+) -> Callable[[Test], Test]:
+    """A pytest decorator: the test gets `check`, a function to call, once for each check; ids are slug[vector]-function.
+
+    An implementation given by name (a string) runs in a process of its own under the limits, an object in this one without.
+    """
     import pytest
 
-    functions = {name: guarded(one) for name, one in offered(implementation).items()}
+    if isinstance(implementation, str):
+        adapter = Isolated(implementation, limits)
+        atexit.register(adapter.close)
+        todo, made = chosen(adapter.functions), adapter.perform
+    else:
+        functions = {name: guarded(one) for name, one in offered(implementation).items()}
+        todo, made = chosen(functions), lambda check: perform(check, functions[check.function])
     if expected:
-        chosen({}, [one.name for one in expected])
-    cases = [pytest.param(partial(_asserted, one, functions, expected), id=f"{one.name}-{one.function}") for one in chosen(functions)]
+        chosen((), [one.name for one in expected])
+    cases = [pytest.param(partial(_asserted, one, made, expected), id=f"{one.name}-{one.function}") for one in todo]
     return pytest.mark.parametrize("check", cases)
 
 
-def _asserted(check: Check, functions: Mapping[str, Any], expected: Sequence[ExpectedFailure]) -> Record:
-    record = _expecting(perform(check, functions[check.function]), expected)
+def _asserted(check: Check, made: Callable[[Check], Record], expected: Sequence[ExpectedFailure]) -> Record:
+    record = _expecting(made(check), expected)
     if record.failed:
         raise AssertionError(told(record))
     return record

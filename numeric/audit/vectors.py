@@ -1,12 +1,11 @@
 """Vectors: exact systems, data and answers, with the bounds that rounding allows; JSON that any language can read.
 
     IdentificationVector   A, B, C, D, x0, u, y over Q; Markov parameters, characteristic polynomial, transfer function
-    FaultVector            A, F, C, G, x0, v, r over Q; window ranks, n_v, fault space; certified singular-value gaps
     StructureVector        A, F, C, G in dyadic rationals, so that their floats are exact; normal rank, zeros, left-invertibility
-    ConsistencyVector      an experiment, a recipe for its record, the pole and what past outputs as instruments make of it
+    FaultVector, UnexcitingVector        see `fault_vectors`
+    ConsistencyVector, NoisyVector       see `recipe_vectors`
     shipped                the vectors of one kind that come with the package
     documents              all files, name -> JSON document, made anew
-    floats                 a rational matrix correctly rounded (to nearest, ties to even): the stated rounding
     main                   `python -m faultspace.numeric.audit.vectors --out DIR` writes the files; never edit them by hand
 
 Rationals are strings "p/q" as in every exact file; bounds are floats.
@@ -17,45 +16,44 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from faultspace.exact.matrices import Matrix
 from faultspace.exact.signals import simulate
 from faultspace.exact.systems import ResidualSystem
 
-Array = NDArray[np.float64]
+from .fault_vectors import FaultVector, UnexcitingVector
+from .rationals import ROUNDING, Array, floats, fractions, matrix, scaled, signs
+from .recipe_vectors import ConsistencyVector, NoisyVector
+
 FORMAT = "faultspace-audit-vectors/1"
-ROUNDING = "each rational to the nearest IEEE binary64, ties to even, once"
 POINTS = (1, -1, 2)  # where transfer functions are compared: floats, and no pole of a stable model
-KINDS = ("identification", "faults", "structure", "consistency")
 
-
-def matrix(rows: Sequence[Sequence[Any]], width: int) -> Matrix:
-    """Over Q, from strings, integers or Fractions; `width` for matrices without rows."""
-    return Matrix.of([[str(entry) for entry in row] for row in rows], shape=(len(rows), width))
-
-
-def fractions(given: Matrix) -> list[list[Fraction]]:
-    """The entries as Fractions."""
-    return [[Fraction(int(x.p), int(x.q)) for x in row] for row in given.elements()]
-
-
-def floats(given: Matrix) -> Array:
-    """Each entry correctly rounded; a new array at every call."""
-    return np.array([[float(x) for x in row] for row in fractions(given)], dtype=np.float64).reshape(given.shape)
-
-
-def scaled(given: Matrix, factors: Sequence[Fraction]) -> Matrix:
-    """Column j times factors[j]."""
-    return matrix([[x * f for x, f in zip(row, factors, strict=True)] for row in fractions(given)], given.ncols)
+__all__ = [
+    "KINDS",
+    "POINTS",
+    "ConsistencyVector",
+    "FaultVector",
+    "IdentificationVector",
+    "NoisyVector",
+    "StructureVector",
+    "UnexcitingVector",
+    "documents",
+    "floats",
+    "fractions",
+    "main",
+    "matrix",
+    "scaled",
+    "shipped",
+    "signs",
+    "written",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +61,7 @@ class IdentificationVector:
     """x(k+1) = A x + B u, y = C x + D u from x0, exactly; `bounds` for an order-`order` model from `block_rows` block rows.
 
     bounds: "markov" (2 n + 2, p, n_u), "characteristic_polynomial" (n,) for z^(n-1), ..., 1, "transfer" (points, p, n_u), "poles" (n,)
-    in the order of `poles`.
+    in the order of `poles`. parts: slug -> (first, last, bounds of the same names) for the record cut to samples first .. last - 1.
     """
 
     slug: str
@@ -75,6 +73,7 @@ class IdentificationVector:
     u: Matrix
     block_rows: int
     bounds: Mapping[str, Any]
+    parts: Mapping[str, tuple[int, int, Mapping[str, Any]]] = field(default_factory=dict)
 
     @property
     def order(self) -> int:
@@ -86,9 +85,9 @@ class IdentificationVector:
         """The exact outputs (N, p)."""
         return simulate(ResidualSystem(self.A, self.B, self.C, self.D), self.x0, self.u).residuals
 
-    def bound(self, name: str) -> Array:
-        """The bounds of that name as an array."""
-        return np.array(self.bounds[name], dtype=float)
+    def bound(self, name: str, part: str | None = None) -> Array:
+        """The bounds of that name as an array, for the whole record or a part of it."""
+        return np.array(self.bounds[name] if part is None else self.parts[part][2][name], dtype=float)
 
     def to_json(self) -> dict[str, Any]:
         """With the exact outputs and answers spelt out for other languages."""
@@ -102,7 +101,8 @@ class IdentificationVector:
             "poles": [[z.real, z.imag] for z in poles(self.A)],
         }
         head = {"slug": self.slug, "order": self.order, "block_rows": self.block_rows}
-        return {**head, **parts, "expected": expected, "bounds": dict(self.bounds)}
+        cut = [{"slug": slug, "samples": [first, last], "bounds": dict(bounds)} for slug, (first, last, bounds) in self.parts.items()]
+        return {**head, **parts, "expected": expected, "bounds": dict(self.bounds), "parts": cut}
 
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> IdentificationVector:
@@ -110,62 +110,8 @@ class IdentificationVector:
         n, n_u = data["order"], len(data["u"][0])
         width = {"A": n, "B": n_u, "C": n, "D": n_u, "x0": 1, "u": n_u}
         parts = {name: matrix(data[name], columns) for name, columns in width.items()}
-        return IdentificationVector(data["slug"], **parts, block_rows=data["block_rows"], bounds=data["bounds"])
-
-
-@dataclass(frozen=True, eq=False)
-class FaultVector:
-    """A residual r of x(k+1) = A x + F v, r = C x + G v from x0, exactly; `space`: basis columns [f; g] (n + p, n_z) of all solutions.
-
-    ranks: of R_1, R_2, ... over all columns of each. gaps: (certified lower bound on the least nonzero, upper on the largest singular
-    value of R_s). bounds: "residual" on |r - exact r| of the fitted residual, "space" on the sine of the angle to `space`, "signal" on
-    |v - exact v| on the first `trusted` samples (None: not to be asked).
-    """
-
-    slug: str
-    system: ResidualSystem
-    x0: Matrix
-    v: Matrix
-    ranks: tuple[int, ...]
-    gaps: tuple[tuple[float, float], ...]
-    n_v: int
-    space: Matrix
-    trusted: int
-    bounds: Mapping[str, float | None]
-
-    @cached_property
-    def r(self) -> Matrix:
-        """The exact residual (N, p)."""
-        return simulate(self.system, self.x0, self.v).residuals
-
-    def to_json(self) -> dict[str, Any]:
-        """With the exact residual spelt out."""
-        return {
-            "slug": self.slug,
-            "system": self.system.to_json(),
-            **{name: getattr(self, name).to_json() for name in ("x0", "v", "r")},
-            "expected": {"window_ranks": list(self.ranks), "n_v": self.n_v, "fault_space": self.space.to_json(), "trusted": self.trusted},
-            "singular_values": [{"least_nonzero_above": low, "largest_below": high} for low, high in self.gaps],
-            "bounds": dict(self.bounds),
-        }
-
-    @staticmethod
-    def from_json(data: Mapping[str, Any]) -> FaultVector:
-        """The vector that `to_json` wrote; the residual is computed again."""
-        known = data["expected"]
-        system = ResidualSystem.of(*(data["system"][name] for name in "AFCG"))
-        return FaultVector(
-            data["slug"],
-            system,
-            matrix(data["x0"], 1),
-            matrix(data["v"], system.m),
-            tuple(known["window_ranks"]),
-            tuple((one["least_nonzero_above"], one["largest_below"]) for one in data["singular_values"]),
-            known["n_v"],
-            matrix(known["fault_space"], len(known["fault_space"][0])),
-            known["trusted"],
-            data["bounds"],
-        )
+        cut = {one["slug"]: (*one["samples"], one["bounds"]) for one in data["parts"]}
+        return IdentificationVector(data["slug"], **parts, block_rows=data["block_rows"], bounds=data["bounds"], parts=cut)
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,66 +155,15 @@ class StructureVector:
         )
 
 
-@dataclass(frozen=True, eq=False)
-class ConsistencyVector:
-    """A first-order system x(k+1) = a x + u + v, y = x with u white and v(k) = c v(k-1) + e(k), both independent.
-
-    u and e are the signs of `signs` (`samples` of each, u first). pole: a. biased_pole: that of the first left singular vector of the
-    exact limit with past outputs as instruments, `block_rows` = past rows = s. The bound is half their distance: which of the two is
-    nearer?
-    """
-
-    slug: str
-    a: Fraction
-    c: Fraction
-    block_rows: int
-    samples: int
-    seed: int
-    biased_pole: float
-
-    @property
-    def bound(self) -> float:
-        """Half the bias."""
-        return abs(self.biased_pole - float(self.a)) / 2
-
-    def record(self) -> tuple[Array, Array]:
-        """(y, u), each (samples, 1)."""
-        drawn = signs(self.seed, 2 * self.samples)
-        u, e = drawn[: self.samples], drawn[self.samples :]
-        y, x, v = np.empty(self.samples), 0.0, 0.0
-        for k in range(self.samples):
-            v = float(self.c) * v + e[k]
-            y[k] = x
-            x = float(self.a) * x + u[k] + v
-        return y[:, np.newaxis], u[:, np.newaxis]
-
-    def to_json(self) -> dict[str, Any]:
-        """JSON-ready."""
-        names = ("slug", "block_rows", "samples", "seed", "biased_pole", "bound")
-        return {"a": str(self.a), "c": str(self.c)} | {name: getattr(self, name) for name in names}
-
-    @staticmethod
-    def from_json(data: Mapping[str, Any]) -> ConsistencyVector:
-        """The vector that `to_json` wrote."""
-        numbers = {name: data[name] for name in ("slug", "block_rows", "samples", "seed", "biased_pole")}
-        return ConsistencyVector(a=Fraction(data["a"]), c=Fraction(data["c"]), **numbers)
-
-
-def signs(seed: int, count: int) -> Array:
-    """+-1 by bit 63 of the linear congruential generator x := 6364136223846793005 x + 1442695040888963407 mod 2^64 from `seed`."""
-    state, result = seed, np.empty(count)
-    for k in range(count):
-        state = (6364136223846793005 * state + 1442695040888963407) % 2**64
-        result[k] = 1.0 if state >> 63 else -1.0
-    return result
-
-
 _READERS: dict[str, Any] = {
     "identification": IdentificationVector.from_json,
     "faults": FaultVector.from_json,
+    "unexciting": UnexcitingVector.from_json,
+    "noisy": NoisyVector.from_json,
     "structure": StructureVector.from_json,
     "consistency": ConsistencyVector.from_json,
 }
+KINDS = tuple(_READERS)
 
 
 @cache

@@ -1,6 +1,6 @@
 """The reference with one thing broken, each as an adapter and the slug of a check that must catch it.
 
-Mutant      name, what is wrong, the slug, `adapter` (a namespace with the broken functions alone)
+Mutant      name, what is wrong, the slug, `adapter` (a namespace with the broken functions alone), `also`: further slugs that catch it
 MUTANTS     all of them; those marked "published" are errors found in packages and in published code
 """
 
@@ -15,15 +15,14 @@ from unittest.mock import patch
 
 import numpy as np
 
-from faultspace.numeric import compression, input_matrices
+from faultspace.numeric import compression, input_matrices, toeplitz_factorisation
 from faultspace.numeric.audit import reference
 from faultspace.numeric.audit.adapter import Structure
 from faultspace.numeric.compression import Blocks, Compression
 from faultspace.numeric.fault_space import noise_free_fault_space
-from faultspace.numeric.models import StateSpaceModel
+from faultspace.numeric.models import StateSpaceModel, observability_matrix
 from faultspace.numeric.po_moesp import po_moesp
 from faultspace.numeric.residual_windows import hankel_factor
-from faultspace.numeric.toeplitz_factorisation import toeplitz_factorisation
 
 
 @dataclass(frozen=True)
@@ -34,6 +33,7 @@ class Mutant:
     wrong: str
     caught_by: str
     adapter: Any
+    also: tuple[str, ...] = ()
 
 
 def _patched(function: Callable[..., Any], *patches: tuple[Any, str, Any]) -> Callable[..., Any]:
@@ -110,6 +110,11 @@ def _absolute_scale(y: Any, u: Any, order: int, block_rows: int) -> Any:
     return reference.identify(np.round(y, 9), np.round(u, 9), order, block_rows)
 
 
+def _finer_scale(y: Any, u: Any, order: int, block_rows: int) -> Any:
+    return reference.identify(np.round(y, 15), np.round(u, 15), order, block_rows)
+
+
+RANGE = 1e5
 true_blocks, true_rows, true_regression = Compression.blocks, compression.window_rows, input_matrices._Regression.__init__
 
 
@@ -132,6 +137,17 @@ def _rows_off_by_one(n_u: int, p: int, past_rows: int, block_rows: int) -> Any:
 def _from_rest(self: Any, A: Any, C: Any, n_u: int) -> None:
     true_regression(self, A, C, n_u)
     self._states[0] = 0.0
+
+
+def _limited_range(y: Any, u: Any, order: int, block_rows: int) -> Any:
+    """Samples beyond the converter's range are cut."""
+    return reference.identify(np.clip(y, -RANGE, RANGE), u, order, block_rows)
+
+
+def _square_memory(y: Any, u: Any, order: int, block_rows: int) -> Any:
+    """Weights every pair of samples."""
+    t = np.arange(len(y))
+    return reference.identify(np.equal.outer(t, t).astype(float) @ y, u, order, block_rows)
 
 
 # -- faults ------------------------------------------------------------------------------------------------------------------------
@@ -171,34 +187,117 @@ def _gap_at_one(r: Any) -> int:
     return ranks[1] - ranks[0]
 
 
-def _window_of_n(r: Any, A: Any, C: Any, n_v: int) -> Any:
+def _default_tolerance(r: Any) -> int:
+    """The gap of ranks at numpy's default tolerance: of the largest singular value, in whatever units."""
+    ranks = [int(np.linalg.matrix_rank(hankel_factor(r, s))) for s in (7, 8)]
+    return ranks[1] - ranks[0]
+
+
+def _relative_ranks(r: Any, windows: int) -> list[int]:
+    """Singular values above 1e-10 of the largest count, channels in whatever units."""
+    values = (np.linalg.svd(hankel_factor(r, s), compute_uv=False) for s in range(1, windows + 1))
+    return [int(np.sum(one > 1e-10 * one[0])) for one in values]
+
+
+def _padded(r: Any) -> Any:
+    """Zeros behind the record, up to the length that buffers have: right for a record that fills them."""
+    return np.vstack([r, np.zeros((max(90 - len(r), 0), r.shape[1]))])
+
+
+def _ranks_padded(r: Any, windows: int) -> Any:
+    return reference.window_ranks(_padded(r), windows)
+
+
+def _count_padded(r: Any) -> Any:
+    data = _padded(r)
+    ranks = reference.window_ranks(data, 8)
+    return ranks[-1] - ranks[-2]
+
+
+def _space_padded(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
+    return noise_free_fault_space(_padded(r), A, C, n_v=n_v, block_rows=block_rows).basis
+
+
+def _ranks_as_if_excited(r: Any, windows: int) -> Any:
+    """The first step goes on for ever."""
+    one, two = reference.window_ranks(r, 2)
+    return [one + (s - 1) * (two - one) for s in range(1, windows + 1)]
+
+
+def _count_unscaled(r: Any) -> int:
+    """The gap of ranks at 1e-8 of the largest singular value, channels in whatever units."""
+    values = [np.linalg.svd(hankel_factor(r, s), compute_uv=False) for s in (7, 8)]
+    return int(np.sum(values[1] > 1e-8 * values[1][0])) - int(np.sum(values[0] > 1e-8 * values[0][0]))
+
+
+def _square_time(r: Any, windows: int) -> Any:
+    """The running median of each channel, from the beginning for every sample."""
+    middle = [np.sort(r[: k + 1], axis=0)[k // 2] for k in range(len(r))]
+    assert np.all(np.isfinite(middle))
+    return reference.window_ranks(r, windows)
+
+
+def _window_of_n(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
     """n block rows where lag + 1 are needed."""
     return noise_free_fault_space(r, A, C, n_v=n_v, block_rows=len(A)).basis
 
 
-def _space_at(level: float) -> Callable[[Any, Any, Any, int], Any]:
+def _window_one_short(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
+    """block_rows - 1: a window of lag + 1 becomes one at the lag."""
+    return noise_free_fault_space(r, A, C, n_v=n_v, block_rows=block_rows - 1).basis
+
+
+def _factorised(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
+    """The published factorisation with the exact rank of R_s."""
+    n_z = reference.fault_space(r, A, C, n_v, block_rows).shape[1]
+    rank = reference.window_ranks(r, block_rows)[-1]
+    return toeplitz_factorisation.toeplitz_factorisation(r, A, C, block_rows=block_rows, rank=rank, n_z=n_z)
+
+
+def _floor_of_a_range(A: Any, C: Any, count: int) -> Any:
+    """O_count whose block rows, last first, are numbered by floor((s - 1 - 1/p) : -1/p : 0), s - 1 = count: rounding drops some by one."""
+    p = len(C)
+    steps = np.arange(count * p)
+    numbers = np.floor((count - 1 / p) + steps * (-1 / p)).astype(int)
+    rows = observability_matrix(A, C, count).reshape(count, p, -1)
+    return rows[numbers, steps % p].reshape(count, p, -1)[::-1].reshape(count * p, -1)
+
+
+def _space_at(level: float) -> Callable[..., Any]:
     """The published factorisation with the rank of R_s by an absolute threshold; the dimension is given right."""
 
-    def fault_space(r: Any, A: Any, C: Any, n_v: int) -> Any:
+    def fault_space(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
         s = len(A) + 1
-        n_z = reference.fault_space(r, A, C, n_v).shape[1]
-        return toeplitz_factorisation(r, A, C, block_rows=s, rank=max(_ranks_at(level)(r, s)[-1], 1), n_z=n_z)
+        n_z = reference.fault_space(r, A, C, n_v, block_rows).shape[1]
+        return toeplitz_factorisation.toeplitz_factorisation(r, A, C, block_rows=s, rank=max(_ranks_at(level)(r, s)[-1], 1), n_z=n_z)
 
     return fault_space
 
 
-def _everything(r: Any, A: Any, C: Any, n_v: int) -> Any:
+def _space_unscaled(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
+    """The rank of R_s at 1e-10 of the largest singular value; the dimension is given right."""
+    n_z = reference.fault_space(r, A, C, n_v, block_rows).shape[1]
+    rank = _relative_ranks(r, block_rows)[-1]
+    return toeplitz_factorisation.toeplitz_factorisation(r, A, C, block_rows=block_rows, rank=rank, n_z=n_z)
+
+
+def _unsuspecting(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
+    """Whatever the window gives, without a look at the ladder of ranks."""
+    return noise_free_fault_space(r, A, C, n_v=n_v, block_rows=block_rows).basis
+
+
+def _everything(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
     """Contains every fault column, so that a one-sided distance is zero."""
     return np.eye(len(A) + len(C))
 
 
-def _basis_assumed(r: Any, A: Any, C: Any, n_v: int) -> Any:
+def _basis_assumed(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
     """F from an A taken for symmetric: right in one basis at the most."""
-    return reference.fault_space(r, (A + A.T) / 2, C, n_v)
+    return reference.fault_space(r, (A + A.T) / 2, C, n_v, block_rows)
 
 
-def _only_n_v(r: Any, A: Any, C: Any, n_v: int) -> Any:
-    return reference.fault_space(r, A, C, n_v)[:, :n_v]
+def _only_n_v(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
+    return reference.fault_space(r, A, C, n_v, block_rows)[:, :n_v]
 
 
 def _residual_without_feedthrough(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
@@ -214,6 +313,23 @@ def _residual_late(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
 
 def _signal_from_rest(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
     return reference.reconstruct(r, A, F, C, G, 0 * x0)
+
+
+def _residual_rounded(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
+    """A fixed resolution."""
+    return np.round(reference.residual(y, u, A, B, C, D), 12)
+
+
+def _residual_limited(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
+    return reference.residual(np.clip(y, -RANGE, RANGE), u, A, B, C, D)
+
+
+def _signal_rounded(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
+    return np.round(reference.reconstruct(r, A, F, C, G, x0), 12)
+
+
+def _signal_limited(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
+    return reference.reconstruct(np.clip(r, -RANGE, RANGE), A, F, C, G, x0)
 
 
 # -- structure ---------------------------------------------------------------------------------------------------------------------
@@ -234,15 +350,22 @@ def _columns_counted(A: Any, F: Any, C: Any, G: Any) -> Structure:
     return replace(found, normal_rank=min(F.shape[1], len(C)), left_invertible=F.shape[1] <= len(C))
 
 
-def _mutant(name: str, wrong: str, caught_by: str, **functions: Callable[..., Any]) -> Mutant:
-    return Mutant(name, wrong, caught_by, SimpleNamespace(**functions))
+def _mutant(name: str, wrong: str, caught_by: str, *also: str, **functions: Callable[..., Any]) -> Mutant:
+    return Mutant(name, wrong, caught_by, SimpleNamespace(**functions), also)
+
+
+def _views(slug: str, *suffixes: str) -> tuple[str, ...]:
+    return tuple(f"{slug}-{suffix}" for suffix in suffixes)
 
 
 _identify = reference.identify
+UNSEEN = ("other-units", "permuted-outputs", "other-basis", "time-shift", "split-data")
 MUTANTS = [
     _mutant("wrong-transpose", "A transposed", "exact-recovery", identify=_wrong_transpose),
     _mutant("feedthrough-ignored", "D = 0 (published)", "exact-recovery", identify=_without_feedthrough),
-    _mutant("interleaved-inputs", "B reshaped by rows, wrong for n_u > 1 (published)", "exact-recovery", identify=_interleaved),
+    _mutant(
+        "interleaved-inputs", "B reshaped by rows, wrong for n_u > 1 (published)", "exact-recovery", "long-window", identify=_interleaved
+    ),
     _mutant(
         "hankel-off-by-one",
         "y(k) paired with u(k+1)",
@@ -265,11 +388,14 @@ MUTANTS = [
         "initial-state-ignored",
         "B and D fitted from rest (published)",
         "exact-recovery",
+        "time-shift",
+        "split-data",
         identify=_patched(_identify, (input_matrices._Regression, "__init__", _from_rest)),
     ),
     _mutant("past-outputs", "PO-MOESP: past outputs as instruments", "consistent-under-coloured-fault", identify=_past_outputs),
     _mutant("order-ignored", "never more than two states (published)", "exact-recovery", identify=_order_ignored),
-    _mutant("fixed-resolution", "signals rounded to nine decimals", "other-units", identify=_absolute_scale),
+    _mutant("fixed-resolution", "signals rounded to nine decimals", "other-units", "exact-recovery-1e-6", identify=_absolute_scale),
+    _mutant("finer-resolution", "signals rounded to fifteen decimals", "exact-recovery-1e-12", identify=_finer_scale),
     _mutant("channels-by-size", "outputs sorted, and not back", "permuted-channels", identify=_channels_by_size),
     _mutant("missing-as-zero", "NaN read as zero", "refuses-nan-output", identify=_missing_as_zero),
     _mutant("inputs-modified", "means removed in place (published)", "inputs-untouched", identify=_in_place),
@@ -281,25 +407,83 @@ MUTANTS = [
         "refuses-window-at-the-lag",
         identify=_patched(_identify, (reference, "UNDETERMINED", np.inf)),
     ),
+    _mutant("limited-range", "outputs cut at 1e5", "exact-recovery-1e6", identify=_limited_range),
+    _mutant("square-memory", "a weight for every pair of samples (published)", "memory-grows-with-N", identify=_square_memory),
+    _mutant("square-time", "every sample looks at all before it", "time-grows-with-N", window_ranks=_square_time),
     _mutant("ranks-at-one", "singular values above 1.0 count (published)", "window-ranks-1e-6", window_ranks=_ranks_at(1.0)),
     _mutant("ranks-at-1e-6", "singular values above 1e-6 count", "window-ranks-1e-12", window_ranks=_ranks_at(1e-6)),
     _mutant("count-at-1e-6", "n_v from singular values above 1e-6", "fault-dimension-1e-12", fault_dimension=_count_at(1e-6)),
-    _mutant("count-at-one", "n_v from singular values above 1.0 (published)", "fault-dimension-1e-6", fault_dimension=_count_at(1.0)),
+    _mutant(
+        "count-at-one",
+        "n_v from singular values above 1.0 (published)",
+        "fault-dimension-1e-6",
+        "fault-dimension-noisy",
+        fault_dimension=_count_at(1.0),
+    ),
     _mutant("count-at-1e-9", "n_v from singular values above 1e-9", "fault-dimension-1e6", fault_dimension=_count_at(1e-9)),
     _mutant("space-at-1e-6", "rank of R_s by the threshold 1e-6", "fault-space-1e-12", fault_space=_space_at(1e-6)),
     _mutant("ranks-at-1e-9", "singular values above 1e-9 count", "window-ranks-1e6", window_ranks=_ranks_at(1e-9)),
-    _mutant("ranks-one-short", "window s - 1 for s", "window-ranks", window_ranks=_ranks_one_short),
-    _mutant("as-many-as-outputs", "n_v = p (published)", "fault-dimension", fault_dimension=_whole_outputs),
-    _mutant("gap-below-the-lag", "rank R_2 - rank R_1", "fault-dimension", fault_dimension=_gap_at_one),
+    _mutant("ranks-one-short", "window s - 1 for s", "window-ranks", "window-ranks-permuted-outputs", window_ranks=_ranks_one_short),
+    _mutant(
+        "ranks-unscaled", "1e-10 of the largest singular value in whatever units", "window-ranks-other-units", window_ranks=_relative_ranks
+    ),
+    _mutant("ranks-padded", "zeros behind the record", "window-ranks-time-shift", "window-ranks-split-data", window_ranks=_ranks_padded),
+    _mutant("ranks-as-if-excited", "the first step of the ranks goes on", "window-ranks-unexciting", window_ranks=_ranks_as_if_excited),
+    _mutant(
+        "default-tolerance",
+        "n_v from numpy's default tolerance: p wherever there is noise (published)",
+        "fault-dimension-noisy",
+        fault_dimension=_default_tolerance,
+    ),
+    _mutant(
+        "count-padded", "zeros behind the record", "fault-dimension-time-shift", "fault-dimension-split-data", fault_dimension=_count_padded
+    ),
+    _mutant("count-unscaled", "1e-8 of the largest singular value", "fault-dimension-other-units", fault_dimension=_count_unscaled),
+    _mutant(
+        "as-many-as-outputs", "n_v = p (published)", "fault-dimension", "fault-dimension-permuted-outputs", fault_dimension=_whole_outputs
+    ),
+    _mutant("gap-below-the-lag", "rank R_2 - rank R_1", "fault-dimension", "fault-dimension-below-the-lag", fault_dimension=_gap_at_one),
     _mutant("window-of-n", "n block rows where lag + 1 are needed", "fault-space", fault_space=_window_of_n),
     _mutant("space-at-one", "rank of R_s by the threshold 1.0 (published)", "fault-space-1e-6", fault_space=_space_at(1.0)),
     _mutant("space-at-1e-9", "rank of R_s by the threshold 1e-9", "fault-space-1e6", fault_space=_space_at(1e-9)),
-    _mutant("everything", "all of R^(n+p), which a one-sided distance likes (published)", "fault-space", fault_space=_everything),
+    _mutant("space-unscaled", "rank of R_s at 1e-10 of the largest singular value", "fault-space-other-units", fault_space=_space_unscaled),
+    _mutant("space-padded", "zeros behind the record", "fault-space-time-shift", "fault-space-split-data", fault_space=_space_padded),
+    _mutant("unsuspecting", "no look at the ranks of other windows", "fault-space-at-the-lag", fault_space=_unsuspecting),
+    _mutant("window-one-short", "block_rows - 1 block rows", "fault-space-shortest-window", fault_space=_window_one_short),
+    _mutant(
+        "floor-of-a-range",
+        "rows of O off by one where the floor of a fractional range is: p = 3, s = 10 (published)",
+        "fault-space-long-window",
+        fault_space=_patched(_factorised, (toeplitz_factorisation, "observability_matrix", _floor_of_a_range)),
+    ),
+    _mutant(
+        "everything",
+        "all of R^(n+p), which a one-sided distance likes (published)",
+        "fault-space",
+        "fault-space-permuted-outputs",
+        fault_space=_everything,
+    ),
     _mutant("basis-assumed", "A taken for symmetric", "fault-space-other-basis", fault_space=_basis_assumed),
     _mutant("only-n-v", "n_v columns, the zeros' left out", "fault-space", fault_space=_only_n_v),
     _mutant("residual-without-D", "D ignored in the residual", "residual-free-of-input", residual=_residual_without_feedthrough),
-    _mutant("residual-late", "x(k+1) used for x(k)", "residual-free-of-input", residual=_residual_late),
-    _mutant("signal-from-rest", "x(0) ignored", "fault-signal", reconstruct=_signal_from_rest),
+    _mutant(
+        "residual-late",
+        "x(k+1) used for x(k)",
+        "residual-free-of-input",
+        *_views("residual-free-of-input", *UNSEEN),
+        residual=_residual_late,
+    ),
+    _mutant(
+        "residual-rounded",
+        "twelve decimals",
+        "residual-free-of-input-1e-12",
+        "residual-free-of-input-1e-6",
+        residual=_residual_rounded,
+    ),
+    _mutant("residual-limited", "outputs cut at 1e5", "residual-free-of-input-1e6", residual=_residual_limited),
+    _mutant("signal-rounded", "twelve decimals", "fault-signal-1e-12", "fault-signal-1e-6", reconstruct=_signal_rounded),
+    _mutant("signal-limited", "residuals cut at 1e5", "fault-signal-1e6", reconstruct=_signal_limited),
+    _mutant("signal-from-rest", "x(0) ignored", "fault-signal", *_views("fault-signal", *UNSEEN), reconstruct=_signal_from_rest),
     _mutant("finite-only", "infinite zeros taken for none", "infinite-zeros", structure=_finite_only),
     _mutant("inside-only", "zeros outside the unit circle dropped", "finite-zeros", structure=_inside_only),
     _mutant("columns-counted", "min(m, p) for the normal rank", "normal-rank", structure=_columns_counted),

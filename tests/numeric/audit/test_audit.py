@@ -36,7 +36,7 @@ def test_the_reference_passes_every_check(check: Any) -> None:
 def test_every_function_has_checks_that_hold_and_that_refuse() -> None:
     checks = list(all_checks())
     assert {one.function for one in checks} == set(FUNCTIONS)
-    assert {one.function for one in checks if one.kind is Kind.MUST_REFUSE} == set(FUNCTIONS) - {"residual"}
+    assert {one.function for one in checks if one.kind is Kind.MUST_REFUSE} == set(FUNCTIONS)
     named = [(one.name, one.function) for one in checks]
     assert len(named) == len(set(named))
 

@@ -19,14 +19,38 @@ def test_there_are_enough_and_they_are_told_apart() -> None:
     assert len({mutant.name for mutant in MUTANTS}) == len(MUTANTS)
 
 
-@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.name)
-def test_the_named_check_catches_it(mutant: Mutant) -> None:
-    records = audit(mutant.adapter, only=[mutant.caught_by])
+NAMED = [pytest.param(mutant, slug, id=f"{mutant.name}-{slug}") for mutant in MUTANTS for slug in (mutant.caught_by, *mutant.also)]
+
+
+@pytest.mark.parametrize(("mutant", "slug"), NAMED)
+def test_the_named_check_catches_it(mutant: Mutant, slug: str) -> None:
+    records = audit(mutant.adapter, only=[slug])
     failed = [record for record in records if record.failed]
-    print(f"{mutant.name}: {len(failed)} of {len(records)} {mutant.caught_by}: {', '.join(record.vector for record in failed)}")
+    print(f"{mutant.name}: {len(failed)} of {len(records)} {slug}: {', '.join(record.vector for record in failed)}")
     assert failed, mutant.wrong
     # A model of another order is no answer at all.
     assert all(record.verdict == ("broken" if mutant.name == "order-ignored" else "fail") for record in failed)
+
+
+@pytest.mark.parametrize(
+    ("name", "plain"),
+    [
+        ("floor-of-a-range", "fault-space"),
+        ("ranks-padded", "window-ranks"),
+        ("count-padded", "fault-dimension"),
+        ("space-padded", "fault-space"),
+        ("unsuspecting", "fault-space"),
+        ("square-memory", "exact-recovery"),
+        ("square-time", "window-ranks"),
+        ("limited-range", "exact-recovery"),
+        ("residual-rounded", "residual-free-of-input"),
+        ("signal-limited", "fault-signal"),
+    ],
+)
+def test_the_plain_check_would_not_have_seen_it(name: str, plain: str) -> None:
+    (mutant,) = (one for one in MUTANTS if one.name == name)
+    (record,) = audit(mutant.adapter, only=[f"{plain}[{'n2-u1-p1' if plain == 'exact-recovery' else 'one-fault'}]"])
+    assert not record.failed
 
 
 def _answers_everything() -> SimpleNamespace:
@@ -38,9 +62,10 @@ def _answers_everything() -> SimpleNamespace:
             np.ones((y.shape[1], order)),
             np.ones((y.shape[1], u.shape[1])),
         ),
+        residual=lambda y, u, A, B, C, D: y,
         window_ranks=lambda r, windows: [r.shape[1]] * windows,
         fault_dimension=lambda r: 1,
-        fault_space=lambda r, A, C, n_v: np.eye(len(A) + len(C))[:, :n_v],
+        fault_space=lambda r, A, C, n_v, block_rows: np.eye(len(A) + len(C))[:, :n_v],
         reconstruct=lambda r, A, F, C, G, x0: np.zeros((len(r), F.shape[1])),
         structure=lambda A, F, C, G: Structure(1, [], [0], True),
     )
@@ -58,7 +83,7 @@ def test_who_answers_everything_fails_every_check_that_asks_for_a_refusal() -> N
 def test_every_must_is_seen_to_fail() -> None:
     """By a mutant, or by who answers everything."""
     musts = {check.slug for check in all_checks() if check.kind is not Kind.FREE}
-    assert musts == {mutant.caught_by for mutant in MUTANTS} | set(REFUSALS)
+    assert musts == {slug for mutant in MUTANTS for slug in (mutant.caught_by, *mutant.also)} | set(REFUSALS)
 
 
 def test_an_absolute_threshold_is_right_in_the_units_that_it_was_made_for() -> None:

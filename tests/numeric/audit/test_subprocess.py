@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from faultspace.numeric.audit.programs import Limits
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subprocess_adapter import Exec
 from faultspace.numeric.input_checks import InvalidData
@@ -30,7 +31,7 @@ def _program(tmp_path: Path, body: str) -> list[str]:
 
 
 def _verdict(command: list[str], check: str = "fault-dimension[one-fault]", timeout: float = 10.0) -> Any:
-    with Exec(command, timeout=timeout) as program:
+    with Exec(command, Limits(seconds=timeout)) as program:
         (record,) = audit(program, only=[check])
     return record
 
@@ -73,6 +74,21 @@ def test_the_run_goes_on_after_a_crash(tmp_path: Path) -> None:
     assert verdicts["longest-lag"] == "broken" and verdicts["one-fault"] == verdicts["delayed"] == "pass"
 
 
+def test_a_program_that_takes_too_much_memory_is_told(tmp_path: Path) -> None:
+    command = _program(tmp_path, "b = bytearray(os.urandom(1 << 20)) * 600; time.sleep(60)")
+    with Exec(command, Limits(seconds=30.0, memory=200 << 20)) as program:
+        (record,) = audit(program, only=["fault-dimension[one-fault]"])
+    assert record.verdict == "broken" and "GiB of memory" in record.detail and record.seconds < 20
+
+
+def test_a_line_out_of_turn_is_told_and_no_answer_to_the_next_question(tmp_path: Path) -> None:
+    """Two answers to every question, as from a program that forked."""
+    command = _program(tmp_path, "a = {'n_v': 1}; print(json.dumps(a), flush=True)")
+    with Exec(command) as program:
+        records = audit(program, only=["fault-dimension"])
+    assert any(record.verdict == "broken" and "nobody asked for" in record.detail for record in records)
+
+
 def test_nan_crosses_as_a_string(tmp_path: Path) -> None:
     """Strict JSON both ways: the program sees "NaN" and refuses."""
     body = "a = {'refused': 'NaN'} if any('NaN' in row for row in q['r']) else {'n_v': 1}"
@@ -82,10 +98,10 @@ def test_nan_crosses_as_a_string(tmp_path: Path) -> None:
 def test_what_does_not_speak_the_protocol() -> None:
     for command in ("no-such-program-anywhere", [sys.executable, "-c", "print('hello')"], [sys.executable, "-c", ""]):
         with pytest.raises(InvalidData, match="the program"):
-            Exec(command, timeout=5.0)
+            Exec(command, Limits(seconds=5.0))
     silly = [sys.executable, "-c", "input(); print('{\"functions\": [\"sing\"]}', flush=True); input()"]
     with pytest.raises(InvalidData, match="sing"):
-        Exec(silly, timeout=5.0)
+        Exec(silly, Limits(seconds=5.0))
 
 
 @pytest.mark.parametrize(("shell", "name"), [("octave-cli", "adapter.m"), ("sh", "adapter.sh")])
@@ -107,10 +123,10 @@ def test_the_command(tmp_path: Path) -> None:
     mine.write_text("class Mine:\n    def fault_dimension(self, r):\n        return 1\n", "utf-8")
     run = _command(f"{mine}:Mine", "--check", "fault-dimension", "--json")
     document = json.loads(run.stdout)
-    assert run.returncode == 1 and document["failed"] == 2
-    assert {one["vector"] for one in document["records"] if one["failed"]} == {"two-faults", "bad-units"}
+    assert run.returncode == 1 and document["failed"] == 3
+    assert {one["vector"] for one in document["records"] if one["failed"]} == {"two-faults", "bad-units", "nearly-one-fault"}
     run = _command("--check", "fault-dimension")
-    assert run.returncode == 0 and "7 checks of fault_dimension: 0 failed" in run.stdout and "Traceback" not in run.stderr
+    assert run.returncode == 0 and "9 checks of fault_dimension: 0 failed" in run.stdout and "Traceback" not in run.stderr
     run = _command(f"{mine}:Mine", "--check", "fault-dimension[two-faults]")
     assert run.returncode == 1 and f"faultspace audit {mine}:Mine --check 'fault-dimension[two-faults]'" in run.stdout
 

@@ -1,0 +1,244 @@
+"""Vectors of residuals: exact records of faults, with ranks, fault spaces and bounds, and the same records seen otherwise.
+
+    FaultVector         A, F, C, G, x0, v, r over Q; window ranks, n_v, fault space; certified singular-value gaps
+    FaultView           the same record in other units, another state basis, another order of outputs, or a part of it
+    VIEWS               the views that every fault vector is given in
+    UnexcitingVector    a fault signal from which the number of faults cannot be told: ranks and gaps alone
+    channel_units       powers of ten of the size of each channel
+
+A view is a fault vector of its own, over the transformed system, so that whatever is asked of the one can be asked of the other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from math import log10, sqrt
+from typing import Any
+
+import numpy as np
+
+from faultspace.exact.matrices import Matrix
+from faultspace.exact.signals import simulate
+from faultspace.exact.systems import ResidualSystem
+
+from .rationals import floats, matrix, scaled
+
+HALF = 45  # of the 90 samples of each record
+CLEAR = 1e3 * 2.0**-53  # of the norm of R_s, channels in their units: a thousand times what rounding moves a singular value by
+
+
+@dataclass(frozen=True)
+class FaultView:
+    """Samples first .. last - 1, `scale` times the signals, outputs turned round, `units` 10^a, 10^(a - 4), ... for the channels, the
+    state basis T x with T upper triangular of ones.
+    """
+
+    slug: str
+    first: int = 0
+    last: int = 2 * HALF
+    scale: Fraction = Fraction(1)
+    reversed_outputs: bool = False
+    largest_unit: int | None = None
+    other_basis: bool = False
+
+    def basis(self, n: int) -> tuple[Matrix, Matrix]:
+        """T and its inverse."""
+        T = [[int(j == i or (self.other_basis and j > i)) for j in range(n)] for i in range(n)]
+        inverse = [[int(j == i) - int(self.other_basis and j == i + 1) for j in range(n)] for i in range(n)]
+        return matrix(T, n), matrix(inverse, n)
+
+    def outputs(self, p: int) -> list[int]:
+        """Output i is that of this number."""
+        return list(range(p))[::-1] if self.reversed_outputs else list(range(p))
+
+    def units(self, p: int) -> list[Fraction]:
+        """Factor of each output, in the new order."""
+        return [Fraction(1) if self.largest_unit is None else Fraction(10) ** (self.largest_unit - 4 * i) for i in range(p)]
+
+    def system(self, given: ResidualSystem) -> ResidualSystem:
+        """(T A T^-1, T F, M C T^-1, M G), M the permutation and the units."""
+        T, inverse = self.basis(given.n)
+        outputs, units = self.outputs(given.p), self.units(given.p)
+        C, G = (scaled(one.rows(outputs).transposed(), units).transposed() for one in (given.C, given.G))
+        return ResidualSystem(T @ given.A @ inverse, T @ given.F, C @ inverse, G)
+
+    def record(self, given: ResidualSystem, x0: Matrix, v: Matrix) -> tuple[Matrix, Matrix]:
+        """x0 and v of the view."""
+        T, _ = self.basis(given.n)
+        start = simulate(given, x0, v).states.rows([self.first]).transposed()
+        part = v.rows(range(self.first, self.last))
+        return scaled(T @ start, [self.scale]), scaled(part, [self.scale] * v.ncols)
+
+
+AS_GIVEN = FaultView("as-given")
+VIEWS = (
+    FaultView("1e-12", scale=Fraction(1, 10**12)),
+    FaultView("1e-6", scale=Fraction(1, 10**6)),
+    FaultView("1e6", scale=Fraction(10**6)),
+    FaultView("other-basis", other_basis=True),
+    FaultView("permuted-outputs", reversed_outputs=True),
+    FaultView("other-units", largest_unit=3),
+    FaultView("time-shift", first=7),
+    FaultView("first-half", last=HALF),
+    FaultView("second-half", first=HALF),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class FaultVector:
+    """A residual r of x(k+1) = A x + F v, r = C x + G v from x0, exactly; `space`: basis columns [f; g] (n + p, n_z) of all solutions.
+
+    ranks: of R_1, R_2, ... over all columns of each. gaps: (certified lower bound on the least nonzero, upper on the largest singular
+    value of R_s), each channel divided by its unit of `channel_units`. lag: from lag + 1 block rows on a window suffices. bounds:
+    "residual" on |r - exact r| of the fitted residual in those units, "signal" on |v - exact v| on the first `trusted` samples (None: not
+    to be asked). space_bounds: block rows -> bound on the sine of the angle to `space` from windows of so many. views: by slug.
+    """
+
+    slug: str
+    view: FaultView
+    system: ResidualSystem
+    x0: Matrix
+    v: Matrix
+    ranks: tuple[int, ...]
+    gaps: tuple[tuple[float, float], ...]
+    n_v: int
+    space: Matrix
+    lag: int
+    trusted: int
+    bounds: Mapping[str, float | None]
+    space_bounds: Mapping[int, float]
+    views: Mapping[str, FaultVector] = field(default_factory=dict)
+
+    @cached_property
+    def r(self) -> Matrix:
+        """The exact residual (N, p)."""
+        return simulate(self.system, self.x0, self.v).residuals
+
+    @property
+    def clear(self) -> bool:
+        """Whether every rank stands clear of what rounding of the samples does to singular values: else floats cannot tell it."""
+        rows = (self.system.p * s for s in range(1, len(self.gaps) + 1))
+        return all(low > CLEAR * high * sqrt(height) for (low, high), height in zip(self.gaps, rows, strict=True))
+
+    def seen(self, slug: str) -> FaultVector:
+        """The view of that slug, or the vector itself."""
+        return self if slug == AS_GIVEN.slug else self.views[slug]
+
+    def to_json(self) -> dict[str, Any]:
+        """With the exact residual spelt out; views say how theirs comes from it."""
+        whole = {name: getattr(self, name).to_json() for name in ("v", "r")}
+        views = [{"slug": slug, **view._how(), **view._what()} for slug, view in self.views.items()]
+        return {"slug": self.slug, **whole, **self._what(), "views": views}
+
+    def _how(self) -> dict[str, Any]:
+        p, view = self.system.p, self.view
+        units = [str(unit * view.scale) for unit in view.units(p)]
+        return {"samples": [view.first, view.last], "outputs": view.outputs(p), "units": units, "fault_scale": str(view.scale)}
+
+    def _what(self) -> dict[str, Any]:
+        return {
+            "system": self.system.to_json(),
+            "x0": self.x0.to_json(),
+            "expected": {
+                "window_ranks": list(self.ranks),
+                "n_v": self.n_v,
+                "fault_space": self.space.to_json(),
+                "lag": self.lag,
+                "trusted": self.trusted,
+            },
+            **gaps_to_json(self.r, self.gaps),
+            "bounds": {**self.bounds, "space": [{"block_rows": s, "bound": bound} for s, bound in sorted(self.space_bounds.items())]},
+        }
+
+    @staticmethod
+    def from_json(data: Mapping[str, Any]) -> FaultVector:
+        """The vector that `to_json` wrote; residuals are computed again."""
+        v = matrix(data["v"], len(data["v"][0]))
+        whole = FaultVector._read(data["slug"], AS_GIVEN, data, v)
+        views = {}
+        for one, view in zip(data["views"], VIEWS, strict=True):
+            part = scaled(v.rows(range(*one["samples"])), [Fraction(one["fault_scale"])] * v.ncols)
+            views[one["slug"]] = FaultVector._read(data["slug"], view, one, part)
+        return FaultVector(**{name: getattr(whole, name) for name in FaultVector.__dataclass_fields__ if name != "views"}, views=views)
+
+    @staticmethod
+    def _read(slug: str, view: FaultView, data: Mapping[str, Any], v: Matrix) -> FaultVector:
+        known = data["expected"]
+        return FaultVector(
+            slug,
+            view,
+            ResidualSystem.of(*(data["system"][name] for name in "AFCG")),
+            matrix(data["x0"], 1),
+            v,
+            tuple(known["window_ranks"]),
+            gaps_from_json(data),
+            known["n_v"],
+            matrix(known["fault_space"], len(known["fault_space"][0])),
+            known["lag"],
+            known["trusted"],
+            {name: data["bounds"][name] for name in ("residual", "signal")},
+            {one["block_rows"]: one["bound"] for one in data["bounds"]["space"]},
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class UnexcitingVector:
+    """A residual of m faults whose signals show `shown` < m independent ones. ranks, gaps: as of FaultVector."""
+
+    slug: str
+    system: ResidualSystem
+    x0: Matrix
+    v: Matrix
+    ranks: tuple[int, ...]
+    gaps: tuple[tuple[float, float], ...]
+    shown: int
+
+    @cached_property
+    def r(self) -> Matrix:
+        """The exact residual (N, p)."""
+        return simulate(self.system, self.x0, self.v).residuals
+
+    def to_json(self) -> dict[str, Any]:
+        """With the exact residual spelt out."""
+        return {
+            "slug": self.slug,
+            "system": self.system.to_json(),
+            **{name: getattr(self, name).to_json() for name in ("x0", "v", "r")},
+            "expected": {"window_ranks": list(self.ranks), "shown": self.shown},
+            **gaps_to_json(self.r, self.gaps),
+        }
+
+    @staticmethod
+    def from_json(data: Mapping[str, Any]) -> UnexcitingVector:
+        """The vector that `to_json` wrote; the residual is computed again."""
+        system = ResidualSystem.of(*(data["system"][name] for name in "AFCG"))
+        known = data["expected"]
+        v, x0 = matrix(data["v"], system.m), matrix(data["x0"], 1)
+        return UnexcitingVector(data["slug"], system, x0, v, tuple(known["window_ranks"]), gaps_from_json(data), known["shown"])
+
+
+def channel_units(r: Matrix) -> list[Fraction]:
+    """The power of ten nearest to the root mean square of each channel of r (N, p)."""
+    values = floats(r)
+    sizes = np.max(np.abs(values), axis=0)
+    mean = sizes * np.sqrt(np.mean((values / sizes) ** 2, axis=0))
+    return [Fraction(10) ** round(log10(size)) for size in mean]
+
+
+def in_channel_units(r: Matrix) -> Matrix:
+    """r with each channel divided by its unit."""
+    return scaled(r, [1 / unit for unit in channel_units(r)])
+
+
+def gaps_to_json(r: Matrix, gaps: tuple[tuple[float, float], ...]) -> dict[str, Any]:
+    """Certified singular values with the units that they are in."""
+    values = [{"least_nonzero_above": low, "largest_below": high} for low, high in gaps]
+    return {"channel_units": [str(unit) for unit in channel_units(r)], "singular_values": values}
+
+
+def gaps_from_json(data: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
+    """What `gaps_to_json` wrote."""
+    return tuple((one["least_nonzero_above"], one["largest_below"]) for one in data["singular_values"])

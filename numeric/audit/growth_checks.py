@@ -1,0 +1,156 @@
+"""How memory and time grow with the length of the record: in proportion, or with its square.
+
+    checks              for every function that reads a record
+    footprint, Spent    peak memory beyond what was there and CPU seconds, of this process and all that it started
+    exponent            log of the ratio of two costs over that of the lengths
+
+The bound on the exponent is midway between linear and quadratic. What stays under a floor costs nobody anything and counts as no growth;
+the smaller cost is taken to be at least the floor's share, because small amounts drown in what the process holds anyway. Time may leap
+where data outgrow a cache: only a growth that goes on to twice the length is called one.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from math import log
+from typing import Any
+
+import numpy as np
+import psutil
+
+from ..models import StateSpaceModel
+from .rationals import Array, floats, signs
+from .records import Check, Function, Measurement, Severity
+from .vectors import FaultVector, IdentificationVector, shipped
+
+LENGTHS = (2000, 8000)  # a square of 8-byte numbers is 512 MB at the longer
+BOUND = 1.5
+MEMORY_FLOOR = 32e6  # bytes
+TIME_FLOOR = 0.2  # seconds
+EVERY = 0.004  # seconds between two looks at the memory
+SEED = 20250523
+
+
+@dataclass
+class Spent:
+    """Bytes and seconds, filled in when the work is done."""
+
+    memory: float = 0.0
+    seconds: float = 0.0
+
+
+@contextmanager
+def footprint() -> Iterator[Spent]:
+    """What the body costs this process and its children."""
+    spent, done = Spent(), threading.Event()
+    whole = psutil.Process()
+    before, begun = _resident(whole), _seconds(whole)
+    watched = [before, 0.0]  # peak; the watcher's own seconds
+
+    def watch() -> None:
+        while not done.wait(EVERY):
+            watched[0] = max(watched[0], _resident(whole))
+            watched[1] = time.thread_time()
+
+    watcher = threading.Thread(target=watch, daemon=True)
+    watcher.start()
+    try:
+        yield spent
+    finally:
+        peak = _resident(whole)
+        done.set()
+        watcher.join()
+        spent.memory = max(watched[0], peak) - before
+        spent.seconds = max(_seconds(whole) - begun - watched[1], 0.0)
+
+
+def _family(process: psutil.Process) -> list[psutil.Process]:
+    return [process, *process.children(recursive=True)]
+
+
+def _resident(process: psutil.Process) -> float:
+    total = 0.0
+    for one in _family(process):
+        with suppress(psutil.Error):
+            total += one.memory_info().rss
+    return total
+
+
+def _seconds(process: psutil.Process) -> float:
+    """CPU seconds; those of children that have ended are with their parents."""
+    total = 0.0
+    for one in _family(process):
+        with suppress(psutil.Error):
+            spent = one.cpu_times()
+            total += spent.user + spent.system + spent.children_user + spent.children_system
+    return total
+
+
+def exponent(costs: tuple[float, float], lengths: tuple[int, int], floor: float) -> float:
+    """0 where the larger cost is under the floor."""
+    ratio = lengths[1] / lengths[0]
+    small, large = max(costs[0], floor / ratio), costs[1]
+    return max(log(large / small) / log(ratio), 0.0) if large > floor else 0.0
+
+
+def checks() -> Iterator[Check]:
+    """All of this module."""
+    for function in ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct"):
+        yield _grows("memory-grows-with-N", function, "memory runs out on records of ordinary length")
+        yield _grows("time-grows-with-N", function, "no answer in bearable time on records of ordinary length")
+
+
+def _grows(slug: str, name: str, effect: str) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        small, large = (_cost(function, question(name, length)) for length in LENGTHS)
+        if slug.startswith("memory"):
+            got = exponent((small.memory, large.memory), LENGTHS, MEMORY_FLOOR)
+            yield Measurement("exponent of memory", got, BOUND)
+            return
+        got = exponent((small.seconds, large.seconds), LENGTHS, TIME_FLOOR)
+        if got > BOUND:
+            lengths = LENGTHS[1], 2 * LENGTHS[1]
+            further = _cost(function, question(name, lengths[1]))
+            got = min(got, exponent((large.seconds, further.seconds), lengths, TIME_FLOOR))
+        yield Measurement("exponent of time", got, BOUND)
+
+    return Check(slug, name, f"N{LENGTHS[0]}-N{LENGTHS[1]}", None, effect, Severity.NUISANCE, measure)
+
+
+def _cost(function: Function, arguments: tuple[Any, ...]) -> Spent:
+    with footprint() as spent:
+        function(*arguments)
+    return spent
+
+
+def question(name: str, length: int) -> tuple[Any, ...]:
+    """The function's arguments with a record of that length, driven by signs."""
+    if name == "identify":
+        model: IdentificationVector = next(one for one in shipped("identification") if (one.B.ncols, one.C.nrows) == (2, 2))
+        u = _driven(length, model.B.ncols)
+        return _response(u, model.A, model.B, model.C, model.D), u, model.order, model.block_rows
+    fault: FaultVector = shipped("faults")[0]
+    A, F, C, G = (floats(M) for M in (fault.system.A, fault.system.F, fault.system.C, fault.system.G))
+    v = _driven(length, fault.system.m)
+    r = _response(v, fault.system.A, fault.system.F, fault.system.C, fault.system.G)
+    arguments: dict[str, tuple[Any, ...]] = {
+        "residual": (r, v, A, F, C, G),
+        "window_ranks": (r, len(A) + 2),
+        "fault_dimension": (r,),
+        "fault_space": (r, A, C, fault.n_v, len(A) + 1),
+        "reconstruct": (r, A, F, C, G, np.zeros(len(A))),
+    }
+    return arguments[name]
+
+
+def _driven(length: int, channels: int) -> Array:
+    return np.ascontiguousarray(signs(SEED, length * channels).reshape(channels, length).T)
+
+
+def _response(u: Array, *system: Any) -> Array:
+    model = StateSpaceModel(*(floats(M) for M in system))
+    return np.asarray(model.simulate(u, np.zeros(model.n)))

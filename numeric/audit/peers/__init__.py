@@ -1,0 +1,105 @@
+"""Published implementations, called as their documentation tells and put to the same questions as our own. What calls them is ours.
+
+    Peer      a name, what is called, how it is reached (an adapter module or a command), what to install, the version at hand
+    PEERS     all of them
+    peer      the one of that name
+    FAULT_ID  the environment variable with the folder of a clone of ggleizer/fault_id
+
+Nothing here imports a peer: a Python peer is imported by its adapter module, an Octave one by its script. An adapter has the functions that
+the package has, takes the defaults of the package where a user would, says why where it does not, and repairs nothing. A warning that
+names the trouble counts as a refusal, as it does in our own adapter. Errors that lie in scripts, outside every function, are in
+`by_hand.md`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import subprocess
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, partial
+from importlib import metadata
+from pathlib import Path
+
+from ...input_checks import InvalidData
+
+FAULT_ID = "FAULT_ID"
+OCTAVE = ("octave-cli", "--no-gui", "--quiet", "--norc")
+HERE = Path(__file__).parent
+
+
+@dataclass(frozen=True)
+class Peer:
+    """`adapter`: a module name for `adapter.load`, or None; `command`: a command for `subprocess_adapter.Exec`, or None. `version` gives
+    None where the peer is not installed; `needs` says in a line what to install.
+    """
+
+    name: str
+    title: str
+    language: str
+    adapter: str | None
+    command: tuple[str, ...] | None
+    needs: str
+    version: Callable[[], str | None]
+
+
+def _distribution(name: str) -> str | None:
+    try:
+        return f"{name} {metadata.version(name)}"
+    except metadata.PackageNotFoundError:
+        return None
+
+
+@cache
+def _octave(package: str | None = None) -> str | None:
+    """Octave's version, with that of one of its packages; None where either is missing."""
+    if shutil.which(OCTAVE[0]) is None:
+        return None
+    known = f"d = pkg('describe', '{package}'); printf('Octave %s, {package} %s', version(), d{{1}}.version)"
+    asked = known if package else "printf('Octave %s', version())"
+    told = subprocess.run([*OCTAVE, "--eval", asked], capture_output=True, check=False, stdin=subprocess.DEVNULL, text=True)
+    return told.stdout.strip() or None
+
+
+def _fault_id() -> str | None:
+    """The clone has no version of its own: the first digits of the SHA-256 of the two functions called stand for it."""
+    folder, octave = Path(os.environ.get(FAULT_ID, "")), _octave()
+    called = [folder / name for name in ("pi_moesp.m", "estimate_input_matrices.m")]
+    if octave is None or not all(file.is_file() for file in called):
+        return None
+    digest = hashlib.sha256(b"".join(file.read_bytes() for file in called)).hexdigest()
+    return f"ggleizer/fault_id {digest[:12]}, {octave}"
+
+
+def _python(name: str, title: str, adapter: str, distribution: str) -> Peer:
+    needs = f"pip install {distribution}"
+    return Peer(name, title, "Python", f"{__name__}.{adapter}", None, needs, partial(_distribution, distribution))
+
+
+def _script(name: str, title: str, file: str, needs: str, version: Callable[[], str | None], *arguments: str) -> Peer:
+    return Peer(name, title, "Octave", None, (*OCTAVE, str(HERE / file), *arguments), needs, version)
+
+
+CLONE = f"GNU Octave, a clone of github.com/ggleizer/fault_id, and its folder in the environment variable {FAULT_ID}"
+CONTROL = "GNU Octave with its package control"
+PEERS = (
+    _python("sippy_unipi", "sippy_unipi: MOESP, defaults (no D)", "sippy_adapter", "sippy_unipi"),
+    _python("sippy_unipi-D", "sippy_unipi: MOESP with SS_D_required=True", "sippy_adapter:with_feedthrough", "sippy_unipi"),
+    _python("nfoursid", "nfoursid: NFourSID", "nfoursid_adapter", "nfoursid"),
+    _python("ctrlsys", "ctrlsys (SLICOT in C): ib01ad, ib01bd; ab08nd", "ctrlsys_adapter", "ctrlsys"),
+    _python("python-control", "python-control: markov, eigensys_realization; StateSpace.zeros", "control_adapter", "control"),
+    _python("slycot", "slycot (SLICOT): ab08nd", "slycot_adapter", "slycot"),
+    _script("octave-control", "Octave's control (SLICOT): moesp; zero", "octave_control.m", CONTROL, partial(_octave, "control")),
+    _script("fault_id", "ggleizer/fault_id: PI-MOESP; rank and threshold of its exact example", "fault_id.m", CLONE, _fault_id),
+    _script("fault_id-threshold", "ggleizer/fault_id: rank with the example's threshold 1", "fault_id.m", CLONE, _fault_id, "1"),
+)
+
+
+def peer(name: str) -> Peer:
+    """Raises InvalidData for an unknown name."""
+    found = next((one for one in PEERS if one.name == name), None)
+    if found is None:
+        raise InvalidData(f"peer {name}: there is none of that name; there are {', '.join(one.name for one in PEERS)}")
+    return found

@@ -1,0 +1,43 @@
+"""python-control: markov by least squares, then eigensys_realization; StateSpace.zeros.
+
+markov has no initial state and takes the impulse response to be over after m samples: it should be long enough for that, and m n_u unknowns
+ask for as many samples at least. The package has no normal rank and no infinite zeros: `structure` tells the finite zeros alone.
+"""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import control
+import numpy as np
+from numpy.typing import NDArray
+
+from ..records import Refused
+
+Array = NDArray[np.float64]
+LONGEST = 100
+
+
+def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+    """m: two equations an unknown, at most LONGEST, never fewer than eigensys_realization's default Hankel matrix takes (the default m, as
+    many as samples, is right for a single input at rest alone).
+    """
+    n_u, p = u.shape[1], y.shape[1]
+    m = max(min(len(u) // (2 * n_u), LONGEST), 4 * order + 1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", UserWarning)  # "Not enough data for requested number of parameters"
+        try:
+            response = control.markov(y.T, u.T, m)
+        except UserWarning as warning:
+            raise ValueError(str(warning)) from warning
+    found, _ = control.eigensys_realization(response.reshape(p, n_u, m), order)
+    return found.A, found.B, found.C, found.D
+
+
+def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
+    """By slycot where that is installed, else of square systems alone."""
+    try:
+        return {"finite_zeros": [complex(z) for z in control.StateSpace(A, F, C, G, True).zeros()]}
+    except NotImplementedError as lacking:
+        raise Refused(str(lacking)) from lacking

@@ -1,0 +1,41 @@
+"""ctrlsys, SLICOT translated to C: ib01ad and ib01bd (MOESP, Cholesky: SLICOT's usual choice), ab08nd.
+
+identify uses ib01bd with METH = "M" and JOB = "A", which promise A, B, C and D by MOESP, after ib01ad with JOBD = "M", which those need.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import ctrlsys
+import numpy as np
+from numpy.typing import NDArray
+
+from ..adapter import Structure
+from ._slicot import structure_of
+
+Array = NDArray[np.float64]
+SINGULAR = (3, 4, 5)  # of ib01ad: all singular values zero, a rank-deficient least-squares problem: SLICOT's way to decline
+
+
+def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+    """info other than 0, and warnings that say the problem is singular, are refusals."""
+    outputs, inputs = np.asfortranarray(y), np.asfortranarray(u)
+    n_u, p = u.shape[1], y.shape[1]
+    _, factor, _, warning, info = ctrlsys.ib01ad("M", "C", "M", "O", "N", "N", block_rows, n_u, p, inputs, outputs, 0.0, -1.0)
+    if info != 0 or warning in SINGULAR:
+        raise ValueError(f"ib01ad: info {info}, warning {warning}")
+    A, C, B, D, *_, warning, info = ctrlsys.ib01bd("M", "A", "N", block_rows, order, n_u, p, len(y), np.asfortranarray(factor), 0.0)
+    if info != 0 or warning == 4:  # a least-squares problem with a rank-deficient matrix
+        raise ValueError(f"ib01bd: info {info}, warning {warning}")
+    return A, B, C, D
+
+
+def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:
+    """No scaling, the default tolerance."""
+    n, m = len(A), F.shape[1]
+    matrices = (np.asfortranarray(M) for M in (A, F, C, G))
+    nu, rank, dinfz, _, _, infz, _, _, Af, Bf, info = ctrlsys.ab08nd("N", n, m, len(C), *matrices, 0.0)
+    if info != 0:
+        raise ValueError(f"ab08nd: info {info}")
+    return structure_of(nu, rank, infz[:dinfz], Af, Bf, m)

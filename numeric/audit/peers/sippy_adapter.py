@@ -1,0 +1,41 @@
+"""sippy_unipi: system_identification(y, u, "MOESP"). A user sets the horizons to the window and the order to the one asked for.
+
+identify           with the package's default SS_D_required=False: D is zero
+with_feedthrough   the same package with SS_D_required=True, which is what a user sets who knows of a D
+
+Models come without an initial state (x0 is zeros in SS_model), so that there is nothing else to ask.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from sippy_unipi import system_identification
+
+Array = NDArray[np.float64]
+
+
+def _identified(y: Array, u: Array, order: int, block_rows: int, **options: bool) -> tuple[Any, Any, Any, Any]:
+    # It takes either orientation and guesses; a row a channel is that of its examples. Views, so that what it does to them is seen.
+    with contextlib.redirect_stdout(io.StringIO()) as said:
+        found = system_identification(y.T, u.T, "MOESP", SS_f=block_rows, SS_p=block_rows, SS_fixed_order=order, **options)
+    if "Warning" in said.getvalue():  # printed, not raised
+        raise ValueError(said.getvalue())
+    return found.A, found.B, found.C, found.D
+
+
+def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+    """Defaults."""
+    return _identified(y, u, order, block_rows)
+
+
+def _with_feedthrough(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
+    return _identified(y, u, order, block_rows, SS_D_required=True)
+
+
+with_feedthrough = SimpleNamespace(identify=_with_feedthrough)

@@ -1,0 +1,24 @@
+"""slycot: ab08nd, SLICOT's normal rank, finite zeros and infinite zeros."""
+
+from __future__ import annotations
+
+import numpy as np
+import slycot
+from numpy.typing import NDArray
+
+from ..adapter import Structure
+from ._slicot import structure_of
+
+Array = NDArray[np.float64]
+
+
+def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:
+    """The package's default: no scaling, its own tolerance."""
+    n, m = len(A), F.shape[1]
+    try:
+        nu, rank, dinfz, _, _, infz, _, _, Af, Bf = slycot.ab08nd(n, m, len(C), A, F, C, G)
+    except Exception as error:
+        if type(error).__module__ != "_wrapper":
+            raise
+        raise ValueError(str(error)) from error  # f2py's class for arguments of the wrong shape, which no module exports
+    return structure_of(nu, rank, infz[:dinfz], Af, Bf, m)

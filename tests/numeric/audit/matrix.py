@@ -1,0 +1,73 @@
+"""`python -m tests.numeric.audit.matrix --out FILE`: every mutant through every check of the functions it breaks, as Markdown tables.
+
+matrix     (mutant, slug) -> (failed, asked)
+page       one table a function: a row a mutant, a column a slug
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from rich.progress import track
+
+from faultspace.numeric.audit.adapter import FUNCTIONS, offered
+from faultspace.numeric.audit.records import Kind
+from faultspace.numeric.audit.running import all_checks, audit
+from tests.numeric.audit.mutants import MUTANTS, Mutant
+
+Counts = Mapping[tuple[str, str], tuple[int, int]]
+HEAD = """# Mutants against checks
+
+Our reference with one thing broken, put through the whole audit: how many of a check's vectors fail. Bold is the check that the tests name
+for the mutant. Columns where nothing fails are left out. Made by `python -m tests.numeric.audit.matrix --out numeric/audit/MUTANTS.md`.
+"""
+
+
+def counted(mutant: Mutant) -> dict[tuple[str, str], tuple[int, int]]:
+    """Of one mutant."""
+    result: dict[tuple[str, str], tuple[int, int]] = {}
+    for record in audit(mutant.adapter):
+        failed, asked = result.get((mutant.name, record.slug), (0, 0))
+        if record.kind != Kind.FREE:
+            result[mutant.name, record.slug] = failed + record.failed, asked + 1
+    return result
+
+
+def page(mutants: Sequence[Mutant], counts: Counts) -> str:
+    """All tables."""
+    parts = [HEAD]
+    slugs = list(dict.fromkeys((one.function, one.slug) for one in all_checks()))
+    for function in FUNCTIONS:
+        rows = [one for one in mutants if function in offered(one.adapter)]
+        columns = [slug for of, slug in slugs if of == function and any(counts.get((one.name, slug), (0, 0))[0] for one in rows)]
+        parts.append(f"## {function}\n")
+        parts.append("| mutant | what is wrong | " + " | ".join(columns) + " |")
+        parts.append("|---" * (2 + len(columns)) + "|")
+        for one in rows:
+            cells = [_cell(counts.get((one.name, slug), (0, 0)), slug in (one.caught_by, *one.also)) for slug in columns]
+            parts.append(f"| {one.name} | {one.wrong} | " + " | ".join(cells) + " |")
+        parts.append("")
+    return "\n".join(parts).rstrip() + "\n"
+
+
+def _cell(count: tuple[int, int], named: bool) -> str:
+    failed, asked = count
+    shown = f"{failed}/{asked}" if failed else ""
+    return f"**{shown}**" if named else shown
+
+
+def main() -> None:
+    """Writes the page."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", type=Path, required=True, metavar="FILE")
+    out: Path = parser.parse_args().out
+    counts: dict[tuple[str, str], tuple[int, int]] = {}
+    for mutant in track(MUTANTS, "mutants"):
+        counts |= counted(mutant)
+    out.write_text(page(MUTANTS, counts), "utf-8")
+
+
+if __name__ == "__main__":
+    main()

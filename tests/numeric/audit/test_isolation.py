@@ -1,0 +1,125 @@
+"""A named adapter that hangs, crashes, prints, forks or exhausts memory is told as that, and the next check goes on."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from faultspace.numeric.audit.isolation import Isolated
+from faultspace.numeric.audit.programs import Limits
+from faultspace.numeric.audit.running import audit, audit_named, parametrize_with_checks
+from faultspace.numeric.input_checks import InvalidData
+
+REFERENCE = "faultspace.numeric.audit.reference"
+ONE, TWO = "fault-dimension[one-fault]", "fault-dimension[two-faults]"
+
+
+def _adapter(tmp_path: Path, body: str, head: str = "") -> str:
+    """Right for three outputs and one fault after `body`, which runs for the vector of one fault alone."""
+    lines = [
+        "import ctypes, os, sys, time",
+        "import numpy as np",
+        head,
+        "def fault_dimension(r):",
+        "    from faultspace.numeric.audit.reference import fault_dimension as right",
+        "    n_v = right(r)",
+        "    if n_v == 1:",
+        *(f"        {line}" for line in body.splitlines()),
+        "    return n_v",
+    ]
+    file = tmp_path / "mine.py"
+    file.write_text("\n".join(lines) + "\n", "utf-8")
+    return str(file)
+
+
+@pytest.mark.parametrize(
+    ("body", "verdict", "words"),
+    [
+        ("pass", "pass", ""),
+        ("time.sleep(600)", "broken", "no answer within 4 s"),
+        ("while True: pass", "broken", "no answer within 4 s"),
+        ("os.abort()", "broken", "SIGABRT"),
+        ("ctypes.string_at(0)", "broken", "SIGSEGV"),
+        ("sys.exit(0)", "broken", "ended without an answer"),
+        ("os._exit(3)", "broken", "ended without an answer"),
+        ("sys.stderr.write('out of luck'); sys.stderr.flush(); os._exit(3)", "broken", "out of luck"),
+        ("print('garbage'); os.write(1, b'garbage\\n'); sys.stdout.flush()", "pass", ""),
+        ("sys.stdin.readline()", "pass", ""),
+        ("os.fork()", "broken", "forked"),
+        ("held = [np.ones(1 << 22) for _ in range(1 << 12)]", "broken", "GiB"),
+        ("np.ones(1 << 50)", "broken", "MemoryError"),
+        ("return np.ones((2, 2)) > 1", "broken", "number"),
+        ("raise KeyboardInterrupt", "broken", "ended without an answer"),
+    ],
+)
+def test_what_breaks_is_told_and_the_run_goes_on(tmp_path: Path, body: str, verdict: str, words: str) -> None:
+    name = _adapter(tmp_path, body)
+    limits = Limits(seconds=4.0 if "4 s" in words else 60.0, memory=512 << 20)
+    first, second = audit_named(name, only=[ONE, TWO], limits=limits)
+    assert (first.name, first.verdict) == (ONE, verdict) and words in first.detail
+    assert (second.name, second.verdict) == (TWO, "pass")
+
+
+def test_a_process_left_behind_ends_with_the_audit(tmp_path: Path) -> None:
+    mark = tmp_path / "alive"
+    child = f"import time, pathlib; time.sleep(3); pathlib.Path({str(mark)!r}).touch()"
+    name = _adapter(tmp_path, f"import subprocess; subprocess.Popen([sys.executable, '-c', {child!r}])")
+    (record,) = audit_named(name, only=[ONE])
+    assert record.verdict == "pass"
+    time.sleep(3.5)
+    assert not mark.exists()
+
+
+def test_the_same_records_with_and_without_a_process_of_its_own() -> None:
+    import faultspace.numeric.audit.reference as reference
+
+    def told(records: Any) -> list[Any]:
+        return [(one.name, one.function, one.verdict, one.got, one.bound) for one in records]
+
+    only = ["fault-dimension", "normal-rank", "refuses-nan-output"]
+    assert told(audit_named(REFERENCE, only=only)) == told(audit(reference, only=only))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("1 / 0", "ZeroDivisionError"),
+        ("import no_such_package", "no_such_package"),
+        ("from . import other", "name its module instead"),
+        ("import os; os._exit(1)", "ended without an answer"),
+        ("identity = 1", "none of the functions"),
+    ],
+)
+def test_what_cannot_be_loaded(tmp_path: Path, text: str, words: str) -> None:
+    file = tmp_path / "broken.py"
+    file.write_text(text + "\n", "utf-8")
+    with pytest.raises(InvalidData, match=words):
+        Isolated(str(file))
+
+
+def test_what_lies_beside_the_adapter_can_be_imported(tmp_path: Path) -> None:
+    (tmp_path / "beside_it.py").write_text("ONE = 1\n", "utf-8")
+    name = _adapter(tmp_path, "return beside_it.ONE", head="import beside_it")
+    (record,) = audit_named(name, only=[ONE])
+    assert record.verdict == "pass"
+
+
+def test_a_module_in_the_present_folder_stands_in_for_none_of_ours(tmp_path: Path) -> None:
+    (tmp_path / "json.py").write_text("raise RuntimeError('wrong json')\n", "utf-8")
+    run = subprocess.run(
+        [sys.executable, "-P", "-m", "faultspace", "audit", "--check", ONE], cwd=tmp_path, capture_output=True, text=True, timeout=60
+    )
+    assert run.returncode == 0, run.stderr
+
+
+def test_the_pytest_face_takes_a_name(tmp_path: Path) -> None:
+    decorated: Any = parametrize_with_checks(_adapter(tmp_path, "os.abort()"), limits=Limits(seconds=20.0))
+    cases = {case.id: case.values[0] for case in decorated.args[1]}
+    with pytest.raises(AssertionError, match="SIGABRT"):
+        cases[f"{ONE}-fault_dimension"]()
+    cases[f"{TWO}-fault_dimension"]()

@@ -1,0 +1,149 @@
+"""The peers: the registry needs none of them; one that is installed gets a vector right, and what is known to be wrong in it is found."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from faultspace.numeric.audit.adapter import load, offered
+from faultspace.numeric.audit.peers import FAULT_ID, HERE, OCTAVE, PEERS, peer
+from faultspace.numeric.audit.records import Record, Verdict
+from faultspace.numeric.audit.running import audit
+from faultspace.numeric.audit.subprocess_adapter import Exec
+from faultspace.numeric.input_checks import InvalidData
+
+PACKAGES = ("sippy_unipi", "nfoursid", "ctrlsys", "control", "slycot")
+OFFERED = {
+    "sippy_unipi": ["identify"],
+    "sippy_unipi-D": ["identify"],
+    "nfoursid": ["identify"],
+    "ctrlsys": ["identify", "structure"],
+    "python-control": ["identify", "structure"],
+    "slycot": ["structure"],
+    "octave-control": ["identify", "structure"],
+    "fault_id": ["identify", "window_ranks", "fault_dimension", "fault_space"],
+    "fault_id-threshold": ["identify", "window_ranks", "fault_dimension", "fault_space"],
+}
+RIGHT = [
+    ("sippy_unipi", "exact-recovery[n2-u2-p2-no-D]"),
+    ("sippy_unipi-D", "exact-recovery[n2-u2-p3]"),
+    ("nfoursid", "exact-recovery[n2-u2-p3]"),
+    ("ctrlsys", "finite-zeros[square-proper]"),
+    ("ctrlsys", "infinite-zeros[chain-of-delays]"),
+    ("python-control", "consistent-under-coloured-fault[coloured]"),
+    ("python-control", "finite-zeros[square-proper]"),
+    ("slycot", "infinite-zeros[chain-of-delays]"),
+    ("slycot", "refuses-shapes[two-faults]"),
+    ("octave-control", "exact-recovery[n2-u1-p2]"),
+    ("octave-control", "finite-zeros[zero-outside]"),
+    ("octave-control", "infinite-zeros[square-half-proper]"),
+    ("fault_id", "exact-recovery[n2-u1-p2]"),
+    ("fault_id", "consistent-under-coloured-fault[coloured]"),
+    ("fault_id", "fault-space[two-faults]"),
+    ("fault_id", "window-ranks[two-faults]"),
+    ("fault_id-threshold", "fault-dimension[one-fault]"),
+]
+WRONG = [
+    ("sippy_unipi", "exact-recovery[n2-u2-p2-at-rest]", "fail"),  # no D by default
+    ("sippy_unipi-D", "consistent-under-coloured-fault[coloured]", "fail"),  # past outputs as instruments
+    ("ctrlsys", "consistent-under-coloured-fault[coloured]", "fail"),
+    ("octave-control", "consistent-under-coloured-fault[coloured]", "fail"),
+    ("nfoursid", "memory-grows-with-N[N2000-N8000]", "fail"),
+    ("nfoursid", "other-units[n2-u1-p1]", "fail"),  # normal equations
+    ("ctrlsys", "refuses-shapes[two-faults]", "fail"),  # an array smaller than told
+    ("ctrlsys", "exact-recovery[n2-u1-p1]", "fail"),  # B and D of ib01bd
+    ("octave-control", "long-window[n4-u2-p3-s20]", "broken"),  # IB01BD: parameter 30
+    ("fault_id", "exact-recovery[n2-u2-p2-at-rest]", "fail"),  # n_u > 1: an interleaved reshape
+    ("fault_id", "fault-space-long-window[two-faults]", "fail"),  # floor of a fractional range
+    ("fault_id", "fault-space-1e6[two-faults]", "fail"),  # singular values above 1e-10
+    ("fault_id", "fault-dimension-noisy[one-fault-in-noise]", "fail"),  # the default tolerance
+    ("fault_id-threshold", "fault-dimension-1e-6[one-fault]", "fail"),  # the threshold 1
+    ("fault_id-threshold", "window-ranks[two-faults]", "fail"),
+]
+
+
+def _asked(name: str, *checks: str) -> dict[str, Record]:
+    """Records by name; skips where the peer is not here."""
+    one = peer(name)
+    if one.version() is None:
+        pytest.skip(f"{name}: {one.needs}")
+    if one.adapter is not None:
+        return {record.name: record for record in audit(load(one.adapter), only=checks)}
+    with Exec(one.command or ()) as program:
+        return {record.name: record for record in audit(program, only=checks)}
+
+
+def test_the_registry_is_well_formed() -> None:
+    assert len({one.name for one in PEERS}) == len(PEERS) and set(OFFERED) == {one.name for one in PEERS}
+    for one in PEERS:
+        assert (one.adapter is None) != (one.command is None) and one.language == ("Octave" if one.adapter is None else "Python")
+        assert one.needs and "\n" not in one.needs and peer(one.name) is one
+        place = importlib.util.find_spec(one.adapter.partition(":")[0]) if one.adapter else None
+        assert place is not None if one.adapter else Path((one.command or ())[len(OCTAVE)]).is_file()
+    with pytest.raises(InvalidData, match="nfoursid"):
+        peer("nobody")
+
+
+def test_the_registry_imports_no_peer() -> None:
+    code = f"import sys, faultspace.numeric.audit.peers; print([name for name in {PACKAGES} if name in sys.modules])"
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
+    assert told.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("name", OFFERED)
+def test_what_a_peer_offers(name: str) -> None:
+    one = peer(name)
+    if one.version() is None:
+        pytest.skip(f"{name}: {one.needs}")
+    if one.adapter is not None:
+        assert sorted(offered(load(one.adapter))) == sorted(OFFERED[name])
+    else:
+        with Exec(one.command or ()) as program:
+            assert sorted(offered(program)) == sorted(OFFERED[name])
+
+
+@pytest.mark.parametrize(("name", "check"), RIGHT)
+def test_a_peer_gets_right_what_it_can(name: str, check: str) -> None:
+    record = _asked(name, check)[check]
+    assert record.verdict == Verdict.PASS, record
+
+
+@pytest.mark.parametrize(("name", "check", "verdict"), WRONG)
+def test_a_known_error_is_found(name: str, check: str, verdict: str) -> None:
+    record = _asked(name, check)[check]
+    assert record.verdict == verdict, record
+
+
+def test_the_reshape_spares_the_poles() -> None:
+    """What is wrong in fault_id for two inputs is B and D alone; the adapter does nothing to A and C."""
+    record = _asked("fault_id", "exact-recovery[n2-u2-p2-at-rest]")["exact-recovery[n2-u2-p2-at-rest]"]
+    assert "Markov" in record.detail and "eigenvalues" not in record.detail and "polynomial" not in record.detail
+
+
+def test_what_is_not_offered_is_declined() -> None:
+    record = _asked("python-control", "normal-rank[wide]")["normal-rank[wide]"]
+    assert record.verdict == Verdict.REFUSED and "normal rank" in record.detail
+
+
+def test_a_missing_clone_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(FAULT_ID, str(tmp_path))
+    assert peer("fault_id").version() is None
+    if peer("octave-control").version() is None:
+        pytest.skip(peer("octave-control").needs)
+    with pytest.raises(InvalidData, match=f"set {FAULT_ID}"):
+        Exec(peer("fault_id").command or ())
+
+
+def test_numbers_pass_through_octave_to_the_last_bit() -> None:
+    """jsondecode and jsonencode would not do that."""
+    if peer("octave-control").version() is None:
+        pytest.skip(peer("octave-control").needs)
+    program = f"source('{HERE / 'json_lines.m'}'); function a = same(q), a.r = q.r; end; answer_questions(struct('residual', @same))"
+    rows = [[1 / 3, -2 / 7e11], [1e-300 / 3, float("inf")], [2**53 + 2.0, -0.1]]
+    with Exec([*OCTAVE, "--eval", program]) as echo:
+        question = {"call": "residual", "r": rows}
+        assert echo._ask({**question})["r"] == [[1 / 3, -2 / 7e11], [1e-300 / 3, "Infinity"], [2**53 + 2.0, -0.1]]

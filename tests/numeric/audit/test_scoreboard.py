@@ -1,0 +1,114 @@
+"""The scoreboard's pages are what its file says, the file is of the checks that there are, and tallies count."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from faultspace.numeric.audit.peers import PEERS, Peer
+from faultspace.numeric.audit.programs import STANDARD
+from faultspace.numeric.audit.records import Kind
+from faultspace.numeric.audit.running import all_checks, audit
+from faultspace.numeric.audit.scoreboard import Audited, Board, audit_peer, main, merged, tallies
+from faultspace.numeric.audit.scoreboard_pages import findings, table, write_pages
+from faultspace.numeric.audit.vectors import shipped
+from faultspace.numeric.input_checks import InvalidData
+from tests.numeric.audit.mutants import MUTANTS
+
+ROOM = Path(__file__).resolve().parents[3] / "numeric" / "audit"
+BOARD = Board.from_json(json.loads((ROOM / "scoreboard.json").read_text("utf-8")))
+
+
+def test_the_pages_are_made_of_the_file(tmp_path: Path) -> None:
+    for name in ("README.md", "scoreboard.json"):
+        shutil.copy(ROOM / name, tmp_path / name)
+    assert main(["--out", str(tmp_path), "--pages"]) == 0
+    for name in ("README.md", "FINDINGS.md"):
+        again = "python -m faultspace.numeric.audit.scoreboard --out numeric/audit --pages"
+        assert (tmp_path / name).read_text("utf-8") == (ROOM / name).read_text("utf-8"), f"make it again: {again}"
+
+
+def test_the_file_is_of_the_checks_that_there_are() -> None:
+    """Each slug and function of our own, asked as often as there are vectors, and every package on the board."""
+    asked: dict[tuple[str, str], int] = {}
+    for check in all_checks():
+        asked[check.slug, check.function] = asked.get((check.slug, check.function), 0) + 1
+    own = BOARD.audited[0]
+    assert {(one.slug, one.function): one.asked for one in own.tallies} == asked, "audit again: it was made by other checks"
+    assert [one.name for one in BOARD.audited] == ["faultspace", *(one.name for one in PEERS)]
+    assert not any(one.failed for one in own.tallies)
+    for audited in BOARD.audited[1:]:
+        assert all(one.asked <= asked[one.slug, one.function] for one in audited.tallies) and audited.version
+
+
+@pytest.mark.parametrize(
+    ("name", "slug"),
+    [
+        ("sippy_unipi", "exact-recovery"),
+        ("nfoursid", "memory-grows-with-N"),
+        ("ctrlsys", "exact-recovery"),
+        ("octave-control", "long-window"),
+        ("fault_id", "exact-recovery"),
+        ("fault_id", "fault-space-long-window"),
+        ("fault_id", "fault-space-1e6"),
+        ("fault_id", "fault-dimension-noisy"),
+        ("fault_id-threshold", "window-ranks"),
+    ],
+)
+def test_the_errors_known_before_are_on_it(name: str, slug: str) -> None:
+    (found,) = (one for one in BOARD.audited if one.name == name)
+    assert any(one.slug == slug and one.failed for one in found.tallies)
+    assert re.search(rf"## {re.escape(name)}\n.*?\*\*{slug}\*\*|## {re.escape(name)}\n.*?{slug} \(", findings(BOARD), re.S)
+
+
+def test_tallies_count_and_show_the_first_failure() -> None:
+    rows = {one.slug: one for one in tallies(audit(SimpleNamespace(fault_dimension=lambda r: 1)))}
+    one = rows["fault-dimension"]
+    counts = [vector.n_v for vector in shipped("faults")]
+    wrong = sum(count != 1 for count in counts)
+    assert (one.asked, one.failed, one.verdict, one.got, one.bound) == (len(counts), wrong, "fail", 1.0, 0.0)
+    assert one.vector == "two-faults" and rows["as-many-faults-as-outputs"].kind == Kind.FREE
+
+
+def test_what_an_answer_lacks_is_not_asked() -> None:
+    records = audit(SimpleNamespace(structure=lambda A, F, C, G: {"finite_zeros": []}), only=["normal-rank", "finite-zeros"])
+    assert {one.verdict for one in records if one.slug == "normal-rank"} == {"not offered"}
+    assert not any(one.failed for one in records if one.slug == "normal-rank")
+    assert any(one.failed for one in records if one.slug == "finite-zeros")
+    assert {one.slug for one in tallies(records)} == {"finite-zeros"}
+
+
+def test_a_new_entry_takes_the_place_of_the_old_one() -> None:
+    def entry(name: str, seconds: float) -> Audited:
+        return Audited(name, "", "1", "", seconds, ())
+
+    old = Board((entry("faultspace", 1.0), entry("slycot", 1.0), entry("ctrlsys", 1.0)))
+    new = merged(Board((entry("faultspace", 2.0), entry("slycot", 2.0))), old)
+    assert [(one.name, one.seconds) for one in new.audited] == [("faultspace", 2.0), ("ctrlsys", 1.0), ("slycot", 2.0)]
+
+
+def test_a_package_that_is_not_here_says_what_it_needs() -> None:
+    absent = Peer("absent", "", "Python", "absent", None, "pip install absent", lambda: None)
+    with pytest.raises(InvalidData, match="pip install absent"):
+        audit_peer(absent, limits=STANDARD)
+
+
+def test_pages_without_marks_are_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "README.md").write_text("no marks\n", "utf-8")
+    write_pages(BOARD, tmp_path)
+    assert (tmp_path / "README.md").read_text("utf-8") == "no marks\n"
+    assert table(BOARD).count("\n") > 50
+
+
+def test_the_matrix_of_mutants_is_of_these_mutants() -> None:
+    """Made by `python -m tests.numeric.audit.matrix`; that each is caught where it is said is `test_mutants`."""
+    lines = (ROOM / "MUTANTS.md").read_text("utf-8").splitlines()
+    rows = {line.split(" | ")[0].removeprefix("| "): line for line in lines if line.startswith("| ") and not line.startswith("| mutant")}
+    assert list(dict.fromkeys(rows)) and set(rows) == {one.name for one in MUTANTS}
+    for one in MUTANTS:
+        assert one.wrong in rows[one.name] and re.search(r"\*\*[1-9]\d*/\d+\*\*", rows[one.name]), one.name
