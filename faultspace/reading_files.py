@@ -43,6 +43,8 @@ def read_system(name: str, *, floats_exactly: bool = False) -> ResidualSystem | 
             if not floats_exactly:
                 raise InvalidInput(f"got a model in floats ({MODEL_FORMAT}), expected an exact system; {_ADVICE}")
             document = _system_of_model(document)
+        if isinstance(document, dict) and "u_filter" in document:
+            raise InvalidInput("got an experiment (it has u_filter), expected a system; `faultspace limit` takes experiments")
         try:
             return system_of(document)
         except InvalidInput as error:
@@ -53,6 +55,8 @@ def read_experiment(name: str, *, floats_exactly: bool = False) -> Experiment:
     """The experiment in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
     document = read_json(name, number=_dyadic if floats_exactly else float)
     with placed(name):
+        if isinstance(document, dict) and "A" in document and "u_filter" not in document:
+            raise InvalidInput("got a system (it has no u_filter), expected an experiment; `faultspace inspect` takes systems")
         try:
             return experiment_of(document)
         except InvalidInput as error:

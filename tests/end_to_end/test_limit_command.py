@@ -128,14 +128,14 @@ def test_bad_experiments_are_refused_in_one_line(tmp_path: Path, change: dict[st
 
 
 def test_bad_files_are_refused(tmp_path: Path) -> None:
-    for name, words in ((str(tmp_path), "directory"), ("example:none", "fault-leads-input"), ("example:zeros", '"B" is missing')):
+    for name, words in ((str(tmp_path), "directory"), ("example:none", "fault-leads-input"), ("example:zeros", "`faultspace inspect`")):
         run = call("limit", name, "--json")
         assert (run.code, run.out, run.err.count("\n")) == (2, "", 1) and words in run.err
     run = limit_of(tmp_path, {})
     assert run.code == 0
     (tmp_path / "list.json").write_text("[]", "utf-8")
     assert "expected an object" in call("limit", str(tmp_path / "list.json")).err
-    assert "unknown key 'past'" in call("inspect", f"example:{next(iter(EXPERIMENTS))}").err
+    assert "`faultspace limit` takes experiments" in call("inspect", f"example:{next(iter(EXPERIMENTS))}").err
     assert not set(EXPERIMENTS) & set(DESCRIPTIONS)
 
 
