@@ -7,6 +7,7 @@ table        what a person reads
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 
 from rich.table import Table
@@ -43,7 +44,11 @@ def run(
     """
     if sum(one is not None for one in (adapter, command, peer)) > 1:
         raise InvalidInput("got more than one of an adapter, --exec and --peer, expected one of them")
-    name = adapter or (f"--exec '{command}'" if command else f"--peer {peer}" if peer else REFERENCE)
+    if adapter == "":
+        raise InvalidInput("got an empty name, expected an adapter (none at all: our own reference)")
+    name = shlex.quote(adapter or REFERENCE)
+    if command is not None or peer is not None:
+        name = f"--exec {shlex.quote(command)}" if command is not None else f"--peer {peer}"
     limits = Limits(seconds, int(gibibytes * 2**30))
     try:
         audited = peer_named(peer) if peer is not None else None
@@ -69,7 +74,7 @@ def run(
         console.print(table(records))
         for group in _by_slug(failed):
             others = f" Also: {', '.join(one.vector for one in group[1:])}." if len(group) > 1 else ""
-            console.print(Text(told(group[0], name if command else printable(name)) + others), soft_wrap=True)
+            console.print(Text(told(group[0], printable(name)) + others), soft_wrap=True)
         functions = ", ".join(dict.fromkeys(record.function for record in records))
         tally = f"{len(records)} checks of {functions or 'nothing'}: {len(failed)} failed"
         console.print(Text(tally, style="bold red" if failed else "bold"), soft_wrap=True)
@@ -100,17 +105,23 @@ def list_peers(*, as_json: bool) -> int:
 
 
 def table(records: Sequence[Record]) -> Table:
-    """One row a check."""
+    """One row a check, under the name of its function."""
     result = Table(box=None, pad_edge=False, header_style="bold")
     for column in ("check", "claim", "asks", "verdict"):
         result.add_column(column, no_wrap=True)
     result.add_column("quantity", overflow="fold", min_width=24)
     for column in ("got", "bound", "ratio"):
         result.add_column(column, justify="right", no_wrap=True)
-    for record in records:
-        style = "red" if record.failed else ""
-        numbers = [("" if x is None else f"{x:.2g}") for x in (record.got, record.bound, record.ratio)]
-        asks = str(record.kind) if record.kind != Kind.MUST_HOLD else ""
-        cells = (record.name, record.claim or "", asks, record.verdict, record.quantity or "", *numbers)
-        result.add_row(*(Text(cell, style=style) for cell in cells))
+    for function in dict.fromkeys(record.function for record in records):
+        result.add_row(Text(function, style="bold"))
+        for record in records:
+            if record.function == function:
+                result.add_row(*_row(record))
     return result
+
+
+def _row(record: Record) -> list[Text]:
+    numbers = [("" if x is None else f"{x:.2g}") for x in (record.got, record.bound, record.ratio)]
+    asks = str(record.kind) if record.kind != Kind.MUST_HOLD else ""
+    cells = (record.name, record.claim or "", asks, record.verdict, record.quantity or "", *numbers)
+    return [Text(cell, style="red" if record.failed else "") for cell in cells]

@@ -92,9 +92,7 @@ def verify(
         list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, told in full; may be repeated.")
     ] = None,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
-    out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")
-    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
     json: Json = False,
 ) -> None:
     """Decide every claim: the table of verdicts, with certificates. Exit 0 if every verdict is the expected one, else 1."""
@@ -115,14 +113,15 @@ def check(
         list[str] | None,
         typer.Option("--system", metavar="FILE", help="Accept only what is about this system; may be repeated."),
     ] = None,
+    rocq: Annotated[bool, typer.Option("--rocq", help="Have Rocq's kernel recompute them, too; needs coqc with MathComp.")] = False,
     json: Json = False,
 ) -> None:
-    """Run the checker on certificates. Exit 0: all verified; 1: one is rejected; 2: one does not parse."""
+    """Run the checker on certificates. Exit 0: all verified; 1: one is rejected, or not accepted by Rocq; 2: one does not parse."""
 
     def body() -> int:
         from . import checking
 
-        return checking.run(certificate, systems=system or [], as_json=json)
+        return checking.run(certificate, systems=system or [], rocq=rocq, as_json=json)
 
     _leave(body)
 
@@ -248,14 +247,14 @@ def audit(
     ] = None,
     command: Annotated[
         str | None, typer.Option("--exec", metavar="CMD", help="A program that speaks JSON lines instead.", show_default=False)
+    ] = None,
     peer: Annotated[str | None, typer.Option(metavar="NAME", help="A published package instead; see --peers.", show_default=False)] = None,
     peers: Annotated[bool, typer.Option("--peers", help="List the packages that adapters come for, and what each needs.")] = False,
-    ] = None,
     check: Annotated[
-        list[str] | None, typer.Option("--check", metavar="SLUG", help="Only this check, or SLUG[VECTOR]; may be repeated.")
+        list[str] | None, typer.Option("--check", metavar="SLUG", help="Only these: SLUG, SLUG[VECTOR], SLUG[VECTOR]-FUNCTION; repeatable.")
     ] = None,
-    timeout: Annotated[float, typer.Option(min=0.1, metavar="SECONDS", help="How long a check may take.")] = 60.0,
-    memory: Annotated[float, typer.Option(min=0.1, metavar="GIB", help="How much memory a check may take.")] = 4.0,
+    timeout: Annotated[float, typer.Option(min=0.1, metavar="SECONDS", help="How long a check, with --exec an answer, may take.")] = 60.0,
+    memory: Annotated[float, typer.Option(min=0.5, metavar="GIB", help="How much memory a check may take.")] = 4.0,
     json: Json = False,
 ) -> None:
     """Put a numeric implementation through checks whose answers are known exactly. Exit 1 if a must is not met.

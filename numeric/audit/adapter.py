@@ -8,7 +8,8 @@
     reconstruct(r, A, F, C, G, x0) -> v                   the fault signal (N, m) from the known initial state
     structure(A, F, C, G) -> Structure                    zeros and ranks of the system from v to r
 
-Arrays are time-major float64. The `block_rows` of `fault_space` is a window that suffices, longer than the lag (in `fault-space-at-the-lag`
+Arrays are time-major float64. The `block_rows` of `identify` are those of past and future, and bind: where that window is too short, to
+refuse is right. The `block_rows` of `fault_space` is a window that suffices, longer than the lag (in `fault-space-at-the-lag`
 it is not: that may be refused); whether it is used is the
 implementation's own affair. To refuse is to raise ValueError or ArithmeticError, or to return None; any other exception is a crash.
 
@@ -111,6 +112,8 @@ def guarded(function: Function) -> Function:
             raise
         except (ValueError, ArithmeticError) as error:
             raise Refused(f"{type(error).__name__}: {error}") from error
+        except SystemExit as error:
+            raise Broken(f"asked to end the program: SystemExit({error.code!r})") from error
         except Exception as error:
             raise Broken(f"crashed with {type(error).__name__}: {error}") from error
         if answer is None:

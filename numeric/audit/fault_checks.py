@@ -79,8 +79,8 @@ def _in_views(slug: str, function: str, vector: FaultVector, claim: str, effect:
 
 
 def with_input(r: Matrix, system: ResidualSystem, size: Fraction) -> tuple[Matrix, Matrix]:
-    """(y, u): r plus the response from rest to u = size, -size, size, ... in every channel, for the model B = F, D = G."""
-    u = matrix([[(-1) ** k * size] * system.m for k in range(r.nrows)], system.m)
+    """(y, u): r plus the response from rest to u for the model B = F, D = G. Channel j is size at every (j + 2)nd sample, -size between."""
+    u = matrix([[size if k % (j + 2) == 0 else -size for j in range(system.m)] for k in range(r.nrows)], system.m)
     return r + simulate(system, Matrix.zero(system.field, system.n, 1), u).residuals, u
 
 

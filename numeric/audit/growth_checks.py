@@ -11,6 +11,7 @@ where data outgrow a cache: only a growth that goes on to twice the length is ca
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Iterator
@@ -23,14 +24,15 @@ import numpy as np
 import psutil
 
 from ..models import StateSpaceModel
+from .programs import family, resident
 from .rationals import Array, floats, signs
 from .records import Check, Function, Measurement, Severity
 from .vectors import FaultVector, IdentificationVector, shipped
 
-LENGTHS = (2000, 8000)  # a square of 8-byte numbers is 512 MB at the longer
+LENGTHS = (3000, 12000)  # a square of 8-byte numbers is 1.2 GB at the longer, one of bytes 0.14
 BOUND = 1.5
 MEMORY_FLOOR = 32e6  # bytes
-TIME_FLOOR = 0.2  # seconds
+TIME_FLOOR = 0.1  # seconds
 EVERY = 0.004  # seconds between two looks at the memory
 SEED = 20250523
 
@@ -48,12 +50,12 @@ def footprint() -> Iterator[Spent]:
     """What the body costs this process and its children."""
     spent, done = Spent(), threading.Event()
     whole = psutil.Process()
-    before, begun = _resident(whole), _seconds(whole)
+    before, begun = _held(), _seconds(whole)
     watched = [before, 0.0]  # peak; the watcher's own seconds
 
     def watch() -> None:
         while not done.wait(EVERY):
-            watched[0] = max(watched[0], _resident(whole))
+            watched[0] = max(watched[0], _held())
             watched[1] = time.thread_time()
 
     watcher = threading.Thread(target=watch, daemon=True)
@@ -61,29 +63,21 @@ def footprint() -> Iterator[Spent]:
     try:
         yield spent
     finally:
-        peak = _resident(whole)
+        peak = _held()
         done.set()
         watcher.join()
         spent.memory = max(watched[0], peak) - before
         spent.seconds = max(_seconds(whole) - begun - watched[1], 0.0)
 
 
-def _family(process: psutil.Process) -> list[psutil.Process]:
-    return [process, *process.children(recursive=True)]
-
-
-def _resident(process: psutil.Process) -> float:
-    total = 0.0
-    for one in _family(process):
-        with suppress(psutil.Error):
-            total += one.memory_info().rss
-    return total
+def _held() -> float:
+    return float(resident(family(os.getpid())))
 
 
 def _seconds(process: psutil.Process) -> float:
     """CPU seconds; those of children that have ended are with their parents."""
     total = 0.0
-    for one in _family(process):
+    for one in family(process.pid):
         with suppress(psutil.Error):
             spent = one.cpu_times()
             total += spent.user + spent.system + spent.children_user + spent.children_system

@@ -53,7 +53,7 @@ class Isolated:
                 self._load()
             begun = time.perf_counter()
             return Record(**self._ask({"check": check.name, "function": check.function})["record"])
-        except Broken as failure:
+        except (Broken, InvalidData) as failure:  # after a crash it may be loaded again, or not
             self.close()
             return broken(check, failure, time.perf_counter() - begun)
 

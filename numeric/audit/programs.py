@@ -2,7 +2,7 @@
 
 Program     starts it with the first question; `ask` sends one line and gives the next one back; `close` ends it and all that it started
 Limits      seconds an answer may take, bytes that the program and its children may hold; STANDARD: a minute, 4 GiB
-resident    the bytes that a process and its children hold
+family, resident    a process with its descendants, and the bytes that they hold
 
 What the program does wrong raises Broken with the words for it: hangs, ends, takes too much memory, talks out of turn. It is killed
 then, and started again with the next question.
@@ -17,7 +17,7 @@ import signal
 import subprocess
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from signal import Signals
@@ -42,14 +42,20 @@ class Limits:
 STANDARD = Limits()
 
 
-def resident(pid: int) -> int:
-    """Bytes that the process and its descendants hold (shared pages counted once for each); 0 where it is gone."""
-    total = 0
+def family(pid: int) -> list[psutil.Process]:
+    """The process and its descendants; none where it is gone."""
     with suppress(psutil.Error):
         first = psutil.Process(pid)
-        for one in [first, *first.children(recursive=True)]:
-            with suppress(psutil.Error):
-                total += one.memory_info().rss
+        return [first, *first.children(recursive=True)]
+    return []
+
+
+def resident(processes: Iterable[psutil.Process]) -> int:
+    """Bytes that the processes hold (shared pages counted once for each)."""
+    total = 0
+    for one in processes:
+        with suppress(psutil.Error):
+            total += int(one.memory_info().rss)
     return total
 
 
@@ -63,6 +69,7 @@ class Program:
         self._environment = environment
         self._process: subprocess.Popen[bytes] | None = None
         self._pending = b""
+        self._family: set[psutil.Process] = set()
 
     def ask(self, line: bytes, seconds: float | None = None) -> bytes:
         """The line that answers `line` within so many seconds (None: the limit); neither ends with a line feed. Raises Broken."""
@@ -80,8 +87,13 @@ class Program:
         process, self._process, self._pending = self._process, None, b""
         if process is None:
             return
+        # Those in other sessions too: as seen at the last glances, whatever their parents did meanwhile.
+        started, self._family = self._family | set(family(process.pid)), set()
         with suppress(OSError):
             os.killpg(process.pid, signal.SIGKILL)
+        for one in started:
+            with suppress(psutil.Error):
+                one.kill()
         process.wait()
         for stream in (process.stdin, process.stdout, self._errors):
             if stream is not None:
@@ -120,8 +132,8 @@ class Program:
                 if time.monotonic() > deadline:
                     raise Broken(f"no answer within {seconds:g} s")
                 ready = selector.select(min(GLANCE, max(deadline - time.monotonic(), 0)))
-                if not ready and (held := resident(process.pid)) > self.limits.memory:
-                    raise Broken(f"held {held / 2**30:.1f} GiB of memory, {self.limits.memory / 2**30:.2g} GiB are allowed")
+                if not ready:
+                    self._glance(process)
                 for key, _ in ready:
                     if key.fileobj is process.stdin:
                         try:
@@ -140,10 +152,21 @@ class Program:
         answer, _, self._pending = self._pending.partition(b"\n")
         return answer
 
+    def _glance(self, process: subprocess.Popen[bytes]) -> None:
+        """Raises Broken for too much memory or too much on standard error."""
+        self._family |= set(family(process.pid))
+        if (held := resident(one for one in self._family if one.is_running())) > self.limits.memory:
+            raise Broken(f"held {held / 2**30:.1f} GiB of memory, {self.limits.memory / 2**30:.2g} GiB are allowed")
+        if os.fstat(self._errors.fileno()).st_size > LONGEST_ANSWER:
+            raise Broken(f"wrote more than {LONGEST_ANSWER} bytes to standard error")
+
     def _last_words(self, process: subprocess.Popen[bytes]) -> str:
         with suppress(subprocess.TimeoutExpired):
             process.wait(1.0)
         self._errors.seek(max(self._errors.seek(0, os.SEEK_END) - 300, 0))
         words = " ".join(self._errors.read().decode(errors="replace").split())
-        how = f" ({Signals(-process.returncode).name})" if process.returncode is not None and process.returncode < 0 else ""
+        how = ""
+        if process.returncode is not None and process.returncode < 0:
+            known = {one.value: one.name for one in Signals}
+            how = f" ({known.get(-process.returncode, f'signal {-process.returncode}')})"
         return how + (f"; it said: {words}" if words else "")

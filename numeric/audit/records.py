@@ -93,8 +93,18 @@ class Check:
 
     @property
     def name(self) -> str:
-        """slug[vector]: what `--check` takes."""
+        """slug[vector]."""
         return f"{self.slug}[{self.vector}]"
+
+    @property
+    def full_name(self) -> str:
+        """slug[vector]-function: no other check has it."""
+        return f"{self.name}-{self.function}"
+
+    @property
+    def names(self) -> tuple[str, str, str]:
+        """What it may be called by: for itself, with that of other functions, with all of its slug."""
+        return self.full_name, self.name, self.slug
 
 
 @dataclass(frozen=True)
@@ -120,6 +130,11 @@ class Record:
     def name(self) -> str:
         """slug[vector]."""
         return f"{self.slug}[{self.vector}]"
+
+    @property
+    def full_name(self) -> str:
+        """slug[vector]-function."""
+        return f"{self.name}-{self.function}"
 
     @property
     def failed(self) -> bool:
@@ -158,19 +173,23 @@ def perform(check: Check, function: Function) -> Record:
     return _record(check, verdict, worst, detail, time.perf_counter() - begun)
 
 
-def broken(check: Check, failure: Broken, seconds: float) -> Record:
+def broken(check: Check, failure: Exception, seconds: float) -> Record:
     """BROKEN, in the words of the failure."""
     return _record(check, Verdict.BROKEN, None, str(failure), seconds)
 
 
 def _record(check: Check, verdict: Verdict, worst: Measurement | None, detail: str, seconds: float) -> Record:
+    effect, severity = check.effect, check.severity
+    if verdict in (Verdict.REFUSED, Verdict.BROKEN):  # whoever gets no answer is not misled
+        due = "something was to be said of the question" if check.kind is Kind.MUST_REFUSE else "there is an answer"
+        effect, severity = f"no answer where {due}", Severity.NUISANCE
     return Record(
         check.slug,
         check.vector,
         check.function,
         check.claim,
-        check.effect,
-        str(check.severity),
+        effect,
+        str(severity),
         str(check.kind),
         str(verdict),
         worst.quantity if worst else None,

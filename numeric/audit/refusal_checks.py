@@ -61,7 +61,8 @@ def _of_identify(vector: IdentificationVector) -> Iterator[Check]:
     yield _refuses("refuses-nan-output", "identify", slug, MISSING, lambda: (_with(y(), np.nan), u(), n, s))
     yield _refuses("refuses-nan-input", "identify", slug, MISSING, lambda: (y(), _with(u(), np.nan), n, s))
     yield _refuses("refuses-infinity", "identify", slug, MISSING, lambda: (_with(y(), np.inf), u(), n, s))
-    few = 2 * s + 1
+    # Fewer equations than unknowns: any of them is one of many models. The unknowns: a canonical form of A and C, B, D and x(0).
+    few = (n * vector.C.nrows + (n + vector.C.nrows) * vector.B.ncols + n - 1) // vector.C.nrows
     effect = "a model from fewer equations than unknowns"
     yield _refuses("refuses-short-data", "identify", slug, effect, lambda: (y()[:few], u()[:few], n, s))
     yield _refuses("refuses-unequal-lengths", "identify", slug, "inputs paired with the wrong outputs", lambda: (y(), u()[:-5], n, s))

@@ -11,6 +11,7 @@ told                      a failed record in words, with the line that reproduce
 from __future__ import annotations
 
 import atexit
+import shlex
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -47,7 +48,10 @@ MODULES = (
 
 @dataclass(frozen=True)
 class ExpectedFailure:
-    """Of the check `name`: a slug, or slug[vector]. `reason` says why it fails and who knows of it."""
+    """Of the check `name`: a slug (then all of its vectors), slug[vector], or slug[vector]-function where several functions have it.
+
+    `reason` says why it fails and who knows of it. To hang or to crash is never expected.
+    """
 
     name: str
     reason: str
@@ -67,9 +71,12 @@ def chosen(functions: Collection[str], only: Sequence[str] = ()) -> list[Check]:
     """The checks of these functions, those named by slug or slug[vector] alone if any are. Raises InvalidData for an unknown name."""
     known = list(all_checks())
     for name in only:
-        if not any(name in (one.slug, one.name) for one in known):
+        if not any(name in one.names for one in known):
             raise InvalidData(f"check {name}: there is none of that name; there are {', '.join(dict.fromkeys(one.slug for one in known))}")
-    return [one for one in known if one.function in functions and (not only or one.slug in only or one.name in only)]
+        if functions and not any(name in one.names for one in known if one.function in functions):
+            asked = ", ".join(dict.fromkeys(one.function for one in known if name in one.names))
+            raise InvalidData(f"check {name} asks {asked}, which this adapter does not have: it has {', '.join(functions)}")
+    return [one for one in known if one.function in functions and (not only or any(name in only for name in one.names))]
 
 
 def audit(
@@ -118,8 +125,8 @@ def _records(
 
 def _expecting(record: Record, expected: Sequence[ExpectedFailure]) -> Record:
     """An expected failure passes and says why; a pass where a failure is expected fails."""
-    known = next((one for one in expected if one.name in (record.slug, record.name)), None)
-    if known is None:
+    known = next((one for one in expected if one.name in (record.slug, record.name, record.full_name)), None)
+    if known is None or record.verdict == Verdict.BROKEN:
         return record
     if record.verdict == Verdict.PASS:
         return replace(record, verdict=str(Verdict.FAIL), detail=f"passes, but a failure is expected ({known.reason}): take the mark away")
@@ -134,7 +141,7 @@ def told(record: Record, adapter: str = "ADAPTER") -> str:
     detail = f" {record.detail}." if record.detail else ""
     return (
         f"{record.name} ({record.function}): {record.verdict}.{measured}{detail} Effect: {record.effect} ({record.severity}). "
-        f"Again: faultspace audit {adapter} --check '{record.name}'"
+        f"Again: faultspace audit {adapter} --check '{record.full_name}'"
     )
 
 
@@ -150,18 +157,19 @@ def parametrize_with_checks(
     if isinstance(implementation, str):
         adapter = Isolated(implementation, limits)
         atexit.register(adapter.close)
-        todo, made = chosen(adapter.functions), adapter.perform
+        name, todo, made = implementation, chosen(adapter.functions), adapter.perform
     else:
+        name = getattr(implementation, "__name__", "ADAPTER")
         functions = {name: guarded(one) for name, one in offered(implementation).items()}
         todo, made = chosen(functions), lambda check: perform(check, functions[check.function])
     if expected:
         chosen((), [one.name for one in expected])
-    cases = [pytest.param(partial(_asserted, one, made, expected), id=f"{one.name}-{one.function}") for one in todo]
+    cases = [pytest.param(partial(_asserted, one, made, expected, shlex.quote(name)), id=one.full_name) for one in todo]
     return pytest.mark.parametrize("check", cases)
 
 
-def _asserted(check: Check, made: Callable[[Check], Record], expected: Sequence[ExpectedFailure]) -> Record:
+def _asserted(check: Check, made: Callable[[Check], Record], expected: Sequence[ExpectedFailure], adapter: str) -> Record:
     record = _expecting(made(check), expected)
     if record.failed:
-        raise AssertionError(told(record))
+        raise AssertionError(told(record, adapter))
     return record

@@ -69,7 +69,7 @@ def findings(board: Board) -> str:
             parts.append(f"- **{first.slug}** of `{first.function}`: {count}. {_words(first)} Effect: {first.effect}.")
             if others:
                 parts.append(f"  The same in {', '.join(f'{one.slug} ({one.failed} of {one.asked})' for one in others)}.")
-            parts.append(f"  `faultspace audit --peer {audited.name} --check '{first.slug}[{first.vector}]'`")
+            parts.append(f"  `faultspace audit --peer {audited.name} --check '{first.slug}[{first.vector}]-{first.function}'`")
         parts.append("")
     by_hand = files("faultspace.numeric.audit").joinpath("peers/by_hand.md").read_text("utf-8")
     return "\n".join(parts) + "\n" + by_hand

@@ -48,7 +48,13 @@ class Exec:
     """
 
     def __init__(self, command: str | Sequence[str], limits: Limits = STANDARD) -> None:
-        self._program = Program(shlex.split(command) if isinstance(command, str) else list(command), limits)
+        try:
+            words = shlex.split(command) if isinstance(command, str) else list(command)
+        except ValueError as error:
+            raise InvalidData(f"the program {command!r}: {error}") from None
+        if not words:
+            raise InvalidData("got no program, expected a command such as 'octave-cli --quiet adapter.m'")
+        self._program = Program(words, limits)
         try:
             offered = self._ask({"call": "functions"}).get("functions")
         except (Broken, Refused) as failure:
@@ -79,8 +85,7 @@ class Exec:
             raise Broken(f"the answer to {name} lacks {', '.join(missing)}")
         values = tuple(_numbers(answer[key]) for key in ANSWERS[name])
         if name == "structure":
-            rank, zeros, orders, invertible = values
-            return Structure(rank, [complex(*np.atleast_1d(z)) for z in zeros], np.atleast_1d(orders).tolist(), bool(invertible))
+            return _structure(*values)
         return values if len(values) > 1 else values[0]
 
     def _ask(self, question: dict[str, Any]) -> dict[str, Any]:
@@ -114,3 +119,11 @@ def _numbers(value: Any) -> Any:
     if value in ("NaN", "Infinity", "-Infinity"):
         return float(value)
     return float("nan") if value is None else value
+
+
+def _structure(rank: Any, zeros: Any, orders: Any, invertible: Any) -> Structure:
+    try:
+        found = [complex(*z) if isinstance(z, list) else complex(z) for z in (zeros if isinstance(zeros, list) else [zeros])]
+        return Structure(rank, found, np.atleast_1d(orders).tolist(), bool(invertible))
+    except (TypeError, ValueError) as error:
+        raise Broken(f"the zeros are no list of numbers or pairs [re, im]: {error}") from None

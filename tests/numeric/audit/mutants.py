@@ -304,6 +304,11 @@ def _residual_without_feedthrough(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any
     return reference.residual(y, u, A, B, C, 0 * D)
 
 
+def _residual_of_reversed_inputs(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
+    """Input channels in the wrong order: right for one."""
+    return reference.residual(y, u[:, ::-1], A, B, C, D)
+
+
 def _residual_late(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
     """x(k+1) used for x(k)."""
     model = StateSpaceModel(A, B, C, D)
@@ -466,6 +471,7 @@ MUTANTS = [
     _mutant("basis-assumed", "A taken for symmetric", "fault-space-other-basis", fault_space=_basis_assumed),
     _mutant("only-n-v", "n_v columns, the zeros' left out", "fault-space", fault_space=_only_n_v),
     _mutant("residual-without-D", "D ignored in the residual", "residual-free-of-input", residual=_residual_without_feedthrough),
+    _mutant("residual-of-reversed-inputs", "input channels reversed", "residual-free-of-input", residual=_residual_of_reversed_inputs),
     _mutant(
         "residual-late",
         "x(k+1) used for x(k)",

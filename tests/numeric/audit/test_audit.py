@@ -55,7 +55,7 @@ def test_only_what_is_there_is_tested() -> None:
         audit(SimpleNamespace(identity=1))
 
 
-def _raises(error: Exception) -> Any:
+def _raises(error: BaseException) -> Any:
     def function(*arguments: Any) -> Any:
         raise error
 
@@ -71,6 +71,7 @@ def _raises(error: Exception) -> Any:
         (_raises(IndexError("out of range")), "broken"),
         (_raises(MemoryError()), "broken"),
         (lambda: 3, "broken"),
+        (_raises(SystemExit(0)), "broken"),
         (lambda r: "many", "broken"),
         (lambda r: float("nan"), "fail"),
         (lambda r: 2, "fail"),
@@ -99,7 +100,7 @@ def test_a_failure_is_told_with_the_line_that_shows_it_again() -> None:
     words = told(record, "mine.py")
     for part in ("fault-dimension[one-fault]", "got 2", "bound 0", "ratio inf", "a wrong number of faults"):
         assert part in words
-    assert words.endswith("faultspace audit mine.py --check 'fault-dimension[one-fault]'")
+    assert words.endswith("faultspace audit mine.py --check 'fault-dimension[one-fault]-fault_dimension'")
     assert record.to_json()["ratio"] == "inf"
 
 
@@ -109,6 +110,14 @@ def test_an_expected_failure_passes_and_turns_red_when_it_passes() -> None:
     assert not record.failed and "counts to two" in record.detail
     (record,) = audit(reference, only=[mark.name], expected=[mark])
     assert record.failed and "take the mark away" in record.detail
+    (one, other) = audit(
+        SimpleNamespace(window_ranks=_raises(ValueError("no")), fault_dimension=_raises(ValueError("no"))),
+        only=["refuses-nan-residual"],
+        expected=[ExpectedFailure("refuses-nan-residual[two-faults]-fault_dimension", "of one function alone")],
+    )
+    assert (one.function, one.failed) == ("window_ranks", False) and (other.function, other.failed) == ("fault_dimension", True)
+    (record,) = audit(SimpleNamespace(fault_dimension=lambda: 2), only=[mark.name], expected=[mark])
+    assert record.failed and record.verdict == "broken"
     with pytest.raises(InvalidData, match="needs a reason"):
         ExpectedFailure("fault-dimension", " ")
     with pytest.raises(InvalidData, match="none of that name"):

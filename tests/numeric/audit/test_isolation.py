@@ -45,7 +45,8 @@ def _adapter(tmp_path: Path, body: str, head: str = "") -> str:
         ("while True: pass", "broken", "no answer within 4 s"),
         ("os.abort()", "broken", "SIGABRT"),
         ("ctypes.string_at(0)", "broken", "SIGSEGV"),
-        ("sys.exit(0)", "broken", "ended without an answer"),
+        ("sys.exit(0)", "broken", "SystemExit(0)"),
+        ("while True: os.write(2, b'noise' * 100000)", "broken", "standard error"),
         ("os._exit(3)", "broken", "ended without an answer"),
         ("sys.stderr.write('out of luck'); sys.stderr.flush(); os._exit(3)", "broken", "out of luck"),
         ("print('garbage'); os.write(1, b'garbage\\n'); sys.stdout.flush()", "pass", ""),
@@ -73,6 +74,23 @@ def test_a_process_left_behind_ends_with_the_audit(tmp_path: Path) -> None:
     assert record.verdict == "pass"
     time.sleep(3.5)
     assert not mark.exists()
+
+
+def test_a_process_that_leaves_the_session_ends_with_the_audit(tmp_path: Path) -> None:
+    mark = tmp_path / "alive"
+    child = f"import time, pathlib; time.sleep(4); pathlib.Path({str(mark)!r}).touch()"
+    body = f"import subprocess; subprocess.Popen([sys.executable, '-c', {child!r}], start_new_session=True); time.sleep(0.3)"
+    (record,) = audit_named(_adapter(tmp_path, body), only=[ONE])
+    assert record.verdict == "pass"
+    time.sleep(4.5)
+    assert not mark.exists()
+
+
+def test_an_adapter_that_loads_once_only_breaks_what_comes_after(tmp_path: Path) -> None:
+    mark = tmp_path / "once"
+    head = f"import pathlib\nmark = pathlib.Path({str(mark)!r})\nassert not mark.exists(), 'one licence'\nmark.touch()"
+    first, second = audit_named(_adapter(tmp_path, "os.abort()", head=head), only=[ONE, TWO])
+    assert (first.verdict, second.verdict) == ("broken", "broken") and "one licence" in second.detail
 
 
 def test_the_same_records_with_and_without_a_process_of_its_own() -> None:

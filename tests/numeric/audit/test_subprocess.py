@@ -128,10 +128,25 @@ def test_the_command(tmp_path: Path) -> None:
     run = _command("--check", "fault-dimension")
     assert run.returncode == 0 and "9 checks of fault_dimension: 0 failed" in run.stdout and "Traceback" not in run.stderr
     run = _command(f"{mine}:Mine", "--check", "fault-dimension[two-faults]")
-    assert run.returncode == 1 and f"faultspace audit {mine}:Mine --check 'fault-dimension[two-faults]'" in run.stdout
+    assert run.returncode == 1 and f"faultspace audit {mine}:Mine --check 'fault-dimension[two-faults]-fault_dimension'" in run.stdout
+    run = _command(f"{mine}:Mine", "--check", "fault-space")
+    assert run.returncode == 2 and "asks fault_space" in run.stderr
 
 
-@pytest.mark.parametrize("arguments", [("no.module:x",), ("math",), ("--check", "zork"), ("math", "--exec", "cat"), ("--exec", "cat")])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("no.module:x",),
+        ("math",),
+        ("--check", "zork"),
+        ("math", "--exec", "cat"),
+        ("--exec", "cat"),
+        ("--exec", ""),
+        ("--exec", "'"),
+        ("",),
+        ("--peer", "none"),
+    ],
+)
 def test_bad_input_is_told_in_one_line(arguments: tuple[str, ...]) -> None:
     run = _command(*arguments)
     assert run.returncode == 2 and run.stdout == ""
