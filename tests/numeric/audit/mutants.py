@@ -145,9 +145,9 @@ def _limited_range(y: Any, u: Any, order: int, block_rows: int) -> Any:
 
 
 def _square_memory(y: Any, u: Any, order: int, block_rows: int) -> Any:
-    """Weights every pair of samples."""
+    """Compares every pair of samples; a byte each, which is little enough for a test."""
     t = np.arange(len(y))
-    return reference.identify(np.equal.outer(t, t).astype(float) @ y, u, order, block_rows)
+    return reference.identify(y[np.equal.outer(t, t).argmax(axis=1)], u, order, block_rows)
 
 
 # -- faults ------------------------------------------------------------------------------------------------------------------------
