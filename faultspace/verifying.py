@@ -77,7 +77,7 @@ def verdict_table(report: Report) -> Table:
     table.add_column("seconds", no_wrap=True, justify="right")
     for claim in report.claims:
         printed = Text.assemble((claim.claim.statement, "bold"), (f"  ({claim.claim.reference}) {_standing(claim)}", "dim"))
-        table.add_row(Text(claim.claim.id, style="bold"), _verdict(claim.verdict, claim.claim.expected, "\n"), printed, "", "")
+        table.add_row(Text(claim.claim.id, style="bold"), _verdict(claim.verdict, claim.expected, "\n"), printed, "", "")
         for result in claim.readings:
             reading, outcome = result.reading, result.outcome
             told = Text.assemble(
@@ -86,7 +86,7 @@ def verdict_table(report: Report) -> Table:
                 (f"\n{outcome.evidence}", "dim italic"),
             )
             name = f"  {reading.id}{' (repair)' if reading.repair else ''}"
-            verdict = _verdict(outcome.verdict, reading.expected, "\n")
+            verdict = _verdict(outcome.verdict, result.expected, "\n")
             table.add_row(name, verdict, told, _hashes(outcome.certificates, outcome.accepted), f"{result.seconds:.1f}")
         table.add_section()
     return table
@@ -133,7 +133,7 @@ def _hashes(certificates: Sequence[Certificate], accepted: int) -> str:
 
 def statements(claim: ClaimResult) -> Iterator[Text]:
     """The claim in full, line by line."""
-    yield Text.assemble((claim.claim.id, "bold"), f"  ({claim.claim.reference}): ", _verdict(claim.verdict, claim.claim.expected))
+    yield Text.assemble((claim.claim.id, "bold"), f"  ({claim.claim.reference}): ", _verdict(claim.verdict, claim.expected))
     yield Text(f"  as printed: {claim.claim.statement}")
     for reading in claim.readings:
         yield from _reading(reading)
@@ -142,7 +142,7 @@ def statements(claim: ClaimResult) -> Iterator[Text]:
 def _reading(result: ReadingResult) -> Iterator[Text]:
     reading, outcome = result.reading, result.outcome
     kind = "repair" if reading.repair else "reading"
-    yield Text.assemble(f"  {kind} ", (reading.id, "bold"), ": ", _verdict(outcome.verdict, reading.expected))
+    yield Text.assemble(f"  {kind} ", (reading.id, "bold"), ": ", _verdict(outcome.verdict, result.expected))
     yield Text(f"    as checked:   {reading.statement}")
     yield Text(f"    hypotheses:   {'; '.join(reading.hypotheses) or 'none'}")
     yield Text(f"    evidence:     {outcome.evidence}")
@@ -165,6 +165,7 @@ def _print(console: Console, report: Report, *, in_full: bool) -> None:
         console.print("--claim ID tells a claim in full; --out DIR writes the certificates")
     if report.corpus:
         console.print(f"systems: {report.corpus}", soft_wrap=True)
+    console.print(f"machine-checked: {report.machine}", soft_wrap=True)
     console.print(_summary(report), soft_wrap=True)
 
 

@@ -18,13 +18,22 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Reading:
-    """One way to read a claim, precise enough to be decided."""
+    """One way to read a claim, precise enough to be decided.
+
+    `theorems` of rocq/Headlines.v say it for all systems; of a refuted reading they are its counterexample.
+    """
 
     id: str
     statement: str
     hypotheses: tuple[str, ...]
     expected: str
     repair: bool
+    theorems: tuple[str, ...] = ()
+
+    @property
+    def proved(self) -> str:
+        """The verdict expected where Rocq has checked the theorems: what holds is PROVED, what is refuted stays so."""
+        return "PROVED" if self.theorems and self.expected != "REFUTED" else self.expected
 
 
 @dataclass(frozen=True)
@@ -80,6 +89,7 @@ def _claim(name: str, entry: dict[str, object]) -> Claim:
                 hypotheses=tuple(value.get("hypotheses", ())),
                 expected=str(value["expected"]),
                 repair=bool(value.get("repair", False)),
+                theorems=tuple(value.get("theorems", ())),
             )
             for key, value in readings.items()
         ),

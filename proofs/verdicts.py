@@ -51,11 +51,17 @@ class ReadingResult:
     reading: Reading
     outcome: Outcome
     seconds: float
+    machine_checked: bool = False
+
+    @property
+    def expected(self) -> str:
+        """The ledger's verdict, PROVED where Rocq has checked the theorems of the reading."""
+        return self.reading.proved if self.machine_checked else self.reading.expected
 
     @property
     def as_expected(self) -> bool:
-        """Whether the computed verdict is the one the ledger expects."""
-        return self.outcome.verdict == self.reading.expected
+        """Whether the computed verdict is the expected one."""
+        return self.outcome.verdict == self.expected
 
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
@@ -64,8 +70,9 @@ class ReadingResult:
             "statement": self.reading.statement,
             "hypotheses": list(self.reading.hypotheses),
             "verdict": str(self.outcome.verdict),
-            "expected": self.reading.expected,
+            "expected": self.expected,
             "as_expected": self.as_expected,
+            "theorems": list(self.reading.theorems) if self.machine_checked else [],
             "evidence": self.outcome.evidence,
             "certificates_accepted": self.outcome.accepted,
             "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.outcome.certificates],
@@ -83,16 +90,14 @@ class ClaimResult:
     @property
     def verdict(self) -> Verdict:
         """The verdict on the claim, computed from those on its readings."""
-        verdicts = [r.outcome.verdict for r in self.readings]
-        if not verdicts or Verdict.ERROR in verdicts:
-            return Verdict.ERROR
-        printed = [r.outcome.verdict for r in self.readings if not r.reading.repair]
-        holding = [r.outcome.verdict for r in self.readings if r.reading.repair and r.outcome.verdict != Verdict.REFUTED]
-        fails = any if self.claim.in_parts else all
-        if printed and fails(v == Verdict.REFUTED for v in printed):
-            return Verdict.AMENDED if holding else Verdict.REFUTED
-        standing = [v for v in printed if v != Verdict.REFUTED] or holding
-        return max(standing, key=list(Verdict).index) if standing else Verdict.REFUTED
+        return of_readings([(r.reading, r.outcome.verdict) for r in self.readings], in_parts=self.claim.in_parts)
+
+    @property
+    def expected(self) -> str:
+        """The ledger's verdict; where Rocq has checked theorems of it, what the verdicts expected of its readings make."""
+        if not any(r.machine_checked for r in self.readings):
+            return self.claim.expected
+        return of_readings([(r.reading, Verdict(r.expected)) for r in self.readings], in_parts=self.claim.in_parts)
 
     @property
     def rests_on(self) -> tuple[str, ...]:
@@ -102,7 +107,7 @@ class ClaimResult:
     @property
     def as_expected(self) -> bool:
         """Whether every verdict, the claim's own included, is the expected one."""
-        return self.verdict == self.claim.expected and all(r.as_expected for r in self.readings)
+        return self.verdict == self.expected and all(r.as_expected for r in self.readings)
 
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
@@ -111,11 +116,25 @@ class ClaimResult:
             "reference": self.claim.reference,
             "as_printed": self.claim.statement,
             "verdict": str(self.verdict),
-            "expected": self.claim.expected,
+            "expected": self.expected,
             "as_expected": self.as_expected,
             "rests_on": list(self.rests_on),
             "readings": [r.to_json() for r in self.readings],
         }
+
+
+def of_readings(readings: Sequence[tuple[Reading, Verdict]], *, in_parts: bool) -> Verdict:
+    """The verdict on a claim from those on its readings."""
+    verdicts = [verdict for _, verdict in readings]
+    if not verdicts or Verdict.ERROR in verdicts:
+        return Verdict.ERROR
+    printed = [verdict for reading, verdict in readings if not reading.repair]
+    holding = [verdict for reading, verdict in readings if reading.repair and verdict != Verdict.REFUTED]
+    fails = any if in_parts else all
+    if printed and fails(verdict == Verdict.REFUTED for verdict in printed):
+        return Verdict.AMENDED if holding else Verdict.REFUTED
+    standing = [verdict for verdict in printed if verdict != Verdict.REFUTED] or holding
+    return max(standing, key=list(Verdict).index) if standing else Verdict.REFUTED
 
 
 @dataclass(frozen=True)
@@ -165,6 +184,7 @@ class Report:
     hypotheses: tuple[Row, ...]
     corpus: str
     seconds: float
+    machine: str = "not asked"
     versions: dict[str, str] = field(default_factory=lambda: _versions(("faultspace", "python-flint", "sympy", "numpy")))
 
     @property
@@ -184,6 +204,7 @@ class Report:
             "effort": self.effort,
             "as_expected": self.as_expected,
             "corpus": self.corpus,
+            "rocq": self.machine,
             "seconds": round(self.seconds, 1),
             "versions": self.versions,
             "claims": [claim.to_json() for claim in self.claims],

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from importlib import import_module
 
 from ..exact.input_rules import InvalidInput
@@ -15,6 +16,9 @@ from .checker import Malformed, Rejected
 from .corpus import Progress
 from .hypotheses import experiments
 from .ledger import Claim, Reading, expected_without, load
+from .machine_checked import NotProved, Theorems
+from .machine_checked import check as machine_checked
+from .rocq_build import BrokenTheory, NoRocq
 from .verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from .workbench import Workbench
 
@@ -37,19 +41,20 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
     started = time.perf_counter()
     bench = Workbench(effort, jobs, report)
     total = sum(len(claim.readings) for claim in chosen)
+    machine = _theorems(chosen, report)
     results: list[ClaimResult] = []
     done = 0
     for claim in chosen:
         readings = []
         for reading in claim.readings:
             report(f"{claim.id}: {reading.id}", done, total)
-            readings.append(_check(claim, reading, bench))
+            readings.append(_with_theorems(_check(claim, reading, bench), machine))
             done += 1
         results.append(ClaimResult(claim, tuple(readings)))
     rows = _without_hypotheses(bench, {claim.id for claim in chosen}, report)
     report("done", total, total)
     corpus = bench.corpus.words if "corpus" in vars(bench) else ""
-    return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started)
+    return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.told)
 
 
 def _without_hypotheses(bench: Workbench, claims: set[str], report: Progress) -> tuple[Row, ...]:
@@ -64,6 +69,43 @@ def _without_hypotheses(bench: Workbench, claims: set[str], report: Progress) ->
             words = f"{type(error).__name__}: {error}"
             rows.append(Row(experiment.name, experiment.claim, experiment.conclusion, (), Verdict.ERROR, words, None, (), 0))
     return tuple(rows)
+
+
+@dataclass(frozen=True)
+class _Machine:
+    """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), and what to tell of it."""
+
+    theorems: Theorems | None
+    failure: str | None
+    told: str
+
+
+def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
+    """The theorems that these claims name."""
+    names = {name for claim in claims for reading in claim.readings for name in reading.theorems}
+    if not names:
+        return _Machine(None, None, "no theorem is named by these claims")
+    try:
+        theorems = machine_checked(names, report)
+    except NoRocq as error:
+        return _Machine(None, None, f"{error}. Without it, readings that have a proof in proofs/rocq rest on their certificates")
+    except (BrokenTheory, NotProved) as error:
+        return _Machine(None, f"Rocq: {error}", f"failed: {error}")
+    return _Machine(theorems, None, f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all closed under the global context")
+
+
+def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
+    """PROVED where the theorems were checked and nothing else spoke against it."""
+    names, outcome = result.reading.theorems, result.outcome
+    if not names or outcome.verdict == Verdict.ERROR:
+        return result
+    if machine.failure is not None:
+        return replace(result, outcome=replace(outcome, verdict=Verdict.ERROR, evidence=machine.failure))
+    if machine.theorems is None:
+        return result
+    words = f"Rocq, without axioms: {', '.join(names)}; and {outcome.evidence}"
+    verdict = outcome.verdict if outcome.verdict == Verdict.REFUTED else Verdict.PROVED
+    return replace(result, outcome=replace(outcome, verdict=verdict, evidence=words), machine_checked=True)
 
 
 def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:

@@ -9,6 +9,7 @@ import pytest
 
 from faultspace.proofs.hypotheses import experiments
 from faultspace.proofs.ledger import expected_without, load
+from faultspace.proofs.verdicts import Verdict, of_readings
 
 README = Path(__file__).parents[2] / "README.md"
 
@@ -17,10 +18,11 @@ def claims_table() -> list[str]:
     """The rows of the README's table of claims, from the ledger."""
     rows = ["| claim | verdict | read as | verdict on the reading |", "|---|---|---|---|"]
     for claim in load():
+        proved = of_readings([(one, Verdict(one.proved)) for one in claim.readings], in_parts=claim.in_parts)
         for i, reading in enumerate(claim.readings):
-            first = f"| **{claim.id}** | {claim.expected} " if i == 0 else "| | "
+            first = f"| **{claim.id}** | {proved} " if i == 0 else "| | "
             mark = "ours: " if reading.repair else ""
-            rows.append(f"{first}| {mark}{reading.statement} | {reading.expected} |")
+            rows.append(f"{first}| {mark}{reading.statement} | {reading.proved} |")
     return rows
 
 

@@ -1,0 +1,98 @@
+"""What Rocq says raises a verdict, its failure is an error, and without it the verdict rests on certificates and says so."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+
+import pytest
+
+from faultspace.proofs import machine_checked, verification
+from faultspace.proofs.ledger import Claim, Reading, load
+from faultspace.proofs.machine_checked import NotProved, Theorems, answers
+from faultspace.proofs.rocq_build import BrokenTheory, NoRocq
+from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
+
+NAMED = Reading("r", "s", (), "CERTIFIED", False, ("one", "two"))
+
+
+def _result(reading: Reading, verdict: Verdict = Verdict.CERTIFIED) -> ReadingResult:
+    return ReadingResult(reading, Outcome(verdict, "on 3 systems"), 0.0)
+
+
+def _machine(monkeypatch: pytest.MonkeyPatch, answer: Callable[[Iterable[str]], Theorems]) -> verification._Machine:
+    monkeypatch.setattr(verification, "machine_checked", lambda names, progress: answer(names))
+    claim = Claim("c", "", "", "CERTIFIED", (), False, (NAMED,))
+    return verification._theorems([claim], lambda stage, done, total: None)
+
+
+def _raising(error: Exception) -> Callable[[Iterable[str]], Theorems]:
+    def answer(names: Iterable[str]) -> Theorems:
+        raise error
+
+    return answer
+
+
+def test_a_reading_whose_theorems_were_checked_is_proved(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = _machine(monkeypatch, lambda names: Theorems("8.16.1", dict.fromkeys(names, "statement")))
+    found = verification._with_theorems(_result(NAMED), machine)
+    assert found.outcome.verdict == found.expected == "PROVED" and found.as_expected
+    assert "one, two" in found.outcome.evidence and "on 3 systems" in found.outcome.evidence
+    assert "8.16.1: 2 theorems" in machine.told
+    assert found.to_json()["theorems"] == ["one", "two"]
+
+
+def test_a_refuted_reading_stays_refuted_and_names_its_counterexample(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = _machine(monkeypatch, lambda names: Theorems("8.16.1", dict.fromkeys(names, "statement")))
+    found = verification._with_theorems(_result(replace(NAMED, expected="REFUTED"), Verdict.REFUTED), machine)
+    assert found.outcome.verdict == found.expected == "REFUTED" and "one, two" in found.outcome.evidence
+
+
+def test_what_the_systems_refute_is_not_proved_by_a_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A counterexample to a theorem means that the theorem says something else: not as expected, never PROVED."""
+    machine = _machine(monkeypatch, lambda names: Theorems("8.16.1", dict.fromkeys(names, "statement")))
+    found = verification._with_theorems(_result(NAMED, Verdict.REFUTED), machine)
+    assert found.outcome.verdict == "REFUTED" and not found.as_expected
+
+
+def test_without_rocq_the_certificates_stand_and_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = _machine(monkeypatch, _raising(NoRocq("coqc is not on the path; install it")))
+    found = verification._with_theorems(_result(NAMED), machine)
+    assert found.outcome.verdict == found.expected == "CERTIFIED" and found.as_expected
+    assert "install it" in machine.told and "rest on their certificates" in machine.told
+
+
+@pytest.mark.parametrize("error", [BrokenTheory("Lag.v does not compile"), NotProved("the theorem one rests on more")])
+def test_a_theory_that_fails_is_an_error(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
+    machine = _machine(monkeypatch, _raising(error))
+    found = verification._with_theorems(_result(NAMED), machine)
+    assert found.outcome.verdict == "ERROR" and str(error) in found.outcome.evidence and not found.as_expected
+    unnamed = _result(replace(NAMED, theorems=()))
+    assert verification._with_theorems(unnamed, machine) is unnamed
+
+
+def test_a_claim_is_expected_to_be_proved_where_its_standing_readings_are() -> None:
+    repair = Reading("q", "s", (), "CERTIFIED", True)
+    claim = Claim("c", "", "", "CERTIFIED", (), False, (NAMED, repair))
+    proved = replace(_result(NAMED, Verdict.PROVED), machine_checked=True)
+    assert ClaimResult(claim, (proved, _result(repair))).expected == "PROVED"
+    assert ClaimResult(claim, (proved, _result(repair))).verdict == "PROVED"
+    assert ClaimResult(claim, (_result(NAMED), _result(repair))).expected == "CERTIFIED"
+
+
+def test_only_a_closed_proof_counts() -> None:
+    def said(rest: str, *names: str) -> str:
+        return "".join(f"== {name}\nHeadlines.{name}\n     : forall n, n = n\n" for name in names) + f"== all together\n{rest}\n"
+
+    closed = "Closed under the global context"
+    assert answers(["a", "b"], said(closed, "a", "b")) == {"a": "forall n, n = n", "b": "forall n, n = n"}
+    for text in (said("Axioms:\nb : False", "a"), said(f"{closed}\nAxioms:\nb : False", "a"), said("", "a"), said(closed, "b"), ""):
+        with pytest.raises(NotProved, match=r"rest on more|nothing was said"):
+            answers(["a"], text)
+
+
+def test_the_ledger_names_theorems_of_readings_alone() -> None:
+    names = [name for claim in load() for reading in claim.readings for name in reading.theorems]
+    assert all(name.isidentifier() for name in names)
+    text = machine_checked.question(sorted(set(names)))
+    assert all(f"Check Headlines.{name}." in text and f"@Headlines.{name}," in text for name in names)

@@ -1,0 +1,347 @@
+"""The headlines of the Rocq theory: closed, named by the ledger and by the README, and refused as soon as one word of them is changed."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+
+import pytest
+
+from faultspace.proofs import machine_checked, rocq_build
+from faultspace.proofs.ledger import load
+from faultspace.proofs.machine_checked import NotProved, check
+from faultspace.proofs.rocq_build import NoRocq, compile_file, compiled_theory, sources
+
+FOLDER = resources.files("faultspace.proofs").joinpath("rocq")
+HEADLINE = re.compile(r"^Theorem (\w+)(.*?)\.\nProof\.\s(.*?)\sQed\.\nPrint Assumptions (\w+)\.\n", re.DOTALL | re.MULTILINE)
+LONGEST_FILE, LONGEST_LINE = 400, 140
+
+# For each headline one hypothesis, number or word of its statement and what it is changed to.
+CHANGES: dict[str, tuple[str, str]] = {
+    "white_inputs_exist": ("white 1%:M u H", "white 1%:M u H.+1"),
+    "assumption_2_one_sided": ("white Q u H -> a != 0 ->", "white Q u H ->"),
+    "assumption_2_one_sided_windows": ("(1 < s)", "(0 < s)"),
+    "assumption_2_without_lag_zero": ("B' = B", "B' <> B"),
+    "assumption_2_two_sided": ("(t <= i < t + s)", "(t < i < t + s)"),
+    "proposition_1_white_a_c": ("(i <= k)", "(i <= k.+1)"),
+    "proposition_1_coloured_a_c": ("(i <= k < 4)", "(i <= k.+1 < 4)"),
+    "proposition_1_two_sided": ("(t - q <= i < t + s)", "(t - q <= i < t)"),
+    "proposition_1_two_sided_b_d": ("(n < s)", "(n <= s)"),
+    "proposition_1_white_a_c_seen": ("(n <= q)", "(n <= q.+1)"),
+    "proposition_1_white_b_d_seen": ("row_free (O S k)", "row_free (O S k.+1)"),
+    "proposition_1_parametric": ("(q.-1 - j)", "(q - j)"),
+    "proposition_1_autoregressive": ("(a <= s)", "(a <= s.+1)"),
+    "proposition_1_lead_one": ("sysG S = 0 -> ", ""),
+    "theorem_1_n_samples": ("word S n.+2 r /\\ ~ word S' n.+2 r", "word S n.+1 r /\\ ~ word S' n.+1 r"),
+    "theorem_1": ("word S (maxn n n').+1 r <-> word S' (maxn n n').+1 r", "word S (maxn n n') r <-> word S' (maxn n n') r"),
+    "theorem_1_lag": ("word S N.+1 r <-> word S' N.+1 r", "word S N r <-> word S' N r"),
+    "theorem_1_either_lag": ("\\rank (transfer S) = \\rank (transfer S') -> ", ""),
+    "theorem_1_sharp": ("word S n r <-> word S' n r", "word S n.+1 r <-> word S' n.+1 r"),
+    "theorem_1_inclusion": ("(n <= N)", "(n <= N.+1)"),
+    "theorem_2_finite_zeros_only": ("(1 + s * 1)", "(s * 1)"),
+    "window_n_minus_1": ("+ 2)", "+ 1)"),
+    "theorem_2": ("left_invertible S -> ", ""),
+    "lag_at_most_n": ("<= n", "< n"),
+    "assumption_4_excitation_at_s": ("r) + 1)", "r) + 0)"),
+    "assumption_4_excitation_at_s_plus_1": ("row_full (excitation S x v N' s.+1)", "row_full (excitation S x v N' s)"),
+    "assumption_4_excitation_necessary": ("(output S x v)) + 1)", "(output S x v)) + 2)"),
+    "assumption_4_persistency_suffices": ("(n + s.+1)", "(n + s)"),
+    "proposition_3_without_left_invertibility": ("+ 1)", "+ 0)"),
+    "proposition_3": ("(n <= s)", "(n <= s.+1)"),
+    "proposition_3_lag": ("left_invertible S -> ", ""),
+    "lag_of_square_system": ("= 0%N", "= 1%N"),
+    "proposition_3_normal_rank": ("(n <= s)", "(n <= s.+1)"),
+    "normal_rank_of_pencil": ("(n + \\rank", "(m + \\rank"),
+    "problem_11_window_n": ("solves S 1 f g", "solves S 2 f g"),
+    "problem_11_first_block_column": ("~ solves S (lag S).+1", "~ solves S (lag S)"),
+    "problem_11": ("(n < s)", "(n <= s)"),
+    "problem_11_lag": ("solves S s.+1 f g", "solves S s f g"),
+    "problem_11_full_rank": ("= p ->", "= m ->"),
+    "problem_11_dimension": ("(m + (", "(n + ("),
+    "theorem_3_part_i": ("spans_solutions S s Z -> ", ""),
+    "theorem_3_almost_every": ("(size ts <= m)", "(size ts < m)"),
+    "theorem_3_every_p": ("~ (forall", "(forall"),
+    "theorem_3_left_invertible": ("(lag S < s)", "(lag S <= s)"),
+    "theorem_3_criterion": ("(lag S < s)", "(lag S <= s)"),
+    "theorem_3": ("left_invertible S' ->", "left_invertible S ->"),
+    "theorem_3_needs_same_A": ("sysC S = sysC S'", "sysA S = sysA S'"),
+    "theorem_3_needs_left_invertibility": ("~ left_invertible S,", "left_invertible S,"),
+    "zero_feedthrough_fault_matrices": ("~ (f <= sysF S)", "(f <= sysF S)"),
+    "zero_feedthrough": ("sysG S = 0 -> ", ""),
+    "zero_feedthrough_recovery": ("\\rank (sysF S *m sysC S) = m -> ", ""),
+    "trajectory_state_known": ("<-> left_invertible S", "<-> inverts_with_delay S 0"),
+    "trajectory_state_unknown": ("~ (forall", "(forall"),
+    "trajectory_no_finite_zeros": ("left_invertible S /\\ ", ""),
+    "window_ranks": ("minn s e", "minn s.+1 e"),
+    "window_ranks_left_indices": ("degree Y j", "(degree Y j).+1"),
+    "window_ranks_indices": ("(size g).-1", "size g"),
+    "window_ranks_zeros": ("left_invertible S -> ", ""),
+    "window_ranks_solutions": ("(e <= s)", "(e < s)"),
+    "window_ranks_limit": ("(lag S <= s)", "(lag S < s)"),
+    "solutions_closed_form": ("(n < s)", "(n <= s)"),
+    "sharp_gap": ("(lag S <= s)", "(lag S < s)"),
+    "sharp_equality": ("word S (lag S) r <-> word S' (lag S) r", "word S (lag S).+1 r <-> word S' (lag S).+1 r"),
+    "sharp_equality_left_invertible": ("(lag S' <= lag S)", "(lag S' < lag S)"),
+    "zeros_of_pairs": ("left_invertible S' -> ", ""),
+    "bad_set_one_fault": ("row_free (O S n) -> ", ""),
+    "bad_set_no_zeros": (" -> zeta S = 0%N", ""),
+    "bad_set_full_rank": ("(m <= 1)", "(m <= 2)"),
+    "canonical_form_same_a_c": ("(n < s)", "(n <= s)"),
+    "canonical_form_exists": ("reduced_echelon R", "row_full R"),
+    "canonical_form_any_a_c": ("c != 1 -> ", ""),
+    "canonical_form_feedback": ("sysA S + L", "sysA S - L"),
+    "canonical_form_feedback_no_basis": ("~ exists", "exists"),
+    "left_invertible_delay": ("inverts_with_delay S n", "inverts_with_delay S n.-1"),
+    "left_invertible_pencil": ("(n + m)%N", "n"),
+    "left_invertible_transfer": ("= m", "= p"),
+    "gap_meaning": ("window S s.+1", "window S s.+2"),
+    "lag_meaning": ("(lag S <= s)", "(lag S < s)"),
+    "chain_decreases": ("(j <= k)", "(k <= j)"),
+    "chain_stays": ("(k <= j)", "(j <= k)"),
+    "chain_constant": ("(n <= k)", "(n <= k.+1)"),
+    "data_exact": ("kermx (window S s)", "0 : 'M_(n + s * m)"),
+    "data_problem_11": ("(n + s.+1)", "(n + s)"),
+    "check_window_ranks": ("minn s eta", "minn s.+1 eta"),
+    "check_left_invertible": ("-> left_invertible", "-> ~ left_invertible"),
+    "check_solutions": ("(meant n m p L) s (", "(meant n m p L) s.+1 ("),
+    "check_limit": ("(beyond < s)", "(beyond <= s)"),
+    "check_inclusion": ("word S s r -> word S' s r", "word S' s r -> word S s r"),
+    "check_equality": ("word S s r <->", "word S s.+1 r <->"),
+    "check_window_equality": ("(meant n' m' p L') s r", "(meant n' m' p L') s.+1 r"),
+    "check_difference": ("(meant n' m' p L') s r", "(meant n' m' p L') s.-1 r"),
+    "check_not_left_invertible": ("~ left_invertible", "left_invertible"),
+    "check_delay": ("(j < l)", "(j <= l)"),
+    "check_no_delay": ("(j <= n)", "(j <= n.+1)"),
+    "check_observability": ("(meant n m p L) n)", "(meant n m p L) n.+1)"),
+    "check_reachability": ("= r", "= r.+1"),
+    "check_hankel": ("(hankel N s", "(hankel N.+1 s"),
+    "check_excitation": (" N s) = r", " N.+1 s) = r"),
+}
+
+
+@dataclass(frozen=True)
+class Headline:
+    """A theorem as Headlines.v states it: binders and statement with their colon, the tactics of its proof, the file it stands in."""
+
+    name: str
+    statement: str
+    tactics: str
+    file: str
+
+    @property
+    def proof_file(self) -> str:
+        """The file whose theorem the proof names last."""
+        return re.findall(r"([A-Z]\w*)\.\w", self.tactics)[-1] + ".v"
+
+
+def headlines(texts: dict[str, str]) -> list[Headline]:
+    """The headlines of Headlines.v and of the files it includes, in their order."""
+    parts = ["Headlines.v", *(f"{name}.v" for name in re.findall(r"^Include (\w+)\.", texts["Headlines.v"], re.MULTILINE))]
+    found = []
+    for part in parts:
+        for name, statement, tactics, asked in HEADLINE.findall(texts[part]):
+            assert asked == name, f"{part} asks for the assumptions of {asked} after {name}"
+            found.append(Headline(name, statement, tactics, part))
+        assert len(re.findall(r"^Theorem", texts[part], re.MULTILINE)) == len([h for h in found if h.file == part]), part
+    return found
+
+
+HEADLINES = headlines(sources())
+
+
+@pytest.fixture(scope="module")
+def theory() -> Path:
+    """The compiled theory; skips, with the reason, where Rocq or MathComp is missing."""
+    try:
+        return compiled_theory()
+    except NoRocq as reason:
+        pytest.skip(str(reason))
+
+
+# (a) closed, and what the ledger names
+
+
+@pytest.mark.timeout(900)
+def test_every_headline_is_closed(theory: Path) -> None:
+    names = {h.name for h in HEADLINES}
+    assert len(names) == len(HEADLINES) > 90
+    assert set(check(names).statements) == names
+
+
+def test_every_theorem_of_the_ledger_is_a_headline() -> None:
+    named = {name for claim in load() for reading in claim.readings for name in reading.theorems}
+    assert named <= {h.name for h in HEADLINES}
+
+
+# (b) one word changed, and the same proof is refused
+
+
+def test_every_headline_has_a_change() -> None:
+    assert list(CHANGES) == [h.name for h in HEADLINES]
+    for headline in HEADLINES:
+        old, new = CHANGES[headline.name]
+        assert headline.statement.count(old) == 1 and old != new, headline.name
+
+
+def replay(part: str, about: list[Headline]) -> str:
+    """A file in which each headline of `part` is proved as it is, and its changed copy is well-formed but refused by the same proof."""
+    lines = [re.split(r"^\(\*\* \*\*", sources()[part], maxsplit=1, flags=re.MULTILINE)[0]]
+    for h in about:
+        changed = h.statement.replace(*CHANGES[h.name])
+        lines += [f"Theorem kept_{h.name}{h.statement}.\nProof. {h.tactics} Qed."]
+        lines += [f'Goal True. idtac "== {h.name}". Abort.']
+        lines += [f"Theorem changed_{h.name}{changed}.\nProof. Timeout 100 Fail ({h.tactics[:-1]}). Abort."]
+    return "\n".join(lines) + "\n"
+
+
+@pytest.mark.timeout(900)
+@pytest.mark.parametrize("part", sorted({h.file for h in HEADLINES}))
+def test_a_changed_headline_is_refused(theory: Path, part: str) -> None:
+    about = [h for h in HEADLINES if h.file == part]
+    said = compile_file(theory, "Replay.v", replay(part, about))
+    assert said.split("\n") == [*(f"== {h.name}" for h in about), ""]
+
+
+@pytest.mark.timeout(900)
+def test_the_replay_notices_a_change_that_changes_nothing(theory: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    about = [h for h in HEADLINES if h.name == "proposition_3"]
+    monkeypatch.setitem(CHANGES, "proposition_3", ("(n <= s)%N", "(n < s.+1)%N"))
+    with pytest.raises(rocq_build.BrokenTheory, match="has not failed"):
+        compile_file(theory, "Replay.v", replay("Headlines.v", about))
+
+
+# (c), (d) nothing assumed, nothing switched off, files of readable size
+
+
+def without_comments(text: str) -> str:
+    """The text without its comments, which may be nested, and without its strings."""
+    kept, depth = [], 0
+    for piece in re.split(r'("[^"]*"|\(\*|\*\))', text):
+        depth += {"(*": 1, "*)": -1}.get(piece, 0)
+        if depth == 0 and piece != "*)" and not piece.startswith('"'):
+            kept.append(piece)
+    return "".join(kept)
+
+
+def assumptions(text: str) -> list[str]:
+    """The commands in a file that assume something, leave a proof open, or switch a check of the kernel off."""
+    bare = without_comments(text)
+    always = r"\b(Admitted|admit|give_up|Axioms?|Parameters?|Conjectures?|bypass_check|native_compute)\b|Unset\s+(?:Guard|Positivity|Universe)\w*"
+    found = [m[0] for m in re.finditer(always + r"|(?:Set|Unset)\s+Typing\s+Flags|type-in-type", bare)]
+    sections = 0
+    for m in re.finditer(r"^\s*(?:(Section)\s+\w+|(End)\s+(\w+)|((?:Local\s+)?(?:Hypothes[ie]s|Variables?|Context)\b))", bare, re.MULTILINE):
+        if m[1]:
+            sections += 1
+        elif m[2]:
+            sections -= bool(re.search(rf"\bSection\s+{m[3]}\s*\.", bare))
+        elif not sections:
+            found.append(m[4])
+    return found
+
+
+def test_no_file_assumes_anything() -> None:
+    assert {name: found for name, text in sources().items() if (found := assumptions(text))} == {}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Lemma a : False. Admitted.",
+        "Axiom a : False.",
+        "Parameters a b : nat.",
+        "Conjecture a : False.",
+        "Hypothesis a : False.",
+        "Section s.\nVariable a : nat.\nEnd s.\nVariables b : nat.",
+        "Unset Guard Checking.",
+        "#[bypass_check(guard)] Fixpoint f (n : nat) : nat := f n.",
+        "Unset Universe Checking.",
+        "Unset Typing Flags.",
+        "Lemma a : False. Proof. admit. Abort.",
+    ],
+)
+def test_what_is_assumed_is_noticed(text: str) -> None:
+    assert assumptions(text)
+    assert not assumptions(f"(* {text} (* nested *) *) Section s.\nHypothesis a : nat.\nEnd s.")
+
+
+def test_files_are_short_and_say_what_they_are() -> None:
+    for name, text in sources().items():
+        lines = text.splitlines()
+        assert text.startswith("(** "), f"{name} has no head comment"
+        assert len(lines) <= LONGEST_FILE, f"{name} has {len(lines)} lines"
+        assert "\t" not in text, f"{name} has a tab"
+        long = [k for k, line in enumerate(lines, 1) if len(line) > LONGEST_LINE]
+        assert not long, f"{name}: long lines {long}"
+
+
+def test_the_project_file_lists_every_file() -> None:
+    listed = [line for line in FOLDER.joinpath("_CoqProject").read_text("utf-8").splitlines() if line.endswith(".v")]
+    assert Counter(listed) == Counter(sources().keys())
+
+
+# (e) what machine_checked refuses
+
+TINY = {
+    "Definitions.v": "Definition one := 1.\n",
+    "Headlines.v": "From faultspace Require Import Definitions.\nTheorem good : one = 1.\nProof. reflexivity. Qed.\n",
+}
+
+
+@pytest.fixture
+def tiny(theory: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
+    """Puts a theory of two files in the place of ours, its Headlines.v with these lines added."""
+
+    def put(added: str) -> None:
+        texts = {**TINY, "Headlines.v": TINY["Headlines.v"] + added}
+        monkeypatch.setattr(machine_checked, "compiled_theory", lambda progress: compiled_theory(progress, texts=texts))
+
+    return put
+
+
+def test_a_closed_theorem_passes(tiny: Callable[[str], None]) -> None:
+    tiny("")
+    assert check(["good"]).statements == {"good": "one = 1"}
+
+
+@pytest.mark.parametrize(
+    ("added", "names", "reason"),
+    [
+        ("Theorem bad : one = 2.\nAdmitted.\n", ["bad"], "rest on more"),
+        ("Theorem bad : one = 2.\nAdmitted.\n", ["bad", "good"], "rest on more"),
+        ("Axiom absurd : one = 2.\nTheorem bad : 2 = one.\nProof. symmetry. exact absurd. Qed.\n", ["bad"], "rest on more"),
+        ("", ["missing"], "missing, which rocq/Headlines.v does not have"),
+    ],
+)
+def test_machine_checked_refuses(tiny: Callable[[str], None], added: str, names: list[str], reason: str) -> None:
+    tiny(added)
+    with pytest.raises(NotProved, match=reason):
+        check(names)
+
+
+# README
+
+
+def table() -> list[tuple[str, str, list[str], list[str]]]:
+    """The rows of the README's table: claim, reading, theorems, files of the proofs."""
+    rows = re.findall(r"^\| (.*) \| (.*) \| (`.*`) \| (`.*`) \|$", FOLDER.joinpath("README.md").read_text("utf-8"), re.MULTILINE)
+    return [(claim, reading, re.findall(r"`(\w+)`", names), re.findall(r"`(\w+\.v)`", files)) for claim, reading, names, files in rows]
+
+
+def test_the_readme_names_every_headline_and_its_file() -> None:
+    files = {h.name: h.proof_file for h in HEADLINES}
+    told = {name for _, _, names, _ in table() for name in names}
+    assert told == set(files)
+    for claim, reading, names, told_files in table():
+        assert told_files == [*dict.fromkeys(files[name] for name in names)], (claim, reading, names)
+
+
+def test_the_readme_says_the_same_as_the_ledger() -> None:
+    told = {(claim, reading): names for claim, reading, names, _ in table()}
+    for claim in load():
+        for reading in claim.readings:
+            if reading.theorems:
+                assert told.get((claim.id, reading.id)) == [*reading.theorems], (claim.id, reading.id)
