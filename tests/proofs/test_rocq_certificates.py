@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -99,6 +100,17 @@ def test_other_kinds_and_fields_are_not_covered() -> None:
     for certificate in ROOTED, next(c for c in SHIPPED if c["kind"] == "moesp-limit"):
         with pytest.raises(NotCovered):
             exported(certificate)
+
+
+def test_the_format_tells_what_is_covered_and_by_which_theorem() -> None:
+    room = resources.files("faultspace.proofs")
+    _, _, section = room.joinpath("FORMAT.md").read_text("utf-8").partition("## What Rocq recomputes")
+    rows = dict(re.findall(r"^\| `([\w-]+)` \| (.*) \|$", section, re.M))
+    assert set(rows) == set(COVERED)
+    for theorems in rows.values():
+        module, *_ = re.findall(r"`(\w+)\.", theorems)
+        text = room.joinpath(f"rocq/{module}.v").read_text("utf-8")
+        assert all(f"Theorem {name} " in text for name in re.findall(r"`(?:\w+\.)?(\w+)`", theorems))
 
 
 def test_what_is_no_prime_is_rejected_before() -> None:
