@@ -72,7 +72,8 @@ def question(names: Iterable[str]) -> str:
     lines = ["From mathcomp Require Import all_ssreflect all_algebra.", "From faultspace Require Import Definitions Headlines."]
     for name in wanted:
         lines += [f'Goal True. idtac "{MARK}{name}". Abort.', f"Check Headlines.{name}."]
-    together = ", ".join(f"@Headlines.{name}" for name in wanted)
+    # Each is a proof of a proposition, not a definition of the same name.
+    together = ", ".join(f"(fun (P : Prop) (_ : P) => I) _ (@Headlines.{name})" for name in wanted)
     lines += [f'Goal True. idtac "{MARK}{ALL}". Abort.', f"Definition every_one := ({together}, I).", "Print Assumptions every_one."]
     return "\n".join(lines) + "\n"
 
@@ -80,8 +81,8 @@ def question(names: Iterable[str]) -> str:
 def answers(names: Iterable[str], said: str) -> dict[str, str]:
     """name -> statement. Raises NotProved unless every name is there and all together rest on nothing."""
     parts: dict[str, str] = {}
-    for part in said.split(MARK)[1:]:
-        name, _, rest = part.partition("\n")
+    _, *marked = re.split(rf"^{MARK}([\w ]+)$", said, flags=re.MULTILINE)
+    for name, rest in zip(marked[::2], marked[1::2], strict=True):
         parts[name.strip()] = " ".join(rest.split())
     if parts.get(ALL) != CLOSED:
         raise NotProved(f"the theorems rest on more than the kernel: {parts.get(ALL, 'nothing was said')[-300:]}")

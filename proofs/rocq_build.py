@@ -3,16 +3,19 @@
     found             the coqc on the path and its version, or None
     compiled_theory   the folder with the compiled files; compiles what is not in the cache
     kept_theory       that folder if it is there already
+    installation      a digest of the Rocq and the MathComp that a compilation would use
     compile_file      compiles one more file against them; its output
     NoRocq            raised where there is no coqc, or MathComp is missing; says what to install
     BrokenTheory      raised where a file does not compile; the compiler's own words
 
-A folder of the cache is complete or not there: files are compiled in a folder beside it that is renamed at the end.
+A folder of the cache is complete or not there: files are compiled in a folder beside it that is renamed at the end, with a list of their
+digests, which is read again before use. Its name tells sources, compiler and MathComp apart.
 """
 
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import re
 import shutil
@@ -34,6 +37,13 @@ Progress = Callable[[str, int, int], None]
 INSTALL = "install Rocq with MathComp, on Debian or Ubuntu: apt install coq libcoq-mathcomp-algebra libcoq-mathcomp-zify"
 OPTIONS = ("-q", "-Q", ".", "faultspace", "-w", "-all")
 FILE_SECONDS = 600
+DIGESTS = "digests.json"
+# The last line is the notation of MathComp 1, for which the theory is written.
+PROBE = """From mathcomp Require Import all_ssreflect all_algebra zify ssrZ.
+Locate Library mathcomp.ssreflect.all_ssreflect.
+Locate Library mathcomp.algebra.all_algebra.
+Check [fieldType of rat].
+"""
 
 
 class NoRocq(Exception):
@@ -68,9 +78,27 @@ def sources() -> dict[str, str]:
     return {one.name: one.read_text("utf-8") for one in sorted(folder.iterdir(), key=lambda one: one.name) if one.name.endswith(".v")}
 
 
-def content_hash(texts: dict[str, str], compiler: Rocq) -> str:
-    """Of the sources and the compiler's version."""
+@cache
+def installation() -> str:
+    """Of the compiler's version and of MathComp's outermost files, which name those below them by their digests. Raises NoRocq."""
+    compiler = found()
+    if compiler is None:
+        raise NoRocq(f"coqc is not on the path; {INSTALL}")
+    with tempfile.TemporaryDirectory() as scratch:
+        (Path(scratch) / "Probe.v").write_text(PROBE, "utf-8")
+        try:
+            said = _coqc(Path(scratch) / "Probe.v", OPTIONS, FILE_SECONDS)
+        except BrokenTheory as error:
+            raise NoRocq(f"Rocq {compiler.version} does not find MathComp 1 with its zify ({error}); {INSTALL}") from None
     told = hashlib.sha256(compiler.version.encode())
+    for place in re.findall(r"has been loaded from file\s+(\S+\.vo)", said):
+        told.update(Path(place).read_bytes())
+    return told.hexdigest()
+
+
+def content_hash(texts: dict[str, str]) -> str:
+    """Of the sources and the installation. Raises NoRocq."""
+    told = hashlib.sha256(installation().encode())
     for name, text in texts.items():
         told.update(f"\0{name}\0{text}".encode())
     return told.hexdigest()[:20]
@@ -81,35 +109,46 @@ def compiled_theory(progress: Progress = lambda name, done, total: None, *, text
 
     `texts`: other sources than ours, file name -> text. `progress(file, done, total)` is told before each file.
     """
-    compiler = found()
-    if compiler is None:
-        raise NoRocq(f"coqc is not on the path; {INSTALL}")
     texts = sources() if texts is None else texts
-    place = _place(texts, compiler)
-    if place.is_dir():
+    place = _place(texts)
+    if _whole(place):
         return place
     place.parent.mkdir(parents=True, exist_ok=True)
     with FileLock(place.with_suffix(".lock")):  # whoever comes second finds it done
-        if not place.is_dir():
+        if not _whole(place):
+            shutil.rmtree(place, ignore_errors=True)
             with tempfile.TemporaryDirectory(dir=place.parent) as scratch:
                 folder = Path(scratch) / "theory"
                 folder.mkdir()
                 for name, text in texts.items():
                     (folder / name).write_text(text, "utf-8")
                 _compile_all(folder, texts, progress)
+                (folder / DIGESTS).write_text(json.dumps(_digests(folder)), "utf-8")
                 folder.rename(place)
     return place
 
 
+def _digests(folder: Path) -> dict[str, str]:
+    """Of the sources and the compiled files."""
+    return {one.name: hashlib.sha256(one.read_bytes()).hexdigest() for one in sorted(folder.glob("*.v*")) if one.suffix in (".v", ".vo")}
+
+
+def _whole(folder: Path) -> bool:
+    """Whether the folder is there as it was compiled."""
+    try:
+        return bool(json.loads((folder / DIGESTS).read_text("utf-8")) == _digests(folder))
+    except (OSError, ValueError):
+        return False
+
+
 def kept_theory() -> Path | None:
-    """The folder with all of our theory, if it has been compiled before."""
-    compiler = found()
-    place = None if compiler is None else _place(sources(), compiler)
-    return place if place is not None and place.is_dir() else None
+    """The folder with all of our theory, if it has been compiled before. Raises NoRocq."""
+    place = _place(sources())
+    return place if _whole(place) else None
 
 
-def _place(texts: dict[str, str], compiler: Rocq) -> Path:
-    return user_cache_path("faultspace") / "rocq" / content_hash(texts, compiler)
+def _place(texts: dict[str, str]) -> Path:
+    return user_cache_path("faultspace") / "rocq" / content_hash(texts)
 
 
 def compile_file(theory: Path, name: str, text: str, *, seconds: float = FILE_SECONDS) -> str:
@@ -168,7 +207,4 @@ def _coqc(file: Path, options: tuple[str, ...], seconds: float) -> str:
         raise BrokenTheory(f"{file.name}: Rocq took more than {seconds:g} s") from None
     if told.returncode == 0:
         return told.stdout
-    words = " ".join(told.stderr.split())
-    if "mathcomp" in words and ("Cannot find a physical path" in words or "Unable to locate library" in words):
-        raise NoRocq(f"Rocq {compiler.version} finds no MathComp; {INSTALL}")
-    raise BrokenTheory(f"{file.name} does not compile: {words[-600:]}")
+    raise BrokenTheory(f"{file.name} does not compile: {' '.join(told.stderr.split())[-600:]}")

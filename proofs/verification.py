@@ -103,6 +103,9 @@ def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
         return replace(result, outcome=replace(outcome, verdict=Verdict.ERROR, evidence=machine.failure))
     if machine.theorems is None:
         return result
+    if (outcome.verdict == Verdict.REFUTED) != (result.reading.expected == Verdict.REFUTED):
+        words = f"Rocq has proved {', '.join(names)}, and yet the systems say {outcome.verdict}: {outcome.evidence}"
+        return replace(result, outcome=replace(outcome, verdict=Verdict.ERROR, evidence=words))
     words = f"Rocq, without axioms: {', '.join(names)}; and {outcome.evidence}"
     verdict = outcome.verdict if outcome.verdict == Verdict.REFUTED else Verdict.PROVED
     return replace(result, outcome=replace(outcome, verdict=verdict, evidence=words), machine_checked=True)

@@ -20,7 +20,7 @@
       instance; process: the equations with the input (B, D); white Q u H: u(0..H-1) uncorrelated, of unit covariance; leads J Phi Q H u
       v: cov of u(i) and v(k) is that of v(k) = sum_(j<J) u(k+j) Phi j; future t s: the samples t..t+s-1; projected_limit: the limit of
       PI-MOESP, its rows in the place of columns (Signals.v, Leads.v); seen_B, seen_D: B and D with what the fault adds (Leads.v);
-      prediction: outputs of a model from rest (OutputError.v). *)
+      prediction: outputs of a model from rest (OutputError.v); mean_square: of its error (OneSided.v). *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Definitions Gap Lag Solutions Chain Signals Leads OutputError OneSided SmallSystems Minors InfiniteZeros.
 From faultspace Require Import Excitation HeadlinesMore HeadlinesChecks.

@@ -4,7 +4,8 @@ From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Definitions Gap Lag Solutions Chain SmallSystems Minors InfiniteZeros MinimalIndices MinorsOfOrder.
 From faultspace Require Import SystemInfiniteZeros EchelonForm Excitation.
 From faultspace Require Readings Trajectory Excitation WeakExcitation Chain Gap.
-From faultspace Require Theorem3 Theorem3Sharp GenericPairs ZeroFeedthrough ZeroFeedthroughUnique ClosedForm Counterexamples FullRankPairs.
+From faultspace Require Theorem3 Theorem3Sharp GenericPairs GoodPairs ExceptionalPolynomial ZeroAssignment.
+From faultspace Require ZeroFeedthrough ZeroFeedthroughUnique ClosedForm Counterexamples.
 From faultspace Require NormalRank TransferRank Proposition3 Inversion SolutionCount SystemInfiniteZeros EchelonExists Indices.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -21,12 +22,19 @@ Print Assumptions theorem_3_part_i.
 
 (** ** theorem-3-ii *)
 
-(** almost-every, in part: on every line through a good P all but at most m are good, where the ledger has polynomials *)
-Theorem theorem_3_almost_every (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P P1 : 'M_(m, k)) (ts : seq K) :
+(** almost-every: the bad P are the common zeros of the coefficients of D, polynomials in the entries of P that do not all vanish; on
+    every line through a good P all but at most m are good *)
+Theorem theorem_3_almost_every (K : fieldType) n m p (S : system K n m p) s (Z : 'M_(zeta S + \rank (transfer S), n + p)) :
+  (lag S < s)%N -> spans_solutions S s Z -> row_free Z -> exists a b : 'M_(zeta S, zeta S + \rank (transfer S)),
+  let D P := \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) in
+  (forall P, (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) <-> D P != 0) /\ exists P, D P != 0.
+Proof. exact: GoodPairs.almost_every_pair. Qed.
+Print Assumptions theorem_3_almost_every.
+Theorem theorem_3_on_lines (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) (P P1 : 'M_(m, k)) (ts : seq K) :
   (n < s)%N -> spans_solutions S s Z -> left_invertible S -> (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) -> uniq ts ->
   (forall t, t \in ts -> ~ (forall r, behavior (faults_of S ((P + t *: P1) *m Z)) r <-> behavior S r)) -> (size ts <= m)%N.
 Proof. exact: GenericPairs.theorem_3_part_ii. Qed.
-Print Assumptions theorem_3_almost_every.
+Print Assumptions theorem_3_on_lines.
 
 (** every-p, refuted; here p = m, so that the lag is 0 and every window has the same solutions *)
 Theorem theorem_3_every_p (K : fieldType) : exists (S : system K 1 (1 + 1) (1 + 1)) k (Z : 'M_(k, 1 + (1 + 1))) (P : 'M_(1 + 1, k)),
@@ -180,6 +188,24 @@ Theorem sharp_equality_left_invertible (K : fieldType) n m p (S : system K n m p
 Proof. exact: Readings.partner_with_as_many_faults. Qed.
 Print Assumptions sharp_equality_left_invertible.
 
+(** ** one-determinant *)
+
+(** formula: U is a basis of the zero states, a and b tell (u A, u C) and (u, 0) in the basis Z, and D = det [q b - a; P]. The product
+    of the diagonal form of a pencil is the greatest common divisor of its maximal minors. Such U, a, b exist. *)
+Theorem one_determinant (K : fieldType) n m p (S : system K n m p) s r e (Z : 'M_(e + r, n + p)) U a b (P : 'M_(r, e + r)) :
+  (n < s)%N -> spans_solutions S s Z /\ row_free Z -> row_free U -> (U :=: ClosedForm.zero_states S)%MS ->
+  a *m Z = row_mx (U *m sysA S) (U *m sysC S) -> b *m Z = row_mx U (0 : 'M_(e, p)) ->
+  let D := \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) in
+  gcd_of_minors (pencil (faults_of S (P *m Z))) D /\ (\rank (transfer (faults_of S (P *m Z))) = r <-> D != 0).
+Proof. exact: GoodPairs.determinant_of_pair. Qed.
+Print Assumptions one_determinant.
+Theorem one_determinant_exists (K : fieldType) n m p (S : system K n m p) s : (n < s)%N ->
+  exists (Z : 'M_(zeta S + \rank (transfer S), n + p)) (U : 'M_(zeta S, n)) (a b : 'M_(zeta S, zeta S + \rank (transfer S))),
+  [/\ spans_solutions S s Z /\ row_free Z, row_free U, (U :=: ClosedForm.zero_states S)%MS,
+      a *m Z = row_mx (U *m sysA S) (U *m sysC S) & b *m Z = row_mx U 0].
+Proof. exact: ExceptionalPolynomial.coordinates_exist. Qed.
+Print Assumptions one_determinant_exists.
+
 (** ** zeros-of-pairs *)
 
 (** number *)
@@ -205,12 +231,25 @@ Theorem bad_set_no_zeros (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_
 Proof. exact: Readings.no_zeros. Qed.
 Print Assumptions bad_set_no_zeros.
 
-(** full-rank, where the system is left-invertible and (A, C) observable *)
-Theorem bad_set_full_rank (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) :
-  (n < s)%N -> spans_solutions S s Z -> row_free Z -> left_invertible S -> row_free (O S n) ->
-  (forall P : 'M_(m, k), row_free P -> forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) <-> (m <= 1)%N \/ zeta S = 0%N.
-Proof. exact: FullRankPairs.full_rank_suffices. Qed.
+(** full-rank: bad P of full rank exist just then *)
+Theorem bad_set_full_rank (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) : let r := \rank (transfer S) in
+  (n < s)%N -> spans_solutions S s Z -> row_free Z ->
+  (exists P : 'M_(r, k), row_free P /\ ~ (forall w, behavior (faults_of S (P *m Z)) w <-> behavior S w)) <->
+  ((0 < r)%N /\ ~~ row_free (O S n)) \/ ((1 < r)%N /\ (0 < zeta S)%N).
+Proof. exact: GoodPairs.bad_pairs_of_full_rank_general. Qed.
 Print Assumptions bad_set_full_rank.
+
+(** ** zero-assignment *)
+
+(** every-polynomial, of normal rank 1 + r: by one_determinant D is the zero polynomial of the pair *)
+Theorem zero_assignment (K : fieldType) n m p (S : system K n m p) s r e (Z : 'M_(e + (1 + r), n + p)) U a b (g : {poly K}) :
+  (n < s)%N -> spans_solutions S s Z /\ row_free Z -> row_free U -> (U :=: ClosedForm.zero_states S)%MS ->
+  a *m Z = row_mx (U *m sysA S) (U *m sysC S) -> b *m Z = row_mx U (0 : 'M_(e, p)) -> row_free (O S n) -> (size g <= e.+1)%N ->
+  exists P : 'M_(1 + r, e + (1 + r)), \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) = g.
+Proof.
+move=> _ basis free zeros ea eb obs; exact: (ZeroAssignment.every_exceptional_polynomial (And5 basis free zeros ea eb) obs).
+Qed.
+Print Assumptions zero_assignment.
 
 (** ** canonical-form *)
 

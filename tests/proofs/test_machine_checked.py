@@ -48,11 +48,12 @@ def test_a_refuted_reading_stays_refuted_and_names_its_counterexample(monkeypatc
     assert found.outcome.verdict == found.expected == "REFUTED" and "one, two" in found.outcome.evidence
 
 
-def test_what_the_systems_refute_is_not_proved_by_a_name(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A counterexample to a theorem means that the theorem says something else: not as expected, never PROVED."""
+@pytest.mark.parametrize(("expected", "verdict"), [("CERTIFIED", Verdict.REFUTED), ("REFUTED", Verdict.CERTIFIED)])
+def test_theorems_and_systems_that_disagree_are_an_error(monkeypatch: pytest.MonkeyPatch, expected: str, verdict: Verdict) -> None:
+    """A counterexample to a theorem, or a system that a counterexample in Rocq does not speak of: the theorem says something else."""
     machine = _machine(monkeypatch, lambda names: Theorems("8.16.1", dict.fromkeys(names, "statement")))
-    found = verification._with_theorems(_result(NAMED, Verdict.REFUTED), machine)
-    assert found.outcome.verdict == "REFUTED" and not found.as_expected
+    found = verification._with_theorems(_result(replace(NAMED, expected=expected), verdict), machine)
+    assert found.outcome.verdict == "ERROR" and not found.as_expected and "the systems say" in found.outcome.evidence
 
 
 def test_without_rocq_the_certificates_stand_and_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -85,6 +86,7 @@ def test_only_a_closed_proof_counts() -> None:
         return "".join(f"== {name}\nHeadlines.{name}\n     : forall n, n = n\n" for name in names) + f"== all together\n{rest}\n"
 
     closed = "Closed under the global context"
+    assert answers(["a"], said(closed, "a").replace("n = n", "n == n\n       == m"))["a"] == "forall n, n == n == m"
     assert answers(["a", "b"], said(closed, "a", "b")) == {"a": "forall n, n = n", "b": "forall n, n = n"}
     for text in (said("Axioms:\nb : False", "a"), said(f"{closed}\nAxioms:\nb : False", "a"), said("", "a"), said(closed, "b"), ""):
         with pytest.raises(NotProved, match=r"rest on more|nothing was said"):
@@ -95,4 +97,4 @@ def test_the_ledger_names_theorems_of_readings_alone() -> None:
     names = [name for claim in load() for reading in claim.readings for name in reading.theorems]
     assert all(name.isidentifier() for name in names)
     text = machine_checked.question(sorted(set(names)))
-    assert all(f"Check Headlines.{name}." in text and f"@Headlines.{name}," in text for name in names)
+    assert all(f"Check Headlines.{name}." in text and f"(@Headlines.{name})" in text for name in names)
