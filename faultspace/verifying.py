@@ -84,6 +84,7 @@ def verdict_table(report: Report) -> Table:
                 reading.statement,
                 (f"\nhypotheses: {'; '.join(reading.hypotheses) or 'none'}", "dim"),
                 (f"\n{outcome.evidence}", "dim italic"),
+                (f"\nfor all systems: {reading.missing}" if reading.missing else "", "dim italic"),
             )
             name = f"  {reading.id}{' (repair)' if reading.repair else ''}"
             verdict = _verdict(outcome.verdict, result.expected, "\n")
@@ -146,6 +147,8 @@ def _reading(result: ReadingResult) -> Iterator[Text]:
     yield Text(f"    as checked:   {reading.statement}")
     yield Text(f"    hypotheses:   {'; '.join(reading.hypotheses) or 'none'}")
     yield Text(f"    evidence:     {outcome.evidence}")
+    if reading.missing:
+        yield Text(f"    to a proof:   {reading.missing}")
     yield Text(f"    accepted:     {outcome.accepted} certificates by the checker")
     for certificate in outcome.certificates:
         yield Text(f"    certificate:  {certificate['kind']}, SHA-256 {sha256(certificate)}")

@@ -20,7 +20,8 @@ from typing import Any
 class Reading:
     """One way to read a claim, precise enough to be decided.
 
-    `theorems` of rocq/Headlines.v say it for all systems; of a refuted reading they are its counterexample.
+    `theorems` of rocq/Headlines.v say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
+    proof for all systems lacks, where the reading holds and has none.
     """
 
     id: str
@@ -29,6 +30,7 @@ class Reading:
     expected: str
     repair: bool
     theorems: tuple[str, ...] = ()
+    missing: str = ""
 
     @property
     def proved(self) -> str:
@@ -90,6 +92,7 @@ def _claim(name: str, entry: dict[str, object]) -> Claim:
                 expected=str(value["expected"]),
                 repair=bool(value.get("repair", False)),
                 theorems=tuple(value.get("theorems", ())),
+                missing=str(value.get("missing", "")),
             )
             for key, value in readings.items()
         ),

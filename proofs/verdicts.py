@@ -73,6 +73,7 @@ class ReadingResult:
             "expected": self.expected,
             "as_expected": self.as_expected,
             "theorems": list(self.reading.theorems) if self.machine_checked else [],
+            "missing_for_a_proof": self.reading.missing or None,
             "evidence": self.outcome.evidence,
             "certificates_accepted": self.outcome.accepted,
             "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.outcome.certificates],

@@ -93,6 +93,12 @@ def test_only_a_closed_proof_counts() -> None:
             answers(["a"], text)
 
 
+def test_what_holds_without_a_theorem_says_what_is_missing() -> None:
+    for claim in load():
+        for reading in claim.readings:
+            assert bool(reading.missing) == (reading.expected != "REFUTED" and not reading.theorems), (claim.id, reading.id)
+
+
 def test_the_ledger_names_theorems_of_readings_alone() -> None:
     names = [name for claim in load() for reading in claim.readings for name in reading.theorems]
     assert all(name.isidentifier() for name in names)
