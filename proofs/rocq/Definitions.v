@@ -2,7 +2,7 @@
 
         x(k+1) = x(k) A + v(k) F,      r(k) = x(k) C + v(k) G.
 
-    Nothing is assumed: any field K, any n states, m faults, p outputs, zero included. *)
+    Nothing is assumed: any field K, any n states, m faults, p outputs, zero included. README.md says what each word is in the paper. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -21,11 +21,13 @@ Definition output S x v k := state S x v k *m sysC S + v k *m sysG S.
 Definition word S s r := exists x v, forall k, (k < s)%N -> r k = output S x v k.
 Definition behavior S r := exists x v, forall k, r k = output S x v k.
 
-(** From rest, only v = 0 gives zero output; known from delay l on: v(0) = 0 follows from l + 1 zero samples. *)
+(** Left-invertible is said of the paper's system, not of the matrices as they stand here: from rest, only v = 0 gives zero
+    output; known from delay l on: v(0) = 0 follows from l + 1 zero samples. *)
 Definition left_invertible S := forall v, (forall k, output S 0 v k = 0) -> forall k, v k = 0.
 Definition inverts_with_delay S l := forall v, (forall k, (k <= l)%N -> output S 0 v k = 0) -> v 0%N = 0.
 
-(** [O_s T_s]: its rows are the outputs r(0), ..., r(s-1) of unit initial states and of unit faults. *)
+(** [O_s T_s]: its rows are the outputs r(0), ..., r(s-1) of unit initial states and of unit faults. pulse i: one
+    fault at one time. Their blocks A^k C, G and F A^(k-i-1) C are told by blocks_of_window in Headlines.v. *)
 Definition samples s r : 'rV[K]_(s * p) := mxvec (\matrix_(k < s) r k).
 Definition pulse s (i : 'I_(s * m)) k : 'rV[K]_m := oapp (fun j => row j (vec_mx (delta_mx 0 i))) 0 (insub k : option 'I_s).
 Definition O S s : 'M[K]_(n, s * p) := \matrix_i samples s (output S (row i 1%:M) (fun=> 0)).

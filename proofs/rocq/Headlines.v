@@ -2,8 +2,9 @@
     read them takes Definitions.v and these words, told in full in the files named:
     - gap S s: how much the rank of the window grows from s to s + 1 samples (Gap.v; gap_meaning below). lag S: the least s with gap S s
       = gap S n; etas S: each length s as often as the gap drops on reaching it from s - 1 to s (from p to gap 0 for s = 0); zeta S: n
-      less their sum (Lag.v). These are the left minimal indices of the pencil and the number of its zeros: window_ranks_left_indices,
-      window_ranks_zeros.
+      less their sum (Lag.v). The etas are the left minimal indices of the pencil (window_ranks_left_indices); zeta is the number of its
+      zeros, finite and infinite, where S is left-invertible (window_ranks_zeros), and elsewhere that number and the sum of the right
+      minimal indices (zeta_of_system).
     - faults_of S Z: S with the rows of Z = [F G] as its faults; spans_solutions S s Z: the row space of Z is that of all solutions of
       problem (11).
     - hankel N s r: R_s with N rows; excitation S x v N s: [X V_s]; persistently_exciting N s v: hankel N s v has full rank
@@ -23,13 +24,45 @@
       prediction: outputs of a model from rest (OutputError.v); mean_square: of its error (OneSided.v). *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Definitions Gap Lag Solutions Chain Signals Leads OutputError OneSided SmallSystems Minors InfiniteZeros.
-From faultspace Require Import Excitation HeadlinesMore HeadlinesChecks.
+From faultspace Require Import MinorsOfOrder SystemInfiniteZeros MinimalIndices Excitation HeadlinesMore HeadlinesChecks.
+From faultspace Require Windows Infinite WindowBlocks Existence.
 From faultspace Require ConsistencyExamples Consistency Regression Controllable Autoregressive Undetectable.
 From faultspace Require Theorem1 SharpWindows Theorem1Sharp Proposition3 WeakExcitation Problem11.
 From faultspace Require SettledSolutions NormalRank TransferRank Readings.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
+
+(** ** What the words say *)
+
+(** The words of length s are the row space of [O_s T_s], and a signal is possible for ever once each of its beginnings is. *)
+Theorem words_are_ranks (K : fieldType) n m p (S : system K n m p) s r : (samples s r <= window S s)%MS <-> word S s r.
+Proof. exact: Windows.windowP. Qed.
+Print Assumptions words_are_ranks.
+Theorem behaviors_are_words (K : fieldType) n m p (S : system K n m p) r : behavior S r <-> forall s, word S s r.
+Proof. exact: Infinite.behaviorP. Qed.
+Print Assumptions behaviors_are_words.
+
+(** The blocks of O_s and T_s: A^k C; G on the diagonal, F A^(k-i-1) C beside it, and zero for a fault at i > k. *)
+Theorem blocks_of_window (K : fieldType) n m p (S : system K n m p) s (i k : 'I_s) : let power j := iter j (mulmx (sysA S)) (sysC S) in
+  \matrix_(a, b) O S s a (mxvec_index k b) = power k /\
+  \matrix_(a, b) T S s (mxvec_index i a) (mxvec_index k b) =
+    if (i < k)%N then sysF S *m power (k - i.+1)%N else if i == k then sysG S else 0.
+Proof. exact: WindowBlocks.window_blocks. Qed.
+Print Assumptions blocks_of_window.
+
+(** The greatest common divisors of the minors, the zeros at infinity, the minimal bases and, for a white input, the limits that
+    statements below speak of are there. *)
+Theorem zeros_exist (K : fieldType) n m p (S : system K n m p) :
+  [/\ left_invertible S -> exists g d, gcd_of_minors (pencil S) g /\ infinite_zeros S d,
+      exists g d, gcd_of_minors_of_order (n + \rank (transfer S)) (pencil S) g /\ system_infinite_zeros S d,
+      exists c (X : 'M_(n + p, c)), minimal_basis (pencil S) X & exists k (Y : 'M_(n + m, k)), minimal_basis (pencil S)^T Y].
+Proof. exact: Existence.zeros_exist. Qed.
+Print Assumptions zeros_exist.
+Theorem projected_limits_exist (K : fieldType) N nu p (Q : 'M[K]_N) (u : nat -> 'M_(N, nu)) (y : nat -> 'M_(N, p)) H t s z (Z : 'M_(N, z)) :
+  white Q u H -> (t + s <= H)%N -> exists L, projected_limit Q Z (future t s u) (future t s y) L.
+Proof. exact: Existence.limit_exists. Qed.
+Print Assumptions projected_limits_exist.
 
 (** ** assumption-2 *)
 
@@ -38,7 +71,8 @@ Theorem white_inputs_exist (K : fieldType) nu H : exists u : nat -> 'M[K]_(H * n
 Proof. exact: ConsistencyExamples.white_exists. Qed.
 Print Assumptions white_inputs_exist.
 
-(** one-sided, refuted: with A = a, F = 1, C = [1 0], G = [0 1], B = -a, D = 0 and v(k) = u(k+1) any fit with the right B, or the right
+(** The estimator of B and D that is refuted is the one of output error: the model from rest whose outputs fit best in the mean square.
+    one-sided, refuted: with A = a, F = 1, C = [1 0], G = [0 1], B = -a, D = 0 and v(k) = u(k+1) any fit with the right B, or the right
     D, is worse than another one, B' = 0 and D' = [1 0]. *)
 Theorem assumption_2_one_sided (K : realFieldType) (a : K) N H (Q : 'M[K]_N) (u : nat -> 'cV[K]_N) :
   Q^T = Q -> white Q u H -> a != 0 ->
@@ -86,8 +120,10 @@ Theorem proposition_1_white_a_c (K : fieldType) (a : K) N H (Q : 'M[K]_N) (u : n
 Proof. exact: ConsistencyExamples.zero_limit. Qed.
 Print Assumptions proposition_1_white_a_c.
 
-(** white-b-d, refuted: assumption_2_one_sided. coloured-a-c, refuted: u = e(k) + e(k-1)/2, v = e(k+1), A = 1/2, B = F = 1, C = [1 0], G
-    = [0 1], written out at the times 0..3 that the limit is made of (ConsistencyExamples.v): it exists and is not in the range of O_2. *)
+(** white-b-d, refuted for the fit of output error: assumption_2_one_sided. *)
+
+(** coloured-a-c, refuted: u = e(k) + e(k-1)/2, v = e(k+1), A = 1/2, B = F = 1, C = [1 0], G = [0 1], written out at the times 0..3 that
+    the limit is made of (ConsistencyExamples.v): it exists and is not in the range of O_2. *)
 Theorem proposition_1_coloured_a_c : let S := ConsistencyExamples.MovingAverage.S in let Q := ConsistencyExamples.MovingAverage.Q in
   let u := ConsistencyExamples.MovingAverage.u in let v := ConsistencyExamples.MovingAverage.v in
   let x := ConsistencyExamples.MovingAverage.x in let y := ConsistencyExamples.MovingAverage.y in

@@ -5,6 +5,7 @@ From faultspace Require Import Definitions Gap Lag Solutions Chain SmallSystems 
 From faultspace Require Import SystemInfiniteZeros EchelonForm Excitation.
 From faultspace Require Readings Trajectory Excitation WeakExcitation Chain Gap.
 From faultspace Require Theorem3 Theorem3Sharp GenericPairs GoodPairs ExceptionalPolynomial ZeroAssignment.
+From faultspace Require FaultMatrices WidePairs PairZeros.
 From faultspace Require ZeroFeedthrough ZeroFeedthroughUnique ClosedForm Counterexamples.
 From faultspace Require NormalRank TransferRank Proposition3 Inversion SolutionCount SystemInfiniteZeros EchelonExists Indices.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -36,11 +37,11 @@ Theorem theorem_3_on_lines (K : fieldType) n m p (S : system K n m p) s k (Z : '
 Proof. exact: GenericPairs.theorem_3_part_ii. Qed.
 Print Assumptions theorem_3_on_lines.
 
-(** every-p, refuted; here p = m, so that the lag is 0 and every window has the same solutions *)
-Theorem theorem_3_every_p (K : fieldType) : exists (S : system K 1 (1 + 1) (1 + 1)) k (Z : 'M_(k, 1 + (1 + 1))) (P : 'M_(1 + 1, k)),
-  [/\ observable S, left_invertible S, forall s, spans_solutions S s Z, row_free P
+(** every-p, refuted, with p = 3 outputs and m = 2 faults, on every window *)
+Theorem theorem_3_every_p (K : fieldType) : exists (S : system K 1 (1 + 1) (1 + 1 + 1)) k (Z : 'M_(k, 1 + (1 + 1 + 1))) (P : 'M_(1 + 1, k)),
+  [/\ observable S, left_invertible S, forall s, (0 < s)%N -> spans_solutions S s Z, row_free P
     & ~ (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r)].
-Proof. exact: SmallSystems.full_rank_pair_not_equivalent. Qed.
+Proof. exact: WidePairs.every_p_wide. Qed.
 Print Assumptions theorem_3_every_p.
 
 (** criterion-window-n, refuted by problem_11_window_n. criterion-left-invertible: *)
@@ -80,13 +81,20 @@ Print Assumptions theorem_3_needs_left_invertibility.
 
 (** ** zero-feedthrough *)
 
-(** fault-matrices, refuted by x1(k+1) = x2(k), x2(k+1) = v(k), r = x1 *)
-Theorem zero_feedthrough_fault_matrices (K : fieldType) : exists S : system K (1 + 1) 1 1,
-  [/\ observable S, fault_controllable S, left_invertible S, sysG S = 0 & exists f, (forall s, solves S s f 0) /\ ~ (f <= sysF S)%MS].
-Proof. exists (SmallSystems.double_delay K); exact: SmallSystems.fault_matrices_beyond. Qed.
+(** fault-matrices, refuted by x1(k+1) = x2(k), x2(k+1) = v(k), r = x1: the rows of F' are not in the row space of F *)
+Theorem zero_feedthrough_fault_matrices (K : fieldType) : exists (S : system K (1 + 1) 1 1) (F' : 'M_(1, 1 + 1)),
+  [/\ observable S, fault_controllable S, left_invertible S, sysG S = 0 &
+      (forall r, behavior (with_faults S F' 0) r <-> behavior S r) /\ ~ (F' <= sysF S)%MS].
+Proof. exact: FaultMatrices.fault_matrices_equal. Qed.
 Print Assumptions zero_feedthrough_fault_matrices.
 
-(** exactly-when; zeta is the number of zeros by window_ranks_zeros *)
+(** exactly-when: all F' of the same behaviour are in the row space of F just when all solutions (f, 0) are; and when these are. zeta is
+    the number of zeros by window_ranks_zeros *)
+Theorem zero_feedthrough_matrices (K : fieldType) n m p (S : system K n m p) s : (n < s)%N -> sysG S = 0 ->
+  (forall m' (F' : 'M_(m', n)), (forall r, behavior (with_faults S F' 0) r <-> behavior S r) -> (F' <= sysF S)%MS) <->
+  (forall f, solves S s f 0 -> (f <= sysF S)%MS).
+Proof. exact: FaultMatrices.zero_feedthrough_any. Qed.
+Print Assumptions zero_feedthrough_matrices.
 Theorem zero_feedthrough (K : fieldType) n m p (S : system K n m p) s g :
   (n < s)%N -> sysG S = 0 -> left_invertible S -> gcd_of_minors (pencil S) g ->
   ((forall f, solves S s f 0 -> (f <= sysF S)%MS) <-> zeta S = m) /\
@@ -147,6 +155,13 @@ Theorem window_ranks_zeros (K : fieldType) n m p (S : system K n m p) g d :
   left_invertible S -> gcd_of_minors (pencil S) g -> infinite_zeros S d -> n = (sumn (etas S) + ((size g).-1 + d))%N.
 Proof. exact: Readings.dimension_by_zeros. Qed.
 Print Assumptions window_ranks_zeros.
+
+(** For every system n less the etas, zeta, counts the right minimal indices too. *)
+Theorem zeta_of_system (K : fieldType) n m p (S : system K n m p) k (Y : 'M_(n + m, k)) g d : minimal_basis (pencil S)^T Y ->
+  gcd_of_minors_of_order (n + \rank (transfer S)) (pencil S) g -> system_infinite_zeros S d ->
+  zeta S = (\sum_(j < k) degree Y j + (size g).-1 + d)%N.
+Proof. rewrite Readings.normal_rank; exact: SystemInfiniteZeros.zeta_system. Qed.
+Print Assumptions zeta_of_system.
 
 (** solutions, at window s + 1 *)
 Theorem window_ranks_solutions (K : fieldType) n m p (S : system K n m p) s k (Z : 'M_(k, n + p)) : spans_solutions S s.+1 Z ->
@@ -215,6 +230,14 @@ Theorem zeros_of_pairs (K : fieldType) n m m' p (S : system K n m p) (S' : syste
 Proof. exact: Readings.zeros_of_equivalent_pairs. Qed.
 Print Assumptions zeros_of_pairs.
 
+(** split, refuted over the rational numbers by r(k) = x(k) + v(k), x(k+1) = 0 *)
+Theorem zeros_of_pairs_split : let S : system [fieldType of rat] 1 1 1 := System 0 0 1%:M 1%:M in exists F G F' G',
+  [/\ forall w, behavior (with_faults S F G) w <-> behavior S w, forall w, behavior (with_faults S F' G') w <-> behavior S w,
+      gcd_of_minors (pencil (with_faults S F G : system _ 1 1 1)) 1
+    & gcd_of_minors (pencil (with_faults S F' G' : system _ 1 1 1)) 'X].
+Proof. exact: PairZeros.different_numbers. Qed.
+Print Assumptions zeros_of_pairs_split.
+
 (** ** bad-set *)
 
 (** one-fault *)
@@ -250,6 +273,14 @@ Proof.
 move=> _ basis free zeros ea eb obs; exact: (ZeroAssignment.every_exceptional_polynomial (And5 basis free zeros ea eb) obs).
 Qed.
 Print Assumptions zero_assignment.
+
+(** recoverable, where (A, C) is observable *)
+Theorem recoverable_pair (K : fieldType) n m p (S : system K n m p) : let r := \rank (transfer S) in
+  row_free (O S n) -> (0 < r)%N -> exists (F : 'M_(r, n)) (G : 'M_(r, p)), let S' := with_faults S F G in
+  (forall w, behavior S' w <-> behavior S w) /\
+  (forall x y v w, (forall k, output S' x v k = output S' y w k) -> forall k, v k = w k).
+Proof. exact: PairZeros.recoverable_pair_exists. Qed.
+Print Assumptions recoverable_pair.
 
 (** ** canonical-form *)
 

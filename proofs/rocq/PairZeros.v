@@ -2,7 +2,7 @@
     F = 0, G = 1 over the rationals: one equivalent pair has no finite zero, another has one (ZeroAssignment.v). *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Definitions Basics Windows Gap Lag Trajectory Solutions SolutionCount ExceptionalPolynomial ZeroAssignment.
-From faultspace Require Import TransferRank NormalRank.
+From faultspace Require Import TransferRank NormalRank Minors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -18,14 +18,26 @@ have e0 : etas one_zero = [::] by apply: size0nil; rewrite size_etas (gap_normal
 split; [by rewrite /zeta e0 | split=> //].
 apply: inj_row_free => x /unobservable/(_ 0%N); by rewrite /output /= mulmx1 mul0mx addr0.
 Qed.
-Theorem different_numbers : exists (P P' : system [fieldType of rat] 1 1 1),
-  [/\ forall w, behavior P w <-> behavior one_zero w, forall w, behavior P' w <-> behavior one_zero w,
-   \rank (zero_holding P) = 0%N & \rank (zero_holding P') = 1%N].
+Theorem different_numbers : let S := one_zero in exists F G F' G',
+  [/\ forall w, behavior (with_faults S F G) w <-> behavior S w, forall w, behavior (with_faults S F' G') w <-> behavior S w,
+      gcd_of_minors (pencil (with_faults S F G : system _ 1 1 1)) 1
+    & gcd_of_minors (pencil (with_faults S F' G' : system _ 1 1 1)) 'X].
 Proof.
 have [z1 [r1 obs]] := one_zero_dims; have := coordinates_exist one_zero (ltnSn 1); rewrite z1 r1 => -[Z [U [a [b co]]]].
-have [P [g _ n0]] := any_number_of_finite_zeros (r := 0) (ltnSn 1) co obs (leq0n 1).
-have [P' [g' _ n1]] := any_number_of_finite_zeros (r := 0) (ltnSn 1) co obs (leqnn 1).
-by exists (faults_of one_zero (P *m Z)), (faults_of one_zero (P' *m Z)).
+have [P [g n0 _]] := any_number_of_finite_zeros (r := 0) (ltnSn 1) co obs (leq0n 1).
+have [P' [g' n1 _]] := any_number_of_finite_zeros (r := 0) (ltnSn 1) co obs (leqnn 1).
+by exists (lsubmx (P *m Z)), (rsubmx (P *m Z)), (lsubmx (P' *m Z)), (rsubmx (P' *m Z)).
+Qed.
+
+(** zero-assignment, recoverable, for observable systems. *)
+Theorem recoverable_pair_exists (K : fieldType) n m p (S : system K n m p) : let r := \rank (transfer S) in
+  row_free (O S n) -> (0 < r)%N -> exists (F : 'M_(r, n)) (G : 'M_(r, p)), let S' := with_faults S F G in
+  (forall w, behavior S' w <-> behavior S w) /\
+  (forall x y v w, (forall k, output S' x v k = output S' y w k) -> forall k, v k = w k).
+Proof.
+move=> r obs; have := coordinates_exist S (ltnSn n); rewrite -/r; case: r => // r [Z [U [a [b co]]]] _.
+have [P good] := recoverable_pair (r := r) (ltnSn n) co obs.
+by exists (lsubmx (P *m Z)), (rsubmx (P *m Z)).
 Qed.
 
 (** zeros-of-pairs, number. *)
