@@ -78,14 +78,18 @@ def sources() -> dict[str, str]:
     return {one.name: one.read_text("utf-8") for one in sorted(folder.iterdir(), key=lambda one: one.name) if one.name.endswith(".v")}
 
 
-@cache
 def installation() -> str:
     """Of the compiler's version and of MathComp's outermost files, which name those below them by their digests. Raises NoRocq."""
     compiler = found()
     if compiler is None:
         raise NoRocq(f"coqc is not on the path; {INSTALL}")
+    return _probed(compiler, PROBE)
+
+
+@cache
+def _probed(compiler: Rocq, probe: str) -> str:
     with tempfile.TemporaryDirectory() as scratch:
-        (Path(scratch) / "Probe.v").write_text(PROBE, "utf-8")
+        (Path(scratch) / "Probe.v").write_text(probe, "utf-8")
         try:
             said = _coqc(Path(scratch) / "Probe.v", OPTIONS, FILE_SECONDS)
         except BrokenTheory as error:

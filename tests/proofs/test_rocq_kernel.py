@@ -53,21 +53,17 @@ def test_other_sources_have_another_place(cache: Path) -> None:
 
 
 def test_without_rocq_it_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    rocq_build.installation.cache_clear()
     monkeypatch.setattr(rocq_build, "found", lambda: None)
     with pytest.raises(rocq_build.NoRocq, match="apt install coq"):
         rocq_build.compiled_theory()
-    rocq_build.installation.cache_clear()
 
 
 def test_a_mathcomp_that_is_not_there_is_no_broken_theory(monkeypatch: pytest.MonkeyPatch) -> None:
     if rocq_build.found() is None:
         pytest.skip(rocq_build.INSTALL)
-    rocq_build.installation.cache_clear()
     monkeypatch.setattr(rocq_build, "PROBE", "From nowhere Require Import nothing.\n")
     with pytest.raises(rocq_build.NoRocq, match="does not find MathComp"):
         rocq_build.installation()
-    rocq_build.installation.cache_clear()
 
 
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
