@@ -19,13 +19,11 @@ from .failures import ANSWERED, NOT_AS_EXPECTED, printable
 from .numeric.audit.peers import PEERS
 from .numeric.audit.peers import peer as peer_named
 from .numeric.audit.programs import Limits
-from .numeric.audit.records import Kind, Record
+from .numeric.audit.records import Kind, Record, grouped
 from .numeric.audit.running import audit, audit_named, told
-from .numeric.audit.scoreboard import audit_peer
+from .numeric.audit.scoreboard import REFERENCE, audit_peer
 from .numeric.audit.subprocess_adapter import Exec
 from .numeric.input_checks import InvalidData
-
-REFERENCE = "faultspace.numeric.audit.reference"
 
 
 def run(
@@ -72,21 +70,13 @@ def run(
     else:
         console = answers()
         console.print(table(records))
-        for group in _by_slug(failed):
+        for group in grouped(failed):
             others = f" Also: {', '.join(one.vector for one in group[1:])}." if len(group) > 1 else ""
             console.print(Text(told(group[0], printable(name)) + others), soft_wrap=True)
         functions = ", ".join(dict.fromkeys(record.function for record in records))
         tally = f"{len(records)} checks of {functions or 'nothing'}: {len(failed)} failed"
         console.print(Text(tally, style="bold red" if failed else "bold"), soft_wrap=True)
     return NOT_AS_EXPECTED if failed else ANSWERED
-
-
-def _by_slug(failed: Sequence[Record]) -> list[list[Record]]:
-    """Failures of one slug and function together, in their order."""
-    groups: dict[tuple[str, str], list[Record]] = {}
-    for record in failed:
-        groups.setdefault((record.slug, record.function), []).append(record)
-    return list(groups.values())
 
 
 def list_peers(*, as_json: bool) -> int:

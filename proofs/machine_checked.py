@@ -2,9 +2,9 @@
 
     Theorems       what was checked: Rocq's version, each theorem's statement as Rocq prints it
     check          compiles the theory (or takes it from the cache) and asks for each name's statement and assumptions
-    NotProved      raised where a name is not there, or rests on an axiom or on an admitted proof
 
-The theorems are in rocq/Headlines.v, the definitions they speak of in rocq/Definitions.v. NoRocq and BrokenTheory go through.
+The theorems are in rocq/Headlines.v, the definitions they speak of in rocq/Definitions.v. NotProved of `rocq_build` is raised where a name
+is not there, or rests on an axiom or on an admitted proof; NoRocq and BrokenTheory go through.
 """
 
 from __future__ import annotations
@@ -16,15 +16,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from .rocq_build import BrokenTheory, NoRocq, Progress, compile_file, compiled_theory, found
+from .rocq_build import CLOSED, BrokenTheory, NoRocq, NotProved, Progress, compile_file, compiled_theory, found
 
-CLOSED = "Closed under the global context"
 MARK = "== "
 ALL = "all together"
-
-
-class NotProved(Exception):
-    """A theorem that the ledger names is missing or rests on more than Rocq's kernel."""
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@
     installation      a digest of the Rocq and the MathComp that a compilation would use
     compile_file      compiles one more file against them; its output
     NoRocq            raised where there is no coqc, or MathComp is missing; says what to install
+    CLOSED, NotProved what Rocq says of a proof without axioms, and what is raised where it does not
     BrokenTheory      raised where a file does not compile; the compiler's own words
 
 A folder of the cache is complete or not there: files are compiled in a folder beside it that is renamed at the end, with a list of their
@@ -38,6 +39,7 @@ INSTALL = "install Rocq with MathComp, on Debian or Ubuntu: apt install coq libc
 OPTIONS = ("-q", "-Q", ".", "faultspace", "-w", "-all")
 FILE_SECONDS = 600
 DIGESTS = "digests.json"
+CLOSED = "Closed under the global context"
 # The last line is the notation of MathComp 1, for which the theory is written.
 PROBE = """From mathcomp Require Import all_ssreflect all_algebra zify ssrZ.
 Locate Library mathcomp.ssreflect.all_ssreflect.
@@ -52,6 +54,10 @@ class NoRocq(Exception):
 
 class BrokenTheory(Exception):
     """A file does not compile."""
+
+
+class NotProved(Exception):
+    """A theorem is missing, not accepted by the kernel, or rests on more than it."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +123,11 @@ def compiled_theory(progress: Progress = lambda name, done, total: None, *, text
     place = _place(texts)
     if _whole(place):
         return place
-    place.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        where = f"the compiled proofs cannot be kept in {place.parent}: {error.strerror}"
+        raise NoRocq(f"{where}; set XDG_CACHE_HOME to a folder that can be written into") from None
     with FileLock(place.with_suffix(".lock")):  # whoever comes second finds it done
         if not _whole(place):
             shutil.rmtree(place, ignore_errors=True)

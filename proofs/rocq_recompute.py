@@ -29,10 +29,9 @@ from pathlib import Path
 from typing import Any, Literal
 
 from . import checker
-from .rocq_build import BrokenTheory, Progress, compile_file, compiled_theory, kept_theory, needs, sources
+from .rocq_build import CLOSED, BrokenTheory, NotProved, Progress, compile_file, compiled_theory, kept_theory, needs, sources
 from .rocq_export import HEAD, MODULES, NotCovered, Terms, exported, written
 
-CLOSED = "Closed under the global context"
 AT_ONCE, SECONDS = 100, 120.0
 
 
@@ -46,10 +45,6 @@ class Recomputed:
 
 ACCEPTED = Recomputed("accepted", "the kernel has proved the statement by computation, from no axiom")
 REJECTED = Recomputed("rejected", "the check computes to false")
-
-
-class NotProved(Exception):
-    """The kernel did not accept the theorem, or it rests on an axiom."""
 
 
 def recomputed(

@@ -16,9 +16,9 @@ from .checker import Malformed, Rejected
 from .corpus import Progress
 from .hypotheses import experiments
 from .ledger import Claim, Reading, expected_without, load
-from .machine_checked import NotProved, Theorems
+from .machine_checked import Theorems
 from .machine_checked import check as machine_checked
-from .rocq_build import BrokenTheory, NoRocq
+from .rocq_build import BrokenTheory, NoRocq, NotProved
 from .verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from .workbench import Workbench
 

@@ -2,11 +2,13 @@
 
 Check         slug, function tested, vector, claim, effect on a user, severity, kind, and `measure`, which calls the function
 Measurement   quantity, got, bound: a distance from the exact answer, and what rounding may make of it
+Named         what both are called by
 Record        a check's outcome: verdict, the worst measurement, in words what happened
 Kind          must-hold, must-refuse (an answer is the failure) or free (told, never failed)
 Refused       the implementation declined to answer; Broken: it crashed, hung or answered what is no answer
 perform       runs one check; never raises for what the implementation does
 broken        the record of a check during which the implementation broke
+grouped       records by slug and function
 """
 
 from __future__ import annotations
@@ -76,20 +78,12 @@ class Measurement:
 
 
 @dataclass(frozen=True)
-class Check:
-    """One question to one function on one vector. `measure` takes the guarded function and gives measurements.
-
-    `claim`: the statement in the ledger that the expected answer rests on, None where it is plain good manners.
-    """
+class Named:
+    """What a check and its record are called by."""
 
     slug: str
     function: str
     vector: str
-    claim: str | None
-    effect: str
-    severity: Severity
-    measure: Callable[[Function], Iterable[Measurement]]
-    kind: Kind = Kind.MUST_HOLD
 
     @property
     def name(self) -> str:
@@ -103,17 +97,28 @@ class Check:
 
     @property
     def names(self) -> tuple[str, str, str]:
-        """What it may be called by: for itself, with that of other functions, with all of its slug."""
+        """For itself, with that of other functions, with all of its slug."""
         return self.full_name, self.name, self.slug
 
 
 @dataclass(frozen=True)
-class Record:
+class Check(Named):
+    """One question to one function on one vector. `measure` takes the guarded function and gives measurements.
+
+    `claim`: the statement in the ledger that the expected answer rests on, None where it is plain good manners.
+    """
+
+    claim: str | None
+    effect: str
+    severity: Severity
+    measure: Callable[[Function], Iterable[Measurement]]
+    kind: Kind = Kind.MUST_HOLD
+
+
+@dataclass(frozen=True)
+class Record(Named):
     """The outcome of one check; got, bound, ratio are those of the worst measurement (None where nothing was measured)."""
 
-    slug: str
-    vector: str
-    function: str
     claim: str | None
     effect: str
     severity: str
@@ -125,16 +130,6 @@ class Record:
     ratio: float | None
     detail: str
     seconds: float
-
-    @property
-    def name(self) -> str:
-        """slug[vector]."""
-        return f"{self.slug}[{self.vector}]"
-
-    @property
-    def full_name(self) -> str:
-        """slug[vector]-function."""
-        return f"{self.name}-{self.function}"
 
     @property
     def failed(self) -> bool:
@@ -178,6 +173,14 @@ def broken(check: Check, failure: Exception, seconds: float) -> Record:
     return _record(check, Verdict.BROKEN, None, str(failure), seconds)
 
 
+def grouped(records: Iterable[Record]) -> list[list[Record]]:
+    """Those of one slug and function together, in their order."""
+    groups: dict[tuple[str, str], list[Record]] = {}
+    for record in records:
+        groups.setdefault((record.slug, record.function), []).append(record)
+    return list(groups.values())
+
+
 def _record(check: Check, verdict: Verdict, worst: Measurement | None, detail: str, seconds: float) -> Record:
     effect, severity = check.effect, check.severity
     if verdict in (Verdict.REFUSED, Verdict.BROKEN):  # whoever gets no answer is not misled
@@ -185,8 +188,8 @@ def _record(check: Check, verdict: Verdict, worst: Measurement | None, detail: s
         effect, severity = f"no answer where {due}", Severity.NUISANCE
     return Record(
         check.slug,
-        check.vector,
         check.function,
+        check.vector,
         check.claim,
         effect,
         str(severity),

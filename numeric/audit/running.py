@@ -125,7 +125,7 @@ def _records(
 
 def _expecting(record: Record, expected: Sequence[ExpectedFailure]) -> Record:
     """An expected failure passes and says why; a pass where a failure is expected fails."""
-    known = next((one for one in expected if one.name in (record.slug, record.name, record.full_name)), None)
+    known = next((one for one in expected if one.name in record.names), None)
     if known is None or record.verdict == Verdict.BROKEN:
         return record
     if record.verdict == Verdict.PASS:

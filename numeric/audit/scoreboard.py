@@ -23,7 +23,7 @@ from typing import Any
 from ..input_checks import InvalidData
 from .peers import PEERS, Peer, peer
 from .programs import STANDARD, Limits
-from .records import Record, Verdict
+from .records import Record, Verdict, grouped
 from .running import audit, audit_named
 from .subprocess_adapter import Exec
 
@@ -33,7 +33,10 @@ REFERENCE = "faultspace.numeric.audit.reference"
 
 @dataclass(frozen=True)
 class Tally:
-    """Of the checks of one slug and function: how many were asked, how many failed, and the first that failed (else the worst)."""
+    """Of the checks of one slug and function: how many were asked, how many failed, and the first that failed (else the worst).
+
+    Infinite numbers are strings.
+    """
 
     slug: str
     function: str
@@ -45,8 +48,8 @@ class Tally:
     vector: str
     verdict: str
     quantity: str | None
-    got: float | None
-    bound: float | None
+    got: float | str | None
+    bound: float | str | None
     detail: str
 
 
@@ -98,17 +101,13 @@ def audit_peer(
 
 def tallies(records: Iterable[Record]) -> tuple[Tally, ...]:
     """One for each slug and function, in the order of the records."""
-    groups: dict[tuple[str, str], list[Record]] = {}
-    for record in records:
-        if record.verdict != Verdict.NOT_OFFERED:
-            groups.setdefault((record.slug, record.function), []).append(record)
     result = []
-    for (slug, function), group in groups.items():
+    for group in grouped(record for record in records if record.verdict != Verdict.NOT_OFFERED):
         failed = [record for record in group if record.failed]
         shown = failed[0] if failed else max(group, key=lambda record: record.ratio or 0.0)
         numbers = [None if x is None else (str(x) if abs(x) == inf else float(f"{x:.2g}")) for x in (shown.got, shown.bound)]
         told: Any = (shown.vector, shown.verdict, shown.quantity, *numbers, shown.detail)
-        result.append(Tally(slug, function, shown.kind, shown.claim, shown.effect, len(group), len(failed), *told))
+        result.append(Tally(shown.slug, shown.function, shown.kind, shown.claim, shown.effect, len(group), len(failed), *told))
     return tuple(result)
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from importlib import resources
 
 import pytest
 
 from faultspace.proofs import machine_checked, verification
 from faultspace.proofs.ledger import Claim, Reading, load
-from faultspace.proofs.machine_checked import NotProved, Theorems, answers
-from faultspace.proofs.rocq_build import BrokenTheory, NoRocq
+from faultspace.proofs.machine_checked import Theorems, answers
+from faultspace.proofs.rocq_build import BrokenTheory, NoRocq, NotProved
 from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
 
 NAMED = Reading("r", "s", (), "CERTIFIED", False, ("one", "two"))
@@ -104,3 +106,13 @@ def test_the_ledger_names_theorems_of_readings_alone() -> None:
     assert all(name.isidentifier() for name in names)
     text = machine_checked.question(sorted(set(names)))
     assert all(f"Check Headlines.{name}." in text and f"(@Headlines.{name})" in text for name in names)
+
+
+def test_the_readme_of_the_theorems_counts_them() -> None:
+    room = resources.files("faultspace.proofs").joinpath("rocq")
+    texts = [one.read_text("utf-8") for one in room.iterdir() if one.name.startswith("Headlines") and one.name.endswith(".v")]
+    headlines = sum(len(re.findall(r"^Print Assumptions ", text, re.M)) for text in texts)
+    readings = [reading for claim in load() for reading in claim.readings]
+    named = sum(bool(reading.theorems) for reading in readings)
+    readme = room.joinpath("README.md").read_text("utf-8")
+    assert f"\n{headlines} headlines" in readme and f"They prove {named} of the {len(readings)} readings" in readme

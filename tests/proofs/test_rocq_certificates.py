@@ -12,8 +12,9 @@ import pytest
 
 from faultspace.exact.fields import QQ
 from faultspace.proofs import checker, rocq_build, rocq_export
+from faultspace.proofs.rocq_build import NotProved
 from faultspace.proofs.rocq_export import COVERED, NotCovered, Terms, exported
-from faultspace.proofs.rocq_recompute import ACCEPTED, NotProved, decided, proved, recomputed, theory
+from faultspace.proofs.rocq_recompute import ACCEPTED, decided, proved, recomputed, theory
 from tests.end_to_end.commands import call
 from tests.proofs.examples import RANKS, ROOTED, certificates, spoiled, written
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems

@@ -13,8 +13,8 @@ import pytest
 
 from faultspace.proofs import machine_checked, rocq_build
 from faultspace.proofs.ledger import load
-from faultspace.proofs.machine_checked import NotProved, check
-from faultspace.proofs.rocq_build import NoRocq, compile_file, compiled_theory, sources
+from faultspace.proofs.machine_checked import check
+from faultspace.proofs.rocq_build import NoRocq, NotProved, compile_file, compiled_theory, sources
 
 FOLDER = resources.files("faultspace.proofs").joinpath("rocq")
 HEADLINE = re.compile(r"^Theorem (\w+)(.*?)\.\nProof\.\s(.*?)\sQed\.\nPrint Assumptions (\w+)\.\n", re.DOTALL | re.MULTILINE)

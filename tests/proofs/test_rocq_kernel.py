@@ -77,3 +77,11 @@ def test_the_second_checker_finds_no_axiom() -> None:
     assert told.returncode == 0, told.stderr[-2000:]
     for heading in ("Axioms", "Constants/Inductives relying on type-in-type", "Constants/Inductives relying on unsafe (co)fixpoints"):
         assert f"* {heading}: <none>" in told.stdout + told.stderr, told.stderr[-2000:]  # with -silent it tells them on standard error
+
+
+def test_a_cache_that_cannot_be_written_is_no_broken_theory(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The verdicts then rest on certificates, and the run says why."""
+    (cache / "file").write_text("", "utf-8")
+    monkeypatch.setattr(rocq_build, "user_cache_path", lambda name: cache / "file" / name)
+    with pytest.raises(rocq_build.NoRocq, match="XDG_CACHE_HOME"):
+        rocq_build.compiled_theory(texts=TINY)
