@@ -232,7 +232,7 @@ def _count_unscaled(r: Any) -> int:
 
 def _square_time(r: Any, windows: int) -> Any:
     """The running median of each channel, from the beginning for every sample."""
-    middle = [np.sort(r[: k + 1], axis=0)[k // 2] for k in range(len(r))]
+    middle = [np.sort(r[: k + 1], axis=0)[k // 2].copy() for k in range(len(r))]  # a view would keep every sorted array
     assert np.all(np.isfinite(middle))
     return reference.window_ranks(r, windows)
 
