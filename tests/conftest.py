@@ -4,7 +4,7 @@ ci          the profile in force: the same examples in every run, nothing rememb
 explore     fresh examples and no clock, for looking further: `pytest --hypothesis-profile=explore`
 
 Where tests run in several processes, the Rocq theory is compiled before they start (once, then it is in the user's cache), so that no test
-waits for another's compilation. The linear algebra library gets one thread a process: on small matrices its threads mostly wait for each other.
+waits for another's compilation. The linear algebra library gets one thread a process: on small matrices threads mostly wait for each other.
 """
 
 import contextlib
