@@ -112,6 +112,11 @@ def two_sided(bench: Workbench) -> Outcome:
     return certify_limits([d for d in bench.limits if d.uncorrelated], lambda d: d.within and d.inputs_right)
 
 
+def two_sided_output_error(bench: Workbench) -> Outcome:
+    """Output error with the true A and C gives the true B and D, u of any colour."""
+    return certify_limits([d for d in bench.limits if d.uncorrelated and d.state_inputs is not None], lambda d: d.output_error_right)
+
+
 def two_sided_range(bench: Workbench) -> Outcome:
     """It is all of that range, u of any colour, (A, B) controllable, past >= n: some inputs of period 3 refute it."""
     return smallest_seasonal(lambda d: d.whole_range_expected and not d.equal, taps=1, others=WITHOUT_RANK)
