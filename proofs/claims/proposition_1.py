@@ -186,7 +186,7 @@ def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitDossier], bool
 
 
 def smallest_seasonal(fails: Callable[[LimitDossier], bool], taps: int, others: Sequence[str]) -> Outcome:
-    """The smallest experiment with an input of period 3 that fails, and as many of those kept in counterexamples/ as `others` names."""
+    """The smallest experiment with an input of period 3 that fails, with its two limits, and the `others`, kept in counterexamples/."""
     for one in in_order():
         dossier = examine_experiment("search", seasonal(one, taps))
         if not fails(dossier):
@@ -194,7 +194,7 @@ def smallest_seasonal(fails: Callable[[LimitDossier], bool], taps: int, others: 
         wrong = [name for name in others if not fails(examine_experiment("kept", kept(name)))]
         if wrong:
             return Outcome(Verdict.ERROR, f"counterexamples/{wrong[0]}.json refutes nothing")
-        return counterexample(f"{show_words(dossier)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(dossier))
+        return counterexample(f"{show_words(dossier)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(dossier)[:2])
     return Outcome(Verdict.ERROR, "no counterexample in the family")
 
 
