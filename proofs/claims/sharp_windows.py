@@ -63,7 +63,7 @@ def _partners(bench: Workbench) -> Outcome:
         shown = tuple(_show(kernel, partner))
         for certificate in shown:
             checker.verify(certificate)
-        alike = all(certificate["statement"]["left_invertible"] for certificate in shown[2:])
+        alike = all(certificate["kind"] == "left-invertible" for certificate in shown[2:])
         if shown[1]["statement"]["window"] != kernel.lag + 1 or partner.system.m != system.m or not alike:
             return Outcome(Verdict.ERROR, f"the partner of {system} is not as it was to be")
         tried, count = tried + 1, count + len(shown)
