@@ -44,7 +44,7 @@ def some(random: Random, choices: tuple[str, ...], most: int, least: int = 0) ->
 
 
 def attack(seed: int) -> Experiment:
-    """Companion A with poles of ROOTS; zeros of u there or on the unit circle, taps a period apart; a second input that copies the first."""
+    """Companion A with poles of ROOTS; zeros of u there or on the unit circle, taps a period apart; a second input copies the first."""
     random = Random(seed)
     n, nu = random.choice((1, 2, 2, 3)), random.choice((1, 1, 2))
     top = polynomial(some(random, ROOTS, n, n))
