@@ -16,6 +16,8 @@ counts as dependent, so that the bound errs on the side of a larger space.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,12 +35,12 @@ def observability_indices(A: Array, C: Array) -> tuple[int, ...]:
     """
     p, n = C.shape
     blocks, ranks = [C], [0]
-    for s in range(1, n + 1):
+    for _ in range(n):
         values = np.linalg.svd(np.vstack(blocks), compute_uv=False)
         size = float(values[0]) if values.size else 0.0
         ranks.append(int(np.sum(values > HALF_THE_DIGITS * size)))
         blocks.append(blocks[-1] @ A)
-    steps = [later - before for before, later in zip(ranks, ranks[1:], strict=False)]
+    steps = [later - before for before, later in pairwise(ranks)]
     # Output i has an index of at least s for as many i as the rank grows by at step s.
     return tuple(sorted(sum(1 for step in steps if step > i) for i in range(p)))
 

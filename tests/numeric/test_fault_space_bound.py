@@ -18,7 +18,8 @@ from faultspace.numeric.models import StateSpaceModel
 
 def drawn(random: np.random.Generator, n: int, m: int, p: int, entries: int) -> ResidualSystem:
     """Small integers: many zeros, so that indices are unequal, states unobserved, outputs copies of others."""
-    A, F, C, G = (random.integers(-entries, entries + 1, shape) * random.integers(0, 2, shape) for shape in ((n, n), (n, m), (p, n), (p, m)))
+    shapes = (n, n), (n, m), (p, n), (p, m)
+    A, F, C, G = (random.integers(-entries, entries + 1, shape) * random.integers(0, 2, shape) for shape in shapes)
     if p > 1 and random.integers(3) == 0:
         C[-1] = C[0]
     return ResidualSystem.of(A=A.tolist(), F=F.tolist(), C=C.tolist(), G=G.tolist())
