@@ -48,4 +48,4 @@ def observability_indices(A: Array, C: Array) -> tuple[int, ...]:
 def largest_fault_space(A: Array, C: Array, n_v: int) -> int:
     """The most columns that the fault space of n_v <= p independent faults can have with A (n, n), C (p, n). Source: head of the module."""
     p, n = C.shape
-    return n + n_v - sum(observability_indices(A, C)[: p - n_v])
+    return int(n) + n_v - sum(observability_indices(A, C)[: p - n_v])

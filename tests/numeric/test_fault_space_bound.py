@@ -6,9 +6,11 @@ from itertools import product
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from faultspace.exact.fault_space import from_kernel_rows
 from faultspace.exact.kernel_representation import kernel_representation
+from faultspace.exact.matrices import Matrix
 from faultspace.exact.systems import ResidualSystem
 from faultspace.numeric import noisy_fault_space
 from faultspace.numeric.fault_space import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
@@ -25,8 +27,8 @@ def drawn(random: np.random.Generator, n: int, m: int, p: int, entries: int) -> 
     return ResidualSystem.of(A=A.tolist(), F=F.tolist(), C=C.tolist(), G=G.tolist())
 
 
-def floats(matrix: object, shape: tuple[int, int]) -> np.ndarray:
-    return np.array([[float(entry) for entry in row] for row in matrix.to_json()], dtype=float).reshape(shape)  # type: ignore[attr-defined]
+def floats(matrix: Matrix, shape: tuple[int, int]) -> NDArray[np.float64]:
+    return np.array([[float(entry) for entry in row] for row in matrix.to_json()], dtype=float).reshape(shape)
 
 
 @pytest.mark.parametrize("seed", range(4))
