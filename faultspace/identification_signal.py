@@ -4,6 +4,7 @@ with_space    an Answer with the fault space
 with_signal   an Answer with F, G and the signal, or a note why they are withheld: n_z undecided, or the signal explains no more than noise
 choose_pair   n_v columns (F, G) out of a fault space, whose signal is then reconstructed
 largest       the largest |y| of each output
+beyond_rounding   the residual that faults are counted on, outputs that the model explains to rounding set to zero
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def with_space(answer: Answer, tell: Tell) -> Answer:
         return answer
     tell("fault space", 0, 0)
     try:
-        space = fault_space(rest.store.read(*answer.held), model.A, model.C, n_v=answer.count)
+        space = fault_space(beyond_rounding(answer), model.A, model.C, n_v=answer.count)
     except InvalidData as error:
         return replace(answer, notes=(*answer.notes, f"no fault space: {error}"))
     if space.method == "likelihood":
@@ -131,3 +132,11 @@ def largest(record: Record) -> Array:
     """The largest |y| of each output, as the record is read."""
     low, high = record.channels.least - record.offset, record.channels.greatest - record.offset
     return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
+
+
+def beyond_rounding(answer: Answer) -> Array:
+    """The residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their rounding
+    would be scaled up and counted as faults."""
+    rest = answer.residual
+    assert rest is not None
+    return np.asarray(rest.store.read(*answer.held) * (rest.peak > ROUNDING * largest(answer.record)))

@@ -37,7 +37,7 @@ from .consoles import answers, print_json
 from .data_files import read_record
 from .exact.input_rules import InvalidInput, shown
 from .failures import ANSWERED, placed, printable, say
-from .identification_signal import MEANS_FROM, ROUNDING, largest, with_signal, with_space
+from .identification_signal import MEANS_FROM, ROUNDING, beyond_rounding, largest, with_signal, with_space
 from .identification_summary import summary
 from .long_reconstruction import FaultSignal
 from .long_residuals import LongResidual, loudest, residual_of
@@ -71,9 +71,10 @@ class Answer:
     singular_values of PI-MOESP; order_given: the order was stated by the user; held: the samples that faults were counted on; count: the
     n_v taken (None: undecided), count_given: stated by the user, count_reason, counted_by: of COUNTED_BY what it rests on; healthy_until:
     samples stated to be without fault, from the first on, `modelled` the part of the record that the model is from, healthy: the samples of
-    these that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero where
-    there are none and no means were removed); visible (p,): standard deviation of a white fault at one output that would be seen;
-    pair: F (n, n_v), G (p, n_v) of `signal`; explained: share of the residual that the signal explains, by_noise: what it would of noise.
+    these that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
+    where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
+    visible (p,): standard deviation of a white fault at one output that would be seen; pair: F (n, n_v), G (p, n_v) of `signal`;
+    explained: share of the residual that the signal explains, by_noise: what it would of noise.
     """
 
     record: Record
@@ -94,6 +95,7 @@ class Answer:
     against: FaultsAgainstHealthy | None = None
     mean: MeanShift | None = None
     visible: Array | None = None
+    unexplained: bool = False
     space: FaultSpaceEstimate | None = None
     pair: tuple[Array, Array] | None = None
     signal: FaultSignal | None = None
@@ -111,7 +113,7 @@ class Answer:
         """Faults that act in any case: the count where there is one; else one where anything stands out, the mean included."""
         if self.count is not None:
             return self.count
-        return max(self.against.at_least if self.against else 0, int(self.moved))
+        return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
 
     @property
     def moved(self) -> bool:
@@ -248,7 +250,7 @@ def _with_count(answer: Answer, faults: int | None, tell: Tell) -> Answer:
         source = source if healthy else "the model and the fault signal are from all samples"
         notes += (f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; {source}",)
     answer = replace(answer, held=(first, last), notes=notes)
-    r = rest.store.read(first, last)
+    r = beyond_rounding(answer)
     try:
         found = fault_dimension(r.astype(np.float32) if record.single else r, u=record.stretch(first, last)[1])
         by = None if found.n_v is None else "residual alone"
@@ -286,7 +288,7 @@ def _against_healthy(answer: Answer, r: Array, tell: Tell) -> Answer:
     record, rest, until = answer.record, answer.residual, answer.healthy_until
     assert rest is not None and until is not None
     if np.all(rest.early_peak <= ROUNDING * largest(record)):
-        return _zero_or_not(answer, noise_free=True)
+        return _zero_or_not(replace(answer, unexplained=True))
     tell("counting faults against the healthy samples", 0, 0)
     start = max(until - HELD // (record.p + record.n_u), 0)
     healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
@@ -305,12 +307,12 @@ def _against_healthy(answer: Answer, r: Array, tell: Tell) -> Answer:
     return _zero_or_not(answer)
 
 
-def _zero_or_not(answer: Answer, *, noise_free: bool = False) -> Answer:
+def _zero_or_not(answer: Answer) -> Answer:
     """0 is said only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
-    if answer.count != 0 and not (answer.count is None and answer.moved):
+    if answer.count != 0 and not (answer.count is None and (answer.moved or answer.unexplained)):
         return answer
     mean, against = answer.mean, answer.against
-    if noise_free:
+    if answer.unexplained:
         reason = f"the model explains the healthy samples to rounding and not the others, so that a fault acts; {answer.count_reason}"
         return replace(answer, count=None, counted_by=None, count_reason=reason)
     assert mean is not None

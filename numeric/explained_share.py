@@ -5,8 +5,8 @@
                     to output and has each output's own spectrum
 
 At each frequency the signals of one F, G reach one n_v-dimensional subspace of the outputs, and of noise of spectrum Phi(f) no such
-subspace holds more than the n_v largest eigenvalues of Phi(f). Summed over the frequencies this bounds what any F, G explain of noise, so that
-a share below it is no sign of a fault; a share above it is more than noise of those spectra would give. Spectra are estimated over
+subspace holds more than the n_v largest eigenvalues of Phi(f). Summed over the frequencies this bounds what any F, G explain of noise, so
+that a share below it is no sign of a fault; a share above it is more than noise of those spectra would give. Spectra are estimated over
 MANY_TAPERS tapers, which makes the largest eigenvalues larger, and so the bound.
 """
 

@@ -16,7 +16,7 @@ counts as dependent, so that the bound errs on the side of a larger space.
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,15 +31,18 @@ HALF_THE_DIGITS = float(np.sqrt(EPS))
 def observability_indices(A: Array, C: Array) -> tuple[int, ...]:
     """nu_1 <= .. <= nu_p of A (n, n) and C (p, n), ranks decided at half the digits; their sum is the number of observed states.
 
-    Best asked in coordinates where O_n is well conditioned (`residual_windows.observed_coordinates`). Source: [K80].
+    Neither the basis of the states nor the units of the outputs matter. Source: [K80].
     """
     p, n = C.shape
-    blocks, ranks = [C], [0]
-    for _ in range(n):
-        values = np.linalg.svd(np.vstack(blocks), compute_uv=False)
-        size = float(values[0]) if values.size else 0.0
-        ranks.append(int(np.sum(values > HALF_THE_DIGITS * size)))
-        blocks.append(blocks[-1] @ A)
+    if n == 0:
+        return (0,) * p
+    blocks = np.stack(list(accumulate(range(n - 1), lambda block, _: block @ A, initial=C)))
+    sizes = np.linalg.norm(blocks, axis=(0, 2))
+    blocks = blocks / np.where(sizes > 0.0, sizes, 1.0)[:, None]
+    left, values, _ = np.linalg.svd(blocks.reshape(n * p, n), full_matrices=False)
+    # In coordinates of the observed states in which O_n has orthonormal columns.
+    orthonormal = left[:, values > HALF_THE_DIGITS * max(float(values[0]), np.finfo(float).tiny)]
+    ranks = [int(np.sum(np.linalg.svd(orthonormal[: p * s], compute_uv=False) > HALF_THE_DIGITS)) if s else 0 for s in range(n + 1)]
     steps = [later - before for before, later in pairwise(ranks)]
     # Output i has an index of at least s for as many i as the rank grows by at step s.
     return tuple(sorted(sum(1 for step in steps if step > i) for i in range(p)))

@@ -159,7 +159,7 @@ def mean_shift(
         return MeanShift(None, f"{len(after)} samples are fewer than the {reference.lags + 1} that the healthy noise remembers", level)
     found = _tested(reference, after, inputs, level)
     if reference.nearest * reference.samples < UNIT_ROOT:
-        reason = "the healthy residual wanders like a random walk: its mean says nothing (an integrating plant, or a drift?)"
+        reason = "the healthy residual wanders: its mean says nothing (an integrating plant, a drift, a fault in it?)"
         return MeanShift(None, reason, level, found.shift)
     half = len(before) // 2
     try:

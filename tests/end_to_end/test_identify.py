@@ -128,6 +128,7 @@ def test_inspect_reads_the_model_where_floats_are_taken_exactly(csv_file: Path, 
     validator("model").validate(json.loads(model.read_text("utf-8")))
     run = call("inspect", str(model), "--floats-exactly", "--json")
     assert run.code == 0, run.err
+    assert "confirms nothing about the plant" in run.err
     # Exactly: G has full column rank, so there is neither a delay nor, generically, any zero.
     got = {key: run.json[key] for key in ("n", "m", "p", "normal_rank", "zeta", "fault_space_dimension", "delay_known_state")}
     assert got == {"n": 3, "m": 1, "p": 3, "normal_rank": 1, "zeta": 0, "fault_space_dimension": 1, "delay_known_state": 0}

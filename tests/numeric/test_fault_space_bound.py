@@ -28,7 +28,7 @@ def drawn(random: np.random.Generator, n: int, m: int, p: int, entries: int) -> 
 
 
 def floats(matrix: Matrix, shape: tuple[int, int]) -> NDArray[np.float64]:
-    return np.array([[float(entry) for entry in row] for row in matrix.to_json()], dtype=float).reshape(shape)
+    return np.array([[float(str(entry)) for entry in row] for row in matrix.to_json()], dtype=np.float64).reshape(shape)
 
 
 @pytest.mark.parametrize("seed", range(4))
