@@ -33,7 +33,7 @@ def observability_indices(A: Array, C: Array) -> tuple[int, ...]:
 
     Neither the basis of the states nor the units of the outputs matter. Source: [K80].
     """
-    p, n = C.shape
+    p, n = int(C.shape[0]), int(C.shape[1])
     if n == 0:
         return (0,) * p
     blocks = np.stack(list(accumulate(range(n - 1), lambda block, _: block @ A, initial=C)))

@@ -110,7 +110,10 @@ def mean_reference(healthy: ArrayLike, u: ArrayLike | None = None) -> MeanRefere
 
     Raises InvalidData for NaN, channels that are constant or exact combinations of others, and too few samples for the channels.
     """
-    r, inputs = residual_and_inputs(healthy, u)
+    return _learnt(*residual_and_inputs(healthy, u))
+
+
+def _learnt(r: Array, inputs: Array) -> MeanReference:
     scales, input_scales = channel_sizes(r - r.mean(axis=0)), _sizes(inputs)
     r, inputs = r / scales, inputs / input_scales
     K, p = r.shape
@@ -152,7 +155,7 @@ def mean_shift(
     before, inputs_before = residual_and_inputs(healthy, healthy_u)
     after, inputs = residual_and_inputs(r, u)
     try:
-        reference = mean_reference(before, inputs_before)
+        reference = _learnt(before, inputs_before)
     except InvalidData as error:
         return MeanShift(None, str(error), level)
     if len(after) < reference.lags + 1:
@@ -163,7 +166,7 @@ def mean_shift(
         return MeanShift(None, reason, level, found.shift)
     half = len(before) // 2
     try:
-        itself = _tested(mean_reference(before[:half], inputs_before[:half]), before[half:], inputs_before[half:], level)
+        itself = _tested(_learnt(before[:half], inputs_before[:half]), before[half:], inputs_before[half:], level)
     except InvalidData:
         return found  # halves too short to be held against each other
     if itself.shifted:
