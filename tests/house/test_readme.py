@@ -27,13 +27,16 @@ def claims_table() -> list[str]:
 
 
 def hypotheses_table() -> list[str]:
-    """The rows of the README's table of hypotheses, from the ledger."""
-    rows = ["| claim | conclusion | needed | not needed |", "|---|---|---|---|"]
+    """The rows of the README's table of hypotheses, from the ledger and from what the experiments say is proved."""
+    heads = "claim", "conclusion", "needed", "not needed, PROVED", "no counterexample found", "follows from the others"
+    rows = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     expected = expected_without()
     for experiment in experiments():
-        verdicts = expected[experiment.name]
-        needed, unneeded = ("; ".join(name for name, v in verdicts.items() if v == verdict) for verdict in ("REFUTED", "CERTIFIED"))
-        rows.append(f"| {experiment.claim} | {experiment.conclusion} | {needed} | {unneeded} |")
+        cells: dict[str, list[str]] = {"REFUTED": [], "PROVED": [], "CERTIFIED": [], "IMPLIED": []}
+        for name, entry in expected[experiment.name].items():
+            proved = entry == "CERTIFIED" and experiment.theorems_without((name,))
+            cells["PROVED" if proved else entry].append(name)
+        rows.append(f"| {experiment.claim} | {experiment.conclusion} | {' | '.join('; '.join(names) for names in cells.values())} |")
     return rows
 
 
