@@ -4,23 +4,26 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from itertools import combinations_with_replacement, product
 from random import Random
 
 import pytest
 
+from faultspace.exact.bad_set import _codimension, _index_lists
 from faultspace.exact.behavior import compare
 from faultspace.exact.exceptional import polynomial_at
 from faultspace.exact.fault_space import fault_space, with_pair
 from faultspace.exact.fields import PrimeField
 from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, rank
+from faultspace.exact.matrices import Matrix, column_basis, rank
 from faultspace.exact.pencil import zero_dynamics_polynomial
 from faultspace.exact.polynomials import divide, gcd, monic
 from faultspace.exact.population_limits import population_limits
 from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.windows import observability_matrix, reachability_matrix
+from faultspace.exact.windows import observability_matrix, reachability_matrix, window_matrix
 from faultspace.exact.zero_assignment import assign_zeros
 from faultspace.proofs.corpus import examine
+from faultspace.proofs.exhaustive import all_systems
 from faultspace.proofs.experiments_tried import examine_experiment
 from faultspace.proofs.families import adversarial
 from faultspace.proofs.hypotheses import placed
@@ -109,6 +112,17 @@ def test_extreme_pairs_have_a_change_that_puts_the_columns_into_z() -> None:
             assert change is not None and columns_in_space(system, moved(second, change)), system
 
 
+@pytest.mark.parametrize("dimensions", [(2, 1, 2, 1), (2, 2, 1, 1), (3, 1, 1, 1), (2, 2, 2, 0)])
+def test_every_system_of_a_box_has_a_change_that_puts_its_columns_into_z(dimensions: tuple[int, int, int, int]) -> None:
+    """Over GF(q): each system against the first one with the same outputs, q, n, p, m; the changes compose."""
+    n = dimensions[1]
+    first_with: dict[str, ResidualSystem] = {}
+    for system in all_systems(*dimensions):
+        first = first_with.setdefault(str(column_basis(window_matrix(system, 2 * n + 1))), system)
+        T = columns_moved(first, system)
+        assert T is not None and columns_in_space(first, moved(system, T)), (first, system)
+
+
 def test_feedback_is_put_right_by_no_change_of_state_where_the_model_is_asked_for() -> None:
     first = of([[0]], [[1]], [["1"], ["0"]], [["0"], ["0"]])
     pair = Compared(first, of([["1/2"]], [[1]], [["1"], ["0"]], [["0"], ["0"]]), None, True, 1, 0)
@@ -151,6 +165,17 @@ def test_no_pair_of_an_unobservable_system_lacks_its_unobservable_modes() -> Non
         P = Matrix.of([[random.randint(-3, 3)] for _ in range(pencil.n_z)])
         D = polynomial_at(pencil, P)
         assert not D or not divide(D, pencil.fixed)[1]
+
+
+def test_the_codimension_is_two_for_all_degrees_of_the_kernel() -> None:
+    """All systems with (A, C) observable, r <= 4, 1 <= zeta <= 6: the degrees k_1 <= ... <= k_r, of sum zeta, decide the codimension."""
+    tried = 0
+    for r, zeta in product(range(1, 5), range(1, 7)):
+        for degrees in (k for k in combinations_with_replacement(range(zeta + 1), r) if sum(k) == zeta):
+            assert min(_codimension(degrees, indices) for indices in _index_lists(degrees[1:])) >= 2, degrees
+            tried += 1
+    assert tried > 60
+    assert min(_codimension((0, 0), indices) for indices in _index_lists((0,))) == 1, "zeta = 0: the determinant of P"
 
 
 # -- zeros -----------------------------------------------------------------------------------------------------------------
