@@ -66,13 +66,15 @@ class Driven:
 
     @cached_property
     def degenerate(self) -> str:
-        """Why it would be a poor witness."""
-        return _degenerate(self.record.experiment)
+        """Why it would be a poor witness: its system is, its B is zero, or the weighting of a limit of higher rank decides."""
+        weighted = self.record.limit_rank > self.record.experiment.system.residual.n and self.record.inputs_right
+        return _degenerate(self.record.experiment) or (WEIGHTED if weighted else "")
 
     def __str__(self) -> str:
         return show_words(self.record)
 
 
+WEIGHTED = "the limit has a rank above n, and B and D are right: its n leading singular vectors, in some weighting, may carry A and C"
 UNCORRELATED: dict[str, Callable[[Driven], bool]] = {
     "v(k), u(k-l) uncorrelated, l >= 1": lambda x: x.record.past_lags,
     "v(k), u(k) uncorrelated": lambda x: x.record.same_time,

@@ -34,8 +34,10 @@ from faultspace.proofs.hypotheses.aimed_experiments import (
     ONE_OUTPUT,
     RANK_DROPS,
     UNREAD,
+    WHITE,
     _drawn,
     drop,
+    experiment,
     small_experiments,
 )
 from faultspace.proofs.hypotheses.changes_of_state import columns_moved, equivalent_pairs, moved, similarity
@@ -44,6 +46,7 @@ from faultspace.proofs.hypotheses.pairs import Compared, columns_in_space, same_
 from faultspace.proofs.hypotheses.systems import signal_from_unknown_state
 from faultspace.proofs.hypotheses.windowed import Windowed
 from faultspace.proofs.judged_pairs import pencil_of
+from faultspace.proofs.workbench import Workbench
 
 
 def of(A: object, F: object, C: object, G: object, **more: object) -> ResidualSystem:
@@ -189,10 +192,10 @@ def test_unobservable_modes_count_with_multiplicity(system: ResidualSystem) -> N
     while len(rest) > 1 and len(common := gcd(rest, modes)) > 1:
         rest = divide(rest, common)[0]
     assert len(rest) == 1 and len(zeros) > len(modes)
-    subject = Windowed(examine("test", system), 0)
-    experiment = signal_from_unknown_state()
-    assert "as many finite zeros as unobservable modes" in experiment.violated(subject) and not experiment.holds(subject)
-    assert "observable" in experiment.violated(subject) and "left-invertible" not in experiment.violated(subject)
+    here = Windowed(examine("test", system), 0)
+    claim = signal_from_unknown_state()
+    assert "as many finite zeros as unobservable modes" in claim.violated(here) and not claim.holds(here)
+    assert "observable" in claim.violated(here) and "left-invertible" not in claim.violated(here)
 
 
 def test_aimed_systems_lack_what_they_are_to_lack_and_nothing_else() -> None:
@@ -205,13 +208,13 @@ def test_aimed_systems_lack_what_they_are_to_lack_and_nothing_else() -> None:
 # -- limits ----------------------------------------------------------------------------------------------------------------
 
 
-def subject(experiment: object) -> Driven:
-    return driven(examine_experiment("test", experiment))  # type: ignore[arg-type]
+def subject(given: object) -> Driven:
+    return driven(examine_experiment("test", given))  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("experiment", RANK_DROPS)
-def test_a_coloured_input_loses_rank_although_all_else_is_as_it_should_be(experiment: object) -> None:
-    found = subject(experiment)
+@pytest.mark.parametrize("given", RANK_DROPS)
+def test_a_coloured_input_loses_rank_although_all_else_is_as_it_should_be(given: object) -> None:
+    found = subject(given)
     d = found.record
     residual = d.experiment.system.residual
     assert d.within and d.limit_rank == 1 and residual.n == 2 and not found.model_right and not found.degenerate
@@ -242,6 +245,19 @@ def test_a_limit_from_which_a_cannot_be_read_is_not_right() -> None:
     assert d.equal and d.limit_rank == d.experiment.system.residual.n and d.inputs_right, "what used to be called right"
     assert not found.model_right and consistency().violated(found) == {"(A, C) observable on s - 1"}
     assert subject(replace(UNREAD, s=3)).model_right and consistency().holds(subject(replace(UNREAD, s=3)))
+
+
+def test_a_limit_of_higher_rank_is_no_witness_where_b_and_d_are_right() -> None:
+    """u white, v(k) = u(k-1): rank n + 1, and yet the n leading left singular vectors span the range of O_s, and B and D are right."""
+    system = {"A": [["1/2", "2"], ["0", "0"]], "B": [["2/21"], ["8/21"]], "C": BOTH_STATES, "F": [["-1"], ["1"]], "D": [["0"], ["0"]]}
+    v = {"num": [[["0", "0"]], [["1", "0"]]], "den": ["1"]}
+    found = subject(experiment(system | {"G": [["0"], ["0"]]}, 2, 3, WHITE, v))
+    assert found.record.limit_rank == 3 and not found.model_right and found.record.inputs_right
+    assert found.degenerate.startswith("the limit has a rank above n")
+    bench = Workbench("quick", 1, lambda stage, done, total: None)
+    row = "v(k), u(k-l) uncorrelated, l >= 1"
+    shown = consistency().over_q(bench, (row,)).subject
+    assert shown is not None and not shown.degenerate and not shown.record.inputs_right and consistency().violated(shown) == {row}
 
 
 @pytest.mark.parametrize(("order", "s", "is_so"), [(1, 1, True), (2, 2, True), (3, 2, False), (2, 1, False), (2, 3, True)])
@@ -276,4 +292,4 @@ def test_each_family_of_experiments_lacks_its_hypothesis_with_windows_of_many_le
 
 
 def test_the_small_experiments_are_not_degenerate() -> None:
-    assert all(not subject(experiment).degenerate for experiment in list(small_experiments())[::17])
+    assert all(not subject(small).degenerate for small in list(small_experiments())[::17])
