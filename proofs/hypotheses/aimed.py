@@ -1,6 +1,7 @@
 """Systems that lack one hypothesis about a system and have all the others: those of the corpus lack some of them only now and then.
 
     aimed_systems     as many for each of the four hypotheses: observable, controllable, left-invertible, A stable
+    other_columns     one of them with other fault columns of its Z
     aimed_dossiers    the same with accepted certificates, and HIDDEN_ZEROS, made once a run
     HIDDEN_ZEROS      two systems all of whose finite zeros are unobservable modes, the zeros being more than the modes
 
@@ -13,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from random import Random
 
-from ...exact.fault_space import fault_space
+from ...exact.fault_space import fault_space, with_pair
 from ...exact.kernel_representation import kernel_representation
 from ...exact.matrices import Matrix, beside
 from ...exact.systems import ResidualSystem
@@ -64,6 +65,13 @@ def _drawn(random: Random, lacked: str) -> ResidualSystem:
             row[-1] = "0"
     system = ResidualSystem.of(A, F, C, G, n=n, m=m, p=p)
     return _with_a_column_more(random, system) if lacked == "left-invertible" else system
+
+
+def other_columns(system: ResidualSystem) -> ResidualSystem:
+    """(A, Fhat P, C, Ghat P) with a random P of m columns."""
+    random, space = Random(str(system)), fault_space(kernel_representation(system))
+    rows = [[random.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
+    return with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))
 
 
 def _with_a_column_more(random: Random, system: ResidualSystem) -> ResidualSystem:

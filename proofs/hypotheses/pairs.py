@@ -12,6 +12,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
+from itertools import chain
 
 from ...exact.fault_space import fault_space
 from ...exact.kernel_representation import kernel_representation
@@ -24,6 +25,7 @@ from ..certificate import Certificate
 from ..pairs import PairDossier, comparison_certificate, examine_pair
 from ..search import Box, systems_in_order
 from ..workbench import Workbench
+from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
 from .facets import degenerate, facets, flags
 
@@ -130,6 +132,7 @@ def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool]) -> 
         subjects=_equivalent,
         over_q=partial(_smallest_outside, holds),
         show=_show_outside,
+        # Of the second in the coordinates where it has the (A, C) of the first.
         proof=Proof(("theorem_3_part_i",), frozenset({SIMILAR})),
     )
 
@@ -169,9 +172,14 @@ def _equivalent(bench: Workbench) -> Iterator[Compared]:
 
 
 def _made(bench: Workbench) -> list[PairDossier]:
-    """Equivalent pairs whose (A, C) are not the same, certified."""
-    count = 800 if bench.full else 120
-    return bench.records("equivalent pairs", lambda: [examine_pair("made on purpose", *two) for two in equivalent_pairs(count)])
+    """Equivalent pairs whose (A, C) are not the same, and aimed systems with other fault columns of Z for the same (A, C), certified."""
+    others, aimed = (800, 100) if bench.full else (120, 25)
+
+    def made() -> list[PairDossier]:
+        pairs = chain(equivalent_pairs(others), ((system, other_columns(system)) for system in aimed_systems(aimed)))
+        return [examine_pair("made on purpose", *two) for two in pairs]
+
+    return bench.records("equivalent pairs", made)
 
 
 def _groups(

@@ -57,7 +57,13 @@ SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
 
 
 def codimension() -> Experiment[Windowed]:
-    """bad-set: codimension at least two."""
+    """bad-set: codimension at least two.
+
+    Why r, controllability and left-invertibility play no part: a hypersurface of bad P is f(P) = 0 with f irreducible, and f divides every
+    coefficient of D(q; P). The bad set is invariant under P -> P V, det V = 1, so that f is a polynomial in the r x r minors of P (the
+    first fundamental theorem); the coefficients are linear in these, so each is a number times f and D(q; P) = f(P) d(q), whose zeros no P
+    moves. But with (A, C) observable and zeta >= 1 every polynomial of degree at most zeta is reached.
+    """
 
     def at_least_two(subject: Windowed) -> bool:
         size = bad_set(pencil_of(subject.dossier.system)).codimension
