@@ -11,7 +11,7 @@ import pytest
 
 from faultspace.exact.bad_set import _codimension, _index_lists
 from faultspace.exact.behavior import compare
-from faultspace.exact.exceptional import polynomial_at
+from faultspace.exact.exceptional import Exceptional, polynomial_at
 from faultspace.exact.fault_space import fault_space, with_pair
 from faultspace.exact.fields import PrimeField
 from faultspace.exact.kernel_representation import kernel_representation
@@ -21,7 +21,7 @@ from faultspace.exact.polynomials import divide, gcd, monic
 from faultspace.exact.population_limits import population_limits
 from faultspace.exact.systems import ResidualSystem
 from faultspace.exact.windows import observability_matrix, reachability_matrix, window_matrix
-from faultspace.exact.zero_assignment import assign_zeros
+from faultspace.exact.zero_assignment import ZeroAssignment, assign_zeros
 from faultspace.proofs.corpus import examine
 from faultspace.proofs.exhaustive import all_systems
 from faultspace.proofs.experiments_tried import examine_experiment
@@ -154,11 +154,15 @@ def test_what_a_system_reaches_and_an_unobservable_one_does_not() -> None:
 
 def test_a_wrong_assignment_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     pencil = pencil_of(of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]]))
-    def shifted(pencil: object, desired: list[object]) -> object:
-        return assign_zeros(pencil, [*desired[:-1], str(2 * Fraction(str(desired[-1])))])  # type: ignore[arg-type]
+    assert placed.every_polynomial_is_reached(pencil)
+    for degree in (1, 2):  # the one of degree 1 is not the last, whose zeros are looked for by another route as well
 
-    monkeypatch.setattr(placed, "assign_zeros", shifted)
-    assert not placed.every_polynomial_is_reached(pencil)
+        def shifted(pencil: Exceptional, desired: list[object], degree: int = degree) -> ZeroAssignment:
+            wrong = [*desired[:-1], str(2 * Fraction(str(desired[-1])))] if len(desired) == degree + 1 else desired
+            return assign_zeros(pencil, wrong)
+
+        monkeypatch.setattr(placed, "assign_zeros", shifted)
+        assert not placed.every_polynomial_is_reached(pencil)
 
 
 def test_no_pair_of_an_unobservable_system_lacks_its_unobservable_modes() -> None:
