@@ -41,13 +41,16 @@ def claims_table() -> list[str]:
 
 
 def hypotheses_table() -> list[str]:
-    """The table of hypotheses.md, a row an experiment."""
-    rows = ["| claim | conclusion | needed | not needed |", "|---|---|---|---|"]
+    """The table of hypotheses.md, a row an experiment: what the ledger expects, PROVED where the experiment names theorems that say so."""
+    heads = "claim", "conclusion", "needed", "not needed: PROVED", "no counterexample found", "follows from the others"
+    rows = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     expected = expected_without()
     for experiment in experiments():
-        verdicts = expected[experiment.name]
-        needed, unneeded = ("; ".join(name for name, v in verdicts.items() if v == wanted) for wanted in ("REFUTED", "CERTIFIED"))
-        rows.append(f"| {experiment.claim} | {experiment.conclusion} | {needed} | {unneeded} |")
+        cells: dict[str, list[str]] = {"REFUTED": [], "PROVED": [], "CERTIFIED": [], "IMPLIED": []}
+        for name, entry in expected[experiment.name].items():
+            proved = entry == "CERTIFIED" and experiment.theorems_without((name,))
+            cells["PROVED" if proved else entry].append(name)
+        rows.append(f"| {experiment.claim} | {experiment.conclusion} | {' | '.join('; '.join(names) for names in cells.values())} |")
     return rows
 
 

@@ -106,15 +106,11 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
             experiment = row.experiment
             table.add_section()
             table.add_row(Text(row.claim, style="bold"), "", Text(row.conclusion, style="bold"), "")
-        if len(row.dropped) < 2 or (row.verdict != Verdict.CERTIFIED and row.already is None):
+        if len(row.dropped) < 2 or (row.verdict not in (Verdict.CERTIFIED, Verdict.PROVED) and row.already is None):
             name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"
-            verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + _meaning(row), "dim"))
+            verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + row.meaning, "dim"))
             table.add_row(name, verdict, Text(row.evidence, style="dim italic"), _hashes(row.certificates, row.accepted))
     return table
-
-
-def _meaning(row: Row) -> str:
-    return {Verdict.REFUTED: "needed", Verdict.CERTIFIED: "not needed"}.get(row.verdict, "")
 
 
 def _standing(claim: ClaimResult) -> str:
