@@ -23,6 +23,7 @@ from .verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from .workbench import Workbench
 
 EFFORTS = ("quick", "full")
+TRUSTED = "this trusts Rocq's kernel, MathComp, and files compiled before in your cache, which --recheck compiles anew"
 
 
 def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, progress: Progress | None = None) -> Report:
@@ -91,7 +92,8 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
         return _Machine(None, None, f"{error}. Without it, readings that have a proof in proofs/rocq rest on their certificates")
     except (BrokenTheory, NotProved) as error:
         return _Machine(None, f"Rocq: {error}", f"failed: {error}")
-    return _Machine(theorems, None, f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all closed under the global context")
+    told = f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all as locked and closed under the global context; {TRUSTED}"
+    return _Machine(theorems, None, told)
 
 
 def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
@@ -108,7 +110,8 @@ def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
         return replace(result, outcome=replace(outcome, verdict=Verdict.ERROR, evidence=words))
     words = f"Rocq, without axioms: {', '.join(names)}; and {outcome.evidence}"
     verdict = outcome.verdict if outcome.verdict == Verdict.REFUTED else Verdict.PROVED
-    return replace(result, outcome=replace(outcome, verdict=verdict, evidence=words), machine_checked=True)
+    locks = {name: machine.theorems.locks[name] for name in names if name in machine.theorems.locks}
+    return replace(result, outcome=replace(outcome, verdict=verdict, evidence=words), machine_checked=True, locks=locks)
 
 
 def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:
