@@ -94,7 +94,7 @@ def verify(
     jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
     recheck: Annotated[
-        bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever the cache holds, and have coqchk read it: minutes.")
+        bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
     ] = False,
     json: Json = False,
 ) -> None:

@@ -41,7 +41,10 @@ MOST_SHOWN = 2
 
 
 def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, recheck: bool, as_json: bool) -> int:
-    """Decides the claims (all when none is named), with `recheck` by theorems that are compiled anew. Raises InvalidInput for an unknown claim or a folder that cannot be written into."""
+    """Decides the claims (all when none is named), with `recheck` by theorems that are compiled anew.
+
+    Raises InvalidInput for an unknown claim or a folder that cannot be written into, and to recheck without Rocq.
+    """
     known = [claim.id for claim in load()]
     for name in claims:
         if name not in known:

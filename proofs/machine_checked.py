@@ -1,4 +1,4 @@
-"""What Rocq's kernel says of the general theorems that the ledger names: each is there, says what it is locked to say, and rests on no axiom.
+"""What Rocq's kernel says of the theorems that the ledger names: each is there, says what it is locked to say, rests on no axiom.
 
     Theorems       what was checked: Rocq's version, each theorem's statement as Rocq prints it, and its lock
     check          compares the sources with the locks, compiles the theory (or takes it from the cache) and asks Rocq for each name
@@ -139,12 +139,17 @@ def question(about: list[Headline], openings: Mapping[str, str]) -> list[str]:
 
 def proposition(statement: str) -> str:
     """Of binders and a proposition, with a colon between, the proposition for all of these binders."""
+    binders, stated = parted(statement)
+    return f"forall {binders}, {stated}" if binders else stated
+
+
+def parted(statement: str) -> tuple[str, str]:
+    """The binders of a statement, and what it states."""
     depth = 0
     for k, sign in enumerate(statement):
         depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(sign, 0)
         if sign == ":" and depth == 0:
-            binders, stated = statement[:k].strip(), statement[k + 1 :].strip()
-            return f"forall {binders}, {stated}" if binders else stated
+            return statement[:k].strip(), statement[k + 1 :].strip()
     raise NotProved(f"this is no statement: {statement[:80]}")
 
 

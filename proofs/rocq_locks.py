@@ -117,7 +117,8 @@ def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
     now, before = made(texts), kept() if against is None else against
     if found := list(differences(before, now)):
         more = f"; and {len(found) - MOST_TOLD} more" if len(found) > MOST_TOLD else ""
-        raise NotProved(f"the statements are not as locked: {'; '.join(found[:MOST_TOLD])}{more}. If that is wanted, {COMMAND} locks them anew")
+        told = f"{'; '.join(found[:MOST_TOLD])}{more}"
+        raise NotProved(f"the statements are not as locked: {told}. If that is wanted, {COMMAND} locks them anew")
     return now
 
 
@@ -130,17 +131,17 @@ def differences(before: Locks, now: Locks) -> Iterator[str]:
         elif new is None:
             yield f"the headline {name} is locked and is not there"
         elif old.statement != new.statement:
-            yield f"the headline {name} says {_around(new.statement, old.statement)} where its lock has {_around(old.statement, new.statement)}"
+            yield f"the headline {name} {_changed(new.statement, old.statement)}"
     for key in sorted({*before.words, *now.words}):
         said, was = now.words.get(key), before.words.get(key)
         if said != was:
             of = sorted(name for locks in (before, now) for name, lock in locks.theorems.items() if key in lock.words)
-            what = "is new" if was is None else "is gone" if said is None else f"says {_around(said, was)} where its lock has {_around(was, said)}"
+            what = "is not locked" if was is None else "is locked and is not there" if said is None else _changed(said, was)
             yield f"the word {key} {what}, which {len({*of})} headlines use, {of[0]} for one"
     for file in sorted({*before.openings, *now.openings}):
         said, was = now.openings.get(file, ""), before.openings.get(file, "")
         if said != was:
-            yield f"{file} opens with {_around(said, was)} where its lock has {_around(was, said)}"
+            yield f"what {file} opens with {_changed(said, was)}"
     for one in sorted({*before.far} ^ {*now.far}):
         yield f"{one} may change how statements are read, and is {'not locked' if one in now.far else 'gone'}"
     if before.words == now.words and before.openings == now.openings and before.far == now.far:
@@ -148,6 +149,10 @@ def differences(before: Locks, now: Locks) -> Iterator[str]:
             old, new = before.theorems[name], now.theorems[name]
             if old != new and old.statement == new.statement:
                 yield f"the lock of {name} is not the SHA-256 of its own text, or tells other words or another file"
+
+
+def _changed(text: str, before: str) -> str:
+    return f"says {_around(text, before)} where its lock has {_around(before, text)}"
 
 
 def _around(text: str, other: str, width: int = 60) -> str:
@@ -162,9 +167,10 @@ def page(locks: Locks, claims: list[Claim]) -> str:
     lines = [
         "# What is claimed, what is proved, and the locks of the statements",
         "",
-        f"`{COMMAND}` writes this page from `ledger.toml` and the sources; a test says that it is current. To the left what the ledger",
-        "claims, in the middle the theorem that Rocq has checked (of a refuted reading, its counterexample), to the right its lock: the SHA-256",
-        "of the statement and of every word of ours that it uses, which stand below and in `locks.json`. `faultspace verify` compares them.",
+        f"`{COMMAND}` writes this page from `ledger.toml` and the sources; a test says that it is current. To the left",
+        "stands what the ledger claims, in the middle the theorem that Rocq has checked (of a refuted reading, its counterexample), to the",
+        "right its lock: the SHA-256 of the statement and of every word of ours that it uses, which stand below and in `locks.json`.",
+        "`faultspace verify` compares them with the sources.",
         "",
         "| reading | in words | theorem | SHA-256 |",
         "|---|---|---|---|",
@@ -180,7 +186,8 @@ def page(locks: Locks, claims: list[Claim]) -> str:
                     first = "", "and"
     for name in sorted({*locks.theorems} - told):
         lines.append(_row("", "what others rest on, or part of a reading", locks.theorems[name]))
-    lines += ["", "## The words", "", "Each as its vocabulary defines it, with the variables of its section.", "", "| word | definition |", "|---|---|"]
+    lines += ["", "## The words", "", "Each as its vocabulary defines it, with the variables of its section.", ""]
+    lines += ["| word | definition |", "|---|---|"]
     lines += [f"| `{key}` | {_code(text)} |" for key, text in locks.words.items()]
     lines += ["", "## What else the locks hold", ""]
     lines += [f"- `{file}` opens with {_code(text)}" for file, text in locks.openings.items()]

@@ -15,9 +15,9 @@ little.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 from .rocq_build import NotProved
 
@@ -97,6 +97,10 @@ class Statements:
                 waiting += self._uses[word.key]
         return [found[key] for key in sorted(found)]
 
+    def uses(self, word: Word) -> tuple[Word, ...]:
+        """The words that the definition of a word names."""
+        return self._uses[word.key]
+
     def _named(self, text: str, file: str, inside: Word | None) -> tuple[Word, ...]:
         names = dict.fromkeys(TOKEN.findall(text))
         return tuple({word.key: word for name in names if (word := self._meant(name, file, inside)) is not None}.values())
@@ -119,7 +123,7 @@ class Statements:
 
 def read(texts: Mapping[str, str]) -> Statements:
     """The statements of these sources, file name -> text. Raises NotProved where a file breaks the rules."""
-    parted = {name: list(sentences(text)) for name, text in texts.items()}
+    parted = {name: sentences(text) for name, text in texts.items()}
     files = sorted(name for name in texts if HEADLINES.fullmatch(name))
     vocabularies = sorted(name for name in texts if VOCABULARY.fullmatch(name))
     headlines: dict[str, Headline] = {}
@@ -144,12 +148,13 @@ def read(texts: Mapping[str, str]) -> Statements:
     return statements
 
 
-def refusals(texts: Mapping[str, str]) -> dict[str, list[str]]:
+def refusals(texts: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
     """File -> what assumes something or leaves a proof open, switches a check of the kernel off, or writes and loads files."""
     return {name: found for name, text in texts.items() if (found := assumptions(text))}
 
 
-def assumptions(text: str) -> list[str]:
+@cache
+def assumptions(text: str) -> tuple[str, ...]:
     """What `refusals` finds in one text."""
     bare = without_comments(text)
     found: list[str] = ASSUMES.findall(bare)
@@ -161,7 +166,7 @@ def assumptions(text: str) -> list[str]:
             sections -= bool(re.search(rf"\bSection\s+{m[3]}\s*\.", bare))
         elif not sections:
             found.append(m[4])
-    return found
+    return tuple(found)
 
 
 def without_comments(text: str) -> str:
@@ -174,19 +179,29 @@ def without_comments(text: str) -> str:
     return "".join(kept)
 
 
-def sentences(text: str) -> Iterator[str]:
+@cache
+def sentences(text: str) -> tuple[str, ...]:
     """The sentences of a source, each to its full stop, without comments and with single spaces."""
-    kept, depth = list[str](), 0
+    return tuple(_sentences(text))
+
+
+def _sentences(text: str) -> Iterator[str]:
+    kept, depth = "", 0
     for piece in re.split(r'("[^"]*"|\(\*|\*\))', text):
         depth += {"(*": 1, "*)": -1}.get(piece, 0)
-        if depth == 0:
-            kept.append(" " if piece == "*)" else piece)
-    for one in re.split(r"(?<=\.)\s+", "".join(kept).strip()):
-        if one:
-            yield " ".join(one.split())
+        if depth or piece == "*)":
+            kept += "" if depth else " "
+        elif piece.startswith('"'):
+            kept += piece
+        else:
+            first, *more = re.split(r"(?<=\.)(?:\s+|$)", piece)  # a full stop in a string, that is in `kept`, ends nothing
+            *ended, kept = [kept + first, *more]
+            yield from (" ".join(one.split()) for one in ended if one.strip())
+    if kept.strip():
+        yield " ".join(kept.split())
 
 
-def _opening(found: list[str]) -> str:
+def _opening(found: Sequence[str]) -> str:
     """What a file opens with, but for the files that it requires without importing them: these bring no name into sight."""
     return " ".join(one for one in found if OPENING.match(one) and not _only_required(one))
 
@@ -196,7 +211,7 @@ def _only_required(sentence: str) -> bool:
     return m is not None and m[1] is None
 
 
-def _imported(name: str, texts: Mapping[str, str], parted: Mapping[str, list[str]]) -> tuple[str, ...]:
+def _imported(name: str, texts: Mapping[str, str], parted: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
     """The vocabularies that a file imports, with those that they import, the last one first."""
     order = list[str]()
     for one in parted[name]:
@@ -211,7 +226,7 @@ def _imported(name: str, texts: Mapping[str, str], parted: Mapping[str, list[str
     return tuple(dict.fromkeys(reversed(order)))
 
 
-def _headlines(name: str, found: list[str]) -> Iterator[Headline]:
+def _headlines(name: str, found: Sequence[str]) -> Iterator[Headline]:
     """The theorems of a file that holds nothing else."""
     waiting = iter(found)
     begun = False
@@ -234,7 +249,7 @@ def _headlines(name: str, found: list[str]) -> Iterator[Headline]:
         yield Headline(theorem[1], theorem[2], " ".join(tactics[1:]), name)
 
 
-def _words(name: str, found: list[str]) -> dict[str, Word]:
+def _words(name: str, found: Sequence[str]) -> dict[str, Word]:
     """The words of a file that defines and does nothing else, by each name that stands for one: of a record its fields too."""
     words: dict[str, Word] = {}
     around: list[tuple[str, str, list[str]]] = []
@@ -264,7 +279,8 @@ def _fields(sentence: str) -> list[str]:
     """Of a record, its constructor and its fields; of an inductive type, its constructors."""
     if sentence.startswith("Record"):
         record = re.fullmatch(rf".*?:=\s*({NAME})?\s*\{{(.*)\}}\.", sentence)
-        assert record is not None, sentence
+        if record is None:
+            raise NotProved(f"this record is written in a way that is not read here: {_short(sentence)}")
         return [*filter(None, [record[1]]), *(field.split(":")[0].strip() for field in record[2].split(";"))]
     if re.match(r"Inductive|Variant", sentence):
         return re.findall(rf"\|\s*({NAME})", sentence.partition(":=")[2]) or re.findall(rf":=\s*({NAME})", sentence)
