@@ -46,7 +46,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class ReadingResult:
-    """One reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says, where Rocq has checked it (`rocq_locks`)."""
+    """One reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
 
     reading: Reading
     outcome: Outcome

@@ -12,8 +12,9 @@ import pytest
 
 from faultspace import verifying
 from faultspace.proofs import machine_checked, rocq_build, verification
-from faultspace.proofs.ledger import Claim, Reading
+from faultspace.proofs.ledger import Claim, Reading, load
 from faultspace.proofs.rocq_build import DIGESTS, NoRocq, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq_locks import held
 from faultspace.proofs.rocq_statements import read
 from faultspace.proofs.verdicts import Outcome, ReadingResult, Verdict
 
@@ -42,7 +43,7 @@ def verify(capsys: pytest.CaptureFixture[str]) -> tuple[int, Any]:
 def red(told: Any, why: str) -> None:
     """Every reading that has a theorem is an ERROR, for this reason, and the run says it too."""
     readings = [one for claim in told["claims"] for one in claim["readings"]]
-    named = {r.id for claim in verification.load() if claim.id == CLAIM for r in claim.readings if r.theorems}
+    named = {r.id for claim in load() if claim.id == CLAIM for r in claim.readings if r.theorems}
     assert named and {one["reading"] for one in readings if one["verdict"] == "ERROR"} == named
     assert all(re.search(why, one["evidence"]) for one in readings if one["verdict"] == "ERROR"), readings
     assert not any(one["locks"] or one["theorems"] for one in readings)
@@ -78,6 +79,15 @@ def test_a_change_of_the_sources_is_told(what: str, monkeypatch: pytest.MonkeyPa
     code, told = verify(capsys)
     assert code == 1
     red(told, WHY.get(what, r"the headline \w+ says .* where its lock has "))
+
+
+def test_the_locks_are_told_without_rocq_too(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(rocq_build, "found", lambda: None)
+    code, told = verify(capsys)
+    assert code == 0 and "coqc is not on the path" in told["rocq"]
+    for one in told["claims"][0]["readings"]:
+        named = next(r.theorems for claim in load() if claim.id == CLAIM for r in claim.readings if r.id == one["reading"])
+        assert one["locks"] == {name: held(TEXTS).theorems[name].sha256 for name in named} and not one["theorems"]
 
 
 @pytest.fixture
@@ -120,7 +130,7 @@ def test_a_poisoned_cache_is_told(place: Path, capsys: pytest.CaptureFixture[str
     code, told = verify(capsys)
     assert code == 0 and "all as locked" in told["rocq"]
     locks = {name: lock for claim in told["claims"] for one in claim["readings"] for name, lock in one["locks"].items()}
-    assert locks and all(machine_checked.held(TEXTS).theorems[name].sha256 == lock for name, lock in locks.items())
+    assert locks and all(held(TEXTS).theorems[name].sha256 == lock for name, lock in locks.items())
     kept = shutil.copytree(place, place.parent / "kept")
 
     def put_back() -> None:
