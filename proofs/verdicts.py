@@ -10,7 +10,7 @@ Report           all claims of a run; `as_expected` decides the exit code
 from __future__ import annotations
 
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from importlib.metadata import PackageNotFoundError, version
@@ -54,12 +54,13 @@ class Outcome:
 
 @dataclass(frozen=True)
 class ReadingResult:
-    """One reading of one claim, checked."""
+    """One reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
 
     reading: Reading
     outcome: Outcome
     seconds: float
     machine_checked: bool = False
+    locks: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def expected(self) -> str:
@@ -81,6 +82,7 @@ class ReadingResult:
             "expected": self.expected,
             "as_expected": self.as_expected,
             "theorems": list(self.reading.theorems) if self.machine_checked else [],
+            "locks": dict(self.locks),
             "missing_for_a_proof": self.reading.missing or None,
             "evidence": self.outcome.evidence,
             "certificates_accepted": self.outcome.accepted,
