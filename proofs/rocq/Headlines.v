@@ -24,7 +24,7 @@
       prediction: outputs of a model from rest (OutputError.v); mean_square: of its error (OneSided.v). *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Definitions Gap Lag Solutions Chain Signals Leads OutputError OneSided SmallSystems Minors InfiniteZeros.
-From faultspace Require Import MinorsOfOrder SystemInfiniteZeros MinimalIndices Excitation HeadlinesMore HeadlinesChecks.
+From faultspace Require Import MinorsOfOrder SystemInfiniteZeros MinimalIndices Excitation HeadlinesMore HeadlinesLimits HeadlinesChecks.
 From faultspace Require Windows Infinite WindowBlocks Existence.
 From faultspace Require ConsistencyExamples Consistency Regression Controllable Autoregressive Undetectable.
 From faultspace Require Theorem1 SharpWindows Theorem1Sharp Proposition3 WeakExcitation Problem11.
@@ -368,6 +368,8 @@ Theorem problem_11_dimension (K : fieldType) n m p (S : system K n m p) g d s k 
 Proof. move=> inv finite infinite; exact: (Readings.solution_dimension_by_zeros inv finite infinite). Qed.
 Print Assumptions problem_11_dimension.
 
-(** The rest of the ledger is in HeadlinesMore.v, the checks of certificates are in HeadlinesChecks.v; from here on all are in Headlines. *)
+(** The rest of the ledger is in HeadlinesMore.v, more about limits in HeadlinesLimits.v, the checks of certificates are in
+    HeadlinesChecks.v; from here on all are in Headlines. *)
 Include HeadlinesMore.
+Include HeadlinesLimits.
 Include HeadlinesChecks.
