@@ -7,7 +7,7 @@
     square error are over an ordered field (realFieldType), one example is over the rational numbers, the others are over any field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Definitions Signals Leads OneSided SmallSystems LimitsVocabulary.
-From faultspace Require ConsistencyExamples WholeRange Similarity LimitExamples.
+From faultspace Require ConsistencyExamples WholeRange Similarity LimitExamples FollowingFault FollowingExamples.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -93,3 +93,42 @@ Theorem coloured_a_c_stationary : let Q := ConsistencyExamples.MovingAverage.Q i
   forall i k, (i < 3)%N -> (k < 3)%N -> cov Q (z i.+1) (z k.+1) = cov Q (z i) (z k).
 Proof. exact: LimitExamples.coloured_signals_stationary. Qed.
 Print Assumptions coloured_a_c_stationary.
+
+(** ** settle-1: v(k) = u(k-1) Phi, u white; w(k) stands for u(k-1) *)
+
+(** Not both: the limit in the range of O_s, and B, D among the best fits by output error. Unless the fault is never seen. *)
+Theorem settle_1_not_both (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
+    (Phi : 'M_(nu, m)) u w x y H t q s L t' k :
+  process S B D u (fun k => w k *m Phi) x y -> (forall k, w k.+1 = u k) -> white Q u H -> Q^T = Q ->
+  (forall i, (i < H)%N -> cov Q (u i) (x 0%N) = 0 /\ cov Q (u i) (w 0%N) = 0) ->
+  (0 < q <= t)%N -> (t + s <= H)%N -> (0 < s)%N -> row_free (O S s.-1) -> (t' + k < H)%N -> row_free (O S k) ->
+  projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L <= O S s)%MS ->
+  (forall B' D', mean_square Q S u y t' k B D <= mean_square Q S u y t' k B' D') -> Phi *m sysF S = 0 /\ Phi *m sysG S = 0.
+Proof. exact: FollowingFault.not_both. Qed.
+Print Assumptions settle_1_not_both.
+
+(** biased: x(k+1) = a x(k) + u(k) + f v(k), y = x, for all a > 0 and f > 0. If singular vectors of L spanned the range of O_s, O_s L'L
+    would lie in it. *)
+Theorem settle_1_biased (K : realFieldType) (a f : K) N H (Q : 'M[K]_N) (u : nat -> 'cV[K]_N) : white Q u H -> 0 < a -> 0 < f ->
+  let S : system K 1 1 1 := System a%:M f%:M 1%:M 0 in
+  let follows w x y := [/\ process S (1%:M : 'M_1) 0 u w x y, forall k, w k.+1 = u k &
+    forall i, (i < H)%N -> cov Q (u i) (x 0%N) = 0 /\ cov Q (u i) (w 0%N) = 0] in
+  (exists w x y, follows w x y) /\ forall w x y t q s L, follows w x y -> (0 < q <= t)%N -> (1 < s)%N -> (t + s <= H)%N ->
+    projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> ~ (O S s *m (L^T *m L) <= O S s)%MS.
+Proof. exact: FollowingExamples.follows_biased. Qed.
+Print Assumptions settle_1_biased.
+
+(** not of every system: a f = -(1 + a^2), two samples and three past inputs or more. The leading singular vector of L, of eigenvalue
+    lambda, spans the range of O_2, mu is that of the other; and the regression gives B = 1 and D = 0 alone. *)
+Theorem settle_1_all_right (K : realFieldType) (a f : K) N H (Q : 'M[K]_N) (u : nat -> 'cV[K]_N) :
+  white Q u H -> a != 0 -> a * f = - (1 + a ^+ 2) -> let S : system K 1 1 1 := System a%:M f%:M 1%:M 0 in
+  let follows w x y := [/\ process S (1%:M : 'M_1) 0 u w x y, forall k, w k.+1 = u k &
+    forall i, (i < H)%N -> cov Q (u i) (x 0%N) = 0 /\ cov Q (u i) (w 0%N) = 0] in
+  (exists w x y, follows w x y) /\ forall w x y t, follows w x y -> (t + 2 <= H)%N ->
+    (forall q L, (2 < q <= t)%N -> projected_limit Q (future (t - q) q u) (future t 2 u) (future t 2 y) L ->
+      exists (h : 'rV_(2 * 1)) lambda mu, [/\ O S 2 *m (L^T *m L) = lambda *: O S 2, h *m (L^T *m L) = mu *: h,
+        O S 2 *m h^T = 0, 0 < mu < lambda & h != 0]) /\
+    (forall W B' D', let Uf := future t 2 u in W *m cov Q Uf Uf = 1%:M ->
+      (W *m cov Q Uf (future t 2 y) - T (with_faults S B' D') 2) *m cokermx (O S 2) = 0 <-> B' = 1%:M /\ D' = 0).
+Proof. exact: FollowingExamples.follows_all_right. Qed.
+Print Assumptions settle_1_all_right.
