@@ -1,13 +1,14 @@
 (** The limits of subspace identification, further: a part of Headlines.v, which includes it. When the limit of PI-MOESP has all of the
     range of O_s, what the range tells of A and C, and examples. Words are told there and in LimitsVocabulary.v: steered S B z, inputs
     through B lead from rest to the state z; similar S S', the same (A, C) in another basis of the state; autoregressive Q a A u e H,
-    u is autoregressive of order a with the innovations e at the times before H.
+    u is autoregressive of order a with the innovations e at the times before H; stationary Q x y H, the covariances of x and y at the times
+    before H depend on the difference of the times.
 
     Measurement noise is nowhere in these theorems, as it is a fault with F = 0 and G = 1 (noise_is_a_fault). Theorems about the least mean
     square error are over an ordered field (realFieldType), one example is over the rational numbers, the others are over any field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Definitions Signals Leads OneSided SmallSystems LimitsVocabulary.
-From faultspace Require ConsistencyExamples WholeRange Similarity LimitExamples FollowingFault FollowingExamples.
+From faultspace Require ConsistencyExamples WholeRange ShortPast OneState Similarity LimitExamples FollowingFault FollowingExamples.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -38,6 +39,20 @@ Theorem whole_range_autoregressive (K : fieldType) N n m p nu (Q : 'M[K]_N) (S :
 Proof. move=> model uv ar later /andP[nq qt] unit; exact: (WholeRange.autoregressive_whole_range model qt uv ar later unit nq). Qed.
 Print Assumptions whole_range_autoregressive.
 
+(** Of order at most s, all stationary, and n past inputs: all of the range. The signals are there from n + a times before the present on. *)
+Theorem whole_range_autoregressive_stationary (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n))
+    (D : 'M_(nu, p)) u v x y t q s a (Au : nat -> 'M_nu) e L :
+  Q^T = Q -> process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) ->
+  autoregressive Q a Au u e (t + s) -> (forall k, (a <= k < t + s)%N -> cov Q (e k) (x 0%N) = 0) ->
+  stationary Q u u (t + s) -> stationary Q u x (t + s) -> cov Q (future t s u) (future t s u) \in unitmx ->
+  (0 < s)%N -> (a <= s)%N -> (n <= q <= t)%N -> (n + a <= t)%N -> (forall z, steered S B z) ->
+  projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS.
+Proof.
+move=> sym model uv ar later uu ux unit s0 short /andP[nq qt] past.
+exact: (ShortPast.stationary_whole_range sym model uv ar later uu ux unit short nq qt past s0).
+Qed.
+Print Assumptions whole_range_autoregressive_stationary.
+
 (** Controllability is needed whatever the colour of u, if x(0) shares with the inputs only what came through B. *)
 Theorem whole_range_controllable (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y t q s L :
@@ -46,6 +61,22 @@ Theorem whole_range_controllable (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : s
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS -> forall z, steered S B z.
 Proof. move=> model uv start qt; exact: (WholeRange.whole_range_needs_controllability model qt uv start). Qed.
 Print Assumptions whole_range_controllable.
+
+(** One state and u of any colour: all of the range as soon as B is not zero. z is what the inputs have made of the state, stationary; the
+    present is t + 1, and the inputs from t to t + s excite. *)
+Theorem whole_range_one_state (K : realFieldType) N m p nu (Q : 'M[K]_N) (S : system K 1 m p) (B : 'M_(nu, 1)) (D : 'M_(nu, p))
+    u v x z y t q s L : let H := (t.+1 + s)%N in
+  Q^T = Q -> (forall g : 'cV_N, 0 <= cov Q g g 0 0) -> process S B D u v x y -> `|sysA S 0 0| < 1 ->
+  (forall i k, (i < H)%N -> (k < H)%N -> cov Q (u i) (v k) = 0) ->
+  (forall k, z k.+1 = z k *m sysA S + u k *m B) -> (forall i, (i < H)%N -> cov Q (u i) (x 0%N - z 0%N) = 0) ->
+  stationary Q u u H -> stationary Q u z H -> stationary Q z z H -> (0 < s)%N ->
+  cov Q (future t s.+1 u) (future t s.+1 u) \in unitmx -> B != 0 -> (0 < q <= t.+1)%N ->
+  projected_limit Q (future (t.+1 - q) q u) (future t.+1 s u) (future t.+1 s y) L -> (L == O S s)%MS.
+Proof.
+move=> H sym pos model stable uv driven start uu uz zz s0 excites.
+exact: (OneState.one_state_whole_range sym pos model stable uv driven start uu uz zz s0 excites).
+Qed.
+Print Assumptions whole_range_one_state.
 
 (** ** proposition-1, white-a-c-seen: what "A and C are right" means *)
 

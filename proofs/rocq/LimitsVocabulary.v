@@ -18,3 +18,7 @@ Definition similar (K : fieldType) n m m' p (S : system K n m p) (S' : system K 
 Definition autoregressive (K : fieldType) N nu (Q : 'M[K]_N) a (A : nat -> 'M[K]_nu) (u e : nat -> 'M[K]_(N, nu)) H :=
   forall k, (a <= k < H)%N -> [/\ u k = \sum_(i < a) u (k - i.+1)%N *m A i + e k, cov Q (e k) (e k) \in unitmx &
     forall i, (i < k)%N -> cov Q (e k) (u i) = 0].
+
+(** The covariances of x and y at the times before H depend on the difference of the times alone. *)
+Definition stationary (K : fieldType) N a b (Q : 'M[K]_N) (x : nat -> 'M[K]_(N, a)) (y : nat -> 'M[K]_(N, b)) H :=
+  forall i k, (i.+1 < H)%N -> (k.+1 < H)%N -> cov Q (x i.+1) (y k.+1) = cov Q (x i) (y k).

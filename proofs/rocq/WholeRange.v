@@ -92,6 +92,23 @@ rewrite /Uf cov_future_left mulmx_sumr; apply: summx_sub => k _; rewrite mulmxA;
 by rewrite ltn_add2l.
 Qed.
 
+(** What the limit does not see. *)
+Lemma unseen_by_limit (w : 'cV_n) M : cov Q Uf Uf \in unitmx -> projected_limit Q Z Uf (x t) M -> M *m w = 0 ->
+  let c := invmx (cov Q Uf Uf) *m cov Q Uf (x t) *m w in
+  forall i, (t - q <= i < t + s)%N -> cov Q (u i) (x t *m w - Uf *m c) = 0.
+Proof.
+move=> unit [X [hX eM]] Mw c; pose xi := x t *m w - Uf *m c.
+have Uxi : cov Q Uf xi = 0.
+  have -> : cov Q Uf xi = cov Q Uf (x t) *m w - cov Q Uf Uf *m c by rewrite cov_sub !cov_mul.
+  by rewrite /c -[invmx _ *m _ *m w]mulmxA mulKVmx // subrr.
+have Zxi : cov Q Z xi = 0.
+  have -> : cov Q Z xi = cov Q Z (x t) *m w - cov Q Z Uf *m c by rewrite cov_sub !cov_mul.
+  by rewrite -hX /c -[X *m _ *m _]mulmxA -[invmx _ *m _ *m w]mulmxA mulKVmx // -Mw eM mulmxBl (mulmxA X).
+move=> i /andP[qi its]; have [it|ti] := ltnP i t.
+  by apply: (cov_future_zero Zxi); rewrite subnK // qi.
+by apply: (cov_future_zero Uxi); rewrite ti.
+Qed.
+
 (** Sufficiency, u autoregressive. *)
 Section Autoregressive.
 Variables (a : nat) (Au : nat -> 'M[K]_nu) (e : nat -> 'M[K]_(N, nu)).
@@ -111,23 +128,12 @@ move=> ak; have [eu _ past] := ar ak; rewrite [in LHS]eu cov_add cov_sum big1 ?a
 by rewrite cov_mul past ?mul0mx //; have := ltn_ord i; lia.
 Qed.
 
-(** A direction of the state that the limit does not see is one that the inputs do not reach in q - a steps. *)
-Theorem unseen_is_unreached (w : 'cV_n) M : cov Q Uf Uf \in unitmx -> projected_limit Q Z Uf (x t) M -> M *m w = 0 ->
+(** A direction w of the state that is a combination of the future inputs, up to an error uncorrelated with the inputs from t - q on, is one
+    that the inputs do not reach in q - a steps. *)
+Theorem unseen_is_unreached (w : 'cV_n) c : (forall i, (t - q <= i < t + s)%N -> cov Q (u i) (x t *m w - Uf *m c) = 0) ->
   forall l, (l < q - a)%N -> times_power S B l *m w = 0.
 Proof.
-move=> unit [X [hX eM]] Mw.
-pose c := invmx (cov Q Uf Uf) *m cov Q Uf (x t) *m w.
-pose xi := x t *m w - Uf *m c.
-have Uxi : cov Q Uf xi = 0.
-  have -> : cov Q Uf xi = cov Q Uf (x t) *m w - cov Q Uf Uf *m c by rewrite cov_sub !cov_mul.
-  by rewrite /c -[invmx _ *m _ *m w]mulmxA mulKVmx // subrr.
-have Zxi : cov Q Z xi = 0.
-  have -> : cov Q Z xi = cov Q Z (x t) *m w - cov Q Z Uf *m c by rewrite cov_sub !cov_mul.
-  by rewrite -hX /c -[X *m _ *m _]mulmxA -[invmx _ *m _ *m w]mulmxA mulKVmx // -Mw eM mulmxBl (mulmxA X).
-have inputs i : (t - q <= i < t + s)%N -> cov Q (u i) xi = 0.
-  move=> /andP[qi its]; have [it|ti] := ltnP i t.
-    by apply: (cov_future_zero Zxi); rewrite subnK // qi.
-  by apply: (cov_future_zero Uxi); rewrite ti.
+set xi := x t *m w - Uf *m c => inputs.
 have innovations k : (t - q + a <= k < t + s)%N -> cov Q (e k) xi = 0.
   move=> qk; have ak : (a <= k < t + s)%N by lia.
   have [eu _ _] := ar ak; have -> : e k = u k - \sum_(i < a) u (k - i.+1)%N *m Au i by rewrite eu addrC addKr.
@@ -159,7 +165,7 @@ Theorem autoregressive_whole_range L : cov Q Uf Uf \in unitmx -> (n + a <= q)%N 
   projected_limit Q Z Uf (future t s y) L -> (L == O S s)%MS.
 Proof.
 move=> unit naq all /two_sided_product[M [limit ->]]; apply/eqmxP; apply: eqmxMfull; apply: row_full_seen => w Mw.
-have unreached := unseen_is_unreached unit limit Mw.
+have unreached := unseen_is_unreached (unseen_by_limit unit limit Mw).
 have {unreached} zero : reached S B (q - a) *m w = 0 by apply: unseen_by_reached.
 have : row_full (reached S B (q - a)) by apply/controllable_reached => //; lia.
 by case/row_fullP => P PR; rewrite -[w]mul1mx -PR -mulmxA zero mulmx0.
