@@ -1,7 +1,7 @@
 (** A fault that follows a white input, one state, input, fault and output: x(k+1) = a x(k) + u(k) + f v(k), y = x, v(k) = u(k-1). For a and
-    f positive no singular vector of the limit of PI-MOESP spans the range of O_s, so A and C are wrong. For a f = -(1 + a^2), two samples and
-    three past inputs or more, the leading one does span it, and the regression gives B and D: all right, although the limit is of
-    rank 2. *)
+    f positive no singular vector of the limit of PI-MOESP spans the range of O_s, so A and C are wrong. For a f = -(1 + a^2), two samples
+    and three past inputs or more, the leading one does span it, and the regression gives B and D: all right, although the limit is
+    of rank 2. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Definitions Basics Windows Places Signals Consistency Leads Regression Undetectable FollowingFault.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
@@ -140,7 +140,8 @@ by rewrite ltxx.
 Qed.
 
 (** On two samples the response to inputs of the window is the one without a fault. *)
-Lemma two_samples_response : T (with_faults (with_memory S (1%:M : 'M_1)) (row_mx 1%:M (1%:M : 'M_1)) 0) 2 = T (with_faults S (1%:M : 'M_1) 0) 2.
+Lemma two_samples_response :
+  T (with_faults (with_memory S (1%:M : 'M_1)) (row_mx 1%:M (1%:M : 'M_1)) 0) 2 = T (with_faults S (1%:M : 'M_1) 0) 2.
 Proof.
 apply/row_matrixP=> i; rewrite !rowK; apply: samples_ext => -[|[|//]] _.
   by rewrite /output /= !mul0mx.
@@ -169,9 +170,9 @@ Qed.
 End Scalar.
 
 (** Such processes are there for every white input. *)
-Lemma following_exists (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M[K]_(nu, n)) (D : 'M[K]_(nu, p)) (Phi : 'M_(nu, m))
-  (u : nat -> 'M[K]_(N, nu)) : exists (w : nat -> 'M_(N, nu)) x y, [/\ process S B D u (fun k => w k *m Phi) x y, forall k, w k.+1 = u k &
-  forall i, cov Q (u i) (x 0%N) = 0 /\ cov Q (u i) (w 0%N) = 0].
+Lemma following_exists (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M[K]_(nu, n)) (D : 'M[K]_(nu, p))
+  (Phi : 'M_(nu, m)) (u : nat -> 'M[K]_(N, nu)) : exists (w : nat -> 'M_(N, nu)) x y,
+  [/\ process S B D u (fun k => w k *m Phi) x y, forall k, w k.+1 = u k & forall i, cov Q (u i) (x 0%N) = 0 /\ cov Q (u i) (w 0%N) = 0].
 Proof.
 pose w k := if k is j.+1 then u j else 0.
 pose x := fix x k := if k is j.+1 then x j *m sysA S + u j *m B + w j *m Phi *m sysF S else 0.

@@ -39,7 +39,7 @@ Theorem whole_range_autoregressive (K : fieldType) N n m p nu (Q : 'M[K]_N) (S :
 Proof. move=> model uv ar later /andP[nq qt] unit; exact: (WholeRange.autoregressive_whole_range model qt uv ar later unit nq). Qed.
 Print Assumptions whole_range_autoregressive.
 
-(** Of order at most s, all stationary, and n past inputs: all of the range. The signals are there from n + a times before the present on. *)
+(** Of order at most s, all stationary, and n past inputs: all of the range. The process runs for n + a times before the present. *)
 Theorem whole_range_autoregressive_stationary (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n))
     (D : 'M_(nu, p)) u v x y t q s a (Au : nat -> 'M_nu) e L :
   Q^T = Q -> process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) ->
@@ -48,7 +48,7 @@ Theorem whole_range_autoregressive_stationary (K : fieldType) N n m p nu (Q : 'M
   (0 < s)%N -> (a <= s)%N -> (n <= q <= t)%N -> (n + a <= t)%N -> (forall z, steered S B z) ->
   projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS.
 Proof.
-move=> sym model uv ar later uu ux unit s0 short /andP[nq qt] past.
+move=> sym model uv ar later uu ux unit s0 short /andP[nq qt] past;
 exact: (ShortPast.stationary_whole_range sym model uv ar later uu ux unit short nq qt past s0).
 Qed.
 Print Assumptions whole_range_autoregressive_stationary.
@@ -73,7 +73,7 @@ Theorem whole_range_one_state (K : realFieldType) N m p nu (Q : 'M[K]_N) (S : sy
   cov Q (future t s.+1 u) (future t s.+1 u) \in unitmx -> B != 0 -> (0 < q <= t.+1)%N ->
   projected_limit Q (future (t.+1 - q) q u) (future t.+1 s u) (future t.+1 s y) L -> (L == O S s)%MS.
 Proof.
-move=> H sym pos model stable uv driven start uu uz zz s0 excites.
+move=> H sym pos model stable uv driven start uu uz zz s0 excites;
 exact: (OneState.one_state_whole_range sym pos model stable uv driven start uu uz zz s0 excites).
 Qed.
 Print Assumptions whole_range_one_state.

@@ -1,9 +1,10 @@
 (** An input that is autoregressive of order at most s, all stationary: n past inputs are enough for all of the range of O_s. What the s
-    inputs after it do not tell of an input, eb, is uncorrelated with all later inputs, and so cov (eb(k), x(k+1+d)) = Gamma A^d with the same
-    Gamma at all times. A direction that the limit with n past inputs does not see is orthogonal to all Gamma A^d, so the limit with
+    inputs after it do not tell of an input, eb, is uncorrelated with all later inputs, and so cov (eb(k), x(k+1+d)) = Gamma A^d with the
+    same Gamma at all times. A direction that the limit with n past inputs does not see is orthogonal to all Gamma A^d, so the limit with
     any number of past inputs does not see it either. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Definitions Basics Windows Places Signals Consistency Leads Persistency Controllable LimitsVocabulary WholeRange.
+From faultspace Require Import Definitions Basics Windows Places Signals Consistency Leads Persistency Controllable.
+From faultspace Require Import LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
