@@ -8,7 +8,8 @@
     square error are over an ordered field (realFieldType), one example is over the rational numbers, the others are over any field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Definitions Signals Leads OneSided SmallSystems LimitsVocabulary.
-From faultspace Require ConsistencyExamples WholeRange ShortPast OneState Similarity LimitExamples FollowingFault FollowingExamples.
+From faultspace Require ConsistencyExamples WholeRange ShortPast OneState ColouredInputs Similarity LimitExamples.
+From faultspace Require FollowingFault FollowingExamples.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -53,6 +54,16 @@ exact: (ShortPast.stationary_whole_range sym model uv ar later uu ux unit short 
 Qed.
 Print Assumptions whole_range_autoregressive_stationary.
 
+(** There are such signals, with u of order 1 and the pole alpha. *)
+Theorem autoregressive_signals_exist (K : fieldType) (alpha rho : K) H : rho ^+ 2 != 1 -> alpha * rho != 1 ->
+  let S : system K 1 0 1 := System alpha%:M 0 1%:M 0 in exists (Q : 'M_H) (u e x y : nat -> 'cV_H),
+  [/\ Q^T = Q, process S (1%:M : 'M_1) 0 u (fun=> 0) x y,
+      autoregressive Q 1 (fun=> rho%:M) u e H /\ (forall k, (1 <= k < H)%N -> cov Q (e k) (x 0%N) = 0),
+      stationary Q u u H /\ stationary Q u x H
+    & forall t s, (t + s <= H)%N -> cov Q (future t s u) (future t s u) \in unitmx].
+Proof. exact: ColouredInputs.first_order_signals. Qed.
+Print Assumptions autoregressive_signals_exist.
+
 (** Controllability is needed whatever the colour of u, if x(0) shares with the inputs only what came through B. *)
 Theorem whole_range_controllable (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y t q s L :
@@ -77,6 +88,15 @@ move=> H sym pos model stable uv driven start uu uz zz s0 excites;
 exact: (OneState.one_state_whole_range sym pos model stable uv driven start uu uz zz s0 excites).
 Qed.
 Print Assumptions whole_range_one_state.
+
+(** There are such signals for a coloured u, with t = s = 1: u(k) = e(k) + e(k-1)/2 and A = 1/2. *)
+Theorem one_state_signals_exist : let S : system [fieldType of rat] 1 0 1 := System (1 / 2%:R)%:M 0 1%:M 0 in
+  exists (Q : 'M[rat]_7) (u z : nat -> 'cV[rat]_7), [/\ Q^T = Q /\ (forall g : 'cV_7, 0 <= cov Q g g 0 0),
+    process S (1%:M : 'M_1) 0 u (fun=> 0) z z /\ (forall k, z k.+1 = z k *m sysA S + u k *m 1%:M),
+    [/\ stationary Q u u 3, stationary Q u z 3 & stationary Q z z 3], cov Q (future 1 2 u) (future 1 2 u) \in unitmx
+  & cov Q (u 0%N) (u 1%N) != 0].
+Proof. exists ConsistencyExamples.MovingAverage.Q; exact: ColouredInputs.moving_average_signals. Qed.
+Print Assumptions one_state_signals_exist.
 
 (** ** proposition-1, white-a-c-seen: what "A and C are right" means *)
 
