@@ -2,15 +2,16 @@
 
     visible_white_faults    standard deviation (p,) of such a signal at each output, in units of r
 
-The count finds the fault where the largest root of the record's covariance against the healthy one exceeds its threshold at one centre at
-least. For a white signal of variance s^2 at output i the whitened covariance at centre f is I + g h h*, h a unit vector and
-g(f) = s^2 |Phi^(-1/2) a_i|^2, a_i column i of the filter from r to the innovations. The chance that the root exceeds a threshold depends
-on g, the dimension, and the two degrees of freedom alone: it is simulated, by DRAWS / p draws of the two covariances with one seed, for g
-on a grid. The count divides by the covariance of the forecast, I + X X* between T tapers; a fault enters the regressors X too, as the vector
-b(f) per unit of signal, and in its own direction that divides 1 + g by 1 + T s^2 |b|^2. The healthy covariances of neighbouring centres
-share samples; of centres as far apart as do not, the chances of missing multiply, and the others are left out, which makes s larger and the
-chance stated one that is reached at least. s is found by bisection. The Phi are estimates, taken as exact but for the mean of their inverse,
-which is put right. Where no size is found, because the healthy record is too short to tell what its noise remembers, the answer is infinite.
+The count finds the fault where the largest root of the record's covariance against the healthy one exceeds its threshold at one centre
+at least. For a white signal of variance s^2 at output i the whitened covariance at centre f is I + g h h*, h a unit vector and g(f) =
+s^2 |Phi^(-1/2) a_i|^2, a_i column i of the filter from r to the innovations. The chance that the root exceeds a threshold depends on g,
+the dimension, and the two degrees of freedom alone: it is simulated, by DRAWS / p draws of the two covariances with one seed, for g on
+a grid. The count divides by the covariance of the forecast, I + X X* between T tapers; a fault enters the regressors X too, as the
+vector b(f) per unit of signal, and in its own direction that divides 1 + g by 1 + T s^2 |b|^2. The healthy covariances of neighbouring
+centres share samples; of centres as far apart as do not, the chances of missing multiply, and the others are left out, which makes s
+larger and the chance stated one that is reached at least. s is found by bisection. The Phi are estimates, taken as exact but for the
+mean of their inverse, which is put right. Where no size is found, because the healthy record is too short to tell what its noise
+remembers, the answer is infinite.
 """
 
 from __future__ import annotations
