@@ -27,13 +27,12 @@ FLOATS = (
 def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
     """Inspects one file after the other. The largest exit code."""
 
-    if floats_exactly:
-        say(FLOATS)
-
     def answer(name: str) -> Answer:
         system = read_system(name, floats_exactly=floats_exactly)
         with placed(name), working(f"inspecting {printable(name)}"):
             found = structure(system.residual)
+        if floats_exactly:
+            say(FLOATS)
         return Answer(_sizes(system), sheet(system, found), found)
 
     return answer_each(names, answer, as_json=as_json)

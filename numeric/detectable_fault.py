@@ -2,12 +2,16 @@
 
     visible_white_faults    standard deviation (p,) of such a signal at each output, in units of r
 
-The count finds the fault where the largest root of the record's covariance against the healthy one exceeds its threshold at one centre at
-least. For a white signal of variance s^2 at output i the whitened covariance at centre f is I + g h h*, h a unit vector and
-g(f) = s^2 |Phi^(-1/2) a_i|^2, a_i column i of the filter from r to the innovations. The chance that the root exceeds a threshold depends
-on g, the dimension, and the two degrees of freedom alone: it is simulated, by draws of the two covariances with one seed, for g on
-a grid. Centres are nearly independent, so that the chances of missing multiply; s is found by bisection. The Phi are estimates, taken as
-exact but for the mean of their inverse, which is put right.
+The count finds the fault where the largest root of the record's covariance against the healthy one exceeds its threshold at one centre
+at least. For a white signal of variance s^2 at output i the whitened covariance at centre f is I + g h h*, h a unit vector and g(f) =
+s^2 |Phi^(-1/2) a_i|^2, a_i column i of the filter from r to the innovations. The chance that the root exceeds a threshold depends on g,
+the dimension, and the two degrees of freedom alone: it is simulated, by DRAWS / p draws of the two covariances with one seed, for g on
+a grid. The count divides by the covariance of the forecast, I + X X* between T tapers; a fault enters the regressors X too, as the
+vector b(f) per unit of signal, and in its own direction that divides 1 + g by 1 + T s^2 |b|^2. The healthy covariances of neighbouring
+centres share samples; of centres as far apart as do not, the chances of missing multiply, and the others are left out, which makes s
+larger and the chance stated one that is reached at least. s is found by bisection. The Phi are estimates, taken as exact but for the
+mean of their inverse, which is put right. Where no size is found, because the healthy record is too short to tell what its noise
+remembers, the answer is infinite.
 """
 
 from __future__ import annotations
@@ -40,16 +44,18 @@ def visible_white_faults(healthy: HealthyReference, count: FaultsAgainstHealthy,
     unbiased = max(healthy.freedom - healthy.p, 1) / healthy.freedom
     gains = np.real(np.einsum("fij,fik,fkj->fj", filters.conj(), precisions, filters)) * unbiased
     forecast = healthy.tapers * np.sum(np.abs(healthy.remembered(count.frequencies)) ** 2, axis=1)
-    return np.array([_least_size(gains[:, i], forecast[:, i], missed, power) for i in range(healthy.p)])
+    apart = int(np.ceil(healthy.freedom / healthy.tapers) * np.ceil(len(count.frequencies) / len(healthy.centres)))
+    return np.array([_least_size(gains[:, i], forecast[:, i], missed, apart, power) for i in range(healthy.p)])
 
 
-def _least_size(gain: Array, forecast: Array, missed: Array, power: float) -> float:
-    """The size at which the chances of missing at all centres multiply to 1 - power."""
+def _least_size(gain: Array, forecast: Array, missed: Array, apart: int, power: float) -> float:
+    """The size at which the chances of missing at centres so far apart multiply to 1 - power, for the best choice of the first."""
 
     def excess(logarithm: float) -> float:
         square = np.exp(2.0 * logarithm)
         gains = np.maximum((1.0 + square * gain) / (1.0 + square * forecast) - 1.0, 0.0)
-        return float(1.0 - np.prod([np.interp(g, GAINS, row) for g, row in zip(gains, missed, strict=True)])) - power
+        chances = np.array([np.interp(g, GAINS, row) for g, row in zip(gains, missed, strict=True)])
+        return max(1.0 - float(np.prod(chances[first::apart])) for first in range(apart)) - power
 
     low = -0.5 * float(np.log(gain.max())) - 6.0
     steps = np.arange(low, low + 14.0, 0.25)
