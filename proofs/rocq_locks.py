@@ -115,9 +115,10 @@ def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
         told = "; ".join(f"{name} has {', '.join(found)}" for name, found in refused.items())
         raise NotProved(f"the sources of the theory assume something or switch a check off: {told}")
     now, before = made(texts), kept() if against is None else against
-    if found := list(differences(before, now)):
+    found = list(differences(before, now))
+    if found or before != now:
         more = f"; and {len(found) - MOST_TOLD} more" if len(found) > MOST_TOLD else ""
-        told = f"{'; '.join(found[:MOST_TOLD])}{more}"
+        told = f"{'; '.join(found[:MOST_TOLD]) or f'{LOCKS} has more than they need, or in another order'}{more}"
         raise NotProved(f"the statements are not as locked: {told}. If that is wanted, {COMMAND} locks them anew")
     return now
 
@@ -137,14 +138,14 @@ def differences(before: Locks, now: Locks) -> Iterator[str]:
         if said != was:
             of = sorted(name for locks in (before, now) for name, lock in locks.theorems.items() if key in lock.words)
             what = "is not locked" if was is None else "is locked and is not there" if said is None else _changed(said, was)
-            yield f"the word {key} {what}, which {len({*of})} headlines use, {of[0]} for one"
+            yield f"the word {key} {what}, which {len({*of})} headlines use{', ' + of[0] + ' for one' if of else ''}"
     for file in sorted({*before.openings, *now.openings}):
         said, was = now.openings.get(file, ""), before.openings.get(file, "")
         if said != was:
             yield f"what {file} opens with {_changed(said, was)}"
     for one in sorted({*before.far} ^ {*now.far}):
         yield f"{one} may change how statements are read, and is {'not locked' if one in now.far else 'gone'}"
-    if before.words == now.words and before.openings == now.openings and before.far == now.far:
+    if before.words == now.words and before.openings == now.openings and {*before.far} == {*now.far}:
         for name in sorted({*before.theorems} & {*now.theorems}):
             old, new = before.theorems[name], now.theorems[name]
             if old != new and old.statement == new.statement:

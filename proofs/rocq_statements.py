@@ -28,6 +28,8 @@ REQUIRE = re.compile(r"From\s+faultspace\s+Require(?:\s+(Import|Export))?([\s\w]
 NAME = r"[A-Za-z_][\w']*"
 TOKEN = re.compile(rf"{NAME}(?:\.{NAME})*")
 WORD = re.compile(rf"(?:Definition|Fixpoint|Record|Inductive|Variant|Notation)\s+({NAME})")
+# A second word in one sentence, which would have no name here.
+MUTUAL = re.compile(rf"\bwith\s+{NAME}(?:(?!=>|\bwith\b).)*:=")
 # What may change how a text is read far away from where it stands.
 FAR = re.compile(
     r"(?:#\[[^]]*\]\s*)?(?:(?:Global|Export|Polymorphic|Program)\s+)*"
@@ -262,7 +264,7 @@ def _words(name: str, found: Sequence[str]) -> dict[str, Word]:
             around.pop()
         elif re.match(r"(?:Variables?|Implicit Types?)\b", one) and around and around[-1][0] == "Section":
             around[-1][2].append(one)
-        elif defined := WORD.match(one):
+        elif (defined := WORD.match(one)) and not MUTUAL.search(one):
             module = ".".join(title for kind, title, _ in around if kind == "Module")
             text = " ".join([*(said for _, _, variables in around for said in variables), one])
             for title in [defined[1], *_fields(one)]:

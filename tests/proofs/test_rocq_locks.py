@@ -144,6 +144,10 @@ def test_a_headline_or_word_that_comes_or_goes_is_noticed() -> None:
         held({**TEXTS, "Headlines.v": TEXTS["Headlines.v"][:start] + TEXTS["Headlines.v"][end:]})
     with pytest.raises(NotProved, match=r"the lock of theorem_1 is not the SHA-256"):
         held(TEXTS, replace(locks, theorems={**locks.theorems, "theorem_1": replace(locks.theorems["theorem_1"], sha256="0" * 64)}))
+    with pytest.raises(NotProved, match=r"the word Vocabulary\.more is locked and is not there, which 0 headlines use"):
+        held(TEXTS, replace(locks, words={**locks.words, "Vocabulary.more": "Definition more := 1."}))
+    with pytest.raises(NotProved, match="more than they need"):
+        held(TEXTS, replace(locks, far=(*locks.far, locks.far[0])))
     with pytest.raises(NotProved, match=r"the word Vocabulary\.gap is not locked"):
         held(TEXTS, replace(locks, words={key: text for key, text in locks.words.items() if key != "Vocabulary.gap"}))
 

@@ -86,6 +86,10 @@ def test_a_file_of_headlines_holds_theorems_alone(added: str) -> None:
         "Definition one := 3.",
         "Definition three := Other.extra.",
         "Variable a : nat.",
+        "Fixpoint even n := if n is m.+1 then odd m else true with odd n := if n is m.+1 then even m else false.",
+        "Definition hidden : nat. Proof. exact 1. Defined.",
+        "#[global] Definition hidden := 1.",
+        "Program Definition hidden := 1.",
     ],
 )
 def test_a_vocabulary_defines_words_alone(added: str) -> None:
