@@ -23,6 +23,7 @@ coqc runs under limits of time, memory and output, and with a home of its own th
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
@@ -161,12 +162,14 @@ def compiled_theory(progress: Progress = lambda name, done, total: None, *, text
 
 
 def _made_private(folder: Path) -> None:
-    """The folder of our cache and the one above it, made where they are not there, that nobody else can write into."""
+    """The folder of our cache and the one above it, made where they are not there, that nobody else can write into. Raises OSError."""
     for one in (folder.parent, folder):
         one.mkdir(parents=True, exist_ok=True, mode=0o700)
-        mode = one.stat().st_mode
-        if mode & 0o022:
-            one.chmod(stat.S_IMODE(mode) & ~0o022)
+        status = one.stat()
+        if hasattr(os, "getuid") and status.st_uid != os.getuid():
+            raise PermissionError(errno.EPERM, f"{one} belongs to another user")
+        if status.st_mode & 0o022:
+            one.chmod(stat.S_IMODE(status.st_mode) & ~0o022)
 
 
 def _digests(folder: Path) -> dict[str, str]:
@@ -181,7 +184,7 @@ def _whole(folder: Path, texts: dict[str, str]) -> bool:
     except (OSError, ValueError):
         return False
     if not _own(folder):
-        raise Poisoned(_not_believed(folder, "others than you can write into it, or it holds a file that is not yours"))
+        raise Poisoned(_not_believed(folder, "others than you can write into it or above it, or it holds a file or link that is not yours"))
     if not same:
         return False
     held = {one.name: one.read_bytes() for one in folder.glob("*.v")}

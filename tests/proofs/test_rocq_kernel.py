@@ -134,6 +134,8 @@ def test_a_cache_of_another_user_is_not_believed(cache: Path, monkeypatch: pytes
     monkeypatch.setattr(os, "getuid", lambda: me + 1)
     with pytest.raises(rocq_build.Poisoned, match="others than you"):
         rocq_build.compiled_theory(texts=TINY)
+    with pytest.raises(rocq_build.NoRocq, match=r"belongs to another user; set XDG_CACHE_HOME"):
+        rocq_build.compiled_theory(texts={"First.v": TINY["First.v"]})
 
 
 def test_what_is_compiled_is_for_the_user_alone(cache: Path) -> None:
