@@ -2,7 +2,7 @@
     them takes Vocabulary.v, which tells every word that they use; this file and those that it includes define none. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary.
-From faultspace Require HeadlinesMore HeadlinesChecks.
+From faultspace Require HeadlinesMore HeadlinesStructure HeadlinesChecks.
 From faultspace Require Windows Infinite WindowBlocks Existence ConsistencyExamples OneSided Consistency.
 From faultspace Require Regression Controllable Leads OutputError Autoregressive Undetectable SmallSystems.
 From faultspace Require Theorem1 SharpWindows Theorem1Sharp Readings Lag WeakExcitation Proposition3.
@@ -348,4 +348,5 @@ Print Assumptions problem_11_dimension.
 
 (** The rest of the ledger is in HeadlinesMore.v, the checks of certificates are in HeadlinesChecks.v; from here on all are in Headlines. *)
 Include HeadlinesMore.
+Include HeadlinesStructure.
 Include HeadlinesChecks.
