@@ -122,7 +122,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "columns_after_change_of_state": ("invmx T *m sysC S'", "sysC S'"),
     "columns_after_map_of_state": ("behavior S r <-> behavior S' r", "behavior S r -> behavior S' r"),
     "zero_states_subspaces": ("largest_output_nulling S V", "output_nulling S V"),
-    "zero_subspaces_exist": ("largest_output_nulling S V", "largest_output_nulling S W"),
+    "zero_subspaces_exist": ("largest_output_nulling S V", "largest_output_nulling S V /\\ output_nulling S W"),
     "zero_states_direct": ("left_invertible S -> ", ""),
     "trajectory_zero_polynomial": ("left_invertible S /\\ ", ""),
     "unobservable_dynamics_exist": ("(N : 'M_(d, n))", "(N : 'M_(d.+1, n))"),
