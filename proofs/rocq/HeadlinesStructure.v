@@ -4,7 +4,7 @@
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary StructureVocabulary.
 From faultspace Require KernelRepresentation ChangeOfState ExtremalSubspaces UnobservableZeros ZeroFeedthroughSignal SharpPartner.
-From faultspace Require ZeroAssignmentPairs.
+From faultspace Require ZeroAssignmentPairs Delay.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -84,6 +84,17 @@ Theorem trajectory_multiplicity_delayed (K : fieldType) :
     & ~ (forall x y v w, (forall k, output S x v k = output S y w k) -> forall k, v k = w k)].
 Proof. exact: UnobservableZeros.twice_zero_delayed_not_recovered. Qed.
 Print Assumptions trajectory_multiplicity_delayed.
+
+(** state-known: the delay is the largest order of an infinite zero, where rank T_(k+1) - rank T_k counts the orders <= k. They sum to d,
+    the number of infinite zeros of the pencil, since rank T_s = s m - d from s = n on. *)
+Theorem trajectory_delay (K : fieldType) n m p (S : system K n m p) l :
+  inverts_with_delay S l <-> \rank (T S l.+1) = (\rank (T S l) + m)%N.
+Proof. exact: Delay.delay_by_ranks. Qed.
+Print Assumptions trajectory_delay.
+Theorem infinite_zeros_by_ranks (K : fieldType) n m p (S : system K n m p) d s :
+  left_invertible S -> infinite_zeros S d -> (n <= s)%N -> (\rank (T S s) + d)%N = (s * m)%N.
+Proof. exact: Delay.infinite_zeros_by_ranks. Qed.
+Print Assumptions infinite_zeros_by_ranks.
 
 (** zero-feedthrough-signal: all equivalent pairs (F', 0) of m faults tell the same v, up to one basis for each pair, just when C F has
     rank m and the finite zeros, with multiplicities, are the unobservable modes. *)

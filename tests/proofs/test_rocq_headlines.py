@@ -128,6 +128,8 @@ CHANGES: dict[str, tuple[str, str]] = {
     "unobservable_dynamics_exist": ("(N : 'M_(d, n))", "(N : 'M_(d.+1, n))"),
     "trajectory_multiplicity": ("~ (forall", "(forall"),
     "trajectory_multiplicity_delayed": ("~ (forall", "(forall"),
+    "trajectory_delay": ("T S l.+1", "T S l.+2"),
+    "infinite_zeros_by_ranks": ("left_invertible S -> ", ""),
     "zero_feedthrough_signal": ("\\rank (sysF S *m sysC S) = m /\\ ", ""),
     "sharp_equality_lag": ("(lag S' <= lag S)%N -> ", ""),
     "zero_assignment_observable": ("observable S -> ", ""),
