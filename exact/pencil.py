@@ -2,7 +2,8 @@
 
     right_minimal_indices        degrees of a minimal basis of {w(q) : P(q) w(q) = 0}: the left ones of the transposed system
     infinite_zero_orders         delta_1 <= ... <= delta_r: #{delta <= k} = rank T_(k+1) - rank T_k
-    invariant_zero_polynomial    product of the invariant polynomials, monic, as a Poly
+    invariant_zero_polynomial    product of the invariant polynomials, monic, as a Poly, left-invertible or not; where F = G = 0 its roots
+                                 are the eigenvalues of A that C does not show, though the transfer function is zero
     zero_dynamics_polynomial     the same from the motion inside V*/R*, where no output sees it: another route
     right_null_polynomial        (x(q), v(q)) with P(q) [x; v] = 0, the proof of not being left-invertible
     finite_diagonal, infinite_diagonal   diagonal forms with multipliers, of P(q) and of the reversed pencil, for certificates

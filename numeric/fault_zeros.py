@@ -2,8 +2,11 @@
 
     FaultZeros            finite zeros, both delays, left-invertibility of x+ = A x + F v, r = C x + G v
     fault_zeros           computed by singular values with a stated tolerance
-    output_nulling        V*, the states from which some v keeps the residual zero for ever; its dimension counts the
-                          finite zeros
+    finite_zeros          the roots of the invariant polynomials of the pencil [[qI - A, -F], [C, G]], left-invertible or
+                          not. Where F = G = 0, and where there is no fault, they are the eigenvalues of A that C does
+                          not show, though the transfer function, which is zero, has no zeros
+    output_nulling        V*, the states from which some v keeps the residual zero for ever; where the system is
+                          left-invertible its dimension counts the finite zeros
     delay, state known    least l such that r(0..l) determines v(0) when x(0) is known [SM69]
     delay, state unknown  least l <= n such that r(0..l) determines v(0) whatever x(0) is; None where there is none
                           [HP98], [MZ10], [K11]
@@ -35,18 +38,43 @@ class FaultZeros:
 
 def fault_zeros(A: Array, F: Array, C: Array, G: Array) -> FaultZeros:
     """Of A (n, n), F (n, m), C (p, n), G (p, m), which should be of comparable size (balanced units)."""
+    zeros = finite_zeros(A, F, C, G)
     known = _delay(A, F, C, G, state_known=True)
     if known is None:
-        return FaultZeros(np.zeros(0, complex), False, None, None)
+        return FaultZeros(zeros, False, None, None)
+    return FaultZeros(zeros, True, known, _delay(A, F, C, G, state_known=False))
+
+
+def finite_zeros(A: Array, F: Array, C: Array, G: Array) -> NDArray[np.complex128]:
+    """The finite zeros of the pencil, with their multiplicities, by ascending modulus: the motion on V* under zero output,
+    modulo the states of V* that faults without an effect on the output reach from rest [TSH01] ch. 7.
+    """
     W = output_nulling(A, F, C, G)
-    zeros = np.zeros(0, complex)
-    if W.shape[1]:
-        # A W + F K = W L and C W + G K = 0: L acts on V*, uniquely since the system is left-invertible.
-        left = np.block([[W, -F], [np.zeros((C.shape[0], W.shape[1])), -G]])
-        zeros = np.linalg.eigvals(np.linalg.lstsq(left, np.vstack([A @ W, C @ W]), rcond=None)[0][: W.shape[1]]).astype(
-            complex
-        )
-    return FaultZeros(zeros[np.argsort(np.abs(zeros))], True, known, _delay(A, F, C, G, state_known=False))
+    k = W.shape[1]
+    # A W + F K = W L and C W + G K = 0: L acts on V*, and is unique but for the silent faults W l = F v, G v = 0.
+    left = np.block([[W, -F], [np.zeros((C.shape[0], k)), -G]])
+    L = np.linalg.lstsq(left, np.vstack([A @ W, C @ W]), rcond=None)[0][:k]
+    rest = _complement_of_reached(L, _null_space(left)[:k])
+    zeros = np.linalg.eigvals(rest.T @ L @ rest).astype(complex)
+    return np.asarray(zeros[np.argsort(np.abs(zeros))])
+
+
+def _complement_of_reached(L: Array, B: Array) -> Array:
+    """Orthonormal columns orthogonal to im [B, L B, L^2 B, ...]: the largest subspace that L' keeps and B' annihilates."""
+    rest = _null_space(B.T)
+    while True:
+        smaller = rest @ _null_space((L.T @ rest) - rest @ (rest.T @ L.T @ rest))
+        if smaller.shape == rest.shape:
+            return rest
+        rest = smaller
+
+
+def _null_space(matrix: Array) -> Array:
+    """Orthonormal columns."""
+    if 0 in matrix.shape:
+        return np.eye(matrix.shape[1])
+    _, values, right = np.linalg.svd(matrix)
+    return np.asarray(right[int(np.sum(values > TOLERANCE * max(1.0, _largest(values)))) :].T)
 
 
 def output_nulling(A: Array, F: Array, C: Array, G: Array) -> Array:

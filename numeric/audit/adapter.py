@@ -42,7 +42,9 @@ FUNCTIONS = ("identify", "residual", "window_ranks", "fault_dimension", "fault_s
 @dataclass(frozen=True)
 class Structure:
     """Of x(k+1) = A x + F v, r = C x + G v: normal rank of the transfer function, finite invariant zeros, orders of the infinite zeros
-    (ascending, one per unit of normal rank, zeros included), left-invertibility.
+    (ascending, one per unit of normal rank, zeros included), left-invertibility. The finite zeros are the roots of the invariant
+    polynomials of the pencil [[qI - A, -F], [C, G]], with their multiplicities, also where the system is not left-invertible: where
+    F = G = 0 they are the eigenvalues of A that C does not show.
     """
 
     normal_rank: int

@@ -66,7 +66,7 @@ def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> 
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:
-    """Orders of infinite zeros from #{order <= k} = rank T_(k+1) - rank T_k; finite zeros from the output-nulling subspace."""
+    """Orders of infinite zeros from #{order <= k} = rank T_(k+1) - rank T_k; finite zeros those of the pencil."""
     if not all(np.all(np.isfinite(matrix)) for matrix in (A, F, C, G)):
         raise InvalidData("A, F, C, G: got entries that are NaN or infinite")
     orders = _infinite_zero_orders(A, F, C, G)

@@ -6,7 +6,7 @@ From faultspace Require Theorem3 GoodPairs GenericPairs WidePairs Readings Theor
 From faultspace Require FaultMatrices ZeroFeedthroughUnique Trajectory SmallSystems Indices.
 From faultspace Require SystemInfiniteZeros SolutionCount ClosedForm ExceptionalPolynomial PairZeros.
 From faultspace Require ZeroAssignment EchelonForm EchelonExists Inversion TransferRank Gap Lag Chain.
-From faultspace Require Excitation WeakExcitation.
+From faultspace Require Excitation WeakExcitation SharpPartner ObservablePart.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -36,9 +36,13 @@ Theorem theorem_3_on_lines (K : fieldType) n m p (S : system K n m p) s k (Z : '
 Proof. exact: GenericPairs.theorem_3_part_ii. Qed.
 Print Assumptions theorem_3_on_lines.
 
-(** every-p, refuted, with p = 3 outputs and m = 2 faults, on every window *)
-Theorem theorem_3_every_p (K : fieldType) : exists (S : system K 1 (1 + 1) (1 + 1 + 1)) k (Z : 'M_(k, 1 + (1 + 1 + 1))) (P : 'M_(1 + 1, k)),
-  [/\ observable S, left_invertible S, forall s, (0 < s)%N -> spans_solutions S s Z, row_free P
+(** every-p, refuted on every window by x(k+1) = v1(k), r = (x, v2, 0), which has normal rank 2 and one zero; Z a basis, P of full rank *)
+Theorem theorem_3_every_p (K : fieldType) :
+  let S : system K 1 (1 + 1) (1 + 1 + 1) := System 0 (col_mx 1%:M 0) (row_mx (row_mx 1%:M 0) 0) (row_mx (block_mx 0 0 0 1%:M) 0) in
+  let Z : 'M_(1 + (1 + 1), 1 + (1 + 1 + 1)) := block_mx 1%:M 0 0 (row_mx 1%:M 0) in
+  let P : 'M_(1 + 1, 1 + (1 + 1)) := block_mx 1%:M 0 0 (row_mx 1%:M 0) in
+  [/\ observable S /\ left_invertible S, \rank (transfer S) = 2%N /\ zeta S = 1%N,
+      forall s, (0 < s)%N -> spans_solutions S s Z, row_free Z /\ row_free P
     & ~ (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r)].
 Proof. exact: WidePairs.every_p_wide. Qed.
 Print Assumptions theorem_3_every_p.
@@ -190,11 +194,13 @@ Theorem sharp_gap (K : fieldType) n m p (S : system K n m p) s :
 Proof. exact: Readings.growth_is_normal_rank_from_lag. Qed.
 Print Assumptions sharp_gap.
 
-(** solutions: problem_11_lag. equality: the partner has the same (A, C) and more faults, or as many faults and one state more *)
-Theorem sharp_equality (K : fieldType) n m p (S : system K n m p) : (0 < lag S)%N ->
-  exists k (F : 'M_(k, n)) G, let S' := with_faults S F G in
-  (forall r, word S (lag S) r <-> word S' (lag S) r) /\ exists r, word S' (lag S).+1 r /\ ~ word S (lag S).+1 r.
-Proof. exact: Readings.partner_with_same_A_C. Qed.
+(** solutions: problem_11_lag. equality: the partner has the same (A, C) and as many faults, and is left-invertible where the system is, its
+    lag then no smaller; that the lag cannot always be kept is sharp_equality_lag. With one state more it can. *)
+Theorem sharp_equality (K : fieldType) n m p (S : system K n m p) : (0 < m)%N -> (0 < lag S)%N ->
+  exists (F : 'M_(m, n)) G, let S' := with_faults S F G in
+  [/\ left_invertible S -> left_invertible S' /\ (lag S <= lag S')%N, forall r, word S (lag S) r <-> word S' (lag S) r
+    & exists r, word S' (lag S).+1 r /\ ~ word S (lag S).+1 r].
+Proof. exact: SharpPartner.partner_with_as_many_faults_same_A_C. Qed.
 Print Assumptions sharp_equality.
 Theorem sharp_equality_left_invertible (K : fieldType) n m p (S : system K n m p) : (0 < lag S)%N -> exists S' : system K (n + 1) m p,
   [/\ left_invertible S -> left_invertible S', (lag S' <= lag S)%N, gap S' (n + 1) = gap S n,
@@ -229,8 +235,8 @@ Theorem zeros_of_pairs (K : fieldType) n m m' p (S : system K n m p) (S' : syste
 Proof. exact: Readings.zeros_of_equivalent_pairs. Qed.
 Print Assumptions zeros_of_pairs.
 
-(** split, refuted over the rational numbers by r(k) = x(k) + v(k), x(k+1) = 0 *)
-Theorem zeros_of_pairs_split : let S : system [fieldType of rat] 1 1 1 := System 0 0 1%:M 1%:M in exists F G F' G',
+(** split, refuted by r(k) = x(k) + v(k), x(k+1) = 0 *)
+Theorem zeros_of_pairs_split (K : fieldType) : let S : system K 1 1 1 := System 0 0 1%:M 1%:M in exists F G F' G',
   [/\ forall w, behavior (with_faults S F G) w <-> behavior S w, forall w, behavior (with_faults S F' G') w <-> behavior S w,
       gcd_of_minors (pencil (with_faults S F G : system _ 1 1 1)) 1
     & gcd_of_minors (pencil (with_faults S F' G' : system _ 1 1 1)) 'X].
@@ -273,12 +279,12 @@ move=> _ basis free zeros ea eb obs; exact: (ZeroAssignment.every_exceptional_po
 Qed.
 Print Assumptions zero_assignment.
 
-(** recoverable, where (A, C) is observable *)
+(** recoverable, of every system *)
 Theorem recoverable_pair (K : fieldType) n m p (S : system K n m p) : let r := \rank (transfer S) in
-  row_free (O S n) -> (0 < r)%N -> exists (F : 'M_(r, n)) (G : 'M_(r, p)), let S' := with_faults S F G in
+  exists (F : 'M_(r, n)) (G : 'M_(r, p)), let S' := with_faults S F G in
   (forall w, behavior S' w <-> behavior S w) /\
   (forall x y v w, (forall k, output S' x v k = output S' y w k) -> forall k, v k = w k).
-Proof. exact: PairZeros.recoverable_pair_exists. Qed.
+Proof. exact: ObservablePart.recoverable_pair_of_every_system. Qed.
 Print Assumptions recoverable_pair.
 
 (** ** canonical-form *)

@@ -1,5 +1,5 @@
 (** zeros-of-pairs: every equivalent pair has the same zeta, but not the same number of finite zeros. The split is refuted by A = 0, C = 1,
-    F = 0, G = 1 over the rationals: one equivalent pair has no finite zero, another has one (ZeroAssignment.v). *)
+    F = 0, G = 1, over every field: one equivalent pair has no finite zero, another has one (ZeroAssignment.v). *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Vocabulary Basics Windows Gap Lag Trajectory Solutions SolutionCount ExceptionalPolynomial ZeroAssignment.
 From faultspace Require Import TransferRank NormalRank Minors.
@@ -7,7 +7,9 @@ Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
-Definition one_zero : system [fieldType of rat] 1 1 1 := System 0 0 1%:M 1%:M.
+Section Split.
+Variable K : fieldType.
+Definition one_zero : system K 1 1 1 := System 0 0 1%:M 1%:M.
 Lemma one_zero_dims : zeta one_zero = 1%N /\ \rank (transfer one_zero) = 1%N /\ row_free (O one_zero 1).
 Proof.
 have inv : left_invertible one_zero.
@@ -28,6 +30,7 @@ have [P [g n0 _]] := any_number_of_finite_zeros (r := 0) (ltnSn 1) co obs (leq0n
 have [P' [g' n1 _]] := any_number_of_finite_zeros (r := 0) (ltnSn 1) co obs (leqnn 1).
 by exists (lsubmx (P *m Z)), (rsubmx (P *m Z)), (lsubmx (P' *m Z)), (rsubmx (P' *m Z)).
 Qed.
+End Split.
 
 (** zero-assignment, recoverable, for observable systems. *)
 Theorem recoverable_pair_exists (K : fieldType) n m p (S : system K n m p) : let r := \rank (transfer S) in

@@ -1,5 +1,5 @@
 (** The theorems put together as the claims are read: with the normal rank (the rank of the transfer matrix) for gap n, with zeros
-    counted on the pencil, and on data. New are only the partner with the same (A, C), and that full excitation is not necessary. *)
+    counted on the pencil, and on data. New is only that full excitation is not necessary. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary Basics Windows Infinite Chain Gap Proposition3 Inversion Theorem1 Lag SharpWindows.
 From faultspace Require Import Problem11 Solutions CanonicalForm NormalRank TransferRank Theorem3 Theorem3Sharp Excitation.
@@ -100,24 +100,6 @@ Theorem criterion_left_invertible s k (Z : 'M[K]_(k, n + p)) (P : 'M_(m, k)) :
   (lag S < s)%N -> spans_solutions S s Z -> left_invertible S ->
   (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r) <-> \rank (transfer (faults_of S (P *m Z))) = m.
 Proof. by move=> long span inv; rewrite -left_invertible_transfer_rank; exact: (theorem_3_criterion_sharp long span P inv). Qed.
-
-(** One sample more than the lag is necessary, with the same (A, C): all solutions of problem (11) on lag samples as faults. *)
-Theorem partner_with_same_A_C : (0 < lag S)%N -> exists k (F : 'M[K]_(k, n)) G, let S' := with_faults S F G in
-  (forall r, word S (lag S) r <-> word S' (lag S) r) /\ exists r, word S' (lag S).+1 r /\ ~ word S (lag S).+1 r.
-Proof.
-case lag_S: (lag S) => [//|M] _; pose S' := saturated S M.+1; exists _, (sysF S'), (sysG S'); rewrite -/S'; cbv zeta.
-have -> : with_faults S (sysF S') (sysG S') = S' by [].
-split=> [r|]; first by split=> /(saturated_words S r (leqnn M.+1)).
-have [sub|/row_subPn[i out]] := boolP (window S' M.+2 <= window S M.+2)%MS; last first.
-  exists (unsamples (row i (window S' M.+2))); split; first by apply/sub_windowP; apply: row_sub.
-  by move/sub_windowP; rewrite (negPf out).
-have : (row_base (solution_space S M.+1) <= solution_space S M.+2)%MS.
-  by rewrite -[X in (X <= _)%MS]hsubmxK; apply/(included_rows _ _ (solution_spaceP S M.+2))/window_subP.
-rewrite eq_row_base => longer; suff : (lag S <= M)%N by rewrite lag_S ltnn.
-apply/solutions_settle_at_lag => f g; split=> [sol|h]; last by apply/solves_words => r; move: r; move/behavior_subP: h => h r; apply: h.
-rewrite -(@problem_11_from_lag _ _ _ _ _ M.+1) ?lag_S //.
-by apply/(solution_spaceP S M.+2); apply: submx_trans longer; apply/(solution_spaceP S M.+1).
-Qed.
 
 (** The partner of LagNecessary.v has one state more and as many faults. *)
 Theorem partner_with_as_many_faults : (0 < lag S)%N -> exists S' : system K (n + 1) m p,

@@ -1,7 +1,8 @@
 (** A pair of full rank that is not equivalent, in a system with more outputs than faults: the direct and the delayed fault of
     Counterexamples.v beside an output that is always zero. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows SmallSystems Solutions Counterexamples Proposition3 Inversion.
+From faultspace Require Import Vocabulary Basics Windows Lag SmallSystems Solutions Counterexamples Proposition3 Inversion.
+From faultspace Require Import TransferRank NormalRank SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -25,12 +26,26 @@ move=> h r; have part (l l' : nat) (S1 : system K n l p) (S2 : system K n l' p) 
   by exists y, w => k; have := e' k; rewrite wide_output => /eq_row_mx[].
 by split; apply: part => q /h.
 Qed.
-Theorem every_p_wide : exists (S : system K 1 (1 + 1) (1 + 1 + 1)) k (Z : 'M_(k, 1 + (1 + 1 + 1))) (P : 'M_(1 + 1, k)),
-  [/\ observable S, left_invertible S, forall s, (0 < s)%N -> spans_solutions S s Z, row_free P
+(** x(k+1) = v1(k), r(k) = (x(k), v2(k), 0): normal rank 2 and one zero. *)
+Theorem every_p_wide :
+  let S : system K 1 (1 + 1) (1 + 1 + 1) := System 0 (col_mx 1%:M 0) (row_mx (row_mx 1%:M 0) 0) (row_mx (block_mx 0 0 0 1%:M) 0) in
+  let Z : 'M_(1 + (1 + 1), 1 + (1 + 1 + 1)) := block_mx 1%:M 0 0 (row_mx 1%:M 0) in
+  let P : 'M_(1 + 1, 1 + (1 + 1)) := block_mx 1%:M 0 0 (row_mx 1%:M 0) in
+  [/\ observable S /\ left_invertible S, \rank (transfer S) = 2%N /\ zeta S = 1%N,
+      forall s, (0 < s)%N -> spans_solutions S s Z, row_free Z /\ row_free P
     & ~ (forall r, behavior (faults_of S (P *m Z)) r <-> behavior S r)].
 Proof.
 have [inv span free differ] := full_rank_is_not_enough K; pose S0 := delay_and_direct K.
-exists (wide S0), (1 + (1 + 1))%N, (block_mx 1%:M 0 0 (row_mx 1%:M 0)), (two_columns K); split=> //.
+rewrite -[System _ _ _ _]/(wide S0) -[block_mx 1%:M 0 0 (row_mx 1%:M 0) : 'M_(1 + 1, 1 + (1 + 1))]/(two_columns K); cbv zeta.
+suff [obs winv spanZ bad] : [/\ observable (wide S0), left_invertible (wide S0), forall s, (0 < s)%N ->
+      spans_solutions (wide S0) s (block_mx 1%:M 0 0 (row_mx 1%:M 0) : 'M_(1 + (1 + 1), 1 + (1 + 1 + 1)))
+    & ~ (forall r, behavior (faults_of (wide S0) (two_columns K *m block_mx 1%:M 0 0 (row_mx 1%:M 0))) r <-> behavior (wide S0) r)].
+  have freeZ : row_free (block_mx 1%:M 0 0 (row_mx 1%:M 0) : 'M[K]_(1 + (1 + 1), 1 + (1 + 1 + 1))).
+    by rewrite /row_free rank_diag_block_mx rank_row_mx0 !mxrank1.
+  have rank2 := (left_invertible_transfer_rank _).1 winv; split=> //; split=> //.
+  have := (solution_count_zeta (spanZ 2%N isT)).2 (lag_le_n (wide S0)).
+  by rewrite (eqP freeZ) (gap_normal_rank _ (leqnn 1)) rank2 => -[<-].
+split=> //.
 - apply: observable_from_zeros => x /(_ 0%N isT) e0.
   have : row_mx (output S0 x (fun=> 0) 0) 0 = row_mx 0 (0 : 'rV_1) by rewrite -wide_output e0 row_mx0.
   case/eq_row_mx; rewrite /output /= mul0mx addr0 mul_mx_row mulmx1 mulmx0 -(row_mx0 _ 1 1 1).

@@ -135,6 +135,48 @@ def test_zeros_and_delays(shape: Structure) -> None:
             assert abs(np.polyval(polynomial[::-1], zero)) <= 1e-6 * max(size, 1e-3)
 
 
+def _zeros_differ_by(found: Any, polynomial: list[float]) -> float:
+    """The largest distance of the zeros from the roots of the exact polynomial, matched in the order of their parts."""
+    due = np.sort_complex(np.roots(polynomial[::-1]))
+    assert len(found) == len(due)
+    return float(np.max(np.abs(np.sort_complex(found) - due), initial=0))
+
+
+@pytest.mark.parametrize(
+    ("shape", "F", "G"),
+    [
+        pytest.param((2, 1, 1), [["0"], ["0"]], [["0"]], id="F = G = 0"),
+        pytest.param((2, 0, 1), [[], []], [[]], id="no fault"),
+        pytest.param((2, 2, 1), [["0", "1"], ["0", "0"]], [["0", "0"]], id="a fault of two does nothing"),
+        pytest.param((2, 2, 1), [["1", "2"], ["1", "2"]], [["1", "2"]], id="two faults alike"),
+        pytest.param((2, 2, 1), [["1", "0"], ["0", "1"]], [["0", "0"]], id="more faults than outputs"),
+    ],
+)
+def test_finite_zeros_are_those_of_the_pencil(shape: tuple[int, int, int], F: Any, G: Any) -> None:
+    """Left-invertible or not: where F = G = 0 they are the eigenvalues of A that C does not show."""
+    n, m, p = shape
+    for C in ([["0", "1"]], [["0", "0"]], [["1", "1"]]):
+        given = {"A": [["1/2", "0"], ["0", "3/4"]], "F": F, "C": C, "G": G, "n": n, "m": m, "p": p}
+        system = read_system(given).residual
+        polynomial = [float(c) for c in structure(system).invariant_zero_polynomial]
+        found = fault_zeros(*(floats(M) for M in (system.A, system.F, system.C, system.G)))
+        assert _zeros_differ_by(found.zeros, polynomial) < 1e-9, C
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [Structure((1,), (0,), (0,), (1,)), Structure((2,), (1,), (0,), (1,)), Structure((), (2,), (1,), (0, 1))],
+    ids=str,
+)
+def test_finite_zeros_beside_right_indices(shape: Structure) -> None:
+    for seed in range(3):
+        system = stable(read_system(planted_system(Random(seed), "Q", shape)).residual)
+        polynomial = [float(c) for c in structure(system).invariant_zero_polynomial]
+        found = fault_zeros(*(floats(M) for M in (system.A, system.F, system.C, system.G)))
+        assert not found.left_invertible and len(polynomial) == len(shape.roots) + 1
+        assert _zeros_differ_by(found.zeros, polynomial) < 1e-6
+
+
 @pytest.mark.parametrize("shape", STRUCTURES, ids=str)
 def test_the_signal_with_its_delay(shape: Structure) -> None:
     """From a known state v is recovered exactly up to the delay; from an unknown one too where the exact branch says

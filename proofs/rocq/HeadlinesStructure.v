@@ -1,0 +1,136 @@
+(** The fourth part of Headlines.v, which includes it: what ties the words of the ledger to the objects of the field. The behaviour as a
+    kernel, the zero states as V* + S*, columns of pairs with another (A, C), zeros with multiplicities, pairs that tell the same signal.
+    Words are told in Vocabulary.v and StructureVocabulary.v. *)
+From mathcomp Require Import all_ssreflect all_algebra.
+From faultspace Require Import Vocabulary StructureVocabulary.
+From faultspace Require KernelRepresentation ChangeOfState ExtremalSubspaces UnobservableZeros ZeroFeedthroughSignal SharpPartner.
+From faultspace Require ZeroAssignmentPairs Delay.
+Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
+Import GRing.Theory.
+Local Open Scope ring_scope.
+
+(** ** The behaviour as a kernel, {r : N(q) r = 0} *)
+
+(** N is made of the last p rows of a minimal basis of the kernel of the pencil (which zeros_exist provides): p - r difference equations, of
+    the degrees that window_ranks_left_indices tells; and every equation that holds on the behaviour is a combination of them. *)
+Theorem behavior_is_kernel (K : fieldType) n m p (S : system K n m p) d (Y : 'M_(n + p, d)) : minimal_basis (pencil S) Y ->
+  [/\ d = (p - \rank (transfer S))%N, forall r, behavior S r <-> forall t, shifted (dsubmx Y) r t = 0
+    & forall c : 'cV_p, (forall r, behavior S r -> forall t, shifted c r t = 0) <-> exists u, c = dsubmx Y *m u].
+Proof. exact: KernelRepresentation.minimal_kernel_representation. Qed.
+Print Assumptions behavior_is_kernel.
+
+(** ** theorem-3-i, without the same (A, C) *)
+
+(** The same behaviour and as many states: in other coordinates x T of the state, S' has its columns in Z, on every window. *)
+Theorem columns_after_change_of_state (K : fieldType) n m m' p (S : system K n m p) (S' : system K n m' p) :
+  (forall r, behavior S r <-> behavior S' r) -> exists T, [/\ T \in unitmx,
+    forall r, behavior (System (invmx T *m sysA S' *m T) (sysF S' *m T) (invmx T *m sysC S') (sysG S')) r <-> behavior S r
+  & forall s i, solves S s (row i (sysF S' *m T)) (row i (sysG S'))].
+Proof. exact: ChangeOfState.columns_after_change_of_state. Qed.
+Print Assumptions columns_after_change_of_state.
+
+(** Another number of states: a linear map of the states does it. *)
+Theorem columns_after_map_of_state (K : fieldType) n m n' m' p (S : system K n m p) (S' : system K n' m' p) :
+  (forall r, behavior S r <-> behavior S' r) -> exists T : 'M_(n', n), forall s i, solves S s (row i (sysF S' *m T)) (row i (sysG S')).
+Proof. exact: ChangeOfState.columns_after_map_of_state. Qed.
+Print Assumptions columns_after_map_of_state.
+
+(** ** Zero states *)
+
+(** The zero states of solutions_closed_form are V* + S*, and zeta is their dimension, for every system. *)
+Theorem zero_states_subspaces (K : fieldType) n m p (S : system K n m p) a b (V : 'M_(a, n)) (W : 'M_(b, n)) :
+  largest_output_nulling S V -> smallest_input_containing S W ->
+  (zero_states S :=: V + W)%MS /\ zeta S = \rank (V + W)%MS.
+Proof. exact: ExtremalSubspaces.zero_states_extremal. Qed.
+Print Assumptions zero_states_subspaces.
+Theorem zero_subspaces_exist (K : fieldType) n m p (S : system K n m p) :
+  exists V W : 'M_n, largest_output_nulling S V /\ smallest_input_containing S W.
+Proof. exact: ExtremalSubspaces.extremal_subspaces_exist. Qed.
+Print Assumptions zero_subspaces_exist.
+
+(** Left-invertible: the sum is direct, V* counts the finite zeros and S* the infinite ones. *)
+Theorem zero_states_direct (K : fieldType) n m p (S : system K n m p) a b (V : 'M_(a, n)) (W : 'M_(b, n)) g d :
+  largest_output_nulling S V -> smallest_input_containing S W ->
+  left_invertible S -> gcd_of_minors (pencil S) g -> infinite_zeros S d ->
+  [/\ (V :&: W)%MS = 0, zeta S = (\rank V + \rank W)%N, (size g).-1 = \rank V & d = \rank W].
+Proof. move=> largest smallest; exact: (ExtremalSubspaces.zero_states_direct largest smallest). Qed.
+Print Assumptions zero_states_direct.
+
+(** ** trajectory-recovered *)
+
+(** no-finite-zeros, with multiplicities: up to a constant, the zero polynomial is the characteristic polynomial of the unobservable part *)
+Theorem trajectory_zero_polynomial (K : fieldType) n m p (S : system K n m p) d (N : 'M_(d, n)) M g :
+  unobservable_dynamics S N M -> gcd_of_minors (pencil S) g ->
+  (forall x y v w, (forall k, output S x v k = output S y w k) -> forall k, v k = w k) <-> left_invertible S /\ g %= char_poly M.
+Proof. exact: UnobservableZeros.recovered_blindly_by_polynomials. Qed.
+Print Assumptions trajectory_zero_polynomial.
+Theorem unobservable_dynamics_exist (K : fieldType) n m p (S : system K n m p) :
+  exists d (N : 'M_(d, n)) M, unobservable_dynamics S N M.
+Proof. exact: UnobservableZeros.unobservable_dynamics_exist. Qed.
+Print Assumptions unobservable_dynamics_exist.
+
+(** Without multiplicities, refuted twice: every finite zero is an unobservable mode, and yet v is not determined. x1(k+1) = 0,
+    x2(k+1) = x2(k) + v(k), r = x2 + v. And x1(k+1) = x2(k+1) = 0, x3(k+1) = x2(k) + v(k), r = x3. *)
+Theorem trajectory_multiplicity (K : fieldType) :
+  let S : system K (1 + 1) 1 1 := System (block_mx 0 0 0 1%:M) (row_mx 0 1%:M) (col_mx 0 1%:M) 1%:M in
+  [/\ left_invertible S, forall (L : fieldType) (f : {rmorphism K -> L}) z, zero_of S f z -> unobservable_mode S f z
+    & ~ (forall x y v w, (forall k, output S x v k = output S y w k) -> forall k, v k = w k)].
+Proof. exact: UnobservableZeros.twice_zero_not_recovered. Qed.
+Print Assumptions trajectory_multiplicity.
+Theorem trajectory_multiplicity_delayed (K : fieldType) :
+  let S : system K (1 + (1 + 1)) 1 1 :=
+    System (block_mx 0 0 0 (block_mx 0 1%:M 0 0)) (row_mx 0 (row_mx 0 1%:M)) (col_mx 0 (col_mx 0 1%:M)) 0 in
+  [/\ left_invertible S, forall (L : fieldType) (f : {rmorphism K -> L}) z, zero_of S f z -> unobservable_mode S f z
+    & ~ (forall x y v w, (forall k, output S x v k = output S y w k) -> forall k, v k = w k)].
+Proof. exact: UnobservableZeros.twice_zero_delayed_not_recovered. Qed.
+Print Assumptions trajectory_multiplicity_delayed.
+
+(** state-known: the delay is the largest order of an infinite zero, where rank T_(k+1) - rank T_k counts the orders <= k. They sum to d,
+    the number of infinite zeros of the pencil, since rank T_s = s m - d from s = n on. *)
+Theorem trajectory_delay (K : fieldType) n m p (S : system K n m p) l :
+  inverts_with_delay S l <-> \rank (T S l.+1) = (\rank (T S l) + m)%N.
+Proof. exact: Delay.delay_by_ranks. Qed.
+Print Assumptions trajectory_delay.
+Theorem infinite_zeros_by_ranks (K : fieldType) n m p (S : system K n m p) d s :
+  left_invertible S -> infinite_zeros S d -> (n <= s)%N -> (\rank (T S s) + d)%N = (s * m)%N.
+Proof. exact: Delay.infinite_zeros_by_ranks. Qed.
+Print Assumptions infinite_zeros_by_ranks.
+
+(** zero-feedthrough-signal: all equivalent pairs (F', 0) of m faults tell the same v, up to one basis for each pair, just when C F has
+    rank m and the finite zeros, with multiplicities, are the unobservable modes. *)
+Theorem zero_feedthrough_signal (K : fieldType) n m p (S : system K n m p) g :
+  sysG S = 0 -> left_invertible S -> gcd_of_minors (pencil S) g ->
+  (forall F' : 'M_(m, n), let S' := with_faults S F' (0 : 'M_(m, p)) in (forall r, behavior S' r <-> behavior S r) ->
+    exists2 Q, Q \in unitmx & forall x v y w, (forall k, output S x v k = output S' y w k) -> forall k, v k = w k *m Q) <->
+  \rank (sysF S *m sysC S) = m /\ (size g).-1 = (n - \rank (O S n))%N.
+Proof. move=> G0 inv; exact: (ZeroFeedthroughSignal.zero_feedthrough_signal G0 inv). Qed.
+Print Assumptions zero_feedthrough_signal.
+
+(** ** sharp-windows *)
+
+(** equality: the partner of sharp_equality may need a larger lag. x1(k+1) = x2(k), x2(k+1) = v(k), x3(k+1) = 0, r = (x1, x3): no other
+    behaviour of one fault with this (A, C) is left-invertible and of lag 1. *)
+Theorem sharp_equality_lag (K : fieldType) : let S : system K (1 + 1 + 1) 1 (1 + 1) :=
+    System (block_mx (block_mx 0 0 1%:M 0) 0 0 0) (row_mx (row_mx 0 1%:M) 0) (block_mx (col_mx 1%:M 0) 0 0 1%:M) 0 in
+  [/\ left_invertible S, lag S = 1%N & forall F G, let S' := with_faults S F G : system K (1 + 1 + 1) 1 (1 + 1) in
+    left_invertible S' -> (lag S' <= lag S)%N -> forall r, behavior S' r <-> behavior S r].
+Proof. exact: SharpPartner.no_partner_keeps_the_lag. Qed.
+Print Assumptions sharp_equality_lag.
+
+(** ** zero-assignment *)
+
+(** every-polynomial: nonzero, as the zero polynomial of a pair of r faults is; (A, C) observable *)
+Theorem zero_assignment_observable (K : fieldType) n m p (S : system K n m p) (g : {poly K}) : let r := \rank (transfer S) in
+  observable S -> (0 < r)%N -> g != 0 ->
+  (exists (F : 'M_(r, n)) (G : 'M_(r, p)), (forall w, behavior (with_faults S F G) w <-> behavior S w) /\
+    gcd_of_minors (pencil (with_faults S F G)) g) <-> (size g <= (zeta S).+1)%N.
+Proof. exact: ZeroAssignmentPairs.zero_polynomials_of_pairs_observable. Qed.
+Print Assumptions zero_assignment_observable.
+
+(** unobservable: the multiples of the characteristic polynomial of the unobservable part, and no others *)
+Theorem zero_assignment_unobservable (K : fieldType) n m p (S : system K n m p) d (N : 'M_(d, n)) M (g : {poly K}) :
+  unobservable_dynamics S N M -> let r := \rank (transfer S) in (0 < r)%N -> g != 0 ->
+  (exists (F : 'M_(r, n)) (G : 'M_(r, p)), (forall w, behavior (with_faults S F G) w <-> behavior S w) /\
+    gcd_of_minors (pencil (with_faults S F G)) g) <-> char_poly M %| g /\ (size g <= (zeta S).+1)%N.
+Proof. move=> dynamics; exact: (ZeroAssignmentPairs.zero_polynomials_of_pairs dynamics). Qed.
+Print Assumptions zero_assignment_unobservable.
