@@ -3,7 +3,7 @@
     polynomials of degree t; and a chain of n delays behind the first input is good. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
 From faultspace Require Import Definitions Basics Windows Places Signals Consistency Leads ExceptionalPolynomial.
-From faultspace Require Import LimitsVocabulary WholeRange.
+From faultspace Require Import Controllable LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -107,11 +107,10 @@ Qed.
 
 End Lines.
 
-(** A chain of n delays behind the first input. *)
-Section Delays.
+(** Inputs are forgotten after q steps: what the limit does not see, they do not reach. *)
+Section Forgotten.
 Variables (K : fieldType) (N n nu : nat) (Q : 'M[K]_N) (u : nat -> 'M[K]_(N, nu)) (t q s : nat).
-Hypotheses (nu0 : (0 < nu)%N) (nq : (n <= q)%N) (qt : (q <= t)%N).
-Hypotheses (unit : cov Q (future t s u) (future t s u) \in unitmx).
+Hypotheses (qt : (q <= t)%N) (unit : cov Q (future t s u) (future t s u) \in unitmx).
 Hypothesis excites : cov Q (future (t - q) (q + s) u) (future (t - q) (q + s) u) \in unitmx.
 
 Lemma independent_inputs (beta : nat -> 'cV[K]_nu) :
@@ -127,6 +126,47 @@ have := congr1 (mulmx (place K nu (Ordinal js))) e; rewrite mulmx0 mulmx_sumr (b
   by rewrite addr0 mulmxA place_orthonormal eqxx mul1mx.
 by rewrite -val_eqE eq_sym mulmxA place_orthonormal => /negbTE ->; rewrite mul0mx.
 Qed.
+
+Variables (A : 'M[K]_n) (B : 'M[K]_(nu, n)).
+Hypothesis forgets : forall k, (q <= k)%N -> iter k (mulmxr A) B = 0.
+
+Theorem seen_unless_unreached (w : 'cV_n) : seen_state Q u t q s A B *m w = 0 -> forall l, (l < q)%N -> iter l (mulmxr A) B *m w = 0.
+Proof.
+pose beta k := iter (t.-1 - k) (mulmxr A) B *m w.
+pose r := \sum_(k < t) u k *m beta k; have Uu := unit; set Uf := future t s u in Uu *; set Z := future (t - q) q u.
+pose c := invmx (cov Q Uf Uf) *m cov Q Uf r.
+have -> : seen_state Q u t q s A B *m w = cov Q Z (r - Uf *m c).
+  rewrite cov_sub cov_mul /c /r !cov_sum mulmxA mulmx_sumr -sumrB mulmx_suml; apply: eq_bigr => k _.
+  by rewrite -mulmxA -/(beta k) mulmxBl !cov_mul !mulmxA.
+move=> Zr; have Ur : cov Q Uf (r - Uf *m c) = 0 by rewrite cov_sub cov_mul /c mulKVmx // subrr.
+have late k : (k < t - q)%N -> beta k = 0.
+  by move=> kt; rewrite /beta forgets ?mul0mx //; lia.
+pose gamma j : 'cV_nu := if (j < q)%N then beta (t - q + j)%N else if insub (j - q)%N is Some i then - (place K nu (i : 'I_s) *m c) else 0.
+have e : r - Uf *m c = \sum_(j < q + s) u (t - q + j)%N *m gamma j.
+  rewrite big_split_ord /=; congr (_ + _).
+    rewrite /r -(big_mkord xpredT (fun k => u k *m beta k)) (big_cat_nat _ _ _ (leq0n (t - q)) (leq_subr _ _)) /=.
+    rewrite big_nat_cond big1 ?add0r => [|k]; last by rewrite andbT => /andP[_ kt]; rewrite late // mulmx0.
+    rewrite -{1}[(t - q)%N]add0n big_addn subKn // big_mkord; apply: eq_bigr => j _.
+    by rewrite /gamma ltn_ord addnC.
+  rewrite /Uf (future_sum t s u) mulmx_suml -sumrN; apply: eq_bigr => j _.
+  by rewrite /gamma ltnNge leq_addr /= addKn valK addnA subnK // mulmxN mulmxA.
+have zero : forall j, (j < q + s)%N -> gamma j = 0.
+  apply: independent_inputs => i /andP[qi its]; rewrite -e; have [it|ti] := ltnP i t.
+    by apply: (cov_future_zero Zr); rewrite subnK // qi.
+  by apply: (cov_future_zero Ur); rewrite ti.
+move=> l lq; have := zero (q.-1 - l)%N; rewrite /gamma; have -> : (q.-1 - l < q)%N by lia.
+have lqs : (q.-1 - l < q + s)%N by lia.
+by move=> /(_ lqs); rewrite /beta; have -> : (t.-1 - (t - q + (q.-1 - l)) = l)%N by lia.
+Qed.
+
+End Forgotten.
+
+(** A chain of n delays behind the first input. *)
+Section Delays.
+Variables (K : fieldType) (N n nu : nat) (Q : 'M[K]_N) (u : nat -> 'M[K]_(N, nu)) (t q s : nat).
+Hypotheses (nu0 : (0 < nu)%N) (nq : (n <= q)%N) (qt : (q <= t)%N).
+Hypotheses (unit : cov Q (future t s u) (future t s u) \in unitmx).
+Hypothesis excites : cov Q (future (t - q) (q + s) u) (future (t - q) (q + s) u) \in unitmx.
 
 Let A : 'M[K]_n := \matrix_(i, j) (j == i.+1 :> nat)%:R.
 Let B : 'M[K]_(nu, n) := \matrix_(i, j) ((i == 0%N :> nat) && (j == 0%N :> nat))%:R.
@@ -144,35 +184,46 @@ Qed.
 
 Theorem whole_range_somewhere : exists (A' : 'M[K]_n) (B' : 'M[K]_(nu, n)), row_full (seen_state Q u t q s A' B').
 Proof.
-exists A, B; apply: row_full_seen => w; pose beta k := iter (t.-1 - k) (mulmxr A) B *m w.
-pose r := \sum_(k < t) u k *m beta k; have Uu := unit; set Uf := future t s u in Uu *; set Z := future (t - q) q u.
-pose c := invmx (cov Q Uf Uf) *m cov Q Uf r.
-have -> : seen_state Q u t q s A B *m w = cov Q Z (r - Uf *m c).
-  rewrite cov_sub cov_mul /c /r !cov_sum mulmxA mulmx_sumr -sumrB mulmx_suml; apply: eq_bigr => k _.
-  by rewrite -mulmxA -/(beta k) mulmxBl !cov_mul !mulmxA.
-move=> Zr; have Ur : cov Q Uf (r - Uf *m c) = 0 by rewrite cov_sub cov_mul /c mulKVmx // subrr.
-have late k : (k < t - q)%N -> beta k = 0.
-  move=> kt; rewrite /beta delayed; apply/matrixP=> i j; rewrite !mxE big1 // => l _; rewrite mxE.
-  have -> : (l == t.-1 - k :> nat)%N = false by apply/eqP; have := ltn_ord l; lia.
-  by rewrite andbF mul0r.
-pose gamma j : 'cV_nu := if (j < q)%N then beta (t - q + j)%N else if insub (j - q)%N is Some i then - (place K nu (i : 'I_s) *m c) else 0.
-have e : r - Uf *m c = \sum_(j < q + s) u (t - q + j)%N *m gamma j.
-  rewrite big_split_ord /=; congr (_ + _).
-    rewrite /r -(big_mkord xpredT (fun k => u k *m beta k)) (big_cat_nat _ _ _ (leq0n (t - q)) (leq_subr _ _)) /=.
-    rewrite big_nat_cond big1 ?add0r => [|k]; last by rewrite andbT => /andP[_ kt]; rewrite late // mulmx0.
-    rewrite -{1}[(t - q)%N]add0n big_addn subKn // big_mkord; apply: eq_bigr => j _.
-    by rewrite /gamma ltn_ord addnC.
-  rewrite /Uf (future_sum t s u) mulmx_suml -sumrN; apply: eq_bigr => j _.
-  by rewrite /gamma ltnNge leq_addr /= addKn valK addnA subnK // mulmxN mulmxA.
-have zero : forall j, (j < q + s)%N -> gamma j = 0.
-  apply: independent_inputs => i /andP[qi its]; rewrite -e; have [it|ti] := ltnP i t.
-    by apply: (cov_future_zero Zr); rewrite subnK // qi.
-  by apply: (cov_future_zero Ur); rewrite ti.
-apply/matrixP=> l j; rewrite ord1 mxE; have ln := ltn_ord l.
-have := zero (q.-1 - l)%N; rewrite /gamma; have -> : (q.-1 - l < q)%N by lia.
-move=> /(_ ltac:(lia))/matrixP/(_ (Ordinal nu0) 0); rewrite /beta delayed mxE [X in _ = X]mxE (bigD1 l) //= big1 => [|k ne].
-  by rewrite addr0 mxE /= (_ : (l == _ :> nat) = true) ?mul1r //; apply/eqP; lia.
-by rewrite mxE /= (_ : (k == _ :> nat) = false) ?mul0r //; apply/eqP; move: ne; rewrite -val_eqE /=; lia.
+exists A, B; apply: row_full_seen => w unseen.
+have forgets k : (q <= k)%N -> iter k (mulmxr A) B = 0.
+  move=> qk; rewrite delayed; apply/matrixP=> i j; rewrite !mxE (_ : (j == k :> nat) = false) ?andbF //.
+  by apply/eqP; have := ltn_ord j; lia.
+have zero := seen_unless_unreached qt unit excites forgets unseen.
+apply/matrixP=> l j; rewrite ord1 [RHS]mxE; have lq := leq_trans (ltn_ord l) nq.
+have := zero l lq; rewrite delayed => /matrixP/(_ (Ordinal nu0) 0); rewrite mxE [X in _ = X]mxE (bigD1 l) //= big1 => [|k ne].
+  by rewrite addr0 mxE /= eqxx mul1r.
+by rewrite mxE /= (_ : (k == l :> nat) = false) ?mul0r //; apply/eqP; move: ne; rewrite -val_eqE /=; lia.
 Qed.
 
 End Delays.
+
+(** So a nilpotent A loses nothing, whatever the colour of u. *)
+Theorem whole_range_nilpotent (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
+    u v x y t q s L :
+  process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) -> (q <= t)%N ->
+  cov Q (future t s u) (future t s u) \in unitmx -> cov Q (future (t - q) (q + s) u) (future (t - q) (q + s) u) \in unitmx ->
+  iter q (mulmxr (sysA S)) 1%:M = 0 -> (forall z, steered S B z) ->
+  projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS.
+Proof.
+move=> model uv qt unit excites nilpotent all limit.
+have forgets a (M : 'M_(a, n)) k : (q <= k)%N -> iter k (mulmxr (sysA S)) M = 0.
+  move=> qk; rewrite -(subnK qk) iterD; have -> : iter q (mulmxr (sysA S)) M = 0; last by rewrite -[LHS]/(times_power S 0 _) times_power0.
+  have -> : iter q (mulmxr (sysA S)) M = M *m iter q (mulmxr (sysA S)) 1%:M by rewrite -[RHS]times_power_mul mulmx1.
+  by rewrite nilpotent mulmx0.
+pose x' k := x k - times_power S (x 0%N) k; pose y' k := y k - times_power S (x 0%N) k *m sysC S.
+have model' : process S B D u v x' y'.
+  move=> k; have [ex ey] := model k; rewrite /x' /y' ex ey !mulmxBl -!addrA.
+  by split; congr (_ + _); rewrite [RHS]addrC addrA.
+have ey : future t s y' = future t s y.
+  apply/row_matrixP=> i; rewrite !rowK; apply: samples_ext => k _; rewrite /y' /times_power forgets ?mul0mx ?subr0 //.
+  exact: leq_trans qt (leq_addr _ _).
+rewrite -ey in limit.
+have start i : (t - q <= i < t + s)%N -> cov Q (u i) (x' 0%N) = 0 by rewrite /x' /= subrr cov_zero.
+rewrite (limit_seen_state model' uv start qt unit limit); apply/eqmxP; apply: eqmxMfull; apply: row_full_seen => w unseen.
+have zero := seen_unless_unreached qt unit excites (forgets _ B) unseen.
+have {}zero : reached S B n *m w = 0.
+  apply: unseen_by_reached => l _; have [lq|ql] := ltnP l q; first exact: zero.
+  by rewrite /times_power forgets ?mul0mx.
+have : row_full (reached S B n) by apply/controllable_reached.
+by case/row_fullP => P PR; rewrite -[w]mul1mx -PR -mulmxA zero mulmx0.
+Qed.

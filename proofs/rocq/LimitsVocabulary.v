@@ -1,6 +1,6 @@
 (** The words of the statements about limits that no other file has. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Signals.
+From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -128,6 +128,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "whole_range_seen": ("row_free (O S s)", "row_free (O S s.+1)"),
     "whole_range_almost_every": ("(size ts <= n * t)", "(size ts < n * t)"),
     "whole_range_somewhere": ("(n <= q)", "(n <= q.+1)"),
+    "whole_range_nilpotent": ("iter q (mulmxr", "iter q.+1 (mulmxr"),
     "range_determines_a_c": ("O S s.-1", "O S s"),
     "white_a_c_up_to_basis": ("O S s.-1", "O S s"),
     "white_b_d_wrong_a_c_right": ("a + b != 0 -> ", ""),
@@ -326,8 +327,8 @@ def test_the_project_file_lists_every_file() -> None:
 # (e) what machine_checked refuses
 
 TINY = {
-    "Definitions.v": "Definition one := 1.\n",
-    "Headlines.v": "From faultspace Require Import Definitions.\nTheorem good : one = 1.\nProof. reflexivity. Qed.\n",
+    "Vocabulary.v": "Definition one := 1.\n",
+    "Headlines.v": "From faultspace Require Import Vocabulary.\nTheorem good : one = 1.\nProof. reflexivity. Qed.\n",
 }
 
 
