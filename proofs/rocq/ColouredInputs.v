@@ -117,7 +117,7 @@ Qed.
 End FirstOrder.
 
 Section MovingAverage.
-Import MovingAverage.
+Import Vocabulary.MovingAverage ConsistencyExamples.MovingAverage.
 Let zs := fix zs k : seq rat := if k is j.+1 then mkseq (fun i => nth 0 (zs j) i * half + nth 0 (nth [::] us j) i) 7 else [:: 1; 1].
 Let z k := signals 1 [:: zs k].
 

@@ -1,14 +1,13 @@
 (** The limits of subspace identification, further: a part of Headlines.v, which includes it. When the limit of PI-MOESP has all of the
-    range of O_s, what the range tells of A and C, and examples. Words are told there and in LimitsVocabulary.v: steered S B z, inputs
-    through B lead from rest to the state z; similar S S', the same (A, C) in another basis of the state; autoregressive Q a A u e H,
-    u is autoregressive of order a with the innovations e at the times before H; stationary Q x y H, the covariances of x and y at the times
-    before H depend on the difference of the times.
+    range of O_s, what the range tells of A and C, a fault that follows the input, and examples. LimitsVocabulary.v tells the words that
+    are used here alone: steered, similar, autoregressive, stationary, seen_state.
 
-    Measurement noise is nowhere in these theorems, as it is a fault with F = 0 and G = 1 (noise_is_a_fault). Theorems about the least mean
-    square error are over an ordered field (realFieldType), one example is over the rational numbers, the others are over any field. *)
+    Measurement noise is nowhere in these theorems, as it is a fault with F = 0 and G = 1 (noise_is_a_fault). Where a statement speaks of a
+    least mean square error, of a positive variance or of singular vectors, it is over an ordered field (realFieldType); two examples are
+    over the rational numbers; the others are over any field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary LimitsVocabulary.
-From faultspace Require ConsistencyExamples WholeRange ShortPast OneState ColouredInputs Similarity LimitExamples.
+From faultspace Require WholeRange ShortPast OneState AlmostEvery ColouredInputs Similarity LimitExamples.
 From faultspace Require FollowingFault FollowingExamples.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
@@ -97,6 +96,37 @@ Theorem one_state_signals_exist : let S : system [fieldType of rat] 1 0 1 := Sys
   & cov Q (u 0%N) (u 1%N) != 0].
 Proof. exists MovingAverage.Q; exact: ColouredInputs.moving_average_signals. Qed.
 Print Assumptions one_state_signals_exist.
+
+(** u of any colour, fixed, and x(0) uncorrelated with the inputs from t - q on, as it is where the memory of u is no longer than t - q. The
+    limit has all of the range iff seen_state, a polynomial in A and B, has full rank; on every line through such a point (A, B) all
+    but at most n t points are such; and with n past inputs there is such a point. *)
+Theorem whole_range_seen (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p)) u v x y t q s L :
+  process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) ->
+  (forall i, (t - q <= i < t + s)%N -> cov Q (u i) (x 0%N) = 0) -> (q <= t)%N -> cov Q (future t s u) (future t s u) \in unitmx ->
+  row_free (O S s) -> projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L ->
+  (L == O S s)%MS = row_full (seen_state Q u t q s (sysA S) B).
+Proof. move=> model uv start qt unit; exact: (AlmostEvery.whole_range_seen model uv start qt unit). Qed.
+Print Assumptions whole_range_seen.
+Theorem whole_range_almost_every (K : fieldType) N n nu (Q : 'M[K]_N) (u : nat -> 'M_(N, nu)) t q s (A A1 : 'M_n) (B B1 : 'M_(nu, n))
+    (ts : seq K) : row_full (seen_state Q u t q s A B) -> uniq ts ->
+  (forall c, c \in ts -> ~~ row_full (seen_state Q u t q s (A + c *: A1) (B + c *: B1))) -> (size ts <= n * t)%N.
+Proof. exact: AlmostEvery.whole_range_almost_every. Qed.
+Print Assumptions whole_range_almost_every.
+Theorem whole_range_somewhere (K : fieldType) N n nu (Q : 'M[K]_N) (u : nat -> 'M_(N, nu)) t q s : (0 < nu)%N -> (n <= q)%N -> (q <= t)%N ->
+  cov Q (future t s u) (future t s u) \in unitmx -> cov Q (future (t - q) (q + s) u) (future (t - q) (q + s) u) \in unitmx ->
+  exists (A : 'M[K]_n) (B : 'M[K]_(nu, n)), row_full (seen_state Q u t q s A B).
+Proof. exact: AlmostEvery.whole_range_somewhere. Qed.
+Print Assumptions whole_range_somewhere.
+
+(** A nilpotent, A^q = 0: all of the range, u of any colour. *)
+Theorem whole_range_nilpotent (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
+    u v x y t q s L :
+  process S B D u v x y -> (forall i k, (i < t + s)%N -> (k < t + s)%N -> cov Q (u i) (v k) = 0) -> (q <= t)%N ->
+  cov Q (future t s u) (future t s u) \in unitmx -> cov Q (future (t - q) (q + s) u) (future (t - q) (q + s) u) \in unitmx ->
+  iter q (mulmxr (sysA S)) 1%:M = 0 -> (forall z, steered S B z) ->
+  projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L == O S s)%MS.
+Proof. exact: AlmostEvery.whole_range_nilpotent. Qed.
+Print Assumptions whole_range_nilpotent.
 
 (** ** proposition-1, white-a-c-seen: what "A and C are right" means *)
 

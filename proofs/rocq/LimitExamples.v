@@ -82,7 +82,7 @@ Qed.
 End WholeRangeWrongInput.
 
 Section Stationary.
-Import MovingAverage.
+Import Vocabulary.MovingAverage ConsistencyExamples.MovingAverage.
 Let z k := row_mx (row_mx (u k) (v k)) (x k).
 
 Lemma joint_signals k : z k = signals (1 + 1 + 1) [:: nth [::] us k; nth [::] vs k; xs k].

@@ -22,3 +22,9 @@ Definition autoregressive (K : fieldType) N nu (Q : 'M[K]_N) a (A : nat -> 'M[K]
 (** The covariances of x and y at the times before H depend on the difference of the times alone. *)
 Definition stationary (K : fieldType) N a b (Q : 'M[K]_N) (x : nat -> 'M[K]_(N, a)) (y : nat -> 'M[K]_(N, b)) H :=
   forall i k, (i.+1 < H)%N -> (k.+1 < H)%N -> cov Q (x i.+1) (y k.+1) = cov Q (x i) (y k).
+
+(** The covariance of the q past inputs with the state x(t), the s future inputs projected away, as u alone tells it: a polynomial in the
+    entries of A and B. *)
+Definition seen_state (K : fieldType) N n nu (Q : 'M[K]_N) (u : nat -> 'M[K]_(N, nu)) t q s (A : 'M_n) (B : 'M_(nu, n)) :=
+  let Z := future (t - q) q u in let Uf := future t s u in
+  \sum_(k < t) (cov Q Z (u k) - cov Q Z Uf *m invmx (cov Q Uf Uf) *m cov Q Uf (u k)) *m iter (t.-1 - k) (mulmxr A) B.
