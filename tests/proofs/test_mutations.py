@@ -168,7 +168,7 @@ def falsehoods(found: list[dict[str, Any]]) -> list[str]:
             if premise_holds(candidate["kind"], candidate["statement"]):
                 decided[key] = truth(candidate["kind"], candidate["statement"])
             else:
-                decided[key] = checker.verify(candidate).startswith("assuming f irreducible: ")
+                decided[key] = checker.verify(candidate).assumes != []
     return [key for key, true in decided.items() if not true]
 
 
