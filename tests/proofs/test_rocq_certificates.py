@@ -131,7 +131,8 @@ def test_no_string_of_a_certificate_reaches_rocq() -> None:
     words = set[str]().union(*(words_of(text or "") for text in sound))  # ours, and no others
     assert None not in sound and MARK not in words and len(words) < 200
     seen = Counter[str]()
-    for certificate in {json.dumps([c["kind"], sorted(c["witness"]), c["statement"].get("matrix")]): c for c in small_ones()}.values():
+    longest = sorted(small_ones(), key=lambda c: len(json.dumps(c)))
+    for certificate in {json.dumps([c["kind"], sorted(c["witness"]), c["statement"].get("matrix")]): c for c in longest}.values():
         for path in everywhere(certificate):
             for value in NO_NUMBERS:
                 candidate = mutated(certificate, path, value)
