@@ -53,7 +53,7 @@ from typing import Any, NamedTuple, NoReturn
 Json = Any
 Polynomial = dict[int, "Mat"]  # a polynomial matrix: the nonzero coefficients by their powers
 MAX_BYTES, MAX_BITS, MAX_DIMENSION, MAX_DEGREE, MAX_WINDOW, MAX_PRIME = 2 * 2**20, 2**16, 512, 16, 4096, 2**64 - 1
-MAX_WORK, MAX_MEMORY = 4 * 10**9, 2**27  # of this checker, for one certificate: in nanoseconds and bytes, by estimates from above
+MAX_WORK, MAX_MEMORY = 3 * 10**9, 2**27  # of this checker, for one certificate: in nanoseconds and bytes, by estimates from above
 NUMBER = re.compile(r"(-?[0-9]{1,19730})(?:/([1-9][0-9]{0,19729}))?")
 if 0 < sys.get_int_max_str_digits() < 19730:  # Python's own bound is below that of the format
     sys.set_int_max_str_digits(19730)
@@ -218,7 +218,7 @@ class Mat:
         self.field, self.rows, self.nc, self.den = field, rows, nc, den
         self.bits = max([x.bit_length() for row in rows for x in row], default=0)
         size = room(len(rows), nc, self.bits) + den.bit_length() // 7
-        self.meter = charge(3000 + len(rows) * (300 + 120 * nc), size)
+        self.meter = charge(3000 + len(rows) * (1000 + 120 * nc), size)
         self.size = size
         self.meter.held += size
 
@@ -227,9 +227,12 @@ class Mat:
             self.meter.held -= self.size
 
     def __matmul__(self, other: Mat) -> Mat:
-        nr, nc, bits = len(self.rows), other.nc, self.bits + other.bits
-        charge((self.den.bit_length() * other.den.bit_length() >> 11) + self.nc * nc * 50)
-        charge(nr * nc * (400 + self.nc * (60 + (bits >> 5) + (self.bits * other.bits >> 11))), room(nr, nc, bits + self.nc.bit_length()))
+        nr, nc, bits = len(self.rows), other.nc, self.bits + other.bits + self.nc.bit_length()
+        charge((self.den.bit_length() * other.den.bit_length() >> 10) + (nr + nc) * (500 + self.nc * 150))
+        left = [sum(map(int.bit_length, column)) for column in zip(*self.rows, strict=True)] or [0] * self.nc
+        right = [sum(map(int.bit_length, row)) for row in other.rows]
+        charge(nr * (1000 + nc * (400 + self.nc * 60)) + (nc * sum(left) + nr * sum(right) >> 5) + (sum(map(mul, left, right)) >> 10))
+        charge(0, room(nr, nc, bits))
         columns = list(zip(*other.rows, strict=True)) if other.rows else [()] * nc
         return Mat(self.field, [[sum(map(mul, row, c)) for c in columns] for row in self.rows], nc, self.den * other.den)
 
@@ -238,7 +241,7 @@ class Mat:
         a, b = den // self.den, den // other.den
         bits = max(a.bit_length() + self.bits, b.bit_length() + other.bits)
         work = a.bit_length() * self.bits + b.bit_length() * other.bits
-        charge(len(self.rows) * self.nc * (200 + (work >> 11) + (bits >> 4)), room(len(self.rows), self.nc, bits + 1))
+        charge(len(self.rows) * (1000 + self.nc * (200 + (work >> 11) + (bits >> 4))), room(len(self.rows), self.nc, bits + 1))
         return Mat(self.field, [[a * x + b * y for x, y in zip(r, s, strict=True)] for r, s in pairs], self.nc, den)
 
     def __eq__(self, other: object) -> bool:
@@ -248,7 +251,7 @@ class Mat:
         """The matrix times top / bottom."""
         a, b = top.bit_length(), bottom.bit_length()
         charge(b * self.den.bit_length() >> 11)
-        charge(len(self.rows) * self.nc * (100 + (a >> 4) + (a * self.bits >> 11)), room(len(self.rows), self.nc, a + self.bits))
+        charge(len(self.rows) * (1000 + self.nc * (100 + (a >> 4) + (a * self.bits >> 11))), room(len(self.rows), self.nc, a + self.bits))
         return Mat(self.field, [[top * x for x in row] for row in self.rows], self.nc, self.den * bottom)
 
     def __bool__(self) -> bool:  # whether it is not zero
@@ -256,13 +259,13 @@ class Mat:
 
     def at(self, rows: Sequence[int], columns: Sequence[int]) -> Mat:
         """These rows and columns, not over Q(a)."""
-        charge(len(rows) * len(columns) * 100, room(len(rows), len(columns), self.bits))
+        charge(len(rows) * (1000 + len(columns) * 100), room(len(rows), len(columns), self.bits))
         return Mat(self.field, [[self.rows[i][j] for j in columns] for i in rows], len(columns), self.den)
 
     @property
     def T(self) -> Mat:
         """The transpose, not over Q(a)."""
-        charge(len(self.rows) * self.nc * 100, room(self.nc, len(self.rows), self.bits))
+        charge(self.nc * (1000 + len(self.rows) * 100), room(self.nc, len(self.rows), self.bits))
         return Mat(self.field, [[row[j] for row in self.rows] for j in range(self.nc)], len(self.rows), self.den)
 
     def rank(self) -> int:
@@ -318,7 +321,7 @@ class Field:
     def scalar(self, nr: int, nc: int, value: int = 0) -> Mat:
         """The matrix, nr x nc over K, with the value on its diagonal: zero, or the identity."""
         nr, nc = nr * self.degree, nc * self.degree
-        charge(nr * nc * 120, room(nr, nc, value.bit_length()))
+        charge(nr * (1000 + nc * 120), room(nr, nc, value.bit_length()))
         return Mat(self, [[value * (i == j) for j in range(nc)] for i in range(nr)], nc)
 
     def assembled(self, grid: Sequence[Sequence[Mat]], nc: int) -> Mat:
@@ -331,7 +334,7 @@ class Field:
         size, dens = den.bit_length(), {part.den for part in parts}
         height = sum([len(line[0].rows) for line in grid if line])
         charge(len(dens) * (size**2 >> 8) + cells * (200 + (size + bits >> 4) + (size * bits >> 11)), len(dens) * (80 + size // 7))
-        charge(0, room(height, nc * self.degree, size + bits))
+        charge(1500 * height, room(height, nc * self.degree, size + bits))
         scale = {bottom: den // bottom for bottom in dens}
         rows = [[x * scale[part.den] for part in line for x in part.rows[i]] for line in grid for i in range(len(line[0].rows))]
         return Mat(self, rows, nc * self.degree, den)
