@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
-from functools import partial
 from random import Random
 from typing import Any
 
@@ -16,6 +15,7 @@ from tests.proofs.examples import LEADING, NORMAL, RANKS, STABLE, Certificate
 BYTES = 2 * 2**20
 LARGE_PRIME = 2**64 - 59
 BIG = "7" * 19_700
+NO_RANKS = {"normal_rank": 0, "left_minimal_indices": []}
 
 
 def dumped(kind: str, statement: Any, witness: Any) -> bytes:
@@ -42,10 +42,11 @@ def repeated(text: str, around: str = "[@]") -> bytes:
 
 def of_json() -> Iterator[tuple[str, bytes]]:
     """Before there is a certificate."""
-    for text in ("1,", "[],", "[0],", "{},", '{"":0},', '"ab",', "[[]],", "257,", '"\u20ac",', "[[[[[[0]]]]]],", '{"a":{"b":{}}},', "-0,", "null,"):
+    certificate = '{"format":"faultspace-certificate/1","kind":"window-ranks","statement":{"system":SYSTEM},"witness":WITNESS}'
+    for text in ("1,", "[],", "[0],", "{},", '{"":0},', '"ab",', "[[]],", "257,", '"\u20ac",', "[[[[0]]]],", '{"a":{"b":{}}},', "-0,"):
         yield f"many {text}", repeated(text)
-        yield f"a witness of many {text}", repeated(text, '{"format":"faultspace-certificate/1","kind":"window-ranks","statement":{},"witness":[@]}')
-        yield f"a system of many {text}", repeated(text, json.dumps({**RANKS, "statement": {"system": 0}}).replace('"system": 0', '"system":[@]'))
+        yield f"a witness of many {text}", repeated(text, certificate.replace("WITNESS", "[@]"))
+        yield f"a system of many {text}", repeated(text, certificate.replace("SYSTEM", "[@]").replace("WITNESS", "{}"))
     yield "many keys", ("{" + ",".join(f'"{i:x}":0' for i in range(BYTES // 9)) + "}").encode()[:BYTES]
     yield "deep", b"[" * BYTES
     yield "deep and closed", b"[" * (BYTES // 2) + b"]" * (BYTES // 2)
@@ -61,9 +62,8 @@ def of_json() -> Iterator[tuple[str, bytes]]:
 
 def of_sizes() -> Iterator[tuple[str, bytes]]:
     """Small files that promise large things."""
-    empty = partial(system, 0, 0, 0)
     for p, n, m in ((512, 0, 0), (0, 512, 0), (0, 0, 512), (256, 0, 256), (1, 0, 0), (0, 0, 0), (0, 1, 0), (0, 0, 1)):
-        about = {"A": [[]] * n if not n else [[0] * n] * n, "F": [[0] * m] * n, "C": [[0] * n] * p, "G": [[0] * m] * p, "n": n, "m": m, "p": p}
+        about = system(n, m, p, lambda i, j: 0)
         for window in (0, 600, 4096):
             for name in ("toeplitz", "window"):
                 for rank in (0, 4096):
@@ -91,32 +91,33 @@ def of_sizes() -> Iterator[tuple[str, bytes]]:
         pair = {"first": about, "second": about}
         minors = [{"point": 0, "rows": list(range(n + m))}] * 400 if m <= p else []
         yield f"line {n} {m} {p}", dumped("left-invertible-line", pair, {"prime": LARGE_PRIME, "minors": minors})
-        yield f"ranks {n} {m} {p}", dumped("window-ranks", {"system": about, "normal_rank": 0, "left_minimal_indices": []}, {"prime": 101, "kernel": []})
+        yield f"ranks {n} {m} {p}", dumped("window-ranks", {"system": about, **NO_RANKS}, {"prime": 101, "kernel": []})
         null = {"state": [[0] * n] * 4096, "fault": [[0] * m] * 4096}
         yield f"null {n} {m} {p}", dumped("not-left-invertible", {"system": about}, null)
     rows = [{"pivot": i, "coefficients": [[]] * 4096} for i in range(60)]
-    yield "rows of nothing", dumped("window-ranks", {"system": empty(), "normal_rank": 0, "left_minimal_indices": []}, {"prime": 101, "kernel": rows})
+    yield "rows of nothing", dumped("window-ranks", {"system": system(0, 0, 0), **NO_RANKS}, {"prime": 101, "kernel": rows})
     poly = [[[0] * 4096] * 9] * 9
     form = {"diagonal": [[0]] * 9, "left": poly, "left_inverse": poly, "right": poly, "right_inverse": poly}
-    yield "zeros by the thousand", dumped("finite-zeros", {"system": system(6, 3, 3), "normal_rank": 3, "invariant_zero_polynomial": [1]}, form)
+    claim = {"system": system(6, 3, 3), "normal_rank": 3, "invariant_zero_polynomial": [1]}
+    yield "zeros by the thousand", dumped("finite-zeros", claim, form)
     ones = [[[1] * 500] * 4] * 4
     form = {"diagonal": [[0]] * 4, "left": ones, "left_inverse": ones, "right": ones, "right_inverse": ones}
-    yield "ones by the hundred", dumped("finite-zeros", {"system": system(2, 2, 2), "normal_rank": 2, "invariant_zero_polynomial": [1]}, form)
+    yield "ones by the hundred", dumped("finite-zeros", {**claim, "system": system(2, 2, 2)}, form)
 
 
 def of_numbers() -> Iterator[tuple[str, bytes]]:
     """Large and many numbers."""
     rng = Random(4)
-    claim = {"normal_rank": 0, "left_minimal_indices": []}
     witness = {"prime": LARGE_PRIME, "kernel": []}
     for size, digits in ((2, 19_000), (4, 9_000), (6, 9_000), (10, 3_000), (40, 300), (80, 60), (150, 9)):
         for form in ("{0}", "{0}/{1}"):
             about = system(size, 1, 1, lambda i, j: form.format(digits_of(rng, digits), digits_of(rng, digits)))  # noqa: B023
             if len(json.dumps(about)) < BYTES:
-                yield f"{size} states of {digits} digits as {form}", dumped("window-ranks", {"system": about, **claim}, witness)
+                yield f"{size} states of {digits} digits as {form}", dumped("window-ranks", {"system": about, **NO_RANKS}, witness)
                 yield f"stability, {size} states of {digits} digits as {form}", dumped("schur-stable", {"system": about}, {})
                 rank = {"matrix": "observability", "system": about, "rank": size}
-                yield f"rank, {size} states of {digits} digits as {form}", dumped("matrix-rank", rank, {"prime": LARGE_PRIME, "left_null": []})
+                shown = {"prime": LARGE_PRIME, "left_null": []}
+                yield f"rank, {size} states of {digits} digits as {form}", dumped("matrix-rank", rank, shown)
                 zeros = {"system": about, "normal_rank": 1, "invariant_zero_polynomial": [1]}
                 unit = [[[int(i == j)] for j in range(size + 1)] for i in range(size + 1)]
                 form_of = {"diagonal": [[1]] * (size + 1), "left": unit, "left_inverse": unit, "right": unit, "right_inverse": unit}
@@ -125,8 +126,9 @@ def of_numbers() -> Iterator[tuple[str, bytes]]:
         for modulus in (101, LARGE_PRIME):
             about = system(n, m, p, lambda i, j: rng.randrange(10))
             kinds = [("left-invertible", {"system": about}, {"prime": modulus}), ("schur-stable", {"system": about}, {})]
-            kinds += [("window-ranks", {"system": about, **claim}, {"prime": modulus, "kernel": []})]
-            kinds += [("matrix-rank", {"matrix": name, "system": about, "rank": n}, {"prime": modulus, "left_null": []}) for name in ("observability", "reachability")]
+            kinds += [("window-ranks", {"system": about, **NO_RANKS}, {"prime": modulus, "kernel": []})]
+            for name in ("observability", "reachability"):
+                kinds.append(("matrix-rank", {"matrix": name, "system": about, "rank": n}, {"prime": modulus, "left_null": []}))
             for kind, statement, shown in kinds:
                 if len(content := dumped(kind, statement, shown)) < BYTES:
                     yield f"{kind} {n} {m} {p} modulo {modulus} {statement.get('matrix', '')}", content
@@ -137,11 +139,14 @@ def of_numbers() -> Iterator[tuple[str, bytes]]:
             f = ["3" * digits] * degree + ["7" * digits]
             for form in (f, [f"{a}/{b}" for a, b in zip(f, reversed(f), strict=True)]):
                 about = system(2, 1, 1, lambda i, j: [f"{rng.randrange(100)}/7"] * degree, field={"minimal_polynomial": form})  # noqa: B023
-                for more in ({}, {"irreducible": {"eisenstein": {"prime": 3, "shift": "7" * digits}}}, {"irreducible": {"modulo": LARGE_PRIME}}):
-                    yield f"degree {degree} of {digits} digits {form is f} {[*more]}", dumped("left-invertible", {"system": about}, {"prime": 101, "root": 3, **more})
-                    yield f"stability of degree {degree} of {digits} digits {form is f} {[*more]}", dumped("schur-stable", {"system": about}, more)
+                eisenstein = {"eisenstein": {"prime": 3, "shift": "7" * digits}}
+                for how in ({}, {"irreducible": eisenstein}, {"irreducible": {"modulo": LARGE_PRIME}}):
+                    words = f"degree {degree} of {digits} digits {form is f} {how and [*how['irreducible']]}"
+                    yield f"{words}", dumped("left-invertible", {"system": about}, {"prime": 101, "root": 3, **how})
+                    yield f"stability of {words}", dumped("schur-stable", {"system": about}, how)
         for size in (20, 60, 100):
-            about = system(size, 1, 1, lambda i, j: [rng.randrange(9)] * degree, field={"minimal_polynomial": [-2] + [0] * (degree - 1) + [1]})  # noqa: B023
+            root = {"minimal_polynomial": [-2] + [0] * (degree - 1) + [1]}
+            about = system(size, 1, 1, lambda i, j: [rng.randrange(9)] * degree, field=root)  # noqa: B023
             if len(content := dumped("left-invertible", {"system": about}, {"prime": 7, "root": 3})) < BYTES:
                 yield f"{size} states of degree {degree}", content
                 yield f"stability of {size} states of degree {degree}", dumped("schur-stable", {"system": about}, {})
@@ -163,16 +168,19 @@ def of_experiments() -> Iterator[tuple[str, bytes]]:
     for certificate in (LEADING, NORMAL):
         for lag in (100, 512):
             yield f"{certificate['kind']} lag {lag}", changed(certificate, "u_filter", [[[1]]] * lag)
-            yield f"{certificate['kind']} denominators {lag}", changed(certificate, "u_filter", {"num": [[[1]]], "den": [1] + ["1/1000"] * (lag - 1)})
+            short = {"num": [[[1]]], "den": [1] + ["1/1000"] * (lag - 1)}
+            yield f"{certificate['kind']} denominators {lag}", changed(certificate, "u_filter", short)
             large = {"num": [[[1]]], "den": [1] + [f"{k}/{10**300 + 7**k}" for k in range(lag - 1)]}
             yield f"{certificate['kind']} long denominators {lag}", changed(certificate, "u_filter", large)
-            width = {"B": [[1] * 100], "D": [[0] * 100], "u_filter": [[[int(i == j) for j in range(100)] for i in range(100)]] * min(lag, 60)}
+            unit = [[int(i == j) for j in range(100)] for i in range(100)]
+            width = {"B": [[1] * 100], "D": [[0] * 100], "u_filter": [unit] * min(lag, 60)}
             yield f"{certificate['kind']} hundred inputs, lag {lag}", changed(certificate, "v_filter", [[[1] * 100]], **width)
         for size in (100, 600, 4096):
             yield f"{certificate['kind']} window {size}", changed(certificate, "s", size)
             yield f"{certificate['kind']} past {size}", changed(certificate, "past", size)
             yield f"{certificate['kind']} empty window {size}", changed(certificate, "s", size, past=size, p=0, C=[], D=[], G=[])
-    yield "unstable after long", dumped("schur-stable", {"system": system(3, 0, 0, lambda i, j: f"1/{10**5000 + i + j}")}, STABLE["witness"])
+    small = system(3, 0, 0, lambda i, j: "1/" + "9" * (5000 + i + j))
+    yield "stable by far", dumped("schur-stable", {"system": small}, STABLE["witness"])
 
 
 def floods() -> Iterator[tuple[str, bytes]]:
