@@ -22,6 +22,7 @@ from .exact.input_rules import InvalidInput, shown
 from .failures import ANSWERED, NOT_AS_EXPECTED, printable, say
 from .proofs.certificate import Certificate, sha256
 from .proofs.ledger import load
+from .proofs.specimens import specimens
 from .proofs.verdicts import ClaimResult, ReadingResult, Report, Row, Verdict
 from .proofs.verification import verify
 from .reading_files import prepare_folder, write_json
@@ -49,7 +50,7 @@ def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, as_j
     with stages() as progress:
         report = verify(claims or None, effort=effort, jobs=jobs, progress=progress)
     if out is not None:
-        count = write_out(report, out)
+        count = write_out(report, out, () if claims else specimens())
         say(f"{count} certificates and verdicts.json are in {printable(str(out))}")
     if as_json:
         print_json(report.to_json())
@@ -58,9 +59,9 @@ def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, as_j
     return ANSWERED if report.as_expected else NOT_AS_EXPECTED
 
 
-def write_out(report: Report, folder: Path) -> int:
-    """Writes every headline certificate as kind-<first 12 of its SHA-256>.json, then verdicts.json. How many certificates."""
-    certificates = report.certificates()
+def write_out(report: Report, folder: Path, more: Sequence[Certificate] = ()) -> int:
+    """Writes every headline certificate, and more, as kind-<first 12 of its SHA-256>.json, then verdicts.json. How many certificates."""
+    certificates = [*report.certificates(), *more]
     for certificate in certificates:
         write_json(folder / f"{certificate['kind']}-{sha256(certificate)[:SHORT]}.json", certificate)
     write_json(folder / "verdicts.json", report.to_json())

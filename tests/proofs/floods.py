@@ -15,7 +15,7 @@ from tests.proofs.examples import LEADING, NORMAL, RANKS, STABLE, Certificate
 BYTES = 2 * 2**20
 LARGE_PRIME = 2**64 - 59
 BIG = "7" * 19_700
-NO_RANKS = {"normal_rank": 0, "left_minimal_indices": []}
+NO_RANKS: dict[str, Any] = {"normal_rank": 0, "left_minimal_indices": []}
 
 
 def dumped(kind: str, statement: Any, witness: Any) -> bytes:
@@ -62,6 +62,11 @@ def of_json() -> Iterator[tuple[str, bytes]]:
 
 def of_sizes() -> Iterator[tuple[str, bytes]]:
     """Small files that promise large things."""
+    claim: dict[str, Any]
+    witness: dict[str, Any]
+    form: dict[str, Any]
+    null: dict[str, Any]
+    kinds: list[tuple[str, dict[str, Any]]]
     for p, n, m in ((512, 0, 0), (0, 512, 0), (0, 0, 512), (256, 0, 256), (1, 0, 0), (0, 0, 0), (0, 1, 0), (0, 0, 1)):
         about = system(n, m, p, lambda i, j: 0)
         for window in (0, 600, 4096):
@@ -108,6 +113,11 @@ def of_sizes() -> Iterator[tuple[str, bytes]]:
 def of_numbers() -> Iterator[tuple[str, bytes]]:
     """Large and many numbers."""
     rng = Random(4)
+    rank: dict[str, Any]
+    shown: dict[str, Any]
+    zeros: dict[str, Any]
+    form_of: dict[str, Any]
+    kinds: list[tuple[str, dict[str, Any], dict[str, Any]]]
     witness = {"prime": LARGE_PRIME, "kernel": []}
     for size, digits in ((2, 19_000), (4, 9_000), (6, 9_000), (10, 3_000), (40, 300), (80, 60), (150, 9)):
         for form in ("{0}", "{0}/{1}"):
@@ -137,11 +147,12 @@ def of_numbers() -> Iterator[tuple[str, bytes]]:
     for degree in (2, 16):
         for digits in (1, 19_000):
             f = ["3" * digits] * degree + ["7" * digits]
-            for form in (f, [f"{a}/{b}" for a, b in zip(f, reversed(f), strict=True)]):
-                about = system(2, 1, 1, lambda i, j: [f"{rng.randrange(100)}/7"] * degree, field={"minimal_polynomial": form})  # noqa: B023
+            for f_of in (f, [f"{a}/{b}" for a, b in zip(f, reversed(f), strict=True)]):
+                about = system(2, 1, 1, lambda i, j: [f"{rng.randrange(100)}/7"] * degree, field={"minimal_polynomial": f_of})  # noqa: B023
                 eisenstein = {"eisenstein": {"prime": 3, "shift": "7" * digits}}
-                for how in ({}, {"irreducible": eisenstein}, {"irreducible": {"modulo": LARGE_PRIME}}):
-                    words = f"degree {degree} of {digits} digits {form is f} {how and [*how['irreducible']]}"
+                hows: tuple[dict[str, Any], ...] = ({}, {"irreducible": eisenstein}, {"irreducible": {"modulo": LARGE_PRIME}})
+                for how in hows:
+                    words = f"degree {degree} of {digits} digits {f_of is f} {how and [*how['irreducible']]}"
                     yield f"{words}", dumped("left-invertible", {"system": about}, {"prime": 101, "root": 3, **how})
                     yield f"stability of {words}", dumped("schur-stable", {"system": about}, how)
         for size in (20, 60, 100):

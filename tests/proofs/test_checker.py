@@ -18,6 +18,7 @@ from faultspace.exact.fields import PrimeField
 from faultspace.exact.systems import ResidualSystem
 from faultspace.proofs import certificate as make
 from faultspace.proofs import checker
+from faultspace.proofs.specimens import specimens
 from tests.oracle import truth
 from tests.proofs.examples import (
     COLUMN,
@@ -86,6 +87,13 @@ def test_the_statement_in_words_tells_statement_and_system() -> None:
         assert part in words
     nothing = ResidualSystem.of([], [], [], [], field=PrimeField(2), n=0, m=0, p=0)
     assert "A=[], F=[], C=[], G=[]) (n=0, m=0, p=0) over {prime:2}" in checker.verify(base("left-invertible", system=nothing)).statement
+
+
+def test_the_specimens_are_true_and_of_kinds_that_no_headline_shows_over_these_fields() -> None:
+    for certificate in map(written, specimens()):
+        assert checker.verify(certificate).assumes == []
+        assert truth(certificate["kind"], certificate["statement"])
+    assert {c["kind"] for c in specimens()} >= {"schur-stable", "behaviour-inclusion", "left-invertible-line"}
 
 
 M = "witness.minors"
