@@ -119,7 +119,9 @@ def check(
     rocq: Annotated[bool, typer.Option("--rocq", help="Have Rocq's kernel recompute them, too; needs coqc with MathComp.")] = False,
     json: Json = False,
 ) -> None:
-    """Run the checker on certificates. Exit 0: all verified; 1: one is rejected, or not accepted by Rocq; 2: one does not parse."""
+    """Run the checker on certificates. Exit 0: all verified; 3: all verified, one or more under an assumption that is told; 1: one is
+    rejected, or not accepted by Rocq; 2: one does not parse.
+    """
 
     def body() -> int:
         from . import checking

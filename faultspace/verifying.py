@@ -24,6 +24,7 @@ from .proofs import rocq_recheck
 from .proofs.certificate import Certificate, sha256
 from .proofs.ledger import load
 from .proofs.rocq_build import BrokenTheory, NoRocq, NotProved
+from .proofs.specimens import specimens
 from .proofs.verdicts import ClaimResult, ReadingResult, Report, Row, Verdict
 from .proofs.verification import verify
 from .reading_files import prepare_folder, write_json
@@ -56,7 +57,7 @@ def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, rech
     with stages() as progress:
         report = verify(claims or None, effort=effort, jobs=jobs, progress=progress)
     if out is not None:
-        count = write_out(report, out)
+        count = write_out(report, out, () if claims else specimens())
         say(f"{count} certificates and verdicts.json are in {printable(str(out))}")
     if as_json:
         print_json(report.to_json())
@@ -78,9 +79,9 @@ def _rechecked() -> bool:
     return True
 
 
-def write_out(report: Report, folder: Path) -> int:
-    """Writes every headline certificate as kind-<first 12 of its SHA-256>.json, then verdicts.json. How many certificates."""
-    certificates = report.certificates()
+def write_out(report: Report, folder: Path, more: Sequence[Certificate] = ()) -> int:
+    """Writes every headline certificate, and more, as kind-<first 12 of its SHA-256>.json, then verdicts.json. How many certificates."""
+    certificates = [*report.certificates(), *more]
     for certificate in certificates:
         write_json(folder / f"{certificate['kind']}-{sha256(certificate)[:SHORT]}.json", certificate)
     write_json(folder / "verdicts.json", report.to_json())

@@ -2,10 +2,12 @@
 
     python -I -O checker.py [--json] [--system FILE]... CERTIFICATE...
 
-Exit 0: all verified, their statements printed. 1: one is rejected, also for not being about a --system FILE. 2: one does not parse.
+Exit 0: all verified, their statements printed. 3: all verified, at least one under an assumption that its line and "assumes" in the JSON
+name. 1: one is rejected, also for not being about a --system FILE. 2: one does not parse. 74: the answer could not be written.
 
-It can be copied alone to another machine. It never searches, computes with integers, and trusts no order, prime or hint that it has not
-looked at itself. What has to be believed is this file, and these arguments:
+It can be copied alone to another machine. It searches for nothing: what it does not read in the witness it computes by elimination or by a
+recursion of fixed length. It computes with integers, and trusts no order, prime or hint that it has not looked at itself. What has to be
+believed is this file, with the Python that runs it, and these arguments (KINDS says in a line how each kind follows from them):
 
   annihilation  Exact. An entry of Q(a) stands as the d x d matrix of multiplication by it; over GF(p) every matrix is reduced modulo p.
   upper bounds  Rows with triangular leading coefficients that annihilate a system: once k >= mu, the leading coefficient of a row kills
@@ -20,7 +22,15 @@ looked at itself. What has to be believed is this file, and these arguments:
   covariances   Exact. With Phi stable, P = Phi P Phi' + Gamma Gamma' has one solution, the stationary covariance. The others follow.
   regressions   Exact. What minimises a sum of squares are the solutions of the normal equations; that there is one only is seen by ranks.
 
-Public: verify(certificate, systems=()) -> the statement in words; load(path); sha256(certificate); Malformed; Rejected; main(argv).
+Conventions, the same everywhere (FORMAT.md says them with the notation). Signals are columns: [O_s T_s] has the block rows r(0), ...,
+r(s-1) and the block columns x(0), v(0), ..., v(s-1). Kernel rows and left null rows are rows, and multiply from the left; a row has one
+block of p entries a sample. Polynomials ascend. Over Q(a) row i of the block of an entry holds the coordinates of a^i times it: the first
+row is the entry's own, and the coordinates of x, as a row, times the block of y are those of x y.
+
+Whatever a file holds, the answer comes: what would take more than MAX_WORK or MAX_MEMORY is rejected before it is done.
+
+Public: verify(certificate, systems=()) -> Verified(statement, assumes); load(path), parse(data) -> JSON; subject(data) -> System;
+sha256(certificate); Malformed; Rejected; main(argv).
 """
 
 from __future__ import annotations
@@ -28,7 +38,9 @@ from __future__ import annotations
 import argparse
 import hashlib
 import json
+import os
 import re
+import stat
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from contextvars import ContextVar
@@ -36,16 +48,28 @@ from functools import cache, partial, reduce
 from itertools import accumulate, repeat
 from math import comb, gcd, lcm
 from operator import add, mul
-from typing import Any
+from typing import Any, NamedTuple, NoReturn
 
 Json = Any
 Polynomial = dict[int, "Mat"]  # a polynomial matrix: the nonzero coefficients by their powers
-MAX_BYTES, MAX_BITS, MAX_DIMENSION, MAX_DEGREE, MAX_WINDOW, MAX_PRIME = 64 * 2**20, 2**16, 512, 16, 4096, 2**64 - 1
-MAX_WORK, MAX_GROWTH = 2 * 10**9, 2**22  # of this checker: its work, in units of a byte or some 50 ns; the bits of a number on the way
+MAX_BYTES, MAX_BITS, MAX_DIMENSION, MAX_DEGREE, MAX_WINDOW, MAX_PRIME = 2 * 2**20, 2**16, 512, 16, 4096, 2**64 - 1
+MAX_WORK, MAX_MEMORY = 3 * 10**9, 2**27  # of this checker, for one certificate: in nanoseconds and bytes, by estimates from above
 NUMBER = re.compile(r"(-?[0-9]{1,19730})(?:/([1-9][0-9]{0,19729}))?")
 if 0 < sys.get_int_max_str_digits() < 19730:  # Python's own bound is below that of the format
     sys.set_int_max_str_digits(19730)
-_work: ContextVar[int] = ContextVar("work", default=0)
+
+
+class Meter:
+    """What a certificate has cost so far: work in all, the bytes that its matrices hold now; and the numbers that its fields have read."""
+
+    __slots__ = ("held", "memos", "work")
+
+    def __init__(self) -> None:
+        self.held = self.work = 0
+        self.memos = list[dict[object, Mat]]()
+
+
+_meter: ContextVar[Meter] = ContextVar("meter")
 
 
 class Malformed(Exception):
@@ -65,16 +89,28 @@ def require(condition: object, reason: str, error: type[Exception] = Rejected) -
 expect = partial(require, error=Malformed)
 
 
-def charge(units: int) -> None:
-    """Count work, and reject what asks for too much."""
-    _work.set(_work.get() + units)
-    require(_work.get() <= MAX_WORK, f"checking takes more than {MAX_WORK} units of work")
+def begin() -> Meter:
+    """A meter at zero, for what is done next; what was remembered of the last one is let go."""
+    for memo in last.memos if (last := _meter.get(None)) else []:
+        memo.clear()
+    _meter.set(meter := Meter())
+    return meter
+
+
+def charge(work: int, room: int = 0) -> Meter:
+    """Count work that is about to be done in `room` bytes, and reject what asks for too much of either."""
+    meter = _meter.get(None) or begin()
+    meter.work += work
+    require(meter.work <= MAX_WORK, f"checking takes more than {MAX_WORK} units of work")
+    require(meter.held + room <= MAX_MEMORY, f"checking takes more than {MAX_MEMORY} bytes of memory")
+    return meter
 
 
 def rational(value: Json, where: str, integral: bool = False) -> tuple[int, int]:
     """(numerator, denominator) of a RATIONAL or, integral, of an INTEGER; reduced."""
     match = NUMBER.fullmatch(value) if type(value) is str else None
     expect(type(value) is int or (match and not (integral and match[2])), f"{where}: expected {'an integer' if integral else 'a rational'}")
+    charge(2000 + (len(match[0]) ** 2 >> 6 if match else value.bit_length() ** 2 >> 8))
     top, bottom = (int(match[1]), int(match[2] or 1)) if match else (value, 1)
     expect(max(top.bit_length(), bottom.bit_length()) <= MAX_BITS, f"{where}: more than {MAX_BITS} bits")
     return top // (common := gcd(top, bottom)), bottom // common
@@ -112,11 +148,12 @@ def is_prime(number: int) -> bool:
 
 def echelon(vectors: Iterable[list[int]], prime: int) -> list[tuple[int, list[int]]]:
     """Row echelon form modulo a prime of lists of residues: [(pivot column, row with leading 1), ...] ascending by pivot."""
-    found = []
+    found = list[tuple[int, list[int]]]()
     rest = [v for v in vectors if any(v)]
     for j in range(len(rest[0]) if rest else 0):
+        charge(200 + 60 * len(rest))
         if lead := next((v for v in rest if v[j]), None):
-            charge(5 * len(rest) * len(lead))
+            charge((len(rest) + 1) * (500 + (30 + 2 * prime.bit_length()) * len(lead)), 80 * (len(found) + len(rest)) * len(lead))
             inverse = pow(lead[j], -1, prime)
             lead = [x * inverse % prime for x in lead]
             found.append((j, lead))
@@ -128,7 +165,7 @@ def echelon(vectors: Iterable[list[int]], prime: int) -> list[tuple[int, list[in
 def binary_form(rows: list[list[int]], prime: int) -> list[int]:
     """det(a X + b Y) modulo a prime from the m rows of [X Y]: the coefficients of a^m, a^(m-1) b, ..., b^m."""
     m, minors = len(rows), {0: [1]}  # the minors of the rows so far by their columns, as the bits of a number
-    charge(4 * m * m << m)
+    charge((1000 + 100 * m) * (m + 1) << m, (400 + 50 * m) << m)
     for row in rows:
         larger = dict[int, list[int]]()
         for columns, f in minors.items():
@@ -140,10 +177,20 @@ def binary_form(rows: list[list[int]], prime: int) -> list[int]:
     return minors[2**m - 1]
 
 
+def common_denominator(numbers: Iterable[int]) -> int:
+    """The least common multiple."""
+    found = 1
+    for number in {*numbers}:
+        charge(500 + (found.bit_length() * number.bit_length() >> 8))
+        found = lcm(found, number)
+    return found
+
+
 def inside_circle(f: list[int]) -> bool:
     """Whether all roots of a polynomial, coefficients descending, lie inside the unit circle, by Schur and Cohn."""
     while len(f) > 1 and abs(f[0]) > abs(f[-1]):
-        charge(len(f) * (100 + (max(map(int.bit_length, f)) ** 2 >> 12)))
+        bits = max(map(int.bit_length, f))
+        charge(len(f) * (1000 + (bits**2 >> 6)), len(f) * (80 + bits))
         f = [f[0] * x - f[-1] * y for x, y in zip(f[:-1], reversed(f[1:]), strict=True)]
         content = gcd(*f)
         f = [c // content for c in f]
@@ -151,34 +198,50 @@ def inside_circle(f: list[int]) -> bool:
 
 
 def shown(value: Json) -> str:
-    """JSON for a reader, cut when it is long."""
+    """JSON for a reader; a long one is cut and named by its digest, so that no two look alike."""
     text = json.dumps(value, separators=(",", ":")).replace('"', "")
-    return text if len(text) <= 240 else f"{text[:200]}... [{len(text)} characters]"
+    return text if len(text) <= 240 else f"{text[:200]}... [{len(text)} characters, SHA-256 {hashlib.sha256(text.encode()).hexdigest()}]"
 
 
 class Mat:
-    """The matrix rows / den of integers over a field; an entry of K is a d x d block: rows and columns (nc) are d times those over K."""
+    """The matrix rows / den of integers over a field; an entry of K is a d x d block: rows and columns (nc) are d times those over K.
 
-    __slots__ = ("bits", "den", "field", "nc", "rows")
+    What makes one charges for it beforehand; `size` bytes are on the meter as long as it lives.
+    """
+
+    __slots__ = ("bits", "den", "field", "meter", "nc", "rows", "size")
 
     def __init__(self, field: Field, rows: list[list[int]], nc: int, den: int = 1) -> None:
+        self.size = 0
         if field.prime:
             rows = [[x % field.prime for x in row] for row in rows]
         self.field, self.rows, self.nc, self.den = field, rows, nc, den
-        self.bits = den.bit_length() + max([x.bit_length() for row in rows for x in row], default=0)
-        require(self.bits <= MAX_GROWTH, f"a number grows beyond {MAX_GROWTH} bits")
-        charge(100 + len(rows) * nc * (64 + self.bits // 4))
+        self.bits = max([x.bit_length() for row in rows for x in row], default=0)
+        size = room(len(rows), nc, self.bits) + den.bit_length() // 7
+        self.meter = charge(3000 + len(rows) * (1000 + 120 * nc), size)
+        self.size = size
+        self.meter.held += size
+
+    def __del__(self) -> None:
+        if self.size:
+            self.meter.held -= self.size
 
     def __matmul__(self, other: Mat) -> Mat:
-        charge(len(self.rows) * self.nc * other.nc * (1 + (self.bits + other.bits >> 10) + (self.bits * other.bits >> 16)))
-        columns = list(zip(*other.rows, strict=True)) if other.rows else [()] * other.nc
-        return Mat(self.field, [[sum(map(mul, row, c)) for c in columns] for row in self.rows], other.nc, self.den * other.den)
+        nr, nc, bits = len(self.rows), other.nc, self.bits + other.bits + self.nc.bit_length()
+        charge((self.den.bit_length() * other.den.bit_length() >> 10) + (nr + nc) * (500 + self.nc * 150))
+        left = [sum(map(int.bit_length, column)) for column in zip(*self.rows, strict=True)] or [0] * self.nc
+        right = [sum(map(int.bit_length, row)) for row in other.rows]
+        charge(nr * (1000 + nc * (400 + self.nc * 60)) + (nc * sum(left) + nr * sum(right) >> 5) + (sum(map(mul, left, right)) >> 10))
+        charge(0, room(nr, nc, bits))
+        columns = list(zip(*other.rows, strict=True)) if other.rows else [()] * nc
+        return Mat(self.field, [[sum(map(mul, row, c)) for c in columns] for row in self.rows], nc, self.den * other.den)
 
     def __add__(self, other: Mat) -> Mat:
-        charge(self.den.bit_length() * other.den.bit_length() >> 14)
-        den, pairs = lcm(self.den, other.den), zip(self.rows, other.rows, strict=True)
+        den, pairs = common_denominator((self.den, other.den)), zip(self.rows, other.rows, strict=True)
         a, b = den // self.den, den // other.den
-        charge(len(self.rows) * self.nc * (a.bit_length() * self.bits + b.bit_length() * other.bits >> 16))
+        bits = max(a.bit_length() + self.bits, b.bit_length() + other.bits)
+        work = a.bit_length() * self.bits + b.bit_length() * other.bits
+        charge(len(self.rows) * (1000 + self.nc * (200 + (work >> 11) + (bits >> 4))), room(len(self.rows), self.nc, bits + 1))
         return Mat(self.field, [[a * x + b * y for x, y in zip(r, s, strict=True)] for r, s in pairs], self.nc, den)
 
     def __eq__(self, other: object) -> bool:
@@ -186,6 +249,9 @@ class Mat:
 
     def times(self, top: int, bottom: int = 1) -> Mat:
         """The matrix times top / bottom."""
+        a, b = top.bit_length(), bottom.bit_length()
+        charge(b * self.den.bit_length() >> 11)
+        charge(len(self.rows) * (1000 + self.nc * (100 + (a >> 4) + (a * self.bits >> 11))), room(len(self.rows), self.nc, a + self.bits))
         return Mat(self.field, [[top * x for x in row] for row in self.rows], self.nc, self.den * bottom)
 
     def __bool__(self) -> bool:  # whether it is not zero
@@ -193,11 +259,13 @@ class Mat:
 
     def at(self, rows: Sequence[int], columns: Sequence[int]) -> Mat:
         """These rows and columns, not over Q(a)."""
+        charge(len(rows) * (1000 + len(columns) * 100), room(len(rows), len(columns), self.bits))
         return Mat(self.field, [[self.rows[i][j] for j in columns] for i in rows], len(columns), self.den)
 
     @property
     def T(self) -> Mat:
         """The transpose, not over Q(a)."""
+        charge(self.nc * (1000 + len(self.rows) * 100), room(self.nc, len(self.rows), self.bits))
         return Mat(self.field, [[row[j] for row in self.rows] for j in range(self.nc)], len(self.rows), self.den)
 
     def rank(self) -> int:
@@ -207,9 +275,16 @@ class Mat:
     def residues(self) -> list[list[int]]:
         """The rows over K modulo the prime of the modular bound, a going to its root; Rejected when a denominator vanishes."""
         d, prime, root = self.field.degree, *self.field.modulus
+        height = len(self.rows) // d
+        charge(self.den.bit_length() + height * (500 + self.nc * (150 + self.bits)), room(height, self.nc // d, 64))
         require(self.den % prime, "the prime divides a denominator")
         powers = [pow(self.den, -1, prime) * pow(root, c, prime) for c in range(d)]
         return [[sum(map(mul, row[j : j + d], powers)) % prime for j in range(0, self.nc, d)] for row in self.rows[::d]]
+
+
+def room(nr: int, nc: int, bits: int) -> int:
+    """The bytes that a matrix of that shape takes, with numbers of so many bits."""
+    return 400 + nr * (100 + nc * (40 + bits // 7))
 
 
 def product(left: Polynomial, right: Polynomial) -> Polynomial:
@@ -225,6 +300,7 @@ class Field:
 
     def __init__(self, value: Json) -> None:
         self.prime, self.f, self.degree, self.bad, self.key, self.known = 0, list[int](), 1, 1, value, dict[object, Mat]()
+        charge(1000).memos.append(self.known)
         if type(value) is dict and "prime" in value:
             self.prime = index(keys(value, "prime", "field")["prime"], "field.prime", MAX_PRIME)
             expect(is_prime(self.prime), "field.prime: not a prime")
@@ -232,9 +308,9 @@ class Field:
             given = keys(value, "minimal_polynomial", "field")["minimal_polynomial"]
             pairs = [rational(c, "minimal_polynomial") for c in items(given, "minimal_polynomial", MAX_DEGREE + 1, 2)]
             expect(pairs[-1][0], "minimal_polynomial: the leading coefficient is zero")
-            charge(sum(bottom.bit_length() for _, bottom in pairs) ** 2 >> 14)
-            common = lcm(*(bottom for _, bottom in pairs))
+            common = common_denominator(bottom for _, bottom in pairs)
             multiple = [top * (common // bottom) for top, bottom in pairs]
+            charge(len(pairs) * max(map(int.bit_length, multiple)) ** 2 >> 7)
             content = gcd(*multiple) * (1 if multiple[-1] > 0 else -1)
             self.key = self.f = [c // content for c in multiple]
             self.degree, self.bad = len(pairs) - 1, common * multiple[-1]  # usable primes do not divide the latter
@@ -245,15 +321,20 @@ class Field:
     def scalar(self, nr: int, nc: int, value: int = 0) -> Mat:
         """The matrix, nr x nc over K, with the value on its diagonal: zero, or the identity."""
         nr, nc = nr * self.degree, nc * self.degree
+        charge(nr * (1000 + nc * 120), room(nr, nc, value.bit_length()))
         return Mat(self, [[value * (i == j) for j in range(nc)] for i in range(nr)], nc)
 
     def assembled(self, grid: Sequence[Sequence[Mat]], nc: int) -> Mat:
         """The matrix with nc columns over K made of lines of blocks."""
+        count = sum(map(len, grid))
+        charge(400 * count, 40 * count)
         parts = [part for line in grid for part in line]
-        dens, bits = {part.den for part in parts}, max([part.bits for part in parts], default=0)
-        bottom, cells = sum(map(int.bit_length, dens)), sum([len(part.rows) * part.nc for part in parts])
-        charge((bottom * bottom >> 14) + cells * (64 + (bottom + bits) // 4))
-        den = lcm(*dens)
+        bits, cells = max([part.bits for part in parts], default=0), sum([len(part.rows) * part.nc for part in parts])
+        den = common_denominator(part.den for part in parts)
+        size, dens = den.bit_length(), {part.den for part in parts}
+        height = sum([len(line[0].rows) for line in grid if line])
+        charge(len(dens) * (size**2 >> 8) + cells * (200 + (size + bits >> 4) + (size * bits >> 11)), len(dens) * (80 + size // 7))
+        charge(1500 * height, room(height, nc * self.degree, size + bits))
         scale = {bottom: den // bottom for bottom in dens}
         rows = [[x * scale[part.den] for part in line for x in part.rows[i]] for line in grid for i in range(len(line[0].rows))]
         return Mat(self, rows, nc * self.degree, den)
@@ -267,7 +348,7 @@ class Field:
         """An ENTRY as the d x d matrix of multiplication by it: row i holds the coordinates of a^i times it."""
         key = (value, integral) if type(value) in (str, int) else None
         if key is None or key not in self.known:
-            charge(1000)
+            charge(3000)
             given = items(value, where, self.degree, self.degree) if type(value) is list and self.f else [value]
             pairs = [rational(x, where, integral or self.prime > 0) for x in given]
             terms = [power.times(top, bottom) for power, (top, bottom) in zip(self.powers, pairs, strict=False) if top]
@@ -276,6 +357,7 @@ class Field:
 
     def matrix(self, value: Json, nr: int, nc: int, where: str, integral: bool = False) -> Mat:
         """A MATRIX of that shape; with no entries, [] or the right number of empty rows."""
+        charge(1000 + nr * (500 + 600 * nc), 100 * nr * (nc + 1))
         rows = items([[]] * nr if value == [] and nc == 0 else value, where, nr, nr)
         grid = [[self.entry(x, f"{where}[{i}]", integral) for x in items(row, f"{where}[{i}]", nc, nc)] for i, row in enumerate(rows)]
         return self.assembled(grid, nc) if nc else self.scalar(nr, 0)
@@ -315,7 +397,7 @@ class Field:
         if "eisenstein" in given:
             how = keys(given["eisenstein"], "prime shift", "eisenstein")
             prime, shift = index(how["prime"], "eisenstein.prime", MAX_PRIME), rational(how["shift"], "eisenstein.shift", True)[0]
-            charge(d**3 * (1 + (max(shift, *f, key=abs).bit_length() ** 2 >> 15)))
+            charge(d**2 * (3000 + ((d * shift.bit_length()) ** 2 + d * shift.bit_length() * max(map(int.bit_length, f)) >> 9)))
             *low, lead = (sum(comb(k, i) * shift ** (k - i) * f[k] for k in range(i, d + 1)) for i in range(d + 1))  # f(x + shift)
             applies = is_prime(prime) and lead % prime and not any(c % prime for c in low) and low[0] % prime**2
             require(applies, "Eisenstein's criterion does not apply")
@@ -337,6 +419,7 @@ class Field:
         for a, row in enumerate(items(given, key, max(size, MAX_DIMENSION))):
             vectors = keys(row, f"pivot {key}", f"{key} {a}")[key]
             vectors = [vectors] if key == "row" else items(vectors, f"{key} {a}", MAX_WINDOW, 1)
+            charge(3000 + 400 * a * d)
             rows.append([self.matrix([vector], 1, size, f"{key} {a}", True) for vector in vectors])
             pivots.append(pivot := index(row["pivot"], f"{key} {a}: pivot"))
             require(pivot < size, "a pivot is out of range")
@@ -380,7 +463,7 @@ class System:
 
     def window(self, s: int, states: bool = True, faults: bool = True) -> Mat:
         """[O_s T_s], or one of the two."""
-        charge(s * s)
+        charge(400 * s * s, 40 * s * s)
         powers, blank = [*accumulate(repeat(self.A, s), Mat.__matmul__, initial=self.C)], self.field.scalar(self.p, self.m)
         markov = [self.G, *(power @ self.F for power in powers)]
         grid = [[powers[i]] * states + [markov[i - j] if j <= i else blank for j in range(s)] * faults for i in range(s)]
@@ -397,10 +480,12 @@ class System:
     def gaps(self) -> list[int]:
         """gap(0), gap(1), ... of the modular bound until the chain W_k is constant; the last repeats for ever."""
         A, F, C, G, prime = *(part.residues() for part in (self.A, self.F, self.C, self.G)), self.field.modulus[0]
+        charge(100 * (self.n + self.m) * (self.n + self.p), 80 * (self.n + self.m) * (self.n + self.p))
         inputs, found = [[row[j] for row in [*G, *F]] for j in range(self.m)], list[int]()
         space = [[int(i == j) for i in range(self.n)] for j in range(self.n)]
         while True:
-            charge(100 + 3 * len(space) * (self.n + self.p) * self.n)
+            width = self.n + self.p
+            charge(10000 + (len(space) + self.m) * width * (200 + (10 + prime.bit_length()) * self.n), 80 * (len(space) + self.m) * width)
             moved = [[sum(map(mul, row, x)) % prime for row in [*C, *A]] for x in space]
             form = echelon(moved + inputs, prime)  # of the vectors (output, next state)
             found.append(sum(1 for pivot, _ in form if pivot < self.p))
@@ -426,6 +511,7 @@ class System:
         """Reject unless the rows meet the modular bound on k < window (None: for ever)."""
         found = self.gaps()
         for k in range(max([len(found), *map(len, rows)]) if window is None else window):
+            charge(1000 + 100 * len(rows))
             above = self.p - sum(1 for row in rows if len(row) <= k + 1)
             require(found[min(k, len(found) - 1)] == above, f"the bounds do not meet at sample {k}: {above} above")
 
@@ -455,11 +541,12 @@ class System:
             q = index(keys(minor, "point rows", "minor")["point"], "point", prime - 1)
             rows = [index(i, "rows", n + self.p - 1) for i in items(minor["rows"], "rows", n + m, n + m)]
             expect(rows == sorted({*rows}), "rows: they do not ascend")
-            charge(3 * len(rows) * (n + 2 * m))
+            charge(20000 + len(rows) * (n + 2 * m) * 300, (2 * m + len(multiples)) * m * 100)
             pencil = ([(x - q * (i == j < n)) % prime for j, x in enumerate(table[i])] for i in rows)  # up to the sign of its first n rows
             form = echelon(pencil, prime)
             rest = [row[n:] for pivot, row in form if pivot >= n]  # what is left to do once the columns of the state are eliminated
             if len(rest) == m == len(form) - n:  # else the minor is zero
+                charge(m * m * 100)
                 multiples += [[0] * j + binary_form(rest, prime) + [0] * (m - 1 - j) for j in range(m)]
         require(len(echelon(multiples, prime)) == 2 * m, "the minors may have a common zero")
 
@@ -539,19 +626,22 @@ class System:
             columns = len(faults) - window + 1
             signals = [outputs] * window if name == "residual-hankel" else [states] + [faults] * window
             delays = range(window) if name == "residual-hankel" else [0, *range(window)]
-            charge(window * columns)
+            charge(400 * window * columns, 40 * window * columns)
             built = field.assembled([signal[i : i + columns] for signal, i in zip(signals, delays, strict=True)], columns)
         field.ranked(built, size, w["left_null"])
 
     def schur_stable(self, s: Json, w: Json) -> None:
         size, den, one = self.A.nc, self.A.den, self.field.scalar(self.n, self.n, 1)
         expect(not self.field.prime, "field: a finite one has no unit circle")
-        charge(size * ((size * den.bit_length()) ** 2 >> 14))
+        charge(size * ((size * den.bit_length()) ** 2 >> 9), size**2 * den.bit_length() // 7)
         scaled, power, f = Mat(self.field, self.A.rows, size), one, [1]
         for k in range(1, size + 1):  # Faddeev and LeVerrier: det(qI - den A), coefficients descending
             power = scaled @ power
+            charge(size * (100 + (power.bits >> 4)))
             f.append(-sum(row[i] for i, row in enumerate(power.rows)) // k)
             power = power + one.times(f[-1])
+        bits = max(map(int.bit_length, f))
+        charge(size * (bits * size * den.bit_length() >> 11), size * (bits + size * den.bit_length()) // 7)
         require(inside_circle([c * den ** (size - k) for k, c in enumerate(f)]), "an eigenvalue is not inside the unit circle")
 
     def zeros(self, s: Json, w: Json) -> None:
@@ -598,7 +688,7 @@ class Experiment(System):
             (a, c), (b, d), (g, h) = (one[i] if i < len(one) else (one[0][0].times(0), one[0][1].times(0)) for one in (u, v, w))
             self.chain.append((self.field.diagonal(self.field.assembled([[a], [b]], a.nc), g), self.field.diagonal(c, d, h)))
         self.key += ([self.nu, self.s, self.past, len(self.chain), u[0][0].nc, w[0][0].nc], self.inputs, self.chain)
-        self.words += f" with {', '.join(f'{name}={shown(data[name])}' for name in ('B', 'D', *self.OWN) if name in data)}"
+        self.words += f" with nu={self.nu}, {', '.join(f'{name}={shown(data[name])}' for name in ('B', 'D', *self.OWN) if name in data)}"
 
     def filter(self, value: Json, height: int, where: str, width: int | None = None) -> list[tuple[Mat, Mat]]:
         """N_i and -d_i of a FILTER, i = 0, 1, ..."""
@@ -606,8 +696,8 @@ class Experiment(System):
         num, den = (items(given[key], where, MAX_DIMENSION, 1) for key in ("num", "den"))
         pairs = [rational(d, where) for d in den]
         expect(pairs[0] == (1, 1), f"{where}: the denominator does not begin with 1")
-        charge(sum(bottom.bit_length() for _, bottom in pairs) ** 2 >> 14)
-        common = lcm(*(bottom for _, bottom in pairs))
+        common = common_denominator(bottom for _, bottom in pairs)
+        charge(sum(common.bit_length() * (common.bit_length() + top.bit_length()) >> 8 for top, _ in pairs))
         require(inside_circle([top * (common // bottom) for top, bottom in pairs]), f"{where}: the denominator is not stable")
         if width is None:
             width = len(items(rows[0], where, MAX_DIMENSION)) if (rows := items(num[0], where, height)) else 0
@@ -619,7 +709,9 @@ class Experiment(System):
         """Phi, Gamma, H, J with these in the place of B and D."""
         zero, joined, first, steps = self.field.scalar, self.field.assembled, self.chain[0][0], range(1, len(self.chain))
         height, size = len(first.rows), len(first.rows) * len(steps)
-        moves = [[self.chain[i][1], *(zero(height, height, int(j == i + 1)) for j in steps[1:])] for i in steps]
+        charge(400 * len(steps) ** 2, 40 * len(steps) ** 2)
+        unit, blank = zero(height, height, 1), zero(height, height)
+        moves = [[self.chain[i][1], *(unit if j == i + 1 else blank for j in steps[1:])] for i in steps]
         enter = [[num + minus @ first] for num, minus in self.chain[1:]]
         into, seen = joined([[B, self.F, zero(self.n, self.p)]], height), joined([[D, self.G, zero(self.p, self.p, 1)]], height)
         direct, reads = joined([[zero(self.nu, height, 1)], [seen]], height), zero(height, size, 1)
@@ -632,7 +724,7 @@ class Experiment(System):
 
         The value is Cov(xi), or for t = u the part Cov(xi, (s_1; ...; s_L)) that is enough.
         """
-        charge(100 * samples**2)
+        charge(400 * samples**2, 40 * samples**2)
         self.schur_stable({}, {})
         Phi, Gamma, H, J = self.process(B, D)
         part, some = range(self.n if width == self.nu else 0, Phi.nc), range(width)
@@ -648,6 +740,7 @@ class Experiment(System):
 
     def places(self, samples: range, channels: range, width: int) -> list[int]:
         """Where these channels stand in (z(0); z(1); ...) with `width` channels a sample."""
+        charge(100 * len(samples) * len(channels), 50 * len(samples) * len(channels))
         return [k * width + i for k in samples for i in channels]
 
     def moesp_limit(self, s: Json, w: Json) -> None:
@@ -702,84 +795,162 @@ SUBJECTS = ("experiment", "system", "inner", "outer", "first", "second")
 MODULAR, KERNEL, DIAGONAL = "prime? root?", "prime? root? kernel", "diagonal left left_inverse right right_inverse"
 MATRICES = {"observability": "", "reachability": "", "toeplitz": "window", "window": "window"}  # what is stated beside the system
 MATRICES |= {"residual-hankel": "x0 v window", "excitation": "x0 v window"}
-KINDS: dict[str, tuple[Callable[..., None], str, str, str]] = {  # what verifies it, keys of the statement and of the witness, words
-    "window-ranks": (System.window_ranks, "system normal_rank left_minimal_indices window_ranks?", KERNEL,
-        "for every s >= 1: rank [O_s T_s] = {normal_rank} s + sum of min(s, eta), eta the left minimal indices {left_minimal_indices}"),
-    "left-invertible": (System.left_invertible, "system", MODULAR, "left-invertible: x(0) = 0 and zero output for ever imply v = 0"),
-    "left-invertible-line": (System.left_invertible_line, "first second", f"{MODULAR} minors",
-        "left-invertible with faults a F + b F' and a G + b G' for every (a : b) over every extension of the field"),
-    "not-left-invertible": (System.not_left_invertible, "system", "state fault",
-        "not left-invertible: x(0) = 0 and some v other than 0 give zero output for ever"),
-    "inversion-delay": (System.inversion_delay, "system initial_state delay", "inverse? word?",
-        "with x(0) {initial_state} (known: 0), the least l in 0..n such that r(0..l) determines v(0) is {delay} (null: there is none)"),
-    "behaviour-inclusion": (System.behaviours, "inner outer", KERNEL, "every word of the first is one of the second, on every window"),
-    "behaviour-equality": (System.behaviours, "first second", KERNEL, "both systems have the same output behaviour, on every window"),
-    "window-equality": (System.behaviours, "first second window", KERNEL, "both have the same restricted behaviour on {window} samples"),
-    "behaviour-difference": (System.behaviour_difference, "first second window", "x0 v row",
-        "some word of {window} samples of the first is not one of the second"),
-    "fault-space": (System.fault_space, "system window basis", KERNEL,
-        "at window {window} (null: beyond all left minimal indices) the solutions [f; g] of problem (11) are the span of {basis}"),
-    "first-column-only": (System.first_column_only, "system window column", KERNEL,
-        "at window {window}, N_s annihilates the first block column of T_s(z) but not all of it, for z = {column}"),
-    "matrix-rank": (System.matrix_rank, "matrix rank system window? x0? v?", f"{MODULAR} left_null", "the {matrix} matrix has rank {rank}"),
-    "schur-stable": (System.schur_stable, "system", "", "all eigenvalues of A lie inside the unit circle (over Q(a): for every root a)"),
-    "moesp-limit": (Experiment.moesp_limit, "experiment instruments limit_rank observability_rank joint_rank",
-        "prime covariance joint limit? observability?", "with {instruments} as instruments and many samples, the projected outputs tend to "
-        "a matrix of rank {limit_rank}, beside O_s of rank {joint_rank}, O_s having rank {observability_rank}"),
-    "input-limit": (Experiment.input_limit, "experiment regression B D", "prime covariance errors? series? response? inverse?",
-        "with the true A and C and many samples, the {regression} regression has one solution: B = {B}, D = {D}"),
-    "finite-zeros": (System.zeros, "system normal_rank invariant_zero_polynomial", DIAGONAL,
-        "the pencil has normal rank n + {normal_rank} and invariant zero polynomial {invariant_zero_polynomial} (ascending)"),
-    "infinite-zeros": (System.zeros, "system infinite_zero_orders", DIAGONAL, "the infinite zeros have the orders {infinite_zero_orders}"),
+
+
+class Kind(NamedTuple):
+    """What verifies it, keys of the statement and of the witness, the statement in words, and the proof in a line."""
+
+    check: Callable[..., None]
+    statement: str
+    witness: str
+    words: str
+    proof: str
+
+
+KINDS: dict[str, Kind] = {
+    "window-ranks": Kind(System.window_ranks, "system normal_rank left_minimal_indices window_ranks?", KERNEL,
+        "for every s >= 1: rank [O_s T_s] = {normal_rank} s + sum of min(s, eta), eta the left minimal indices {left_minimal_indices}",
+        "The bounds of every gap meet, and gap(0) + ... + gap(s-1) = sum over k < s of p - #{mu <= k} is this formula."),
+    "left-invertible": Kind(System.left_invertible, "system", MODULAR,
+        "left-invertible: x(0) = 0 and zero output for ever imply v = 0",
+        "The last gap modulo the prime is m, the true normal rank is no smaller, and more than m there cannot be."),
+    "left-invertible-line": Kind(System.left_invertible_line, "first second", f"{MODULAR} minors",
+        "left-invertible with faults a F + b F' and a G + b G' for every (a : b) over every extension of the field",
+        "A common zero (a : b) of the minors would be one of all forms of degree 2m - 1, among them a^(2m-1) and b^(2m-1)."),
+    "not-left-invertible": Kind(System.not_left_invertible, "system", "state fault",
+        "not left-invertible: x(0) = 0 and some v other than 0 give zero output for ever",
+        "Read from the highest power down it is a fault from x(0) = 0 with zero output, at rest afterwards; v = 0 would make x zero too."),
+    "inversion-delay": Kind(System.inversion_delay, "system initial_state delay", "inverse? word?",
+        "with x(0) {initial_state} (known: 0), the least l in 0..n such that r(0..l) determines v(0) is {delay} (null: there is none)",
+        "The inverse computes v(0) from r(0..l); the word has zero output on one sample less (null: on n + 1) and v(0) other than 0."),
+    "behaviour-inclusion": Kind(System.behaviours, "inner outer", KERNEL,
+        "every word of the first is one of the second, on every window",
+        "The rows and their shifts span the left null space of the outer [O_s T_s] for every s, and annihilate the inner one."),
+    "behaviour-equality": Kind(System.behaviours, "first second", KERNEL,
+        "both systems have the same output behaviour, on every window",
+        "The rows and their shifts span the left null space of both [O_s T_s], for every s."),
+    "window-equality": Kind(System.behaviours, "first second window", KERNEL,
+        "both have the same restricted behaviour on {window} samples",
+        "The rows and their shifts span the left null space of both [O_s T_s] on that window."),
+    "behaviour-difference": Kind(System.behaviour_difference, "first second window", "x0 v row",
+        "some word of {window} samples of the first is not one of the second",
+        "The row vanishes on every word of the second, and not on this one of the first."),
+    "fault-space": Kind(System.fault_space, "system window basis", KERNEL,
+        "at window {window} (null: beyond all left minimal indices) the solutions [f; g] of problem (11) are the span of {basis}",
+        "The rows and their shifts span N_s, so the conditions are all there are; the basis solves them, and their rank modulo the prime "
+        "leaves no room for more."),
+    "first-column-only": Kind(System.first_column_only, "system window column", KERNEL,
+        "at window {window}, N_s annihilates the first block column of T_s(z) but not all of it, for z = {column}",
+        "The rows and their shifts span N_s; on the first block column the conditions X_1 f + N_0 g are all that differ from zero ones."),
+    "matrix-rank": Kind(System.matrix_rank, "matrix rank system window? x0? v?", f"{MODULAR} left_null",
+        "the {matrix} matrix has rank {rank}",
+        "As many independent rows vanish on the matrix as its rows exceed the rank, and modulo the prime the rank is no smaller."),
+    "schur-stable": Kind(System.schur_stable, "system", "",
+        "all eigenvalues of A lie inside the unit circle (over Q(a): for every root a)",
+        "The characteristic polynomial of the blocks is the product over the roots a, and Schur and Cohn decide it."),
+    "moesp-limit": Kind(Experiment.moesp_limit, "experiment instruments limit_rank observability_rank joint_rank",
+        "prime covariance joint limit? observability?",
+        "A and the denominators are Schur stable, and of the stationary process, with {instruments} as instruments Z: Cov(Uf) is "
+        "nonsingular, L = Cov(Yf, Z) - Cov(Yf, Uf) Cov(Uf)^-1 Cov(Uf, Z) has rank {limit_rank}, O_s rank {observability_rank}, "
+        "[L O_s] rank {joint_rank}",
+        "The covariances follow from the one solution of the Lyapunov equation; eliminating Cov(Uf) leaves L, O_s and [L O_s]."),
+    "input-limit": Kind(Experiment.input_limit, "experiment regression B D", "prime covariance errors? series? response? inverse?",
+        "A and the denominators are Schur stable, and of the stationary process, with the true A and C, the {regression} regression has "
+        "one solution: B = {B}, D = {D}",
+        "What solves the normal equations minimises a convex quadratic; the two ranks leave one solution."),
+    "finite-zeros": Kind(System.zeros, "system normal_rank invariant_zero_polynomial", DIAGONAL,
+        "the pencil has normal rank n + {normal_rank} and invariant zero polynomial {invariant_zero_polynomial} (ascending)",
+        "Unimodular multipliers keep the normal rank and, up to constants, the product of the invariant polynomials."),
+    "infinite-zeros": Kind(System.zeros, "system infinite_zero_orders", DIAGONAL,
+        "the infinite zeros have the orders {infinite_zero_orders}",
+        "Unimodular multipliers keep the Smith form at t = 0 of the reversed pencil, whose powers of t are the orders, plus one."),
 }  # fmt: skip
 
 
+class Verified(NamedTuple):
+    """The statement in words, and what it assumes beyond what was verified: nothing, or that a polynomial is irreducible."""
+
+    statement: str
+    assumes: list[str]
+
+
 def subject(data: Json) -> System:
-    """The EXPERIMENT where it has a filter of u, else the SYSTEM."""
+    """The EXPERIMENT where it has a filter of u, else the SYSTEM, read on a meter of its own. Raises Malformed, Rejected."""
+    begin()
     return (Experiment if type(data) is dict and "u_filter" in data else System)(data)
 
 
-def verify(certificate: Json, systems: Iterable[Json] = ()) -> str:
-    """The statement in words, once verified. Raises Malformed or Rejected. Every one of `systems` must be one of the statement's."""
-    _work.set(0)
+def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified:
+    """The statement, once verified. Raises Malformed or Rejected. Every one of `systems` (JSON or read) must be one of the statement's."""
+    insisted = [data if isinstance(data, System) else subject(data) for data in systems]
+    begin()
     keys(certificate, "format kind statement witness", "certificate")
     expect(certificate["format"] == "faultspace-certificate/1", "format: expected faultspace-certificate/1")
-    expect(type(kind := certificate["kind"]) is str and kind in KINDS, "kind: unknown")
-    check, statement_keys, witness_keys, template = KINDS[kind]
-    s = keys(certificate["statement"], statement_keys, "statement")
-    w = keys(certificate["witness"], f"irreducible? {witness_keys}", "witness")
-    insisted = [subject(data) for data in systems]
+    expect(type(name := certificate["kind"]) is str and name in KINDS, "kind: unknown")
+    kind = KINDS[name]
+    s = keys(certificate["statement"], kind.statement, "statement")
+    w = keys(certificate["witness"], f"irreducible? {kind.witness}", "witness")
     about = [(Experiment if key == "experiment" else System)(s[key]) for key in SUBJECTS if key in s]
     alike = all(system.field.key == about[0].field.key and system.p == about[0].p for system in about)
     expect(alike, "the two systems differ in field or number of outputs")
-    for system in about if "prime" in witness_keys else []:
+    for system in about if "prime" in kind.witness else []:
         system.field.reduce(w)
-    check(about[0], s, w, *about[1:])
-    words = "" if about[0].field.irreducible(w) else "assuming f irreducible: "
+    kind.check(about[0], s, w, *about[1:])
+    proven = about[0].field.irreducible(w)
     for system in insisted:
         require(any(system.key == other.key[: len(system.key)] for other in about), f"the statement is not about {system.words}")
-    words += template.format_map({key: shown(value) for key, value in s.items()})
-    words += "".join(f", {key[:-1]} = {shown(s[key[:-1]])}" for key in statement_keys.split() if key[-1] == "?" and key[:-1] in s)
-    return f"{words}; for {' and '.join(system.words for system in about)}"
+    words = kind.words.format_map({key: shown(value) for key, value in s.items()})
+    words += "".join(f", {key[:-1]} = {shown(s[key[:-1]])}" for key in kind.statement.split() if key[-1] == "?" and key[:-1] in s)
+    words += f"; for {' and '.join(system.words for system in about)}"
+    if proven:
+        return Verified(words, [])
+    return Verified(f"assuming f irreducible: {words}", [f"f is irreducible, with the coefficients {shown(about[0].field.f)} (ascending)"])
+
+
+def content(path: str) -> bytes:
+    """What is in a file, without waiting: Malformed for what is none, such as a pipe, a device or a directory."""
+
+    def seen(status: os.stat_result) -> None:
+        expect(not stat.S_ISDIR(status.st_mode), "is a directory")
+        expect(stat.S_ISREG(status.st_mode), "is no regular file, but a pipe or a device")
+
+    try:
+        seen(os.stat(path))
+        with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)), "rb") as file:
+            seen(os.fstat(file.fileno()))  # what is opened may be another than what was seen
+            data = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise Malformed(error.strerror or "cannot be read") from None
+    except ValueError:  # a name with a zero in it
+        raise Malformed("no name of a file") from None
+    return data or b""
+
+
+def parse(data: bytes) -> Json:
+    """The JSON in them, or Malformed: duplicate keys, floats, NaN, over-long numbers, more than MAX_BYTES."""
+
+    def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
+        result = dict(pairs)
+        expect(len(result) == len(pairs), "a key stands twice")
+        return result
+
+    def whole(digits: str) -> int:
+        expect(len(digits) <= 19731, "a number: more digits than a number may have")
+        return int(digits)
+
+    def refused(_: str) -> None:
+        expect(False, "a number: expected an integer")
+
+    expect(len(data) <= MAX_BYTES, f"more than {MAX_BYTES} bytes")
+    try:
+        return json.loads(data.decode(), object_pairs_hook=unique, parse_int=whole, parse_float=refused, parse_constant=refused)
+    except (ValueError, RecursionError, MemoryError) as error:
+        raise Malformed(f"not JSON: {' '.join(str(error).split())[:80]}") from None
 
 
 def load(path: str) -> Json:
-    """The JSON of a file, or Malformed: duplicate keys, floats, NaN, over-long numbers, too large a file."""
-
-    def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
-        expect(len(dict(pairs)) == len(pairs), "a key stands twice")
-        return dict(pairs)
-
-    exact = partial(rational, where="a number", integral=True)
-    try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_BYTES + 1)
-        expect(len(data) <= MAX_BYTES, f"more than {MAX_BYTES} bytes")
-        return json.loads(data.decode(), object_pairs_hook=unique, parse_int=lambda x: exact(x)[0], parse_float=exact, parse_constant=exact)
-    except OSError as error:
-        raise Malformed(error.strerror or "cannot be read") from None
-    except (ValueError, RecursionError, MemoryError) as error:
-        raise Malformed(f"not JSON: {' '.join(str(error).split())[:80]}") from None
+    """The JSON of a file. Raises Malformed."""
+    return parse(content(path))
 
 
 def sha256(certificate: Json) -> str:
@@ -787,31 +958,76 @@ def sha256(certificate: Json) -> str:
     return hashlib.sha256(json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=False).encode()).hexdigest()
 
 
+CODES = {"verified": 0, "verified under an assumption": 3, "rejected": 1, "malformed": 2}  # from the best to the worst
+
+
+def judged(path: str, systems: Sequence[System]) -> dict[str, Json]:
+    """What is printed about a file."""
+    try:
+        statement, assumes = verify(certificate := load(path), systems)
+        result = "verified under an assumption" if assumes else "verified"
+        words = {"kind": certificate["kind"], "statement": statement, "assumes": assumes, "sha256": sha256(certificate)}
+        return {"file": path, "result": result, **words}
+    except Malformed as error:
+        return {"file": path, "result": "malformed", "reason": str(error)}
+    except (Rejected, MemoryError) as error:
+        return {"file": path, "result": "rejected", "reason": str(error) or "not enough memory"}
+
+
+def worst(results: Iterable[str]) -> int:
+    """The exit code of several files."""
+    return CODES[max(results, key=[*CODES].index, default="verified")]
+
+
+def printable(name: str) -> str:
+    """The name where it can be mistaken for nothing else on a terminal, else quoted."""
+    return name if name.isprintable() and re.fullmatch(r"[^\s:'\"\\]+", name) else ascii(name)
+
+
+class Arguments(argparse.ArgumentParser):
+    """Whose complaints hold no control characters."""
+
+    def error(self, message: str) -> NoReturn:
+        super().error(message if message.isprintable() else ascii(message))
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Check the files; returns the exit code. Wrong arguments and a --system that does not parse exit with 2."""
-    parser = argparse.ArgumentParser(prog="checker.py", description="Decides certificates of the format faultspace-certificate/1.")
+    parser = Arguments(prog="checker.py", description="Decides certificates of the format faultspace-certificate/1.")
     parser.add_argument("--json", action="store_true", help="print the results as JSON")
     parser.add_argument("--system", action="append", default=[], metavar="FILE", help="insist on statements about this system")
     parser.add_argument("certificates", nargs="+", metavar="CERTIFICATE")
     options = parser.parse_args(argv)
-    try:
-        systems = [data for path in options.system if subject(data := load(path))]
-    except (Malformed, Rejected) as error:
-        parser.error(f"--system: {error}")
-    results = list[dict[str, str]]()
-    for path in options.certificates:
+    systems = list[System]()
+    for path in options.system:
         try:
-            words = verify(certificate := load(path), systems)
-            found = {"result": "verified", "kind": certificate["kind"], "statement": words, "sha256": sha256(certificate)}
-            results.append({"file": path, **found})
-        except (Rejected, Malformed, MemoryError) as error:
-            verdict = "malformed" if isinstance(error, Malformed) else "rejected"
-            results.append({"file": path, "result": verdict, "reason": str(error) or "not enough memory"})
-    lines = [f"{r['file']}: {r['result']}: {r.get('reason') or '{kind}: {statement} (SHA-256 {sha256})'.format(**r)}" for r in results]
-    print(json.dumps(results, indent=1) if options.json else "\n".join(lines))
-    return max(["verified", "rejected", "malformed"].index(r["result"]) for r in results)
+            systems.append(subject(load(path)))
+        except (Malformed, Rejected, MemoryError) as error:
+            parser.error(f"--system {printable(path)}: {error}")
+    results = list[dict[str, Json]]()
+    for path in options.certificates:
+        results.append(one := judged(path, systems))
+        if not options.json:
+            told = one.get("reason") or "{kind}: {statement} (SHA-256 {sha256})".format(**one)
+            print(f"{printable(path)}: {one['result']}: {told}", flush=True)
+    if options.json:
+        print(json.dumps(results, indent=1), flush=True)
+    return worst(one["result"] for one in results)
+
+
+def run() -> int:
+    """The exit code of the command: that of `main`, 74 where nobody takes the answer, 130 where it was interrupted."""
+    try:
+        if sys.stdout is None:
+            return 74
+        sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]  # names of files need not be text
+        return main()
+    except OSError:  # files are opened with errors of their own: what is left is the output itself
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # so that nothing more is tried, and said, on leaving
+        return 74
+    except KeyboardInterrupt:
+        return 130
 
 
 if __name__ == "__main__":
-    sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]  # names of files need not be text
-    sys.exit(main())
+    sys.exit(run())

@@ -50,9 +50,9 @@ REJECTED = Recomputed("rejected", "the check computes to false")
 def recomputed(
     certificates: Sequence[Any], progress: Progress = lambda stage, done, total: None, *, seconds: float = SECONDS
 ) -> list[Recomputed]:
-    """One for each certificate, which the checker has found well formed. Undecided is what takes longer than `seconds`, or too much memory.
+    """One for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected here.
 
-    Raises NoRocq, BrokenTheory (of the theory itself).
+    Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself).
     """
     compiled = theory(progress)
     results: dict[int, Recomputed] = {}
@@ -64,7 +64,7 @@ def recomputed(
         except NotCovered as error:
             results[i] = Recomputed("not covered", str(error))
         except (checker.Rejected, checker.Malformed) as error:
-            results[i] = Recomputed("rejected", str(error))
+            results[i] = Recomputed("rejected", f"by the checker: {error}")
     waiting = list(terms)
     for start in range(0, len(waiting), AT_ONCE):
         progress("Rocq: recomputing certificates", start, len(waiting))

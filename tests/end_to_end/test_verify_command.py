@@ -21,6 +21,7 @@ from faultspace.exact.kernel_representation import kernel_representation
 from faultspace.exact.systems import read_system
 from faultspace.proofs.certificate import sha256, window_ranks
 from faultspace.proofs.ledger import Claim, Reading
+from faultspace.proofs.specimens import specimens
 from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from tests.end_to_end.commands import call, command, example, validator
 
@@ -158,7 +159,8 @@ def test_certificates_and_verdicts_are_written_whole(pretended: Pretend, tmp_pat
     run = call("verify", "--out", str(out), "--json")
     assert run.code == 0 and run.json["as_expected"]
     name = f"window-ranks-{SHORT}.json"
-    assert {path.name for path in out.iterdir()} == {name, "verdicts.json"}
+    beside = {f"{one['kind']}-{sha256(one)[:12]}.json" for one in specimens()}
+    assert {path.name for path in out.iterdir()} == {name, "verdicts.json"} | beside
     written = json.loads((out / name).read_text("utf-8"))
     assert written == CERTIFICATE
     validator("certificate").validate(written)

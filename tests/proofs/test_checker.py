@@ -18,6 +18,7 @@ from faultspace.exact.fields import PrimeField
 from faultspace.exact.systems import ResidualSystem
 from faultspace.proofs import certificate as make
 from faultspace.proofs import checker
+from faultspace.proofs.specimens import specimens
 from tests.oracle import truth
 from tests.proofs.examples import (
     COLUMN,
@@ -71,9 +72,9 @@ def test_every_kind_is_accepted(name: str) -> None:
     kinds = set()
     for certificate in certificates(FIELDS[name]):
         before = copy.deepcopy(certificate)
-        words = checker.verify(certificate)
+        found = checker.verify(certificate)
         assert certificate == before
-        assert "assuming" not in words
+        assert "assuming" not in found.statement and found.assumes == []
         kinds.add(certificate["kind"])
     over_numbers, over_rationals = {"schur-stable"}, {"moesp-limit", "input-limit"}
     elsewhere = over_rationals if name != "Q" else set()
@@ -81,11 +82,18 @@ def test_every_kind_is_accepted(name: str) -> None:
 
 
 def test_the_statement_in_words_tells_statement_and_system() -> None:
-    words = checker.verify(written(make.matrix_rank("window", seen(), window=2)))
+    words = checker.verify(written(make.matrix_rank("window", seen(), window=2))).statement
     for part in ("window matrix", "rank 3", "window = 2", "A=[[0]], F=[[1]], C=[[1],[0]], G=[[0],[1]]"):
         assert part in words
     nothing = ResidualSystem.of([], [], [], [], field=PrimeField(2), n=0, m=0, p=0)
-    assert "A=[], F=[], C=[], G=[]) (n=0, m=0, p=0) over {prime:2}" in checker.verify(base("left-invertible", system=nothing))
+    assert "A=[], F=[], C=[], G=[]) (n=0, m=0, p=0) over {prime:2}" in checker.verify(base("left-invertible", system=nothing)).statement
+
+
+def test_the_specimens_are_true_and_of_kinds_that_no_headline_shows_over_these_fields() -> None:
+    for certificate in map(written, specimens()):
+        assert checker.verify(certificate).assumes == []
+        assert truth(certificate["kind"], certificate["statement"])
+    assert {c["kind"] for c in specimens()} >= {"schur-stable", "behaviour-inclusion", "left-invertible-line"}
 
 
 M = "witness.minors"
@@ -432,7 +440,9 @@ def reasons(name: str) -> Iterator[str]:
                 yield max(texts, key=len)
 
 
-ELSEWHERE = {"a key stands twice", " bytes", "the statement is not about ", "a number grows beyond "}
+ELSEWHERE = {"a key stands twice", " bytes", "the statement is not about "}
+ELSEWHERE |= {"is a directory", "is no regular file, but a pipe or a device", "more than ", "a number: expected an integer"}
+ELSEWHERE |= {"a number: more digits than a number may have", " bytes of memory"}
 
 
 @pytest.mark.parametrize(("call", "cases"), [("require", REJECTED), ("expect", MALFORMED)])
@@ -447,18 +457,29 @@ def test_every_reason_in_the_source_is_met(call: str, cases: dict[str, tuple[str
     assert {reason for reason in found - ELSEWHERE if not any(reason in text for text in given)} == set()
 
 
-def test_numbers_that_grow_are_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_more_memory_than_there_may_be_is_rejected_before_it_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     certificate = spoiled(WINDOW, (f"{S}.A.0.0", "123456789" * 10), ("statement.window", 40))
-    monkeypatch.setattr(checker, "MAX_GROWTH", 3000)
-    with pytest.raises(checker.Rejected, match="a number grows beyond 3000 bits"):
+    monkeypatch.setattr(checker, "MAX_MEMORY", 10**6)
+    with pytest.raises(checker.Rejected, match="more than 1000000 bytes of memory"):
         checker.verify(certificate)
+    assert checker._meter.get().held < 10**6
+
+
+def test_matrices_give_back_the_memory_they_held() -> None:
+    system = {"A": [], "F": [], "C": [[]] * 60, "G": [[f"{100 * i + j}/7" for j in range(60)] for i in range(60)], "n": 0, "m": 60, "p": 60}
+    with pytest.raises(checker.Rejected, match="below the number of faults"):
+        checker.verify({**RANKS, "kind": "left-invertible", "statement": {"system": system}, "witness": {"prime": 101}})
+    meter = checker._meter.get()
+    assert meter.held > 10**6
+    checker.begin()
+    assert meter.held < 10**4
 
 
 def test_work_is_counted_for_each_certificate_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     checker.verify(RANKS)
-    monkeypatch.setattr(checker, "MAX_WORK", checker._work.get() + 1)
+    monkeypatch.setattr(checker, "MAX_WORK", checker._meter.get().work + 1)
     for _ in range(3):
         checker.verify(RANKS)
-    monkeypatch.setattr(checker, "MAX_WORK", checker._work.get() - 1)
+    monkeypatch.setattr(checker, "MAX_WORK", checker._meter.get().work - 1)
     with pytest.raises(checker.Rejected, match="units of work"):
         checker.verify(RANKS)

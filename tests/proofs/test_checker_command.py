@@ -11,17 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from faultspace.exact.fields import QQ
 from faultspace.proofs import certificate as make
 from faultspace.proofs import checker
-from tests.proofs.examples import (
-    CUBED,
-    HUGE,
-    RANKS,
-    ZERO,
-    base,
-    seen,
-    spoiled,
-)
+from tests.proofs.examples import CUBED, GONE, HUGE, RANKS, ZERO, base, seen, spoiled, systems
 
 SOURCE = Path(checker.__file__)
 
@@ -42,7 +35,7 @@ class Lone:
         command: list[str | bytes] = [sys.executable, "-I", "-O", "checker.py", *arguments]
         environment = {**os.environ, "LC_ALL": "C.UTF-8"}
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, env=environment, check=False)
-        assert "Traceback" not in done.stderr
+        assert "Traceback" not in done.stderr and "Exception" not in done.stderr
         return done
 
 
@@ -75,7 +68,7 @@ def test_exit_codes(lone: Lone) -> None:
     ]:
         assert lone(*arguments).returncode == code, arguments
     done = lone(good, bad)
-    assert f"good.json: verified: window-ranks: {checker.verify(RANKS)}" in done.stdout
+    assert f"good.json: verified: window-ranks: {checker.verify(RANKS).statement}" in done.stdout
     assert f"SHA-256 {make.sha256(RANKS)}" in done.stdout
     assert "bad.json: rejected: 4 is not a prime" in done.stdout
 
@@ -83,8 +76,9 @@ def test_exit_codes(lone: Lone) -> None:
 def test_results_as_json(lone: Lone) -> None:
     done = lone("--json", lone.file("good.json", CUBED), lone.file("bad.json", []))
     good, bad = json.loads(done.stdout)
-    words = checker.verify(CUBED)
-    verified = {"file": "good.json", "result": "verified", "kind": "window-ranks", "statement": words, "sha256": make.sha256(CUBED)}
+    words = checker.verify(CUBED).statement
+    verified = {"file": "good.json", "result": "verified", "kind": "window-ranks", "statement": words, "assumes": []}
+    verified |= {"sha256": make.sha256(CUBED)}
     assert good == verified
     assert bad["result"] == "malformed" and "expected an object" in bad["reason"]
     assert done.returncode == 2
@@ -102,11 +96,11 @@ def test_files_that_are_no_certificates(lone: Lone) -> None:
         ("exponent", text.replace('"normal_rank": 1', '"normal_rank": 1e0').encode(), "expected an integer"),
         ("nan", text.replace('"normal_rank": 1', '"normal_rank": NaN').encode(), "expected an integer"),
         ("infinite", text.replace('"normal_rank": 1', '"normal_rank": -Infinity').encode(), "expected an integer"),
-        ("long", text.replace('"normal_rank": 1', f'"normal_rank": {HUGE}').encode(), "expected an integer"),
+        ("long", text.replace('"normal_rank": 1', f'"normal_rank": {HUGE}').encode(), "more digits than a number may have"),
         ("twice", text.replace('"normal_rank": 1', '"normal_rank": 1, "normal_rank": 1').encode(), "a key stands twice"),
         ("surrogate", text.replace("window-ranks", "\\ud800").encode(), "kind: unknown"),
         ("surrogate-key", text.replace('"kind"', '"\\udfff"').encode(), "expected an object"),
-        ("spaces", b" " * (checker.MAX_BYTES + 1), "more than 67108864 bytes"),
+        ("spaces", b" " * (checker.MAX_BYTES + 1), "more than 2097152 bytes"),
     ]:
         done = lone(lone.file(name, content))
         assert done.returncode == 2, name
@@ -131,3 +125,93 @@ def test_long_numbers_are_read_and_written(lone: Lone) -> None:
     done = lone("--json", lone.file("large.json", kept))
     assert done.returncode == 0, done
     assert json.loads(done.stdout)[0]["sha256"] == make.sha256(kept)
+
+
+ASSUMED = spoiled(CUBED, ("witness.irreducible", GONE))
+
+
+def test_what_is_verified_under_an_assumption_names_it_and_exits_with_3(lone: Lone) -> None:
+    assumed, good = lone.file("assumed.json", ASSUMED), lone.file("good.json", RANKS)
+    bad, ugly = lone.file("bad.json", spoiled(RANKS, ("witness.prime", 4))), lone.file("ugly.json", b"{")
+    for arguments, code in [([assumed], 3), ([good, assumed], 3), ([assumed, good], 3), ([assumed, bad], 1), ([assumed, ugly], 2)]:
+        assert lone(*arguments).returncode == code, arguments
+    (found,) = json.loads(lone("--json", assumed).stdout)
+    assert found["result"] == "verified under an assumption"
+    assert found["assumes"] == ["f is irreducible, with the coefficients [1,-3,-1,4] (ascending)"]
+    assert "assumed.json: verified under an assumption: window-ranks: assuming f irreducible: " in lone(assumed).stdout
+
+
+def test_pipes_devices_and_directories_are_refused_without_waiting(lone: Lone) -> None:
+    os.mkfifo(lone.folder / "pipe")
+    os.symlink("pipe", lone.folder / "link")
+    good = lone.file("good.json", RANKS)
+    for name in ("pipe", "link", "/dev/zero", "/dev/stdin", "/dev/tty", "/proc/self/mem", "/proc/self/task", "."):
+        if not name.startswith("/") or Path(name).exists():
+            done = lone(name, good)  # the checker would be ended by the limit of the test, were it to wait
+            assert done.returncode == 2 and ": malformed: " in done.stdout and ": verified: " in done.stdout, name
+            assert lone("--system", name, good).returncode == 2, name
+    assert "no regular file, but a pipe or a device" in lone("pipe").stdout
+    assert "is a directory" in lone(".").stdout
+
+
+@pytest.mark.parametrize("arguments", [[], ["--json"]])
+def test_output_that_nobody_takes_is_no_rejection(lone: Lone, arguments: list[str]) -> None:
+    names = [lone.file(f"{i}.json", RANKS) for i in range(3)]
+    command = [sys.executable, "-I", "-O", "checker.py", *arguments, *names]
+    read, write = os.pipe()
+    os.close(read)
+    closed = subprocess.run(command, cwd=lone.folder, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(write)
+    assert (closed.returncode, closed.stderr) == (74, "")
+    none = subprocess.run(["sh", "-c", f"{' '.join(command)} >&-"], cwd=lone.folder, stderr=subprocess.PIPE, text=True, check=False)
+    assert (none.returncode, none.stderr) == (74, "")
+    if Path("/dev/full").exists():
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run(command, cwd=lone.folder, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        assert (done.returncode, done.stderr) == (74, "")
+
+
+def test_names_of_files_cannot_pass_for_answers(lone: Lone) -> None:
+    for name in ("a\x1b[2J", "a\nb: verified: window-ranks", "b.json: verified: all is well", "\u202egnp", "a b", "'", "\x7f"):
+        lone.file(name, b"{")
+        done = lone(name)
+        assert done.returncode == 2
+        (line,) = done.stdout.splitlines()
+        assert line.isprintable() and line.startswith(f"{name!a}: malformed: "), line
+        assert json.loads(lone("--json", name).stdout)[0]["file"] == name
+    for arguments in (["--\x1b[2J"], ["--system", "\x1b[2J", "x"]):
+        done = lone(*arguments)
+        assert done.returncode == 2 and done.stdout == "" and "\x1b" not in done.stderr
+
+
+def test_no_two_systems_are_told_by_the_same_words() -> None:
+    words = set()
+    dense = [[(7 * i + 3 * j) % 10 for j in range(20)] for i in range(20)]
+    for i, j in ((0, 0), (10, 10), (19, 19)):
+        for change in (0, 1, 2):
+            G = [list(row) for row in dense]
+            G[i][j] = 10 + change
+            about = checker.subject({"A": [], "F": [], "C": [[]] * 20, "G": G, "n": 0, "m": 20, "p": 20})
+            words.add(about.words)
+            assert len(about.words) < 2000
+    assert len(words) == 9
+    small = [system.to_json() for system in systems(QQ)]
+    assert len({checker.subject(system).words for system in small}) == len({json.dumps(system) for system in small})
+
+
+def test_each_file_has_the_whole_of_the_work(lone: Lone, monkeypatch: pytest.MonkeyPatch) -> None:
+    large, good = spoiled(RANKS, ("statement.system.A.0.0", "7" * 19_000)), lone.file("good.json", RANKS)
+    names = [lone.file("large.json", large), good, good]
+    paths = [str(lone.folder / name) for name in names]
+    checker.verify(RANKS)
+    monkeypatch.setattr(checker, "MAX_WORK", int(checker._meter.get().work * 1.5))
+    insisted = [checker.subject(seen().to_json())]
+    assert [checker.judged(path, insisted)["result"] for path in paths] == ["rejected", "verified", "verified"]
+    for _ in range(3):  # what is read outside of a certificate is charged to itself
+        checker.subject(seen().to_json())
+        assert checker.verify(RANKS, [seen().to_json()]).assumes == []
+
+
+def test_a_kind_carries_its_proof() -> None:
+    for name, kind in checker.KINDS.items():
+        assert kind.proof.endswith(".") and 40 < len(kind.proof) < 200, name

@@ -77,7 +77,8 @@ def test_eisenstein_shifts() -> None:
 
 def test_without_a_proof_of_irreducibility_the_statement_says_so() -> None:
     proven, unproven = CUBED, spoiled(CUBED, ("witness.irreducible", GONE))
-    assert checker.verify(unproven) == f"assuming f irreducible: {checker.verify(proven)}"
+    assert checker.verify(unproven).statement == f"assuming f irreducible: {checker.verify(proven).statement}"
+    assert checker.verify(unproven).assumes == ["f is irreducible, with the coefficients [1,-3,-1,4] (ascending)"]
 
 
 def test_what_only_a_zero_divisor_proves_is_an_assumption() -> None:
@@ -86,7 +87,7 @@ def test_what_only_a_zero_divisor_proves_is_an_assumption() -> None:
     kernel = [{"pivot": 0, "coefficients": [[[1, 1]]]}]
     statement = {"system": system, "normal_rank": 0, "left_minimal_indices": [0]}
     certificate = {**RANKS, "statement": statement, "witness": {"prime": 7, "root": 1, "kernel": kernel}}
-    assert checker.verify(certificate).startswith("assuming f irreducible: ")
+    assert checker.verify(certificate).statement.startswith("assuming f irreducible: ")
     with pytest.raises(checker.Rejected, match="reducible"):
         checker.verify(spoiled(certificate, ("witness.irreducible", {"modulo": 7})))
 
@@ -97,7 +98,7 @@ def test_a_field_of_degree_1_needs_no_proof(f: list[object]) -> None:
     a, b = (checker.rational(c, "")[0] * 10 // checker.rational(c, "")[1] for c in f)
     root = -a * pow(b, -1, 101) % 101
     certificate = spoiled(RANKS, (S, system), ("witness.prime", 101), ("witness.root", root))
-    assert checker.verify(certificate).startswith("for every s >= 1")
+    assert checker.verify(certificate).statement.startswith("for every s >= 1")
 
 
 def test_multiples_of_a_minimal_polynomial_name_one_field() -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
+from collections.abc import Callable, Iterator
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -13,10 +15,10 @@ import pytest
 from faultspace.exact.fields import QQ
 from faultspace.proofs import checker, rocq_build, rocq_export
 from faultspace.proofs.rocq_build import NotProved
-from faultspace.proofs.rocq_export import COVERED, NotCovered, Terms, exported
+from faultspace.proofs.rocq_export import COVERED, NotCovered, Terms, exported, translated
 from faultspace.proofs.rocq_recompute import ACCEPTED, decided, proved, recomputed, theory
 from tests.end_to_end.commands import call
-from tests.proofs.examples import RANKS, ROOTED, certificates, spoiled, written
+from tests.proofs.examples import RANKS, ROOTED, K, S, certificates, spoiled, written
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems
 
 needs_rocq = pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
@@ -64,7 +66,7 @@ def test_rocq_and_the_checker_agree_on_mutations() -> None:
         except checker.Rejected:
             verdict = False
         try:
-            terms.append(exported(candidate))
+            terms.append(translated(candidate))
             verdicts.append(verdict)
         except NotCovered:
             continue
@@ -76,7 +78,7 @@ def test_rocq_and_the_checker_agree_on_mutations() -> None:
 
 @needs_rocq
 def test_what_computes_to_false_is_no_theorem() -> None:
-    terms = exported(FALSE)
+    terms = translated(FALSE)
     assert decided([terms], theory()) == [False]
     with pytest.raises(NotProved, match="does not compile"):
         proved([terms], theory())
@@ -95,6 +97,69 @@ def test_what_takes_too_long_is_undecided() -> None:
     (one,) = recomputed([RANKS], seconds=0.01)
     assert one.result == "undecided"
     assert "took more than 0.01 s" in one.reason
+
+
+# -- what is in a certificate never becomes source ------------------------------------------------------------------------
+
+MARK = "Redirect"
+SOURCE = f'0%N, [:: [:: 0]])]. {MARK} "chosen" Check tt. Definition junk : seq kernel_row := [:: (0'
+NO_NUMBERS = (SOURCE, MARK, "1_0", " 1", "1 ", "\u0661", "0x1", "1%N", "(* 1", True, 1.0, [SOURCE], {SOURCE: SOURCE}, None)
+
+
+def everywhere(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """The places in a certificate: every key and every item."""
+    for key in node if isinstance(node, dict) else range(len(node)) if isinstance(node, list) else ():
+        yield (*path, key)
+        yield from everywhere(node[key], (*path, key))
+
+
+def text_of(certificate: dict[str, Any], write: Callable[[dict[str, Any]], Terms]) -> str | None:
+    """What Rocq would read; None where the exporter refuses."""
+    try:
+        return f"{(terms := write(certificate)).theorem()} {terms.check}"
+    except (checker.Malformed, checker.Rejected, NotCovered):
+        return None
+
+
+def words_of(text: str) -> set[str]:
+    """The names in it."""
+    return set(re.findall(r"[A-Za-z_]\w*", text))
+
+
+def test_no_string_of_a_certificate_reaches_rocq() -> None:
+    sound = [text_of(certificate, exported) for certificate in small_ones()]
+    words = set[str]().union(*(words_of(text or "") for text in sound))  # ours, and no others
+    assert None not in sound and MARK not in words and len(words) < 200
+    seen = Counter[str]()
+    longest = sorted(small_ones(), key=lambda c: len(json.dumps(c)))
+    for certificate in {json.dumps([c["kind"], sorted(c["witness"]), c["statement"].get("matrix")]): c for c in longest}.values():
+        for path in everywhere(certificate):
+            for value in NO_NUMBERS:
+                candidate = mutated(certificate, path, value)
+                assert text_of(candidate, exported) is None or value is None, (path, value)
+                if path != ("kind",):
+                    assert words_of(text_of(candidate, translated) or "") <= words, (path, value)
+                seen[certificate["kind"]] += 1
+    assert seen.keys() == COVERED.keys() and sum(seen.values()) > 5_000
+
+
+def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
+    # It closed the definition of the rows, put another system under the name of the one in the statement, and wrote a file.
+    theirs = dict((name, term) for name, _, term in exported(RANKS).definitions)
+    chosen = tmp_path / "chosen"
+    source = theirs["rows"].removeprefix("[:: (") + (
+        f".\nModule Inner. Definition system := {theirs['system']}. Definition words : seq sampled_word := {theirs['ws']}.\n"
+        "Notation check_window_ranks := (fun n m p r e k l s w (_ : seq sampled_word) => "
+        "CheckRanks.check_window_ranks n m p r e k l s w words) (only parsing). End Inner. Import Inner.\n"
+        f'Redirect "{chosen}" Check tt.\nDefinition junk : seq kernel_row := [:: (0'
+    )
+    forged = spoiled(RANKS, (f"{S}.C", [["0"], ["0"]]), (f"{K}.0.pivot", source))
+    for write in exported, translated:
+        with pytest.raises(checker.Malformed, match="expected an integer"):
+            write(forged)
+    if rocq_build.found() is not None:
+        assert [one.result for one in recomputed([forged, RANKS])] == ["rejected", "accepted"]
+        assert list(tmp_path.iterdir()) == []
 
 
 def test_other_kinds_and_fields_are_not_covered() -> None:
@@ -130,7 +195,7 @@ def test_the_command_tells_what_rocq_says(tmp_path: Path) -> None:
     assert "Rocq: accepted" in run.out
     run = call("check", "--rocq", "--json", *files)
     assert run.code == 1
-    assert [one["rocq"]["result"] for one in json.loads(run.out)] == ["accepted", "rejected", "not covered"]
+    assert [one["rocq"]["result"] for one in json.loads(run.out)] == ["accepted", "not asked", "not covered"]
     assert call("check", "--rocq", files[2]).code == 1
 
 

@@ -1,0 +1,126 @@
+"""No file makes the checker hang, fill the memory or trace back: an answer or a refusal within 5 seconds and 400 MB.
+
+FAULTSPACE_FLOODS=all   tries every file of `floods`; without it one in forty, and the WORST, those that have cost most
+
+Seconds are of the processor, measured in a process of its own for each file; on a machine that does many other things a second of it does
+less, so that the test asks for no more than twice the time.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from faultspace.proofs import checker, rocq_export
+from tests.proofs.examples import NORMAL, RANKS, K, S, spoiled
+from tests.proofs.floods import floods
+
+resource = pytest.importorskip("resource")
+
+SECONDS, MEGABYTES = 10, 400
+WORST = ("toeplitz 0 0 512 600 0", "window 0 0 0 4096 0", "many {},", "many keys", "stability, 80 states of 60 digits as {0}")
+
+
+class Cost(NamedTuple):
+    """What the checker said about one file, its exit code, and what that took."""
+
+    said: str
+    code: int
+    seconds: float
+    megabytes: float
+
+
+def cost(file: Path) -> Cost:
+    """Of the checker as a command."""
+    command = [sys.executable, "-I", "-O", str(checker.__file__), str(file)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as running:
+        assert running.stdout is not None
+        said = running.stdout.read()
+        _, status, used = os.wait4(running.pid, 0)
+        running.returncode = os.waitstatus_to_exitcode(status)
+    unit = 1 if sys.platform == "darwin" else 1024
+    return Cost(said, running.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss * unit / 1e6)
+
+
+@pytest.mark.timeout(3000)
+def test_floods_are_answered_or_refused_in_time(tmp_path: Path) -> None:
+    every = 1 if os.environ.get("FAULTSPACE_FLOODS") == "all" else 40
+    file, tried, codes = tmp_path / "flood.json", 0, set[int]()
+    for i, (name, content) in enumerate(floods()):
+        if i % every == 0 or name in WORST:
+            file.write_bytes(content)
+            found = cost(file)
+            assert "Traceback" not in found.said and found.said.startswith(str(file)), name
+            assert found.code in (0, 1, 2, 3) and found.seconds < SECONDS and found.megabytes < MEGABYTES, (name, found)
+            tried += 1
+            codes.add(found.code)
+    assert tried > 10 and codes >= {0, 1, 2}
+
+
+def test_a_checker_that_does_not_charge_is_flooded(tmp_path: Path) -> None:
+    """The measure sees what it is to see: without the bounds the same files cost more."""
+    lavish = tmp_path / "lavish.py"
+    text = Path(checker.__file__).read_text("utf-8")
+    lavish.write_text(text.replace("MAX_WORK, MAX_MEMORY = 3 * 10**9, 2**27", "MAX_WORK, MAX_MEMORY = 10**15, 2**60"), "utf-8")
+    content = dict(pair for pair in floods() if pair[0] == "toeplitz 0 0 512 600 0")["toeplitz 0 0 512 600 0"]
+    (tmp_path / "x.json").write_bytes(content.replace(b'"window":600', b'"window":4000'))
+    limits = f"import resource as r; r.setrlimit(r.RLIMIT_AS, ({MEGABYTES}000000,) * 2); r.setrlimit(r.RLIMIT_CPU, (5, 5))\n"
+    command = [sys.executable, "-I", "-c", limits]
+    command[-1] += f"import sys, runpy; sys.argv[1:] = ['x.json']; runpy.run_path('{lavish}', run_name='__main__')"
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode < 0 or "not enough memory" in done.stdout
+    command[-1] = command[-1].replace(str(lavish), str(checker.__file__))
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "checking takes more than" in done.stdout
+
+
+def test_the_exporter_counts_its_own_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checker, "verify", lambda certificate: None)  # as if it had done so within its own bounds
+    monkeypatch.setattr(checker, "MAX_WORK", 10_000)
+    with pytest.raises(rocq_export.NotCovered, match="too large to be written"):
+        rocq_export.exported(RANKS)
+    monkeypatch.undo()
+    monkeypatch.setattr(rocq_export, "MAX_TEXT", 10)
+    with pytest.raises(rocq_export.NotCovered, match="longer than 10 characters"):
+        rocq_export.exported(RANKS)
+
+
+# -- numbers that are none, or look like others ---------------------------------------------------------------------------
+
+
+NUMBERLIKE: tuple[str, ...] = ("\u0661", "\u00b2", "\uff11", "1_0", "0x1", "1e0", " 1", "1 ", "1\n", "1\0", "\0")
+NUMBERLIKE += ("+1", "1/-1", "1/0", "1/01", "", "-", "/1", "1/")
+
+
+@pytest.mark.parametrize("number", NUMBERLIKE)
+def test_what_only_looks_like_a_number_is_none(number: str) -> None:
+    for path in (f"{S}.A.0.0", f"{K}.0.coefficients.0.0"):
+        with pytest.raises(checker.Malformed, match="expected"):
+            checker.verify(spoiled(RANKS, (path, number)))
+
+
+@pytest.mark.parametrize("number", ["0", "-0", "00", "-00", "0/7", "-0/7", 0, -0])
+def test_zero_is_zero_however_written(number: object) -> None:
+    assert checker.verify(spoiled(RANKS, (f"{S}.A.0.0", number)), [RANKS["statement"]["system"]]).assumes == []
+
+
+@pytest.mark.parametrize("value", [True, False, 1.0, "1", None, [1], {"1": 1}, -1, 2**70])
+def test_an_index_is_a_small_integer_and_nothing_that_equals_one(value: object) -> None:
+    for path in ("witness.prime", f"{K}.0.pivot", "statement.normal_rank", "statement.left_minimal_indices.0", f"{S}.n"):
+        with pytest.raises(checker.Malformed):
+            checker.verify(spoiled(RANKS, (path, value)))
+    with pytest.raises(checker.Malformed):
+        checker.verify(spoiled(NORMAL, ("statement.experiment.s", value)))
+
+
+def test_keys_that_look_alike_are_other_keys() -> None:
+    text = b'{"format":"faultspace-certificate/1","kind":"window-ranks","statement":{},"witness":{},"witness\\u0000":{}}'
+    with pytest.raises(checker.Malformed, match="expected an object with the keys"):
+        checker.verify(checker.parse(text))
+    with pytest.raises(checker.Malformed, match="a key stands twice"):
+        checker.parse(b'{"a":1,"\\u0061":2}')
