@@ -37,12 +37,14 @@ class Aim(StrEnum):
 class Family:
     """`box`: the bounds of each parameter; inside, `at` gives a subject that meets the hypotheses, or fails the exact test for them.
 
-    `at` takes floats or Fractions and uses nothing but field operations, so that both see the same subject.
+    `at` takes floats or Fractions and uses nothing but field operations, so that both see the same subject. `order`: the parameters along
+    which zeros are sought, those first in which the quantity has the least degree; all where it is empty.
     """
 
     words: str
     box: tuple[tuple[float, float], ...]
     at: Callable[[Sequence[Any]], Any]
+    order: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ import time
 import warnings
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import islice
 
 import numpy as np
 
@@ -25,6 +26,7 @@ from .rounding import bracket, moved, rational_roots, simple, solve_affine
 SAMPLES = 16  # looks along one parameter for a change of sign
 COARSE = (1, 2, 4)
 NEAR = (2, 4, 8, 16, 32, 64)
+TRIED, ROUNDS = 3, 12  # zeros that are rounded after each descent, and in all
 
 
 class _Hunt:
@@ -37,6 +39,8 @@ class _Hunt:
         self.decided: set[Point] = set()
         self.witness: Witness | None = None
         self.bracket: tuple[Point, Point] | None = None
+        self.crossed = 0
+        self.lines: set[tuple[Point, int]] = set()
 
     @property
     def over(self) -> bool:
@@ -64,6 +68,8 @@ def pursue(attack: Attack, *, seconds: float, seed: int) -> Trial:
         for start in starts[: max(4, attack.starts // 2)]:
             hunt.decide(simple(start, box, COARSE))
         _cross(hunt)
+        for start in starts if attack.blocks else ():
+            hunt.decide(_solved(hunt, start))
         for start in starts:
             if hunt.over:
                 break
@@ -106,11 +112,12 @@ def _follow(hunt: _Hunt, start: Floats) -> None:
 
 def _cross(hunt: _Hunt) -> None:
     """Where signs differ there is a zero: rational points of the zero set near it."""
-    if hunt.attack.aim != Aim.SIGN or hunt.attack.exact is None or hunt.bracket is not None:
+    if hunt.attack.aim != Aim.SIGN or hunt.crossed >= ROUNDS:
         return
-    for zero in crossings(hunt.trace):
+    for zero in islice(crossings(hunt.trace), TRIED):
         if hunt.over:
             return
+        hunt.crossed += 1
         hunt.decide(exact_zero(hunt, zero))
 
 
@@ -120,9 +127,14 @@ def exact_zero(hunt: _Hunt, zero: Floats) -> Iterator[Point]:
     exact = attack.exact
     assert exact is not None
     for point in simple(zero, box, NEAR):
-        for place, (low, high) in enumerate(box):
+        for place in attack.family.order or range(len(box)):
+            low, high = box[place]
+            line = moved(point, place, Fraction(0)), place
             if hunt.over:
                 return
+            if line in hunt.lines:
+                continue
+            hunt.lines.add(line)
             ends = _ends(hunt.trace, point, place, low, high)
             if ends is None:
                 continue

@@ -6,6 +6,7 @@
     exact_experiment   the same experiment for the exact branch
     determinant    of M, against Hadamard's bound; least_ratio: the least singular value against the largest
     outside        the share of L that lies outside the range of O_s
+    input_bias     of B and D by MOESP's regression
 
 P = Phi P Phi' + Gamma Gamma' is summed by doubling. Names as in `exact.joint_process` and `exact.limits`, written apart from them.
 """
@@ -45,12 +46,14 @@ class Drawn:
 
 @dataclass(frozen=True)
 class FloatLimits:
-    """past_inputs: s p x past nu; past_outputs: s p x past (nu + p); observability: s p x n; coordinates: n x past nu."""
+    """past_inputs: s p x past nu; past_outputs: s p x past (nu + p); observability: s p x n; coordinates: n x past nu;
+    response = Cov(Yf, Uf) Cov(Uf, Uf)^-1: s p x s nu."""
 
     past_inputs: Floats
     past_outputs: Floats
     observability: Floats
     coordinates: Floats
+    response: Floats
 
 
 def exact_experiment(drawn: Drawn) -> Experiment:
@@ -89,7 +92,7 @@ def float_limits(drawn: Drawn) -> FloatLimits:
     inputs = windows(y, u, future, before) - gain @ windows(u, u, future, before)
     outputs = np.hstack([inputs, windows(y, y, future, before) - gain @ windows(u, y, future, before)])
     observability = np.vstack([C @ np.linalg.matrix_power(A, i) for i in range(s)])
-    return FloatLimits(inputs, outputs, observability, np.linalg.lstsq(observability, inputs, rcond=None)[0])
+    return FloatLimits(inputs, outputs, observability, np.linalg.lstsq(observability, inputs, rcond=None)[0], gain)
 
 
 def determinant(M: Floats) -> float:
@@ -152,3 +155,22 @@ def _sequence(Phi: Floats, Gamma: Floats, P: Floats, one: tuple[Floats, Floats],
 
 def _texts(rows: Table) -> list[list[str]]:
     return [[str(Fraction(x)) for x in row] for row in rows]
+
+
+def input_bias(drawn: Drawn) -> float:
+    """How far MOESP's regression with the true A, C takes B, D from the truth, against their size and that of the fault's columns."""
+    A, F, C, G, B, D = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCGBD")
+    found = float_limits(drawn)
+    s, p, n, nu = drawn.s, len(C), len(A), B.shape[1]
+    O = found.observability
+    Pi = np.eye(s * p) - O @ np.linalg.pinv(O)
+    rows, target = [], []
+    for k in range(s):
+        column = np.zeros((s * p, p + n))
+        column[k * p : (k + 1) * p, :p] = np.eye(p)
+        column[(k + 1) * p :, p:] = O[: (s - 1 - k) * p]
+        rows.append(Pi @ column)
+        target.append(Pi @ found.response[:, k * nu : (k + 1) * nu])
+    solved = np.linalg.lstsq(np.vstack(rows), np.vstack(target), rcond=None)[0]
+    scale = sum(float(np.linalg.norm(x)) for x in (B, D, F, G))
+    return float(np.linalg.norm(solved - np.vstack([D, B]))) / scale if scale > 0 else 0.0

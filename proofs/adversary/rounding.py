@@ -39,12 +39,12 @@ def moved(point: Point, place: int, value: Fraction) -> Point:
 
 
 def rational_roots(
-    value: Callable[[Fraction], Fraction], low: Fraction, high: Fraction, *, most: int = 24
+    value: Callable[[Fraction], Fraction], low: Fraction, high: Fraction, *, most: int = 16
 ) -> tuple[Fraction, ...] | None:
     """The rational zeros in (low, high) of a rational function; None where its degrees are too large for `most` values."""
     xs: list[fmpq] = []
     ys: list[fmpq] = []
-    for count in (6, 10, 16, most):
+    for count in (6, 10, most):
         while len(xs) < count:
             x = low + (high - low) * Fraction(len(xs) + 1, most + 2)
             y = value(x)
@@ -86,17 +86,16 @@ def _roots(polynomial: fmpq_poly) -> list[Fraction]:
 
 
 def solve_affine(equations: Callable[[Point], Sequence[Fraction]], point: Point, places: Sequence[int]) -> Point | None:
-    """The point with these coordinates changed so that the equations vanish; None where they are not affine in them, or contradict."""
-    zero = tuple(Fraction(0) if i in places else x for i, x in enumerate(point))
-    constant = list(equations(zero))
-    slopes = [[a - b for a, b in zip(equations(moved(zero, i, Fraction(1))), constant, strict=True)] for i in places]
-    left = Matrix.of([[str(x) for x in row] for row in slopes], QQ, shape=(len(places), len(constant)))
-    solution = solve_left(left, Matrix.of([[str(-x) for x in constant]], QQ, shape=(1, len(constant))))
-    if solution is None:
+    """The nearest point with only these coordinates changed where the equations vanish; None where they are not affine, or contradict."""
+    constant = list(equations(point))
+    slopes = [[a - b for a, b in zip(equations(moved(point, i, point[i] + 1)), constant, strict=True)] for i in places]
+    S = Matrix.of([[str(x) for x in row] for row in slopes], QQ, shape=(len(places), len(constant)))
+    weights = solve_left(S.transposed() @ S, Matrix.of([[str(-x) for x in constant]], QQ, shape=(1, len(constant))))
+    if weights is None:
         return None
-    result = zero
-    for i, x in zip(places, solution.elements()[0], strict=True):
-        result = moved(result, i, Fraction(int(x.p), int(x.q)))
+    result = point
+    for i, x in zip(places, (weights @ S.transposed()).elements()[0], strict=True):
+        result = moved(result, i, point[i] + Fraction(int(x.p), int(x.q)))
     return result if all(x == 0 for x in equations(result)) else None
 
 
