@@ -3,6 +3,7 @@
 run             the command's body
 verdict_table   one row a reading
 hypotheses_table   a row for each hypothesis dropped
+attack_lines    what the adversary tried on a statement
 statements      a claim in full: as printed, as checked, hypotheses, evidence, certificates
 write_out       the headline certificates and verdicts.json into a folder
 """
@@ -20,6 +21,7 @@ from rich.text import Text
 from .consoles import answers, print_json, stages
 from .exact.input_rules import InvalidInput, shown
 from .failures import ANSWERED, NOT_AS_EXPECTED, printable, say
+from .proofs.adversary.attacks import Attacked
 from .proofs.certificate import Certificate, sha256
 from .proofs.ledger import load
 from .proofs.verdicts import ClaimResult, ReadingResult, Report, Row, Verdict
@@ -85,6 +87,7 @@ def verdict_table(report: Report) -> Table:
                 (f"\nhypotheses: {'; '.join(reading.hypotheses) or 'none'}", "dim"),
                 (f"\n{outcome.evidence}", "dim italic"),
                 (f"\nfor all systems: {reading.missing}" if reading.missing else "", "dim italic"),
+                ("".join(f"\nattacked by {line}" for line in attack_lines(result.attacks)), "dim italic"),
             )
             name = f"  {reading.id}{' (repair)' if reading.repair else ''}"
             verdict = _verdict(outcome.verdict, result.expected, "\n")
@@ -109,8 +112,14 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
         if len(row.dropped) < 2 or (row.verdict != Verdict.CERTIFIED and row.already is None):
             name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"
             verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + _meaning(row), "dim"))
-            table.add_row(name, verdict, Text(row.evidence, style="dim italic"), _hashes(row.certificates, row.accepted))
+            told = Text("\n".join([row.evidence, *(f"attacked by {line}" for line in attack_lines(row.attacks))]), style="dim italic")
+            table.add_row(name, verdict, told, _hashes(row.certificates, row.accepted))
     return table
+
+
+def attack_lines(attacks: Sequence[Attacked]) -> list[str]:
+    """What the adversary tried on one statement, a line each, with what is wrong with a stored attack."""
+    return [f"{one.id}: {one.words}{f' ({one.trouble})' if one.trouble else ''}" for one in attacks]
 
 
 def _meaning(row: Row) -> str:
@@ -149,6 +158,8 @@ def _reading(result: ReadingResult) -> Iterator[Text]:
     yield Text(f"    evidence:     {outcome.evidence}")
     if reading.missing:
         yield Text(f"    to a proof:   {reading.missing}")
+    for line in attack_lines(result.attacks):
+        yield Text(f"    attacked by:  {line}")
     yield Text(f"    accepted:     {outcome.accepted} certificates by the checker")
     for certificate in outcome.certificates:
         yield Text(f"    certificate:  {certificate['kind']}, SHA-256 {sha256(certificate)}")

@@ -16,6 +16,7 @@ from enum import StrEnum
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+from .adversary.attacks import Attacked
 from .certificate import Certificate, sha256
 from .ledger import Claim, Reading
 
@@ -52,6 +53,7 @@ class ReadingResult:
     outcome: Outcome
     seconds: float
     machine_checked: bool = False
+    attacks: tuple[Attacked, ...] = ()
 
     @property
     def expected(self) -> str:
@@ -77,6 +79,7 @@ class ReadingResult:
             "evidence": self.outcome.evidence,
             "certificates_accepted": self.outcome.accepted,
             "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.outcome.certificates],
+            "attacks": [attack.to_json() for attack in self.attacks],
             "seconds": round(self.seconds, 3),
         }
 
@@ -152,6 +155,7 @@ class Row:
     certificates: tuple[Certificate, ...]
     accepted: int
     expected: str | None = None
+    attacks: tuple[Attacked, ...] = ()
 
     @property
     def as_expected(self) -> bool:
@@ -173,6 +177,7 @@ class Row:
             "evidence": self.evidence,
             "certificates_accepted": self.accepted,
             "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.certificates],
+            "attacks": [attack.to_json() for attack in self.attacks],
         }
 
 

@@ -26,11 +26,13 @@ Point = tuple[Fraction, ...]
 
 class Aim(StrEnum):
     """SIGN: the statement says that a quantity has no zero, and it has one where its sign changes. ZERO: several quantities together
-    have no common zero. NONZERO: a quantity is identically zero."""
+    have no common zero. NONZERO: a quantity is identically zero. STRATUM: ranks drop where a quantity vanishes, and the statement, which
+    says nothing of the quantity, is decided there."""
 
     SIGN = "a change of sign"
     ZERO = "a common zero"
     NONZERO = "a value other than zero"
+    STRATUM = "a failure where ranks drop"
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ class Attack:
     """`target`: "claim.reading", "without EXPERIMENT: HYPOTHESIS", or a statement withdrawn; `name` tells attacks on one target apart.
 
     `quantity` of the aim SIGN and NONZERO is one number, of ZERO a vector; `measured` says in words what it is and what it is compared
-    with. `exact` is the same up to a positive factor, exactly, for the aim SIGN; `blocks` are solved in turn for the aim ZERO.
+    with. `exact` is the same up to a positive factor, exactly, for SIGN and STRATUM; `blocks` are solved in turn for the aim ZERO.
     `decide` certifies: a Witness where the point is a counterexample, None where it is not.
     """
 
@@ -109,3 +111,18 @@ class Trial:
     def refuted(self) -> bool:
         """Whether a counterexample is known, or proved to exist by a change of sign."""
         return self.witness is not None or self.bracket is not None
+
+
+@dataclass(frozen=True)
+class Attacked:
+    """A stored attack as a run shows it. `refutes`: its counterexample, or its change of sign, was confirmed now. `trouble`: it is out of
+    date, or what is stored was not found again; None otherwise."""
+
+    id: str
+    words: str
+    refutes: bool
+    trouble: str | None
+
+    def to_json(self) -> dict[str, object]:
+        """The object in `verify --json`."""
+        return {"attack": self.id, "words": self.words, "refutes": self.refutes, "trouble": self.trouble}

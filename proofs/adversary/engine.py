@@ -102,8 +102,8 @@ def _follow(hunt: _Hunt, start: Floats) -> None:
         if hunt.trace.largest_at is not None:
             hunt.decide(simple(hunt.trace.largest_at, box, COARSE))
         return
-    end = descend(hunt.trace, start, box, steps=steps, signed=attack.aim == Aim.SIGN)
-    if attack.aim == Aim.SIGN:
+    end = descend(hunt.trace, start, box, steps=steps, signed=attack.aim in (Aim.SIGN, Aim.STRATUM))
+    if attack.aim in (Aim.SIGN, Aim.STRATUM):
         _cross(hunt)
     else:
         hunt.decide(_solved(hunt, end))
@@ -112,7 +112,7 @@ def _follow(hunt: _Hunt, start: Floats) -> None:
 
 def _cross(hunt: _Hunt) -> None:
     """Where signs differ there is a zero: rational points of the zero set near it."""
-    if hunt.attack.aim != Aim.SIGN or hunt.crossed >= ROUNDS:
+    if hunt.attack.aim not in (Aim.SIGN, Aim.STRATUM) or hunt.crossed >= ROUNDS:
         return
     for zero in islice(crossings(hunt.trace), TRIED):
         if hunt.over:
@@ -145,7 +145,7 @@ def exact_zero(hunt: _Hunt, zero: Floats) -> Iterator[Point]:
             try:
                 for root in rational_roots(along, *ends) or ():
                     yield moved(point, place, root)
-                if hunt.bracket is None and (pair := bracket(along, *ends)) is not None:
+                if attack.aim == Aim.SIGN and hunt.bracket is None and (pair := bracket(along, *ends)) is not None:
                     hunt.bracket = moved(point, place, pair[0]), moved(point, place, pair[1])
             except (InvalidInput, ArithmeticError):
                 continue

@@ -5,6 +5,7 @@
     float_limits   of a Drawn
     exact_experiment   the same experiment for the exact branch
     determinant    of M, against Hadamard's bound; least_ratio: the least singular value against the largest
+    partial_covariance   det M against standard deviations
     outside        the share of L that lies outside the range of O_s
     input_bias     of B and D by MOESP's regression
 
@@ -47,13 +48,14 @@ class Drawn:
 @dataclass(frozen=True)
 class FloatLimits:
     """past_inputs: s p x past nu; past_outputs: s p x past (nu + p); observability: s p x n; coordinates: n x past nu;
-    response = Cov(Yf, Uf) Cov(Uf, Uf)^-1: s p x s nu."""
+    response = Cov(Yf, Uf) Cov(Uf, Uf)^-1: s p x s nu; deviations: standard ones of the n states, then of the nu inputs."""
 
     past_inputs: Floats
     past_outputs: Floats
     observability: Floats
     coordinates: Floats
     response: Floats
+    deviations: Floats
 
 
 def exact_experiment(drawn: Drawn) -> Experiment:
@@ -92,13 +94,22 @@ def float_limits(drawn: Drawn) -> FloatLimits:
     inputs = windows(y, u, future, before) - gain @ windows(u, u, future, before)
     outputs = np.hstack([inputs, windows(y, y, future, before) - gain @ windows(u, y, future, before)])
     observability = np.vstack([C @ np.linalg.matrix_power(A, i) for i in range(s)])
-    return FloatLimits(inputs, outputs, observability, np.linalg.lstsq(observability, inputs, rcond=None)[0], gain)
+    deviations = np.sqrt(np.concatenate([np.diag(P)[:n], np.diag(uf_uf)[:nu]]))
+    return FloatLimits(inputs, outputs, observability, np.linalg.lstsq(observability, inputs, rcond=None)[0], gain, deviations)
 
 
 def determinant(M: Floats) -> float:
     """det M (n x n) against the product of the lengths of its rows, which bounds it: from -1 to 1."""
     lengths = float(np.prod(np.linalg.norm(M, axis=1)))
     return float(np.linalg.det(M)) / lengths if lengths > 0 else 0.0
+
+
+def partial_covariance(found: FloatLimits) -> float:
+    """det M (n x n) against the standard deviations of the states and of the inputs: from -1 to 1 for one state."""
+    n, count = found.coordinates.shape
+    inputs = found.deviations[n:]
+    scale = float(np.prod(found.deviations[:n]) * np.prod([inputs[j % len(inputs)] for j in range(count)]))
+    return float(np.linalg.det(found.coordinates)) / scale if scale > 0 else 0.0
 
 
 def least_ratio(M: Floats) -> float:

@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
+import numpy as np
+
 from ..experiments_tried import LimitDossier
 from .attacks import Aim, Attack, Family, Floats
 from .feedback_attacks import feedback_attacks
-from .float_limits import determinant, float_limits, input_bias, least_ratio, outside
+from .float_limits import FloatLimits, determinant, float_limits, input_bias, least_ratio, outside, partial_covariance
 from .limit_attacks import (
-    At,
     Fails,
     decided_by,
     exact_determinant,
@@ -30,6 +31,7 @@ from .limit_attacks import (
 )
 
 DETERMINANT = "det M of the limit O_s M, against Hadamard's bound"
+ALONE = "M of the limit O_s M, against the standard deviations of the state and of the input"
 LEAST = "the least singular value of M of the limit O_s M, against the largest"
 SHARE = "the share of the limit outside the range of O_s, in the Frobenius norm"
 SHARE_PO = "the share of PO-MOESP's limit outside the range of O_s, in the Frobenius norm"
@@ -48,14 +50,21 @@ def limit_attacks() -> Iterator[Attack]:
 def on_the_range(target: str, family: Family, fails: Fails, name: str, starts: int = 12) -> Attack:
     """A change of sign of det M where M is square, a small singular value where it is wide."""
     drawn = family.at([0.0] * len(family.box))
+    measure: Callable[[FloatLimits], float]
     square = drawn.past * len(drawn.B[0]) == len(drawn.A)
+    if len(drawn.A) == 1:
+        measured, measure = ALONE, partial_covariance if square else _length
+    elif square:
+        measured, measure = DETERMINANT, lambda found: determinant(found.coordinates)
+    else:
+        measured, measure = LEAST, lambda found: least_ratio(found.coordinates)
     return Attack(
         target=target,
         name=name,
         aim=Aim.SIGN if square else Aim.ZERO,
-        measured=DETERMINANT if square else LEAST,
+        measured=measured,
         family=family,
-        quantity=_of_coordinates(family.at, determinant if square else least_ratio),
+        quantity=lambda point: measure(float_limits(family.at(point))),
         decide=decided_by(family.at, fails),
         exact=exact_determinant(family.at) if square else None,
         starts=starts,
@@ -78,8 +87,9 @@ def on_inputs(target: str, family: Family, fails: Fails, name: str) -> Attack:
     return Attack(target, name, Aim.NONZERO, BIAS, family, lambda x: input_bias(family.at(x)), decided_by(family.at, fails), starts=8)
 
 
-def _of_coordinates(at: At, measure: Callable[[Floats], float]) -> Callable[[Floats], float]:
-    return lambda point: measure(float_limits(at(point)).coordinates)
+def _length(found: FloatLimits) -> float:
+    """The length of M for one state, against the same deviations."""
+    return float(np.linalg.norm(found.coordinates) / np.prod(found.deviations))
 
 
 def _refuted() -> Iterator[Attack]:
