@@ -6,7 +6,9 @@
     StatePart                    A, C of a shift-invariant column space, up to similarity
 
 L = Cov(Yf, Z) - Cov(Yf, Uf) X with Cov(Uf, Uf) X = Cov(Uf, Z) is the limit of (1/N) Yf Pi Z', Pi projecting on the complement of the rows
-of Uf. Estimates of A, C at the true order n are consistent iff L has rank n and the columns of O_s (and (A, C) is observable on s - 1).
+of Uf. Where L has the columns of O_s, (A, C) observable on s - 1 samples, every choice of n independent columns gives the true A, C. Where
+its rank is smaller, states are missing. Where it has these columns and more, they are not told apart by the rank, which is above n; the
+leading left singular vectors can still span the range of O_s, exactly, and then A, C are right: `leading_vectors` decides that.
 """
 
 from __future__ import annotations

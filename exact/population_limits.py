@@ -15,8 +15,9 @@ from .covariances import Covariances, WindowCovariances, covariances, window_cov
 from .experiments import Experiment
 from .fields import QQ
 from .input_limits import InputLimit, by_moesp, by_output_error
+from .leading_vectors import leading_vectors_span
 from .limits import Limit, past_input_and_output_limit, past_input_limit
-from .matrices import Matrix
+from .matrices import Matrix, beside, stacked
 from .windows import observability_matrix
 
 
@@ -55,9 +56,24 @@ class PopulationLimits:
             "within_observability_range": found.within_observability_range,
             "contains_observability_range": found.contains_observability_range,
             "equals_observability_range": found.equals_observability_range,
+            "leading_vectors_span_observability_range": self.leading_vectors_right(found),
             "A_characteristic_polynomial": None if state is None else [QQ.write(QQ.element(c)) for c in state.characteristic_polynomial],
             "markov": self._markov(found),
         }
+
+    def leading_vectors_right(self, found: Limit) -> bool:
+        """Whether the leading left singular vectors of `found`, one of the two limits, span the range of O_s: see `leading_vectors`."""
+        if found.equals_observability_range or not found.contains_observability_range:
+            return found.equals_observability_range
+        u, y, blocks, known = self.known.process.u, self.known.process.y, self.blocks, self.known
+        before = range(-self.experiment.past, 0)
+        gram, crossed = known.windows(u, u, before, before), blocks.uf_up
+        if found is self.past_outputs:
+            across, own = known.windows(u, y, before, before), known.windows(y, y, before, before)
+            gram = stacked(beside(gram, across), beside(across.transposed(), own))
+            crossed = beside(crossed, blocks.uf_yp)
+        projected = gram - crossed.transposed() @ found.projection
+        return leading_vectors_span(found.matrix, projected, observability_matrix(self.experiment.system.residual, self.experiment.s))
 
     def bias(self, found: InputLimit) -> InputLimit:
         """The limit minus the true B and D."""

@@ -41,9 +41,9 @@ def sheet(found: PopulationLimits) -> Iterator[tuple[str, str]]:
     """(name, value) pairs; a pair without a value is a heading, one without a name goes on with the value above it."""
     system = found.experiment.system.residual
     yield "past inputs as instruments (PI-MOESP)", ""
-    yield from _of_limit(found.past_inputs, system.n)
+    yield from _of_limit(found, found.past_inputs)
     yield "past inputs and outputs as instruments (PO-MOESP)", ""
-    yield from _of_limit(found.past_outputs, system.n)
+    yield from _of_limit(found, found.past_outputs)
     yield "the system itself", ""
     yield "characteristic polynomial of A", _polynomial(characteristic_polynomial(system.A))
     for title, regression in (("with the true A and C, by output error", found.true_AC), ("by MOESP's regression", found.moesp)):
@@ -55,9 +55,11 @@ def sheet(found: PopulationLimits) -> Iterator[tuple[str, str]]:
         yield from _of_regression(regression, bias)
 
 
-def _of_limit(limit: Limit, n: int) -> Iterator[tuple[str, str]]:
+def _of_limit(found: PopulationLimits, limit: Limit) -> Iterator[tuple[str, str]]:
     yield "rank of the limit", f"{limit.rank}; of O_s {limit.observability_rank}, of both together {limit.joint_rank}"
-    yield "column space", _columns(limit, n)
+    yield "column space", _columns(limit, found.experiment.system.residual.n)
+    if limit.contains_observability_range and not limit.equals_observability_range:
+        yield "", _leading(limit.observability_rank, found.leading_vectors_right(limit))
     if limit.state is not None:
         yield "characteristic polynomial of its A", _polynomial(limit.state.characteristic_polynomial)
 
@@ -70,8 +72,16 @@ def _columns(limit: Limit, n: int) -> str:
     if limit.within_observability_range:
         return "inside that of O_s, and smaller: states are missing"
     if limit.contains_observability_range:
-        return f"that of O_s and {limit.rank - limit.observability_rank} more: A and C of order {n} are inconsistent"
-    return "neither inside that of O_s nor around it: A and C are inconsistent"
+        return f"that of O_s and {limit.rank - limit.observability_rank} more: the rank does not tell the order {n}"
+    return "neither inside that of O_s nor around it: nothing in it spans that of O_s"
+
+
+def _leading(count: int, right: bool) -> str:
+    """What becomes of O_s where the limit has more columns than it, and the largest singular values choose among them."""
+    vectors = "its leading left singular vector" if count == 1 else f"its {count} leading left singular vectors"
+    if right:
+        return f"{vectors} {'spans' if count == 1 else 'span'} that of O_s all the same, with the outputs as they are scaled here"
+    return f"{vectors} {'does' if count == 1 else 'do'} not span that of O_s, with the outputs as they are scaled here"
 
 
 def _of_regression(found: InputLimit, bias: InputLimit) -> Iterator[tuple[str, str]]:

@@ -3,6 +3,7 @@
     LimitDossier     an experiment, what its signals are like, and what accepted certificates say of both methods and both regressions
     limit_dossiers   of an effort, in families named after how v and u belong together
     FAMILIES         family: how an experiment of it is drawn
+    nilpotent_points   one (A, B) for each of several spectra of u, at which the limit of PI-MOESP is to have full rank
     experiments_in_order   small experiments, for the smallest counterexample
 
 Correlations of v and u are decided for all lags: beyond the size of the joint state they are combinations of those before
@@ -12,8 +13,9 @@ Correlations of v and u are decided for all lags: beyond the size of the joint s
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import product
 from random import Random
 from typing import Any
 
@@ -23,13 +25,14 @@ from ..exact.experiments import Experiment, read_experiment
 from ..exact.fields import QQ
 from ..exact.matrices import Matrix, rank
 from ..exact.population_limits import PopulationLimits, population_limits
-from ..exact.stability import is_stable
+from ..exact.stability import characteristic_polynomial, is_stable
 from ..exact.systems import ResidualSystem
 from ..exact.windows import observability_matrix, reachability_matrix
 from . import checker
 from . import limit_certificates as make
 from .certificate import Certificate, Unprovable
 from .corpus import Progress
+from .seasonal_inputs import in_order, seasonal
 
 Rows = list[list[str]]
 
@@ -67,6 +70,32 @@ class LimitDossier:
     def uncorrelated(self) -> bool:
         """At all lags of both signs."""
         return self.past_lags and self.same_time and self.leads
+
+    @property
+    def output_error_right(self) -> bool:
+        """Whether output error with the true A and C gives the true B and D."""
+        return self.state_inputs == (self.experiment.system.B, self.experiment.system.D)
+
+    @property
+    def whole_range_expected(self) -> bool:
+        """(A, B) controllable, (A, C) observable on s - 1 samples, past >= n, u and v uncorrelated."""
+        return self.uncorrelated and self.controllable and self.observable and self.long_past
+
+    @property
+    def autoregressive(self) -> bool:
+        """u is autoregressive of order at most s."""
+        u = self.experiment.u_filter
+        return len(u.numerator) == 1 and u.memory <= self.experiment.s
+
+    @property
+    def nilpotent(self) -> bool:
+        """A^n = 0."""
+        return not any(characteristic_polynomial(self.experiment.system.residual.A)[:-1])
+
+    @property
+    def past_of_input(self) -> bool:
+        """past >= n + the order of the filter of u, from which on a longer past brings nothing new."""
+        return self.experiment.past >= self.experiment.system.residual.n + self.experiment.u_filter.memory
 
     @property
     def one_sided(self) -> bool:
@@ -193,6 +222,64 @@ def _independent(random: Random) -> Experiment:
     return experiment_of(system, {"num": [unit, later], "den": ["1", "-1/2"]}, {"num": v, "den": ["1", "1/3"]}, w, past)
 
 
+def _independent_autoregressive(random: Random) -> Experiment:
+    """nu = 1, 2; F and G as they come, D = 0; u of order 0 to s."""
+    m, nu = 1, random.randint(1, 2)
+    system = _system(random, m, nu)
+    n = len(system["A"])
+    den = ["1", *random.choice((["-1/2", "1/4", "-1/8"], ["1/3", "-1/4", "1/8"], ["0", "0", "9/10"]))[: random.randint(0, n + 1)]]
+    unit = [[*("1" if i == j else "0" for j in range(nu)), "0"] for i in range(nu)]
+    return experiment_of(system, {"num": [unit], "den": den}, [[["0"] * nu + ["1"]]], None, random.choice((1, n, None)))
+
+
+# Poles that are equal, close together, at zero, on the edge of stability, or no more than the input sees; zeros of u on the unit circle, at
+# the poles, or a whole period apart.
+_POLES: tuple[Rows, ...] = (
+    [["9/10"]],
+    [["0"]],
+    [["9/10", "1"], ["0", "9/10"]],
+    [["9/10", "0"], ["0", "89/100"]],
+    [["0", "1"], ["0", "0"]],
+    [["1/2", "1"], ["0", "-1/2"]],
+    [["999/1000", "0"], ["0", "1/2"]],
+    [["7/4", "-4/5"], ["1", "0"]],
+    [["0", "-99/100"], ["1", "0"]],
+    [["0", "1", "0"], ["0", "0", "1"], ["0", "0", "0"]],
+    [["9/10", "1", "0"], ["0", "9/10", "1"], ["0", "0", "9/10"]],
+)
+_COLOURS: tuple[tuple[list[str], list[str]], ...] = (
+    (["1", "-1"], ["1"]),
+    (["1", "0", "-1"], ["1"]),
+    (["1", "1", "1"], ["1"]),
+    (["1", "0", "0", "-1"], ["1"]),
+    (["1", "-9/10"], ["1"]),
+    (["1", "-9/10"], ["1", "-89/100"]),
+    (["1"], ["1", "0", "0", "5/3", "0", "0", "3/4"]),
+    (["1", "-4/5"], ["1", "-6/5", "1/2", "-2/3", "17/15", "-3/4"]),
+    (["1", "-999/1000"], ["1", "-1/2"]),
+)
+
+
+def _degenerate(random: Random) -> Experiment:
+    """C = I, the last state driven or all of them, past from 1 to n + the order of the filter of u, s from 2 to n + 1."""
+    A, (num, den) = random.choice(_POLES), random.choice(_COLOURS)
+    n, order = len(A), max(len(num), len(den)) - 1
+    B = random.choice(([["1"]] * n, [["0"]] * (n - 1) + [["1"]], [["1"]] + [["0"]] * (n - 1)))
+    unit = [["1" if i == j else "0" for j in range(n)] for i in range(n)]
+    return read_experiment(
+        {"A": A, "B": B, "C": unit, "D": [["0"]] * n, "F": [["1"]] * n, "G": [["0"]] * n}
+        | {"s": random.randint(2, n + 1), "past": random.choice((1, n, n + 1, n + order, n + order))}
+        | {"u_filter": {"num": [[[x, "0"]] for x in num], "den": den}, "v_filter": [[["0", "1"]], [["0", "1"]], [["0", "1"]]]}
+    )
+
+
+def _period(random: Random) -> Experiment:
+    """Of those that lose a rank, and beside them; with a longer past as well."""
+    one = random.choice(in_order(7))
+    near = replace(one, a=one.a * random.choice((1, 1, Fraction(99, 100))))
+    return seasonal(near, random.choice((1, 3)), random.choice((2, 2, 3, 8)))
+
+
 def _white_leads(random: Random) -> Experiment:
     phi = ["0", *(str(random.randint(-2, 2)) for _ in range(random.randint(0, 1))), "1"]
     return leading(_system(random, 1, 1), ["1"], ["1"], phi, random.choice((1, None, None)))
@@ -232,20 +319,59 @@ def _feedback(random: Random) -> Experiment:
     return following(_system(random, 1, 1), random.choice(("1", "-1", "2")))
 
 
+def _feedback_hidden(random: Random) -> Experiment:
+    """F K = A z and G K = C z: the fault moves the state by z one sample earlier, and no column is added to those of O_s."""
+    system = _system(random, 1, 1)
+    A, C = Matrix.of(system["A"]), Matrix.of(system["C"])
+    z = Matrix.of(_rows(random, A.nrows, 1))
+    return following(system | {"F": (A @ z).to_json(), "G": (C @ z).to_json()}, "1")
+
+
+def _feedback_unseen_in_inputs(random: Random) -> Experiment:
+    """C'G = -A'Q F, Q the observability gramian: output error gives the true B and D."""
+    a, f = Fraction(random.randint(-4, 4), 5), random.randint(1, 3)
+    g = -a * f / (1 - a * a)
+    b = random.choice((Fraction(1), a**3 * f / (1 - a**4)))  # with the second the rest of the limit is orthogonal to O_s for s = 2
+    return following({"A": [[str(a)]], "B": [[str(b)]], "C": [["1"]], "D": [["0"]], "F": [[str(f)]], "G": [[str(g)]]}, "1")
+
+
 def _white_fault(random: Random) -> Experiment:
     return independent_white(_system(random, 1, 1))
 
 
 FAMILIES: dict[str, Callable[[Random], Experiment]] = {
     "v independent of u": _independent,
+    "v independent of u, u autoregressive of order at most s": _independent_autoregressive,
+    "v independent of u, poles and spectra degenerate": _degenerate,
+    "v independent of u, u of period 3": _period,
     "u white, v leads it": _white_leads,
     "u white, v(k) = u(k)": _simultaneous,
     "u a moving average, v leads it": _moving_average,
     "u coloured, v(k) = u(k+1), G = 0": _lead_one,
     "u autoregressive of order at most s, v leads it": _autoregressive,
     "u white, v(k) = K u(k-1)": _feedback,
+    "u white, v(k) = K u(k-1), F K = A z and G K = C z": _feedback_hidden,
+    "u white, v(k) = K u(k-1), B and D right by output error": _feedback_unseen_in_inputs,
     "u and v white and independent": _white_fault,
 }
+
+
+def nilpotent_points() -> Iterator[Experiment]:
+    """For each spectrum above, n = 1, 2, 3 states and s = 2 to n + 1: a nilpotent A driven at its end, past = n; one input and two."""
+    for n, (num, den), nu in product((1, 2, 3), _COLOURS, (1, 2)):
+        shift = [["1" if j == i + 1 else "0" for j in range(n)] for i in range(n)]
+        B = [["1" if i == n - 1 else "0", *["0"] * (nu - 1)] for i in range(n)]
+        unit = [["1" if i == j else "0" for j in range(n)] for i in range(n)]
+        # The second input is correlated with the first, one sample late.
+        lags = [[[*([x] if i == 0 else ["0"]), *(["0"] * (nu - 1)), "0"] for i in range(nu)] for x in num] + [[["0"] * (nu + 1)] * nu]
+        if nu == 2:
+            lags[0][1], lags[1][1] = ["0", "1", "0"], ["1/2", "0", "0"]
+        v = [[["0"] * nu + ["1"]]]
+        for s in range(2, n + 2):
+            yield read_experiment(
+                {"A": shift, "B": B, "C": unit, "D": [["0"] * nu] * n, "F": [["1"]] * n, "G": [["0"]] * n}
+                | {"s": s, "past": n, "u_filter": {"num": lags, "den": den}, "v_filter": v}
+            )
 
 
 Drive = Callable[[dict[str, Any]], Experiment]

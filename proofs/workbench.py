@@ -113,7 +113,7 @@ def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome
         return Outcome(Verdict.ERROR, "no system of the corpus meets the hypotheses")
     total = sum(d.weight for d in tried)
     representative = next((d for d in tried if d.n), tried[0]).system
-    evidence = f"on {total} systems: {describe(tried)}"
+    evidence = f"no counterexample found in {total} systems: {describe(tried)}"
     return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(d.accepted for d in tried))
 
 
@@ -141,7 +141,7 @@ def witnessed(found: Outcome) -> Outcome:
         case Verdict.REFUTED:
             return replace(found, verdict=Verdict.CERTIFIED, evidence=f"by one witness: {found.evidence}")
         case _:
-            return replace(found, verdict=Verdict.REFUTED, evidence=f"no witness; the opposite holds {found.evidence}")
+            return replace(found, verdict=Verdict.REFUTED, evidence=f"no witness: {found.evidence}")
 
 
 def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:
@@ -166,5 +166,6 @@ def certify_records(
     totals: dict[str, int] = {}
     for record in records:
         totals[record.origin] = totals.get(record.origin, 0) + record.weight
-    evidence = f"on {sum(totals.values())} {unit}: " + "; ".join(f"{count} {origin}" for origin, count in totals.items())
+    listed = "; ".join(f"{count} {origin}" for origin, count in totals.items())
+    evidence = f"no counterexample found in {sum(totals.values())} {unit}: {listed}"
     return Outcome(Verdict.CERTIFIED, evidence, accepted(show(records[0])), sum(r.accepted for r in records))

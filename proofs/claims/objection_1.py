@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from ..verdicts import Outcome
 from ..workbench import Workbench, witnessed
-from .proposition_1 import two_sided, white_b_d
+from . import proposition_1
 
 
 def one_sided_is_not_enough(bench: Workbench) -> Outcome:
-    """Some fault uncorrelated with u at all l >= 0 moves B and D, u white: the counterexample to proposition-1 as printed."""
-    return witnessed(white_b_d(bench))
+    """Some fault uncorrelated with u at all l >= 0 moves B and D, u white, and leaves A and C right: proposition-1 as printed fails."""
+    return witnessed(proposition_1.white_b_d(bench))
 
 
 def two_sided_suffices(bench: Workbench) -> Outcome:
-    """The two-sided one is, u of any colour."""
-    return two_sided(bench)
+    """The two-sided one is, u of any colour: not for the range of O_s."""
+    return proposition_1.two_sided_range(bench)
+
+
+def two_sided_long_past(bench: Workbench) -> Outcome:
+    """It is with a past that is long enough for the colour of u."""
+    records = [d for d in bench.limits if d.whole_range_expected and d.past_of_input]
+    return proposition_1.certify_limits(records, lambda d: d.equal and d.inputs_right)

@@ -6,9 +6,10 @@ from typing import Any
 
 from ...exact.experiments import Experiment
 from ..experiments_tried import experiment_of
+from ..kept_experiments import WITHOUT_RANK
 from ..verdicts import Outcome
 from ..workbench import Workbench
-from .proposition_1 import certify_limits, smallest_limit
+from .proposition_1 import certify_limits, smallest_limit, smallest_seasonal
 
 
 def coloured_fault(bench: Workbench) -> Outcome:
@@ -30,6 +31,12 @@ def white_fault(bench: Workbench) -> Outcome:
 
 
 def past_inputs(bench: Workbench) -> Outcome:
-    """On the experiments with a coloured fault independent of u where PO-MOESP fails, PI-MOESP is right."""
-    records = [d for d in bench.limits if d.uncorrelated and not d.past_outputs_within and d.controllable and d.observable and d.long_past]
+    """Where PO-MOESP fails under a fault uncorrelated with u, PI-MOESP is right: some inputs of period 3 defeat both."""
+    others = [name for name in WITHOUT_RANK if name.endswith("coloured-fault") or name.startswith("rational")]
+    return smallest_seasonal(lambda d: d.whole_range_expected and not d.past_outputs_within and not d.equal, taps=3, others=others)
+
+
+def past_inputs_long_past(bench: Workbench) -> Outcome:
+    """It is right where past >= n + the order of the filter of u."""
+    records = [d for d in bench.limits if d.whole_range_expected and d.past_of_input and not d.past_outputs_within]
     return certify_limits(records, lambda d: d.equal and d.inputs_right)

@@ -2,6 +2,7 @@
 
 white_leads        u white, v(k) = sum phi_j u(k+j), written in the drives below
 smallest_limit     the first small experiment that meets a condition, with its certificates
+smallest_seasonal  the same among inputs of period 3
 """
 
 from __future__ import annotations
@@ -16,7 +17,18 @@ from ...exact.matrices import Matrix
 from ...exact.population_limits import population_limits
 from ...exact.symbolic_leads import lead_identities
 from ..certificate import Certificate
-from ..experiments_tried import Drive, LimitDossier, certificates_of, examine_experiment, experiments_in_order, leading
+from ..experiments_tried import (
+    Drive,
+    LimitDossier,
+    certificates_of,
+    examine_experiment,
+    experiments_in_order,
+    leading,
+    nilpotent_points,
+)
+from ..kept_experiments import WITHOUT_RANK, kept
+from ..seasonal_inputs import BOX as BOX_OF_PERIOD
+from ..seasonal_inputs import in_order, seasonal
 from ..verdicts import Outcome, Verdict
 from ..workbench import Workbench, certify_records, counterexample
 
@@ -49,8 +61,14 @@ def white_a_c_seen(bench: Workbench) -> Outcome:
 
 
 def white_b_d(bench: Workbench) -> Outcome:
-    """u white, one-sided: B and D by regression with the true A and C are right."""
-    return smallest_limit(drives([WHITE], LEADS), lambda d: _regular(d) and not d.inputs_right, "v leads u by one or two samples")
+    """u white, one-sided: B and D by regression with the true A and C are right. Refuted where the limit gives these A and C,
+    and both B and D are wrong."""
+
+    def fails(d: LimitDossier) -> bool:
+        system, found = d.experiment.system, d.state_inputs
+        return _regular(d) and d.equal and found is not None and found[0] != system.B and found[1] != system.D
+
+    return smallest_limit(drives([WHITE], LEADS), fails, "v leads u by one or two samples, the limit having the range of O_s")
 
 
 def white_b_d_seen(bench: Workbench) -> Outcome:
@@ -90,14 +108,40 @@ def lead_one_with_feedthrough(bench: Workbench) -> Outcome:
 
 
 def two_sided(bench: Workbench) -> Outcome:
-    """u and v uncorrelated at all lags: the limit lies in the range of O_s, is all of it where (A, B) is controllable; B, D are right."""
-    records = [d for d in bench.limits if d.uncorrelated]
+    """u and v uncorrelated at all lags: the limit lies in the range of O_s; B and D are right by either regression."""
+    return certify_limits([d for d in bench.limits if d.uncorrelated], lambda d: d.within and d.inputs_right)
 
-    def holds(d: LimitDossier) -> bool:
-        whole = d.equal or not (d.controllable and d.observable and d.long_past)
-        return d.within and d.inputs_right and whole
 
-    return certify_limits(records, holds)
+def two_sided_range(bench: Workbench) -> Outcome:
+    """It is all of that range, u of any colour, (A, B) controllable, past >= n: some inputs of period 3 refute it."""
+    return smallest_seasonal(lambda d: d.whole_range_expected and not d.equal, taps=1, others=WITHOUT_RANK)
+
+
+def two_sided_one_state(bench: Workbench) -> Outcome:
+    """All of it with one state, B not 0, whatever the colour and the number of inputs, past >= 1."""
+    records = [d for d in bench.limits if d.whole_range_expected and d.experiment.system.residual.n == 1]
+    return certify_limits(records, lambda d: d.equal)
+
+
+def two_sided_autoregressive(bench: Workbench) -> Outcome:
+    """All of it where u is autoregressive of order at most s."""
+    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.autoregressive], lambda d: d.equal)
+
+
+def two_sided_nilpotent(bench: Workbench) -> Outcome:
+    """All of it where A is nilpotent, u of any colour."""
+    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.nilpotent], lambda d: d.equal)
+
+
+def two_sided_long_past(bench: Workbench) -> Outcome:
+    """All of it where past >= n + the order of the filter of u, of any colour."""
+    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.past_of_input], lambda d: d.equal)
+
+
+def two_sided_almost_every(bench: Workbench) -> Outcome:
+    """For a fixed u the exceptional (A, B) are common zeros of rational functions; at one nilpotent A they do not all vanish."""
+    records = [examine_experiment("at a nilpotent A, for one u, n and s each", experiment) for experiment in nilpotent_points()]
+    return certify_limits([d for d in records if d.whole_range_expected], lambda d: d.equal)
 
 
 def parametric(bench: Workbench) -> Outcome:
@@ -119,6 +163,19 @@ def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitDossier], bool
         if fails(dossier):
             return counterexample(show_words(dossier), f"{BOX}, {scope}", show(dossier))
     return Outcome(Verdict.ERROR, "no counterexample among the small experiments")
+
+
+def smallest_seasonal(fails: Callable[[LimitDossier], bool], taps: int, others: Sequence[str]) -> Outcome:
+    """The smallest experiment with an input of period 3 that fails, and as many of those kept in counterexamples/ as `others` names."""
+    for one in in_order():
+        dossier = examine_experiment("search", seasonal(one, taps))
+        if not fails(dossier):
+            continue
+        wrong = [name for name in others if not fails(examine_experiment("kept", kept(name)))]
+        if wrong:
+            return Outcome(Verdict.ERROR, f"counterexamples/{wrong[0]}.json refutes nothing")
+        return counterexample(f"{show_words(dossier)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(dossier))
+    return Outcome(Verdict.ERROR, "no counterexample in the family")
 
 
 def show(dossier: LimitDossier) -> list[Certificate]:

@@ -1,30 +1,65 @@
-"""settle-1: a fault that follows the input, v(k) = K u(k-1), biases PI-MOESP."""
+"""settle-1: a fault that follows the input, v(k) = K u(k-1), biases PI-MOESP. One does; not every one does."""
 
 from __future__ import annotations
 
 from functools import partial
 
-from ...exact.kernel_representation import kernel_representation
-from ..experiments_tried import LimitDossier, following
-from ..verdicts import Outcome
-from ..workbench import Workbench
-from .proposition_1 import certify_limits, smallest_limit
+from ...exact.population_limits import population_limits
+from ..experiments_tried import LimitDossier, certificates_of, examine_experiment, following
+from ..kept_experiments import kept
+from ..verdicts import Outcome, Verdict
+from ..workbench import Workbench, accepted, witnessed
+from .proposition_1 import certify_limits, show_words, smallest_limit
+
+NOT_ALL = ("following-fault", "following-fault-two-states")
 
 
 def biased(bench: Workbench) -> Outcome:
-    """u white, K != 0, the fault seen in the outputs: A, C of order n, B or D come out wrong."""
-    records = [d for d in bench.limits if d.origin == "u white, v(k) = K u(k-1)" and _seen(d)]
-    return certify_limits(records, lambda d: not (d.equal and d.inputs_right))
+    """One such fault: A and C are right, the limit having the range of O_s, whatever the weights; B or D are wrong by either regression."""
+    return witnessed(
+        smallest_limit(
+            [partial(following, gain="1")],
+            lambda d: _regular(d) and d.equal and not d.output_error_right and not d.inputs_right,
+            "v(k) = u(k-1), u white",
+        )
+    )
+
+
+def for_every_system(bench: Workbench) -> Outcome:
+    """A, C of order n, B or D come out wrong in every case: the leading left singular vectors of a limit of rank n + 1 can span O_s."""
+    certificates, words = [], []
+    for name in NOT_ALL:
+        found = population_limits(kept(name))
+        dossier = examine_experiment("kept", found.experiment)
+        larger = found.past_inputs.rank == found.experiment.system.residual.n + 1
+        if not (_regular(dossier) and larger and found.leading_vectors_right(found.past_inputs) and dossier.output_error_right):
+            return Outcome(Verdict.ERROR, f"counterexamples/{name}.json refutes nothing")
+        certificates += certificates_of(found)
+        words.append(show_words(dossier))
+    told = "; and ".join(words) + (
+        ": limits of rank n + 1, B and D right by output error; that the n leading left singular vectors, outputs unscaled, span the range "
+        "of O_s is decided in rational arithmetic beside the certificates"
+    )
+    shown = accepted(certificates)
+    return Outcome(Verdict.REFUTED, told, shown, len(shown))
 
 
 def a_c_wrong(bench: Workbench) -> Outcome:
     """A and C themselves come out wrong, the limit having rank n + 1: not where a zero of the fault at 0 cancels the delay."""
-    return smallest_limit(
-        [partial(following, gain="1")],
-        lambda d: _seen(d) and d.controllable and d.observable and d.equal,
-        "v(k) = u(k-1), u white",
-    )
+    return smallest_limit([partial(following, gain="1")], lambda d: _regular(d) and d.equal, "v(k) = u(k-1), u white")
+
+
+def not_both(bench: Workbench) -> Outcome:
+    """Not both: the limit has the range of O_s, and output error gives the true B and D."""
+    records = [d for d in bench.limits if d.origin.startswith("u white, v(k) = K u(k-1)") and d.observable and _seen(d)]
+    return certify_limits(records, lambda d: not (d.equal and d.output_error_right))
+
+
+def _regular(d: LimitDossier) -> bool:
+    return _seen(d) and d.controllable and d.observable and d.long_past
 
 
 def _seen(d: LimitDossier) -> bool:
-    return kernel_representation(d.experiment.system.residual).normal_rank == 1
+    """K is not 0 and [F; G] K is not 0."""
+    residual, K = d.experiment.system.residual, d.experiment.v_filter.numerator[1]
+    return not ((residual.F @ K).is_zero() and (residual.G @ K).is_zero())

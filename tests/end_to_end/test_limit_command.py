@@ -71,7 +71,7 @@ def test_several_experiments_make_an_array_that_names_them(tmp_path: Path) -> No
 def test_a_person_reads_verdicts_and_numbers() -> None:
     run = command("limit", "example:fault-follows-input")
     assert (run.code, run.err) == (0, "")
-    for text in ("1 input; s = 4, past = 4", "3; of O_s 2", "that of O_s and 1 more: A and C of order 2 are inconsistent", "about", "none"):
+    for text in ("1 input; s = 4, past = 4", "3; of O_s 2", "that of O_s and 1 more: the rank does not tell the order 2", "about", "none"):
         assert text in run.out
     assert "that of O_s: A and C are consistent" in call("limit", "example:independent-fault").out
 

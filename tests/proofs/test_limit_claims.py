@@ -10,7 +10,7 @@ import pytest
 from faultspace.exact.experiments import Experiment
 from faultspace.proofs import experiments_tried
 from faultspace.proofs.ablation import ablate
-from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
+from faultspace.proofs.claims import assumption_2, objection_1, past_outputs, proposition_1, settle_1
 from faultspace.proofs.experiments_tried import FAMILIES, LimitDossier, examine_experiment
 from faultspace.proofs.hypotheses.experiments import consistency
 from faultspace.proofs.ledger import expected_without
@@ -38,9 +38,14 @@ READINGS = (
     proposition_1.white_b_d_seen,
     proposition_1.autoregressive,
     proposition_1.lead_one,
-    settle_1.biased,
+    proposition_1.two_sided_one_state,
+    proposition_1.two_sided_autoregressive,
+    proposition_1.two_sided_nilpotent,
+    proposition_1.two_sided_long_past,
+    objection_1.two_sided_long_past,
+    settle_1.not_both,
     past_outputs.white_fault,
-    past_outputs.past_inputs,
+    past_outputs.past_inputs_long_past,
 )
 
 
@@ -49,9 +54,13 @@ def test_a_reading_holds_and_falls_when_what_certificates_say_is_turned_round(re
     assert reading(bench).verdict == Verdict.CERTIFIED  # type: ignore[operator]
 
     def turned(d: LimitDossier) -> LimitDossier:
-        follows = d.origin.endswith("K u(k-1)")
-        wrong = {"within": False, "equal": follows, "inputs_right": follows, "past_outputs_within": not d.past_outputs_within}
-        return replace(d, state_inputs=None if d.state_inputs is None else d.state_inputs[::-1], **wrong)  # type: ignore[arg-type]
+        if "K u(k-1)" in d.origin:
+            system = d.experiment.system
+            return replace(d, equal=True, inputs_right=True, state_inputs=(system.B, system.D))
+        wrong = {"within": False, "equal": False, "inputs_right": False}
+        kept_back = {} if "independent of u" in d.origin else {"past_outputs_within": not d.past_outputs_within}
+        turned_round = None if d.state_inputs is None else d.state_inputs[::-1]
+        return replace(d, state_inputs=turned_round, **wrong, **kept_back)  # type: ignore[arg-type]
 
     spoilt = Workbench("quick", 1, quiet)
     spoilt.limits = tuple(turned(d) for d in bench.limits)
@@ -66,8 +75,11 @@ REFUTED = (
     proposition_1.white_a_c,
     proposition_1.white_b_d,
     proposition_1.coloured_a_c,
+    proposition_1.two_sided_range,
     settle_1.a_c_wrong,
+    settle_1.for_every_system,
     past_outputs.coloured_fault,
+    past_outputs.past_inputs,
 )
 
 
