@@ -1,19 +1,19 @@
 """Attacks on settle-1: a fault that follows the input, v(k) = u(k-1), u white.
 
-    feedback_attacks   on "biased for every system", by the leading left singular vectors; on "not both", by the range and the bias
+    feedback_attacks   on "for every system", by the leading left singular vectors; on "A and C wrong", by the range; on "not both"
     leading_gap        how far the n leading left singular vectors of L are from the range of O_s, and B, D from the truth
-    spans_leading      whether they span it, exactly
 
 The columns of L: the first is O_s B + T_s(F, G) e_1, the others O_s A^i (A B + F). Its n leading left singular vectors span the range of
-O_s iff that range is invariant under L L' and its n eigenvalues there are the largest. Invariant: P L L' O_s = 0, P on the complement,
+O_s iff that range is invariant under L L' and its n eigenvalues there are the largest: `exact.leading_vectors` decides it. Invariant: P L L' O_s = 0, P on the complement,
 which only the first column enters: affine in B. B and D by output error are right iff C'G + A'Q F = 0, Q = A'Q A + C'C: affine in G.
 The singular vectors are those of plain MOESP; with other weights on the outputs the condition is another one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -27,43 +27,57 @@ from ...exact.matrices import Matrix
 from ...exact.population_limits import PopulationLimits, population_limits
 from ...exact.windows import observability_matrix
 from .. import checker
-from ..experiments_tried import certificates_of, examine_experiment
+from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
 from .attacks import Aim, Attack, Block, Family, Floats, Point, Witness
 from .float_limits import Drawn, exact_experiment, float_limits, outside
 from .limit_attacks import POLE, chain, describe
 
+Fails = Callable[[LimitDossier, PopulationLimits], bool]
+
 LEADING = "the bias of B, D by output error and the part of L L' that leaves the range of O_s, each against its parts and L L'"
-BOTH = "the share of L outside the range of O_s and the bias of B, D by output error, against its parts"
+SHARE = "the share of (G; CF; CAF; ...) outside the range of O_s, in the Euclidean norm"
+BOTH = "that share and the bias of B, D by output error, against its parts"
 
 
 def feedback_attacks() -> Iterator[Attack]:
     """For one state and for two."""
     for n, p, past in ((1, 2, 6), (2, 2, 6), (2, 3, 6)):
         family = _family(n, p, past)
-        first = n + p * n + n  # poles, C, F; then G, then B
-        blocks = (
-            Block(lambda point, family=family: _bias(family, point), tuple(range(first, first + p))),  # type: ignore[misc]
-            Block(lambda point, family=family: _leaving(family, point), tuple(range(first + p, first + p + n))),  # type: ignore[misc]
-        )
+        first = n + p * n  # poles, C; then F, G, B
+        of_F, of_G, of_B = range(first, first + n), range(first + n, first + n + p), range(first + n + p, first + n + p + n)
+        bias = Block(partial(_bias, family), tuple(of_G))
+        leaving = Block(partial(_leaving, family), tuple(of_B))
+        name = f"n = {n}, p = {p}"
+        note = "its leading left singular vectors span the range of O_s, B and D by output error are right"
         yield Attack(
             target="settle-1.for-every-system",
-            name=f"n = {n}, p = {p}",
+            name=name,
             aim=Aim.ZERO,
             measured=LEADING,
             family=family,
             quantity=lambda point, family=family: leading_gap(family.at(point)),  # type: ignore[misc]
-            decide=lambda point, family=family: _decide_leading(family, point),  # type: ignore[misc]
-            blocks=blocks,
+            decide=partial(_decide, family, fails=_leading_right, note=note),
+            blocks=(bias, leaving),
+        )
+        yield Attack(
+            target="settle-1.a-c-wrong",
+            name=name,
+            aim=Aim.ZERO,
+            measured=SHARE,
+            family=family,
+            quantity=lambda point, family=family: _share(family.at(point)),  # type: ignore[misc]
+            decide=partial(_decide, family, fails=_range_right, note="its range is that of O_s"),
+            blocks=(Block(partial(_outside, family), (*of_F, *of_G)),),
         )
         yield Attack(
             target="settle-1.not-both",
-            name=f"n = {n}, p = {p}",
+            name=name,
             aim=Aim.ZERO,
             measured=BOTH,
             family=family,
             quantity=lambda point, family=family: _both(family.at(point)),  # type: ignore[misc]
-            decide=lambda point, family=family: _decide_both(family, point),  # type: ignore[misc]
-            blocks=blocks[:1],
+            decide=partial(_decide, family, fails=_both_right, note="its range is that of O_s, B and D by output error are right"),
+            blocks=(bias,),
             starts=8,
         )
 
@@ -77,25 +91,6 @@ def leading_gap(drawn: Drawn) -> Floats:
     within = float(np.linalg.eigvalsh(basis.T @ product @ basis)[0])
     excess = max(0.0, float(np.linalg.norm(outer - (outer @ basis) @ basis.T)) - within)
     return np.concatenate([_bias_in_floats(drawn), (outer @ basis).ravel(), [excess]])
-
-
-def spans_leading(found: PopulationLimits) -> bool:
-    """Whether the n leading left singular vectors of L span the range of O_s, and their singular values are larger than the others.
-
-    With W = O_s: invariant, and W'L L'W - t W'W positive definite, t = trace of P L L' P, which is at least its largest eigenvalue.
-    """
-    residual = found.experiment.system.residual
-    W, L = observability_matrix(residual, found.experiment.s), found.past_inputs.matrix
-    gram, across = W.transposed() @ W, L.transposed() @ W
-    outer = L - W @ solve(gram, W.transposed() @ L)  # P L
-    if not (outer @ across).is_zero():
-        return False
-    size = outer.transposed() @ outer
-    t = sum((size[i, i] for i in range(size.nrows)), start=size[0, 0] * 0)
-    inner = across.transposed() @ across
-    form = inner - Matrix(inner.field, *gram.shape, gram.flint * t)
-    corners = (form.rows(range(k)).columns(list(range(k))).flint.det() for k in range(1, form.nrows + 1))
-    return all(corner > 0 for corner in corners)
 
 
 def _family(n: int, p: int, past: int) -> Family:
@@ -132,8 +127,13 @@ def _bias_in_floats(drawn: Drawn) -> Floats:
 
 
 def _both(drawn: Drawn) -> Floats:
-    found = float_limits(drawn)
-    return np.append(_bias_in_floats(drawn), outside(found.past_inputs, found.observability))
+    return np.append(_bias_in_floats(drawn), _share(drawn))
+
+
+def _share(drawn: Drawn) -> float:
+    A, F, C, G = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCG")
+    powers = [np.linalg.matrix_power(A, i) for i in range(drawn.s)]
+    return outside(np.vstack([G, *(C @ power @ F for power in powers[:-1])]), np.vstack([C @ power for power in powers]))
 
 
 def _bias(family: Family, point: Point) -> list[Fraction]:
@@ -155,31 +155,47 @@ def _leaving(family: Family, point: Point) -> list[Fraction]:
     return _numbers(outer @ (L.transposed() @ W))
 
 
+def _outside(family: Family, point: Point) -> list[Fraction]:
+    """P L."""
+    experiment = exact_experiment(family.at(point))
+    L = past_input_limit(experiment, window_covariances(experiment, covariances(experiment))).matrix
+    W = observability_matrix(experiment.system.residual, experiment.s)
+    return _numbers(L - W @ solve(W.transposed() @ W, W.transposed() @ L))
+
+
 def _numbers(matrix: Matrix) -> list[Fraction]:
     return [Fraction(int(x.p), int(x.q)) for row in matrix.elements() for x in row]
 
 
-def _decide_leading(family: Family, point: Point) -> Witness | None:
-    return _decide(family, point, leading=True)
-
-
-def _decide_both(family: Family, point: Point) -> Witness | None:
-    return _decide(family, point, leading=False)
-
-
-def _decide(family: Family, point: Point, *, leading: bool) -> Witness | None:
-    """The fault is seen, (A, C) observable on s - 1 samples, B and D by output error right; and A, C too."""
+def _decide(family: Family, point: Point, fails: Fails, note: str) -> Witness | None:
+    """The fault is seen, and what every reading asks for is met; then `fails`."""
     experiment = exact_experiment(family.at(point))
     dossier = examine_experiment("adversary", experiment)
-    system = experiment.system
-    seen = kernel_representation(system.residual).normal_rank == system.residual.m
-    if not (seen and dossier.observable and dossier.state_inputs == (system.B, system.D)):
+    residual = experiment.system.residual
+    seen = kernel_representation(residual).normal_rank == residual.m
+    if not (seen and dossier.observable and dossier.controllable and dossier.long_past):
         return None
     found = population_limits(experiment)
-    if not (spans_leading(found) if leading else dossier.equal):
+    if not fails(dossier, found):
         return None
     certificates = tuple(certificates_of(found))
     for certificate in certificates:
         checker.verify(certificate)
-    note = "its leading left singular vectors span the range of O_s" if leading else "its range is that of O_s"
-    return Witness(f"{describe(family.at(point), dossier)}, {note}, B and D by output error are right", point, certificates)
+    return Witness(f"{describe(family.at(point), dossier)}, {note}", point, certificates)
+
+
+def _leading_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
+    return _inputs_right(dossier) and found.leading_vectors_right(found.past_inputs)
+
+
+def _both_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
+    return _inputs_right(dossier) and dossier.equal
+
+
+def _range_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
+    return dossier.equal
+
+
+def _inputs_right(dossier: LimitDossier) -> bool:
+    system = dossier.experiment.system
+    return dossier.state_inputs == (system.B, system.D)
