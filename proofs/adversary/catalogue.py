@@ -12,6 +12,8 @@ from functools import cache
 from ..ledger import expected_without, load
 from .attacks import Attack
 from .limit_catalogue import limit_attacks
+from .pair_attacks import pair_attacks
+from .structure_attacks import structure_attacks
 
 WITHOUT = "without "
 
@@ -19,7 +21,7 @@ WITHOUT = "without "
 @cache
 def catalogue() -> tuple[Attack, ...]:
     """In the order of the files. Raises ValueError where two attacks have one id."""
-    found = tuple(limit_attacks())
+    found = (*limit_attacks(), *pair_attacks(), *structure_attacks())
     if len({attack.id for attack in found}) < len(found):
         raise ValueError("two attacks have the same id")
     return found

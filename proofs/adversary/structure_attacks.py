@@ -12,10 +12,12 @@ from the outputs, an order at infinity rises. So a point is led to the zero set 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from random import Random
 
 from flint import fmpq, fmpq_poly
 
-from ...exact.exceptional import polynomial_at
+from ...exact.canonical_form import behavior_name, with_feedback
+from ...exact.exceptional import Exceptional, polynomial_at
 from ...exact.kernel_representation import kernel_representation
 from ...exact.matrices import Matrix, column_basis, rank, solve_left
 from ...exact.systems import ResidualSystem
@@ -27,7 +29,6 @@ from .. import checker
 from ..certificate import Certificate
 from ..claims.common import delays, ranks_and_inversion, spaces, zeros
 from ..corpus import Dossier, examine
-from ..exhaustive import orbits
 from ..judged_pairs import examine_judged, pencil_of
 from ..pairs import comparison_certificate
 from .attacks import Aim, Attack, Family, Floats, Point, Witness
@@ -53,7 +54,11 @@ Fails = Callable[[Dossier], bool]
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
 Decide = Callable[[ResidualSystem], tuple[str, list[Certificate]] | None]
 
+at_zero, at_one = pencil(0), pencil(1)
+
 WORDS = {
+    at_zero: "det of a square part of P(0)",
+    at_one: "det of a square part of P(1)",
     feedthrough: "det G",
     product: "det CF",
     later_product: "det CAF",
@@ -72,7 +77,7 @@ def structure_attacks() -> Iterator[Attack]:
 def on_strata(target: str, name: str, family: Family, quantities: Sequence[Square], decide: Decide) -> Iterator[Attack]:
     """An attack for each quantity."""
     for square in quantities:
-        words = WORDS.get(square, "det of a square part of P(z), z = 0")
+        words = WORDS[square]
         yield Attack(
             target=target,
             name=f"{name}: {words}",
@@ -108,7 +113,6 @@ def _at_points(family: Family, decide: Decide) -> Callable[[Point], Witness | No
 
 
 def _refuted() -> Iterator[Attack]:
-    at_zero = pencil(0)
     tall, square, scalar = free_family(2, 2, 1), free_family(1, 2, 2), free_family(1, 1, 1)
     yield from on_strata("theorem-2.finite-zeros-only", "one state", scalar, [feedthrough], unlike(_finite_only, zeros))
     yield from on_strata("theorem-2.transfer-function-zeros", "an idle state", idle_family(2, 2, 1), [at_zero], _transfer_zeros)
@@ -120,10 +124,10 @@ def _refuted() -> Iterator[Attack]:
     ):
         yield from on_strata(target, "one fault", tall, [at_zero], unlike(lambda d, known=known: _early_gap(d, known), delays))  # type: ignore[misc]
     yield from on_strata(
-        "proposition-3.without-left-invertibility", "two faults", free_family(1, 1, 2), [at_zero], unlike(_gap_not_m, ranks_and_inversion)
+        "proposition-3.without-left-invertibility", "two faults", free_family(1, 1, 2), [seen], unlike(_gap_not_m, ranks_and_inversion)
     )
     yield from on_strata("problem-11.window-n", "one fault", free_family(1, 2, 1), [feedthrough], unlike(_early_space, spaces(lambda s: s.n)))
-    no_gain = free_family(2, 2, 1, feedthrough=False)
+    no_gain = free_family(2, 1, 1, feedthrough=False)
     yield from on_strata("zero-feedthrough.fault-matrices", "G = 0", no_gain, [product], unlike(_other_matrices, zeros))
     yield from on_strata("trajectory-recovered.state-unknown", "one fault", free_family(2, 1, 1), [at_zero], unlike(_state_needed, delays))
     yield from on_strata("zeros-of-pairs.split", "two faults", square, [feedthrough], _other_split)
@@ -133,7 +137,6 @@ def _refuted() -> Iterator[Attack]:
 
 
 def _standing() -> Iterator[Attack]:
-    at_zero, at_one = pencil(0), pencil(1)
     orders = unlike(_wrong_delay, delays)
     yield from on_strata("trajectory-recovered.state-known", "G of rank one", rank_one_family(2, 2), [crossed, at_zero, product], orders)
     yield from on_strata(
@@ -297,21 +300,21 @@ def _thick(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
     """Lines of P: where the coefficients of D(q; P + t Q) share a polynomial in t on each of them, the bad set is a hypersurface."""
     pencil_ = pencil_of(system)
     rows, cols = pencil_.n_z, pencil_.columns
-    for seed in (1, 2):
-        P, Q = (Matrix.of([[(seed * a + 3 * i * i + 5 * j + i * j) % 7 - 3 for j in range(cols)] for i in range(rows)]) for a in (2, 5))
-        step = Matrix.of([[(7 * i + 3 * j * j + seed) % 5 - 1 for j in range(cols)] for i in range(rows)])
-        if _common(pencil_, P, Q + step).degree() < 1:
+    random = Random(str(system))
+    for _ in range(2):
+        P, Q = (Matrix.of([[random.randint(-9, 9) for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)) for _ in range(2))
+        if _common(pencil_, P, Q).degree() < 1:
             return None
     shown = [make.fault_space(pencil_.kernel, pencil_.space), make.matrix_rank("observability", system), make.window_ranks(pencil_.kernel)]
     return f"{system}: on two lines of P the coefficients of D have a common zero", shown
 
 
-def _common(pencil_: object, P: Matrix, Q: Matrix) -> fmpq_poly:
+def _common(pencil_: Exceptional, P: Matrix, Q: Matrix) -> fmpq_poly:
     """The greatest common divisor in t of the coefficients of D(q; P + t Q), of degree r in t at most."""
     degree = P.ncols
     values = []
     for t in range(degree + 1):
-        values.append([fmpq(x) for x in polynomial_at(pencil_, P + Matrix(P.field, *Q.shape, Q.flint * t))])  # type: ignore[arg-type]
+        values.append([fmpq(x) for x in polynomial_at(pencil_, P + Matrix(P.field, *Q.shape, Q.flint * t))])
     width = max(len(v) for v in values)
     common = fmpq_poly([0])
     for k in range(width):
@@ -330,8 +333,6 @@ def _through(values: Sequence[fmpq]) -> fmpq_poly:
 
 def _name_differs(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
     """Against systems of other states, coordinates, faults: equal behaviours and equal Popov rows must go together."""
-    from ...exact.canonical_form import behavior_name, with_feedback
-
     kernel = kernel_representation(system)
     others = [with_feedback(system, [[1] * system.n] * system.m), with_feedback(system, [[i - 1 for i in range(system.n)]] * system.m)]
     others.append(recoverable_pair(pencil_of(system)).assignment.system)
