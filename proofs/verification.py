@@ -12,7 +12,7 @@ from importlib import import_module
 
 from ..exact.input_rules import InvalidInput
 from .ablation import ablate
-from .adversary.attacking import Attacking, attacking, of_reading, of_row
+from .adversary.attacking import attacking, of_reading, of_row
 from .checker import Malformed, Rejected
 from .corpus import Progress
 from .hypotheses import experiments

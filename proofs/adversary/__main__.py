@@ -55,7 +55,8 @@ def _told(records: Sequence[AttackRecord]) -> int:
         found = any(refuting(record) for record in records if record["target"] == target)
         expected = expected_of(target)
         if expected is not None and found != (expected == "REFUTED"):
-            surprises.append(f"{target}: the ledger expects {expected}, and {'a counterexample' if found else 'no counterexample'} was found")
+            what = "a counterexample" if found else "no counterexample"
+            surprises.append(f"{target}: the ledger expects {expected}, and {what} was found")
     for line in surprises:
         print(f"NOT as expected: {line}")
     return 1 if surprises else 0

@@ -67,7 +67,8 @@ def of_row(row: Row, attacks: Attacking) -> Row:
     words = _against(found)
     if words is None or row.verdict in (Verdict.REFUTED, Verdict.ERROR):
         return row
-    return replace(row, verdict=Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR, evidence=f"{words}; {row.evidence}")
+    verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
+    return replace(row, verdict=verdict, evidence=f"{words}; {row.evidence}")
 
 
 def _against(found: tuple[Attacked, ...]) -> str | None:

@@ -1,10 +1,10 @@
 """The records of the adversary.
 
-    Aim        what an attack looks for: a change of sign, a common zero, or a value other than zero
-    Family     a parametrisation of subjects that meet the hypotheses by construction, the same function for floats and for Fractions
-    Attack     a target, a family, the quantity in floats and exactly, and the exact decision on one point
-    Witness    a counterexample: the point, in words, as JSON, and the certificates that the checker accepted
-    Trial      how an attack ended
+Aim        what an attack looks for: a change of sign, a common zero, or a value other than zero
+Family     a parametrisation of subjects that meet the hypotheses by construction, the same function for floats and for Fractions
+Attack     a target, a family, the quantity in floats and exactly, and the exact decision on one point
+Witness    a counterexample: the point, in words, as JSON, and the certificates that the checker accepted
+Trial      how an attack ended
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Family:
 
     words: str
     box: tuple[tuple[float, float], ...]
-    at: Callable[[Sequence[Any]], Any]
+    at: Callable[[Any], Any]
     order: tuple[int, ...] = ()
 
 

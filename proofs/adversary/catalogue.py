@@ -1,8 +1,8 @@
 """All attacks, by target.
 
-    catalogue      every attack, once
-    attacks_on     those on one target
-    statement_of   what the ledger says of a target: the words that an attack is made on
+catalogue      every attack, once; then the sweeps
+attacks_on     those on one target
+statement_of   what the ledger says of a target: the words that an attack is made on
 """
 
 from __future__ import annotations
@@ -14,20 +14,21 @@ from .attacks import Attack
 from .limit_catalogue import limit_attacks
 from .pair_attacks import pair_attacks
 from .structure_attacks import structure_attacks
+from .sweeps import Sweep, sweeps
 
 WITHOUT = "without "
 
 
 @cache
-def catalogue() -> tuple[Attack, ...]:
+def catalogue() -> tuple[Attack | Sweep, ...]:
     """In the order of the files. Raises ValueError where two attacks have one id."""
-    found = (*limit_attacks(), *pair_attacks(), *structure_attacks())
+    found: tuple[Attack | Sweep, ...] = (*limit_attacks(), *pair_attacks(), *structure_attacks(), *sweeps())
     if len({attack.id for attack in found}) < len(found):
         raise ValueError("two attacks have the same id")
     return found
 
 
-def attacks_on(target: str) -> tuple[Attack, ...]:
+def attacks_on(target: str) -> tuple[Attack | Sweep, ...]:
     """The attacks on this reading ("claim.reading") or row ("without EXPERIMENT: HYPOTHESIS")."""
     return tuple(attack for attack in catalogue() if attack.target == target)
 

@@ -69,7 +69,7 @@ def exact_experiment(drawn: Drawn) -> Experiment:
 def float_limits(drawn: Drawn) -> FloatLimits:
     """Raises numpy.linalg.LinAlgError where the covariance of the future inputs is singular."""
     A, F, C, G, B, D = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCGBD")
-    n, p, nu, s, past = len(A), len(C), B.shape[1], drawn.s, drawn.past
+    n, nu, s, past = len(A), B.shape[1], drawn.s, drawn.past
     u_move, u_enter, u_read, u_now = _line(drawn.u_taps, drawn.u_den)
     v_move, v_enter, v_read, v_now = _line(drawn.v_taps, drawn.v_den)
     a, b = len(u_move), len(v_move)
@@ -95,7 +95,14 @@ def float_limits(drawn: Drawn) -> FloatLimits:
     outputs = np.hstack([inputs, windows(y, y, future, before) - gain @ windows(u, y, future, before)])
     observability = np.vstack([C @ np.linalg.matrix_power(A, i) for i in range(s)])
     deviations = np.sqrt(np.concatenate([np.diag(P)[:n], np.diag(uf_uf)[:nu]]))
-    return FloatLimits(inputs, outputs, observability, np.linalg.lstsq(observability, inputs, rcond=None)[0], gain, deviations)
+    return FloatLimits(
+        inputs,
+        outputs,
+        observability,
+        np.linalg.lstsq(observability, inputs, rcond=None)[0],
+        np.asarray(gain, dtype=np.float64),
+        deviations,
+    )
 
 
 def determinant(M: Floats) -> float:
@@ -173,13 +180,13 @@ def input_bias(drawn: Drawn) -> float:
     A, F, C, G, B, D = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCGBD")
     found = float_limits(drawn)
     s, p, n, nu = drawn.s, len(C), len(A), B.shape[1]
-    O = found.observability
-    Pi = np.eye(s * p) - O @ np.linalg.pinv(O)
+    seen = found.observability
+    Pi = np.eye(s * p) - seen @ np.linalg.pinv(seen)
     rows, target = [], []
     for k in range(s):
         column = np.zeros((s * p, p + n))
         column[k * p : (k + 1) * p, :p] = np.eye(p)
-        column[(k + 1) * p :, p:] = O[: (s - 1 - k) * p]
+        column[(k + 1) * p :, p:] = seen[: (s - 1 - k) * p]
         rows.append(Pi @ column)
         target.append(Pi @ found.response[:, k * nu : (k + 1) * nu])
     solved = np.linalg.lstsq(np.vstack(rows), np.vstack(target), rcond=None)[0]

@@ -1,10 +1,10 @@
 """A quantity followed in floats: from several starts downhill, and along the paths between points where its sign differs.
 
-    Trace        every value seen: how many, the nearest, the points of either sign closest to zero
-    draw_starts  points of a box, uniform and degenerate on purpose: coordinates at 0, at a simple number, equal to one another
-    descend      towards the other sign, or towards a common zero; Nelder and Mead's simplex and least squares, by scipy
-    crossings    points where the sign changes, on the segments between points of different sign, by Brent's root of scipy
-    outward      towards the largest value, for a quantity that should be identically zero
+Trace        every value seen: how many, the nearest, the points of either sign closest to zero
+draw_starts  points of a box, uniform and degenerate on purpose: coordinates at 0, at a simple number, equal to one another
+descend      towards the other sign, or towards a common zero; Nelder and Mead's simplex and least squares, by scipy
+crossings    points where the sign changes, on the segments between points of different sign, by Brent's root of scipy
+outward      towards the largest value, for a quantity that should be identically zero
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Families of experiments, and how a point of one is decided: by certified population limits.
 
-    shaped_family      n states of given poles, one input of any colour by its reflection coefficients, an independent fault
-    led_family         a fault that leads the input, or comes with it
-    open_family        every matrix of the system free, u and v independent
-    decided_by         an exact decision from a test on certified limits
+shaped_family      n states of given poles, one input of any colour by its reflection coefficients, an independent fault
+led_family         a fault that leads the input, or comes with it
+open_family        every matrix of the system free, u and v independent
+decided_by         an exact decision from a test on certified limits
 """
 
 from __future__ import annotations
@@ -74,7 +74,8 @@ def chain(poles: Sequence[Any]) -> list[list[Any]]:
     coefficients: list[Any] = [1]
     for pole in poles:
         coefficients = [
-            (coefficients[i] if i < len(coefficients) else 0) - (pole * coefficients[i - 1] if i else 0) for i in range(len(coefficients) + 1)
+            (coefficients[i] if i < len(coefficients) else 0) - (pole * coefficients[i - 1] if i else 0)
+            for i in range(len(coefficients) + 1)
         ]
     n = len(poles)
     return [[-c for c in coefficients[1:]], *([int(i == j) for j in range(n)] for i in range(n - 1))]

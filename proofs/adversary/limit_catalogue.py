@@ -107,9 +107,14 @@ def _refuted() -> Iterator[Attack]:
     lead_one, lead_two = (0, 1), (0, 0, 1)
     white = led_family(2, 2, lead_one, past=2)
     yield on_the_range("proposition-1.white-a-c", white, lambda d: d.white and _one_sided(d) and not d.equal, "a fault one sample ahead")
-    yield on_inputs("proposition-1.white-b-d", white, lambda d: d.white and _one_sided(d) and not d.inputs_right, "a fault one sample ahead")
     yield on_inputs(
-        "assumption-2.one-sided", white, lambda d: d.white and d.one_sided and not d.leads and not d.inputs_right, "a fault one sample ahead"
+        "proposition-1.white-b-d", white, lambda d: d.white and _one_sided(d) and not d.inputs_right, "a fault one sample ahead"
+    )
+    yield on_inputs(
+        "assumption-2.one-sided",
+        white,
+        lambda d: d.white and d.one_sided and not d.leads and not d.inputs_right,
+        "a fault one sample ahead",
     )
     same_time = led_family(1, 2, (1,))
     yield on_inputs("assumption-2.without-lag-zero", same_time, lambda d: d.past_lags and not d.inputs_right, "v(k) = u(k)")
@@ -150,10 +155,16 @@ def _standing() -> Iterator[Attack]:
     yield on_the_range("proposition-1.two-sided-one-state", vector_family(2, 1, 1, 2), not_right, "A = a I, two inputs", starts=8)
     for n, p in ((1, 2), (2, 2), (2, 1)):
         free = open_family(n, p, coloured_input=True, coloured_fault=True)
-        yield on_containment("proposition-1.two-sided", free, lambda d: d.uncorrelated and not (d.within and d.inputs_right), f"n = {n}, p = {p}")
+        yield on_containment(
+            "proposition-1.two-sided", free, lambda d: d.uncorrelated and not (d.within and d.inputs_right), f"n = {n}, p = {p}"
+        )
         plain = open_family(n, p, coloured_input=False, coloured_fault=False)
         yield on_containment(
-            "past-outputs.white-fault", plain, lambda d: d.uncorrelated and not d.past_outputs_within, f"n = {n}, p = {p}", past_outputs=True
+            "past-outputs.white-fault",
+            plain,
+            lambda d: d.uncorrelated and not d.past_outputs_within,
+            f"n = {n}, p = {p}",
+            past_outputs=True,
         )
     driven = led_family(1, 2, (0, 0, 1), reflections=2)
     yield on_containment("proposition-1.autoregressive", driven, lambda d: not d.within, "two samples ahead, order s")

@@ -1,8 +1,8 @@
 """Attacks on what is said of pairs of systems, of pairs (Fhat P, Ghat P), and of trajectories.
 
-    pair_attacks      all of them
-    placed_family     a square system and a P: its D(q; P) vanishes in P where two numbers do, both affine in a column of P
-    driven_family     a system with one fault, x(0) and a short fault signal
+pair_attacks      all of them
+placed_family     a square system and a P: its D(q; P) vanishes in P where two numbers do, both affine in a column of P
+driven_family     a system with one fault, x(0) and a short fault signal
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def driven_family(samples: int, *, idle: bool) -> Family:
 def _bad_pair() -> Attack:
     family = placed_family()
 
-    def numbers(point: Sequence[Any]) -> list[Any]:
+    def numbers(point: Any) -> list[Any]:
         """D(0; P) and D(1; P) - D(0; P): it is of degree one in q."""
         tables, P = family.at(point)
         column = [tables.A[0][0], tables.C[0][0], tables.C[1][0]]
@@ -108,7 +108,7 @@ def _excitation_at_s() -> Attack:
     """[X; V_1] of full row rank and [X; V_2], 3 x 3, singular."""
     family = driven_family(4, idle=False)
 
-    def square(point: Sequence[Any]) -> list[list[Any]]:
+    def square(point: Any) -> list[list[Any]]:
         tables, x, v = family.at(point)
         states = [x]
         for value in v[:2]:
@@ -165,7 +165,7 @@ def _on_data(family: Family, fails: Callable[[int, int, int], bool], s: int) -> 
         data = simulate(system, x0, faults)
         ranks = [rank(excitation_matrix(data, k)) for k in (s, s + 1)]
         gap = rank(hankel(data.residuals, s + 1)) - rank(hankel(data.residuals, s))
-        if not fails(*ranks, gap):
+        if not fails(ranks[0], ranks[1], gap):
             return None
         shown = [make.data_rank("excitation", system, x0, faults, k) for k in (s, s + 1)]
         shown += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
@@ -213,7 +213,8 @@ def _other_behaviour(system: ResidualSystem) -> Found | None:
         return None
     for kernel, rival in _rivals(system, system.n):
         if rival.normal_rank == system.m and compare(kernel, rival).first_difference is not None:
-            shown = [comparison_certificate(kernel, rival), make.fault_space(kernel, fault_space(kernel, system.n)), make.left_invertible(rival)]
+            shown = [comparison_certificate(kernel, rival), make.left_invertible(rival)]
+            shown.append(make.fault_space(kernel, fault_space(kernel, system.n)))
             return f"{system} with F' = {rival.system.F}, G' = {rival.system.G}", shown
     return None
 

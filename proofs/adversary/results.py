@@ -25,22 +25,28 @@ from typing import Any
 
 from joblib import Parallel, delayed
 
-from ..certificate import sha256
+from ..certificate import Certificate, sha256
 from .attacks import Aim, Attack, Attacked, Trial
 from .catalogue import attacks_on, catalogue, statement_of
 from .engine import pursue, value_at
 from .following import NOTHING
+from .sweeps import Sweep, Swept, sweep
 
 FORMAT = "faultspace-adversary/1"
 FILE = "results.json"
 COUNTEREXAMPLE, CHANGE, NONE = "counterexample", "change of sign", "none found"
+SWEPT = "every case of a box"
+SWEEP = 8  # a sweep may take so many times as long as an attack
 
 AttackRecord = dict[str, Any]
 Progress = Callable[[str, int, int], None]
 
 
-def run_attacks(attacks: Sequence[Attack], *, seconds: float, seed: int, jobs: int = 1, progress: Progress | None = None) -> list[AttackRecord]:
-    """Every attack for at most so many seconds, as records. `progress(id, done, total)` hears of each that has ended."""
+def run_attacks(
+    attacks: Sequence[Attack | Sweep], *, seconds: float, seed: int, jobs: int = 1, progress: Progress | None = None
+) -> list[AttackRecord]:
+    """Every attack for at most so many seconds, a sweep for SWEEP times as many, as records. `progress(id, done, total)` hears of each
+    that has ended."""
     places = {attack.id: place for place, attack in enumerate(catalogue())}
     stream = Parallel(n_jobs=jobs, return_as="generator")(delayed(_run)(places[attack.id], seconds, seed) for attack in attacks)
     found = []
@@ -78,6 +84,12 @@ def shown(target: str, records: Sequence[AttackRecord] | None = None) -> tuple[A
 
 def words_of(record: AttackRecord) -> str:
     """A record in a sentence or two."""
+    if record["aim"] == SWEPT:
+        extent = "all of it" if record["complete"] else "a part of it"
+        tried = f"{extent}, {record['subjects']} in {record['cases']} cases, {record['seconds']:.0f} s, {record['date']}"
+        if record["outcome"] == COUNTEREXAMPLE:
+            return f"A counterexample was found in {record['family']} ({tried}): {record['witness']['words']}"
+        return f"No counterexample was found in {record['family']} ({tried})"
     tried = f"{record['starts']} starts, {record['evaluations']} values, {record['decided']} points decided exactly, "
     tried += f"{record['seconds']:.0f} s, {record['date']}"
     if record["outcome"] == COUNTEREXAMPLE:
@@ -97,6 +109,8 @@ def words_of(record: AttackRecord) -> str:
 
 def _run(place: int, seconds: float, seed: int) -> AttackRecord:
     attack = catalogue()[place]
+    if isinstance(attack, Sweep):
+        return _swept(sweep(attack, seconds=SWEEP * seconds))
     return _record(pursue(attack, seconds=seconds, seed=seed), seed)
 
 
@@ -123,10 +137,33 @@ def _record(trial: Trial, seed: int) -> AttackRecord:
         else {
             "words": witness.words,
             "point": [str(x) for x in witness.point],
-            "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in witness.certificates],
+            "certificates": _named(witness.certificates),
         },
         "bracket": None if bracket is None else [[str(x) for x in point] for point in bracket],
     }
+
+
+def _swept(result: Swept) -> AttackRecord:
+    one = result.sweep
+    found = result.found
+    return {
+        "attack": one.id,
+        "target": one.target,
+        "statement_sha256": _digest(one.target),
+        "family": one.words,
+        "aim": SWEPT,
+        "complete": result.complete,
+        "cases": result.cases,
+        "subjects": result.subjects,
+        "seconds": round(result.seconds, 2),
+        "date": datetime.now(UTC).date().isoformat(),
+        "outcome": COUNTEREXAMPLE if found else NONE,
+        "witness": None if found is None else {"words": found[0], "point": [], "certificates": _named(found[1])},
+    }
+
+
+def _named(certificates: Sequence[Certificate]) -> list[dict[str, str]]:
+    return [{"kind": c["kind"], "sha256": sha256(c)} for c in certificates]
 
 
 def _digest(target: str) -> str | None:
@@ -134,7 +171,7 @@ def _digest(target: str) -> str | None:
     return None if statement is None else hashlib.sha256(statement.encode()).hexdigest()
 
 
-def _shown(record: AttackRecord, attack: Attack | None) -> Attacked:
+def _shown(record: AttackRecord, attack: Attack | Sweep | None) -> Attacked:
     words = words_of(record)
     if record["statement_sha256"] != _digest(record["target"]):
         return Attacked(record["attack"], words, False, "out of date: the statement has changed since, so that the attack must run again")
@@ -144,8 +181,11 @@ def _shown(record: AttackRecord, attack: Attack | None) -> Attacked:
     return Attacked(record["attack"], words, refuting(record) and trouble is None, trouble)
 
 
-def _again(record: AttackRecord, attack: Attack) -> str | None:
-    """What is stored, found again; None where all of it is."""
+def _again(record: AttackRecord, attack: Attack | Sweep) -> str | None:
+    """What is stored, found again; None where all of it is. A sweep is gone through again only where it found something."""
+    if isinstance(attack, Sweep):
+        again = record["witness"] is None or sweep(attack, seconds=SWEEP * 60.0).found is not None
+        return None if again else "not found again: the box has no counterexample"
     if record["point"]:
         value, before = value_at(attack, record["point"]), record["nearest"]
         if abs(value - before) > 0.01 * max(value, before) and max(value, before) > NOTHING:

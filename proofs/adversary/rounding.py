@@ -20,6 +20,7 @@ from ...exact.fields import QQ
 from ...exact.matrices import Matrix, solve_left
 from .attacks import Floats, Point
 
+HALVINGS = 12
 DENOMINATORS = (1, 2, 3, 4, 6, 8, 12, 20, 32)
 
 
@@ -38,9 +39,7 @@ def moved(point: Point, place: int, value: Fraction) -> Point:
     return (*point[:place], value, *point[place + 1 :])
 
 
-def rational_roots(
-    value: Callable[[Fraction], Fraction], low: Fraction, high: Fraction, *, most: int = 16
-) -> tuple[Fraction, ...] | None:
+def rational_roots(value: Callable[[Fraction], Fraction], low: Fraction, high: Fraction, *, most: int = 16) -> tuple[Fraction, ...] | None:
     """The rational zeros in (low, high) of a rational function; None where its degrees are too large for `most` values."""
     xs: list[fmpq] = []
     ys: list[fmpq] = []
@@ -64,7 +63,7 @@ def _numerator(xs: Sequence[fmpq], ys: Sequence[fmpq]) -> fmpq_poly | None:
         modulus *= fmpq_poly([-x, 1])
     before, now, factor_before, factor = modulus, interpolant, fmpq_poly([0]), fmpq_poly([1])
     best: tuple[int, fmpq_poly] | None = None
-    while now != 0:
+    while now.degree() >= 0:
         size = now.degree() + factor.degree()
         if (best is None or size < best[0]) and all(factor(x) != 0 for x in xs):
             best = size, now
@@ -99,12 +98,12 @@ def solve_affine(equations: Callable[[Point], Sequence[Fraction]], point: Point,
     return result if all(x == 0 for x in equations(result)) else None
 
 
-def bracket(value: Callable[[Fraction], Fraction], low: Fraction, high: Fraction, *, halvings: int = 12) -> tuple[Fraction, Fraction] | None:
+def bracket(value: Callable[[Fraction], Fraction], low: Fraction, high: Fraction) -> tuple[Fraction, Fraction] | None:
     """Two points between which the sign changes, from two such points by bisection; None where the signs agree."""
     at_low, at_high = value(low), value(high)
     if at_low * at_high >= 0:
         return None
-    for _ in range(halvings):
+    for _ in range(HALVINGS):
         middle = (low + high) / 2
         at_middle = value(middle)
         if at_middle == 0:

@@ -14,12 +14,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from random import Random
 
+import sympy
 from flint import fmpq, fmpq_poly
 
+from ...exact.bad_set import bad_equations
 from ...exact.canonical_form import behavior_name, with_feedback
 from ...exact.exceptional import Exceptional, polynomial_at
+from ...exact.fault_space import fault_space
 from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, column_basis, rank, solve_left
+from ...exact.matrices import Matrix, beside, column_basis, left_null_space, rank, solve_left, stacked
+from ...exact.polynomials import Poly, multiply
 from ...exact.systems import ResidualSystem
 from ...exact.windows import observability_matrix, reachability_matrix
 from ...exact.zero_assignment import assign_zeros, recoverable_pair
@@ -31,7 +35,7 @@ from ..claims.common import delays, ranks_and_inversion, spaces, zeros
 from ..corpus import Dossier, examine
 from ..judged_pairs import examine_judged, pencil_of
 from ..pairs import comparison_certificate
-from .attacks import Aim, Attack, Family, Floats, Point, Witness
+from .attacks import Aim, Attack, Family, Point, Witness
 from .structure_families import (
     Square,
     crossed,
@@ -44,6 +48,7 @@ from .structure_families import (
     later_product,
     pencil,
     product,
+    rank_deficient_family,
     rank_one_family,
     reached,
     seen,
@@ -121,40 +126,70 @@ def _refuted() -> Iterator[Attack]:
         ("assumption-4.n-minus-1-known", True),
         ("assumption-4.n-minus-1-unknown", False),
         ("proposition-3.as-printed", True),
+        ("settle-2.n-minus-1", True),
     ):
         yield from on_strata(target, "one fault", tall, [at_zero], unlike(lambda d, known=known: _early_gap(d, known), delays))  # type: ignore[misc]
     yield from on_strata(
         "proposition-3.without-left-invertibility", "two faults", free_family(1, 1, 2), [seen], unlike(_gap_not_m, ranks_and_inversion)
     )
-    yield from on_strata("problem-11.window-n", "one fault", free_family(1, 2, 1), [feedthrough], unlike(_early_space, spaces(lambda s: s.n)))
+    yield from on_strata(
+        "problem-11.window-n", "one fault", free_family(1, 2, 1), [feedthrough], unlike(_early_space, spaces(lambda s: s.n))
+    )
     no_gain = free_family(2, 1, 1, feedthrough=False)
     yield from on_strata("zero-feedthrough.fault-matrices", "G = 0", no_gain, [product], unlike(_other_matrices, zeros))
     yield from on_strata("trajectory-recovered.state-unknown", "one fault", free_family(2, 1, 1), [at_zero], unlike(_state_needed, delays))
     yield from on_strata("zeros-of-pairs.split", "two faults", square, [feedthrough], _other_split)
+    yield from on_strata(
+        "objection-3.controllability-needed", "an idle state", idle_family(2, 2, 1), [at_zero], unlike(_right_anyway, zeros)
+    )
+    yield from on_strata("problem-11.first-block-column", "one fault", free_family(1, 2, 1), [feedthrough], _first_column)
     hidden = hidden_family(2, 2, 2)
     yield from on_strata("bad-set.codimension-unobservable", "a hidden state", hidden_family(1, 1, 1), [feedthrough], _bad_on_a_line)
     yield from on_strata("zero-assignment.without-observability", "a hidden state", hidden, [at_zero], _no_free_zeros)
 
 
 def _standing() -> Iterator[Attack]:
-    orders = unlike(_wrong_delay, delays)
+    orders = unlike(wrong_delay, delays)
     yield from on_strata("trajectory-recovered.state-known", "G of rank one", rank_one_family(2, 2), [crossed, at_zero, product], orders)
     yield from on_strata(
         "trajectory-recovered.state-known", "three states, G = 0", free_family(3, 2, 2, feedthrough=False), [product, later_product], orders
     )
-    signal = unlike(_wrong_signal, zeros)
+    signal = unlike(wrong_signal, zeros)
     for name, family in (
         ("one fault, G = 0", free_family(2, 2, 1, feedthrough=False)),
         ("two faults, G = 0", free_family(3, 2, 2, feedthrough=False)),
         ("a hidden state, G = 0", hidden_family(3, 2, 2, feedthrough=False)),
     ):
         yield from on_strata("trajectory-recovered.zero-feedthrough-signal", name, family, [product, at_zero], signal)
-    for name, family in (("two states", hidden_family(2, 1, 1)), ("two faults", hidden_family(2, 2, 2)), ("three states", hidden_family(3, 2, 1))):
-        yield from on_strata("zero-assignment.unobservable", name, family, [at_zero, feedthrough], _misplaced)
-        yield from on_strata("zero-assignment.recoverable", name, family, [at_zero, at_one], _irrecoverable)
-    for name, family in (("zeta = n", free_family(2, 2, 2)), ("G of rank one", rank_one_family(2, 2)), ("three outputs", free_family(2, 3, 2))):
-        yield from on_strata("bad-set.codimension-two", name, family, [at_zero, feedthrough if "rank" not in name else product], _thick_bad_set)
-    for name, family in (("one fault", free_family(2, 2, 1)), ("two faults", rank_one_family(2, 2)), ("a hidden state", hidden_family(2, 2, 1))):
+    for name, family in (
+        ("two states", hidden_family(2, 1, 1)),
+        ("two faults", hidden_family(2, 2, 2)),
+        ("three states", hidden_family(3, 2, 1)),
+    ):
+        yield from on_strata("zero-assignment.unobservable", name, family, [at_zero, feedthrough], misplaced)
+        yield from on_strata("zero-assignment.recoverable", name, family, [at_zero, at_one], irrecoverable)
+    for name, family in (
+        ("zeta = n", free_family(2, 2, 2)),
+        ("G of rank one", rank_one_family(2, 2)),
+        ("three outputs", free_family(2, 3, 2)),
+    ):
+        yield from on_strata(
+            "bad-set.codimension-two", name, family, [at_zero, feedthrough if "rank" not in name else product], _thick_bad_set
+        )
+    for dropped, family, first in (
+        ("controllable", idle_family(2, 2, 2), at_zero),
+        ("A stable", free_family(2, 2, 2), at_zero),
+        ("left-invertible", rank_deficient_family(), reached),
+        ("r >= 2", free_family(2, 2, 1, feedthrough=False), at_zero),
+    ):
+        yield from on_strata(f"without codimension: {dropped}", "lines", family, [first, seen], _thick_seen)
+    dependent = free_family(2, 2, 2, feedthrough=False)
+    yield from on_strata("without range-of-F: left-invertible", "G = 0", dependent, [product, at_zero], unlike(_range_lost, zeros))
+    for name, family in (
+        ("one fault", free_family(2, 2, 1)),
+        ("two faults", rank_one_family(2, 2)),
+        ("a hidden state", hidden_family(2, 2, 1)),
+    ):
         yield from on_strata("canonical-form.popov-rows", name, family, [at_zero, seen, reached], _name_differs)
 
 
@@ -190,6 +225,40 @@ def _early_space(d: Dossier) -> bool:
     return d.space_dimensions[max(d.n, d.delay_known_state) - 1] != d.limit_dimension
 
 
+def _right_anyway(d: Dossier) -> bool:
+    """The gap is m from n on, without controllability."""
+    return not d.controllable and d.observable and d.left_invertible and all(d.gap(s) == d.m for s in range(max(d.n, 1), d.n + 3))
+
+
+def _first_column(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """A z that the rows annihilate on the first block column of T_s(z) at s = lag + 1, and not on all of them."""
+    kernel = kernel_representation(system)
+    d = examine("adversary", system)
+    if not (d.observable and d.left_invertible):
+        return None
+    window = kernel.lag + 1
+    outputs = [beside(Matrix.zero(system.field, system.p, system.n), Matrix.identity(system.field, system.p))]
+    state = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.p))
+    for _ in range(window - 1):
+        outputs.append(system.C @ state)
+        state = system.A @ state
+    conditions = [
+        sum(
+            (row.coefficients.rows([k]) @ outputs[k + shift] for k in range(1, row.degree + 1)), row.coefficients.rows([0]) @ outputs[shift]
+        )
+        for row in kernel.rows_within(window)
+        for shift in range(window - row.degree)
+    ]
+    found = left_null_space(stacked(*conditions).transposed()) if conditions else Matrix.zero(system.field, 0, 0)
+    space = fault_space(kernel, window).basis
+    for i in range(found.nrows):
+        if rank(stacked(space, found.rows([i]))) > space.nrows:
+            z = found.rows([i]).transposed()
+            words = f"{system}, z = {[str(x) for x in z.transposed().elements()[0]]}, s = {window}"
+            return words, [make.first_column_only(kernel, window, z), make.window_ranks(kernel)]
+    return None
+
+
 def _other_matrices(d: Dossier) -> bool:
     return d.observable and d.left_invertible and d.system.G.is_zero() and d.without_feedthrough != rank(d.system.F)
 
@@ -223,7 +292,9 @@ def _other_split(system: ResidualSystem) -> tuple[str, list[Certificate]] | None
     found: dict[int, ResidualSystem] = {}
     for shift in range(rows):
         for tilt in (0, 1):
-            P = Matrix.of([[int((i + shift) % rows == j) + tilt * int(i == j) for j in range(cols)] for i in range(rows)], shape=(rows, cols))
+            P = Matrix.of(
+                [[int((i + shift) % rows == j) + tilt * int(i == j) for j in range(cols)] for i in range(rows)], shape=(rows, cols)
+            )
             pair = examine_judged("adversary", "unit", system, P, None, 1)
             if pair.equal:
                 found[len(pair.zero_polynomial)] = pair.pair
@@ -251,7 +322,7 @@ def _bad_on_a_line(system: ResidualSystem) -> tuple[str, list[Certificate]] | No
 # -- what stands -----------------------------------------------------------------------------------------------------------
 
 
-def _wrong_delay(d: Dossier) -> bool:
+def wrong_delay(d: Dossier) -> bool:
     if d.infinite_zero_orders is None:
         return False
     if not d.left_invertible:
@@ -259,31 +330,33 @@ def _wrong_delay(d: Dossier) -> bool:
     return d.delay_known_state != max(d.infinite_zero_orders, default=0)
 
 
-def _wrong_signal(d: Dossier) -> bool:
+def wrong_signal(d: Dossier) -> bool:
     if not (d.left_invertible and d.m and d.finite_zeros is not None and d.system.G.is_zero()):
         return False
     hidden = d.n - rank(observability_matrix(d.system, d.n))
     return zero_feedthrough(kernel_representation(d.system)).pins_v != (rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == hidden)
 
 
-def _misplaced(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+def misplaced(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
     """Multiples of the fixed zeros, of every degree: q^k, and (q - 1)^k, which may meet a pole or a hidden mode."""
     pencil_ = pencil_of(system)
-    fixed = fmpq_poly([x for x in pencil_.fixed])
+    field = system.field
     if not pencil_.columns:
         return None
     for root in (0, 1):
-        for degree in range(pencil_.zeta - fixed.degree() + 1):
-            wanted = tuple((fixed * fmpq_poly([-root, 1]) ** degree).coeffs())
-            P = assign_zeros(pencil_, [str(x) for x in wanted]).P
+        free: Poly = (field.element(1),)
+        while len(free) + len(pencil_.fixed) - 2 <= pencil_.zeta:
+            wanted = multiply(free, pencil_.fixed)
+            P = assign_zeros(pencil_, [field.write(x) for x in wanted]).P
             pair = examine_judged("adversary", "placed", system, P, wanted, 1)
             if not (pair.equal and pair.zero_polynomial == pair.wanted):
                 shown = [comparison_certificate(pencil_.kernel, kernel_representation(pair.pair)), make.finite_zeros(pair.pair)]
                 return f"{system}, wanted {list(map(str, wanted))}", shown
+            free = multiply(free, (field.element(-root), field.element(1)))
     return None
 
 
-def _irrecoverable(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+def irrecoverable(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
     pencil_ = pencil_of(system)
     kernel = kernel_representation(recoverable_pair(pencil_).assignment.system)
     shown = [comparison_certificate(pencil_.kernel, kernel), make.inversion_delay(kernel, known_state=False)]
@@ -296,17 +369,31 @@ def _thick_bad_set(system: ResidualSystem) -> tuple[str, list[Certificate]] | No
     return _thick(system) if pencil_.observable and pencil_.columns >= 2 and pencil_.zeta >= 1 else None
 
 
+def _thick_seen(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """The same without a word on r."""
+    pencil_ = pencil_of(system)
+    return _thick(system) if pencil_.observable and pencil_.columns and pencil_.zeta >= 1 else None
+
+
+def _range_lost(d: Dossier) -> bool:
+    """G = 0, rank CF = m, no finite zeros, and yet members of Z without feedthrough outside im F."""
+    system = d.system
+    return system.G.is_zero() and rank(system.C @ system.F) == d.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
+
+
 def _thick(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
-    """Lines of P: where the coefficients of D(q; P + t Q) share a polynomial in t on each of them, the bad set is a hypersurface."""
+    """The bad set is a hypersurface iff the coefficients of D(q; P) share a polynomial in P: not where some line misses it."""
     pencil_ = pencil_of(system)
     rows, cols = pencil_.n_z, pencil_.columns
     random = Random(str(system))
-    for _ in range(2):
-        P, Q = (Matrix.of([[random.randint(-9, 9) for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)) for _ in range(2))
-        if _common(pencil_, P, Q).degree() < 1:
-            return None
+    P, Q = (Matrix.of([[random.randint(-999, 999) for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)) for _ in range(2))
+    if _common(pencil_, P, Q).degree() < 1:
+        return None
+    shared = sympy.gcd_list(list(bad_equations(pencil_).equations))
+    if not shared.free_symbols:
+        return None
     shown = [make.fault_space(pencil_.kernel, pencil_.space), make.matrix_rank("observability", system), make.window_ranks(pencil_.kernel)]
-    return f"{system}: on two lines of P the coefficients of D have a common zero", shown
+    return f"{system}: every coefficient of D(q; P) is a multiple of {shared}", shown
 
 
 def _common(pencil_: Exceptional, P: Matrix, Q: Matrix) -> fmpq_poly:

@@ -1,13 +1,15 @@
 """Families of systems, and the quantities on whose zero sets ranks drop.
 
-    Tables             A, F, C, G by rows, floats or Fractions
-    free_family        every entry free
-    hidden_family      the first state is seen by no output
-    direct_family      G of rank one, or zero
-    pencil, feedthrough, product, seen, crossed   determinants: of P(z), G, CF, the first n rows of O_n; what is left of CF beside G
-    determinant        by expansion, the same for floats and Fractions
-    system_of          the exact system
-    hadamard           a determinant in floats against the product of the lengths of its rows
+Tables             A, F, C, G by rows, floats or Fractions
+free_family        every entry free
+hidden_family      the first state is seen by no output
+idle_family        the first state is reached by no fault
+rank_deficient_family   two faults that are one
+rank_one_family    G of rank one: zeros at infinity
+pencil, feedthrough, product, later_product, seen, reached, crossed   square parts of P(z), G, CF, CAF, O_n, [F AF ...], of CF beside G
+determinant        by expansion, the same for floats and Fractions
+system_of          the exact system
+hadamard           a determinant in floats against the product of the lengths of its rows
 """
 
 from __future__ import annotations
@@ -94,6 +96,17 @@ def rank_one_family(n: int, size: int) -> Family:
     return Family(f"n = {n}, p = m = {size}, G of rank one, the rest free", (ENTRY,) * count, at)
 
 
+def rank_deficient_family() -> Family:
+    """n = p = m = 2, the second fault a multiple of the first, which the output cannot tell apart."""
+    single = free_family(2, 2, 1)
+
+    def at(point: Sequence[Any]) -> Tables:
+        tables, weight = single.at(point[:-1]), point[-1]
+        return Tables(tables.A, [[x, weight * x] for (x,) in tables.F], tables.C, [[x, weight * x] for (x,) in tables.G])
+
+    return Family("n = p = m = 2, the second fault a multiple of the first", (*single.box, ENTRY), at)
+
+
 def pencil(z: int) -> Square:
     """[[z I - A, -F], [C, G]], the first n + m rows."""
 
@@ -121,7 +134,8 @@ def later_product(t: Tables) -> Rows:
 
 def seen(t: Tables) -> Rows:
     """The first n rows of O_n."""
-    block, rows = t.C, []
+    block: Rows = t.C
+    rows: Rows = []
     while len(rows) < len(t.A):
         rows += block
         block = _product(block, t.A)
@@ -130,7 +144,8 @@ def seen(t: Tables) -> Rows:
 
 def reached(t: Tables) -> Rows:
     """The first n columns of [F AF ...], as rows."""
-    block, rows = t.F, []
+    block: Rows = t.F
+    rows: Rows = []
     while len(rows) < len(t.A):
         rows += [list(column) for column in zip(*block, strict=True)]
         block = _product(t.A, block)
