@@ -29,11 +29,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if name not in targets:
             parser.error(f"--reading: got {name!r}, expected one of {', '.join(targets)}")
     chosen = [attack for attack in catalogue() if given.reading is None or attack.target in given.reading]
-    records = run_attacks(chosen, seconds=given.seconds, seed=given.seed, jobs=given.jobs, progress=_progress)
-    for record in records:
-        print(f"{record['attack']}\n  {words_of(record)}")
-    if given.out is not None:
-        write([*_kept(given.out, {record["attack"] for record in records}), *records], given.out)
+    records: list[AttackRecord] = []
+    for record in run_attacks(chosen, seconds=given.seconds, seed=given.seed, jobs=given.jobs, progress=_progress):
+        records.append(record)
+        print(f"{record['attack']}\n  {words_of(record)}", flush=True)
+        if given.out is not None:  # at once: a run that is stopped keeps what it has found
+            write([*_kept(given.out, {one["attack"] for one in records}), *records], given.out)
     return _told(records)
 
 

@@ -5,8 +5,9 @@
 
 The columns of L: the first is O_s B + T_s(F, G) e_1, the others O_s A^i (A B + F). Its n leading left singular vectors span the range of
 O_s iff that range is invariant under L L' and its n eigenvalues there are the largest: `exact.leading_vectors` decides it. Invariant:
-P L L' O_s = 0, P on the complement, which only the first column enters: affine in B. B and D by output error are right iff C'G + A'Q F = 0, Q = A'Q A + C'C: affine in G.
-The singular vectors are those of plain MOESP; with other weights on the outputs the condition is another one.
+P L L' O_s = 0, P on the complement, which only the first column enters: affine in B. B and D by output error are right iff
+C'G + A'Q F = 0, Q = A'Q A + C'C: affine in G. The singular vectors are those of plain MOESP; with other weights on the outputs the
+condition is another one.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
 from fractions import Fraction
 from functools import cache
@@ -44,17 +44,15 @@ Progress = Callable[[str, int, int], None]
 
 def run_attacks(
     attacks: Sequence[Attack | Sweep], *, seconds: float, seed: int, jobs: int = 1, progress: Progress | None = None
-) -> list[AttackRecord]:
-    """Every attack for at most so many seconds, a sweep for SWEEP times as many, as records. `progress(id, done, total)` hears of each
-    that has ended."""
+) -> Iterator[AttackRecord]:
+    """Every attack for at most so many seconds, a sweep for SWEEP times as many, as records, in order. `progress(id, done,
+    total)` hears of each that has ended."""
     places = {attack.id: place for place, attack in enumerate(catalogue())}
     stream = Parallel(n_jobs=jobs, return_as="generator")(delayed(_run)(places[attack.id], seconds, seed) for attack in attacks)
-    found = []
-    for record in stream:
-        found.append(record)
+    for done, record in enumerate(stream, 1):
         if progress is not None:
-            progress(record["attack"], len(found), len(attacks))
-    return found
+            progress(record["attack"], done, len(attacks))
+        yield record
 
 
 def write(records: Sequence[AttackRecord], path: Path) -> None:
