@@ -12,14 +12,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from .catalogue import catalogue, expected_of
-from .results import AttackRecord, refuting, run_attacks, words_of, write
+from .results import AttackRecord, refuting, run_attacks, stale, words_of, write
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command."""
     parser = argparse.ArgumentParser(prog="python -m faultspace.proofs.adversary", description="Attacks on what is not proved in general.")
     parser.add_argument("--reading", metavar="ID", action="append", help="only attacks on this target, as claim.reading; may be repeated")
-    parser.add_argument("--seconds", type=float, default=15.0, help="the most that one attack may take (15)")
+    parser.add_argument("--stale", action="store_true", help="only attacks that the file of --out has no record of, or one of other words")
+    parser.add_argument("--seconds", type=float, default=15.0, help="the most that one attack may take of one processor (15)")
     parser.add_argument("--seed", type=int, default=0, help="of the starts (0)")
     parser.add_argument("--jobs", type=int, default=1, help="how many attacks run at a time (1)")
     parser.add_argument("--out", type=Path, metavar="FILE", help="a file of results: attacks that do not run now keep their records in it")
@@ -29,6 +30,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if name not in targets:
             parser.error(f"--reading: got {name!r}, expected one of {', '.join(targets)}")
     chosen = [attack for attack in catalogue() if given.reading is None or attack.target in given.reading]
+    if given.stale:
+        before = [] if given.out is None else _kept(given.out, set())
+        chosen = [attack for attack in chosen if stale(attack, before)]
     records: list[AttackRecord] = []
     for record in run_attacks(chosen, seconds=given.seconds, seed=given.seed, jobs=given.jobs, progress=_progress):
         records.append(record)

@@ -2,6 +2,7 @@
 
     run_attacks    attacks run now, in parallel, as records for the file
     stored         the records of the package's file
+    stale          whether an attack has no record, or one of other words
     shown          the records on one target as a run of `verify` shows them, each checked again
     write          records into a file
     refuting       whether a record tells of a counterexample
@@ -73,6 +74,12 @@ def refuting(record: AttackRecord) -> bool:
     return bool(record["outcome"] != NONE)
 
 
+def stale(attack: Attack | Sweep, records: Sequence[AttackRecord]) -> bool:
+    """Whether the records have none of this attack on the statement as it is now."""
+    digest = _digest(attack.target)
+    return not any(record["attack"] == attack.id and record["statement_sha256"] == digest for record in records)
+
+
 def shown(target: str, records: Sequence[AttackRecord] | None = None) -> tuple[Attacked, ...]:
     """The records on a target (None: of the package's file), each checked again."""
     known = {attack.id: attack for attack in attacks_on(target)}
@@ -84,12 +91,12 @@ def words_of(record: AttackRecord) -> str:
     """A record in a sentence or two."""
     if record["aim"] == SWEPT:
         extent = "all of it" if record["complete"] else "a part of it"
-        tried = f"{extent}, {record['subjects']} in {record['cases']} cases, {record['seconds']:.0f} s, {record['date']}"
+        tried = f"{extent}, {record['subjects']} in {record['cases']} cases, {record['seconds']:.0f} s of one processor, {record['date']}"
         if record["outcome"] == COUNTEREXAMPLE:
             return f"A counterexample was found in {record['family']} ({tried}): {record['witness']['words']}"
         return f"No counterexample was found in {record['family']} ({tried})"
     tried = f"{record['starts']} starts, {record['evaluations']} values, {record['decided']} points decided exactly, "
-    tried += f"{record['seconds']:.0f} s, {record['date']}"
+    tried += f"{record['seconds']:.0f} s of one processor, {record['date']}"
     if record["outcome"] == COUNTEREXAMPLE:
         return f"A counterexample was found in {record['family']} ({tried}): {record['witness']['words']}"
     if record["outcome"] == CHANGE:

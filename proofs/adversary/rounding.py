@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from math import ceil, floor
 
 from flint import fmpq, fmpq_poly
 
@@ -25,10 +26,13 @@ DENOMINATORS = (1, 2, 3, 4, 6, 8, 12, 20, 32)
 
 
 def simple(point: Floats, box: Sequence[tuple[float, float]], denominators: Sequence[int] = DENOMINATORS) -> Iterator[Point]:
-    """The nearest points with small denominators that lie inside the box, each once."""
+    """The nearest points with small denominators inside the box, each once."""
     seen = set()
     for bottom in denominators:
-        rounded = tuple(Fraction(round(x * bottom), bottom) for x in point)
+        rounded = tuple(
+            Fraction(min(max(round(x * bottom), ceil(low * bottom)), floor(high * bottom)), bottom)
+            for x, (low, high) in zip(point, box, strict=True)
+        )
         if rounded not in seen and all(low <= x <= high for x, (low, high) in zip(rounded, box, strict=True)):
             seen.add(rounded)
             yield rounded
