@@ -109,9 +109,9 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
             experiment = row.experiment
             table.add_section()
             table.add_row(Text(row.claim, style="bold"), "", Text(row.conclusion, style="bold"), "")
-        if len(row.dropped) < 2 or (row.verdict != Verdict.CERTIFIED and row.already is None):
+        if len(row.dropped) < 2 or (row.verdict not in (Verdict.CERTIFIED, Verdict.PROVED) and row.already is None):
             name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"
-            verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + _meaning(row), "dim"))
+            verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + row.meaning, "dim"))
             told = Text("\n".join([row.evidence, *(f"attacked by {line}" for line in attack_lines(row.attacks))]), style="dim italic")
             table.add_row(name, verdict, told, _hashes(row.certificates, row.accepted))
     return table
@@ -120,10 +120,6 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
 def attack_lines(attacks: Sequence[Attacked]) -> list[str]:
     """What the adversary tried on one statement, a line each, with what is wrong with a stored attack."""
     return [f"{one.id}: {one.words}{f' ({one.trouble})' if one.trouble else ''}" for one in attacks]
-
-
-def _meaning(row: Row) -> str:
-    return {Verdict.REFUTED: "needed", Verdict.CERTIFIED: "not needed"}.get(row.verdict, "")
 
 
 def _standing(claim: ClaimResult) -> str:

@@ -3,7 +3,7 @@
     Theorems       what was checked: Rocq's version, each theorem's statement as Rocq prints it
     check          compiles the theory (or takes it from the cache) and asks for each name's statement and assumptions
 
-The theorems are in rocq/Headlines.v, the definitions they speak of in rocq/Definitions.v. NotProved of `rocq_build` is raised where a name
+The theorems are in rocq/Headlines.v, the words they speak of in rocq/Vocabulary.v. NotProved of `rocq_build` is raised where a name
 is not there, or rests on an axiom or on an admitted proof; NoRocq and BrokenTheory go through.
 """
 
@@ -64,7 +64,7 @@ def question(names: Iterable[str]) -> str:
     assumptions of each would take a second or two for every one of them.
     """
     wanted = list(names)
-    lines = ["From mathcomp Require Import all_ssreflect all_algebra.", "From faultspace Require Import Definitions Headlines."]
+    lines = ["From mathcomp Require Import all_ssreflect all_algebra.", "From faultspace Require Import Vocabulary Headlines."]
     for name in wanted:
         lines += [f'Goal True. idtac "{MARK}{name}". Abort.', f"Check Headlines.{name}."]
     # Each is a proof of a proposition, not a definition of the same name.

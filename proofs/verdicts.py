@@ -32,6 +32,9 @@ class Verdict(StrEnum):
     ERROR = "ERROR"
 
 
+IMPLIED = "IMPLIED"  # the ledger's word for a hypothesis that follows from the others
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the checker.
@@ -143,7 +146,13 @@ def of_readings(readings: Sequence[tuple[Reading, Verdict]], *, in_parts: bool) 
 
 @dataclass(frozen=True)
 class Row:
-    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already."""
+    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
+
+    `theorems` prove it without them, and `machine_checked` says that Rocq has checked these in the run. Of the `tried` subjects that meet
+    the other hypotheses, `lacking` violate one of the dropped. `implied`: why a dropped one follows from the others; None where it does
+    not. `ledger` is the ledger's entry: REFUTED, CERTIFIED, or IMPLIED. A row that rests on no subject which lacks the dropped is not as
+    expected, unless it is told why there is none.
+    """
 
     experiment: str
     claim: str
@@ -154,13 +163,39 @@ class Row:
     already: str | None
     certificates: tuple[Certificate, ...]
     accepted: int
-    expected: str | None = None
+    ledger: str | None = None
+    theorems: tuple[str, ...] = ()
+    machine_checked: bool = False
+    tried: int | None = None
+    lacking: int | None = None
+    implied: str | None = None
     attacks: tuple[Attacked, ...] = ()
 
     @property
+    def expected(self) -> str | None:
+        """The verdict expected: PROVED where Rocq has checked the theorems; rows of two follow from the subjects alone, and have none."""
+        if self.ledger is None or self.ledger == Verdict.REFUTED:
+            return self.ledger
+        return str(Verdict.PROVED if self.machine_checked else Verdict.CERTIFIED)
+
+    @property
+    def meaning(self) -> str:
+        """In the words of the table: needed, not needed, or not needed since it follows from the others."""
+        if self.verdict == Verdict.REFUTED:
+            return "needed"
+        if self.verdict == Verdict.ERROR:
+            return ""
+        if self.implied is not None:
+            return "follows from the others"
+        return "not needed" if self.verdict == Verdict.PROVED else "not seen to be needed"
+
+    @property
     def as_expected(self) -> bool:
-        """Whether the verdict is the ledger's; rows of two hypotheses follow from the subjects alone, and have no expectation."""
-        return self.verdict != Verdict.ERROR and (self.expected is None or self.verdict == self.expected)
+        """Whether verdict and meaning are the ledger's."""
+        if self.verdict == Verdict.ERROR or self.ledger is None:
+            return self.verdict != Verdict.ERROR
+        rests_on_something = self.lacking != 0 or self.implied is not None
+        return self.verdict == self.expected and (self.implied is not None) == (self.ledger == IMPLIED) and rests_on_something
 
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
@@ -171,9 +206,13 @@ class Row:
             "dropped": list(self.dropped),
             "verdict": str(self.verdict),
             "needed": self.verdict == Verdict.REFUTED,
+            "follows_from_the_others": self.implied,
             "expected": self.expected,
             "as_expected": self.as_expected,
             "already_without": self.already,
+            "theorems": list(self.theorems) if self.machine_checked else [],
+            "tried": self.tried,
+            "lacking": self.lacking,
             "evidence": self.evidence,
             "certificates_accepted": self.accepted,
             "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.certificates],

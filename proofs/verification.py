@@ -53,20 +53,20 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
             readings.append(of_reading(_with_theorems(_check(claim, reading, bench), machine), claim.id, attacks))
             done += 1
         results.append(ClaimResult(claim, tuple(readings)))
-    rows = tuple(of_row(row, attacks) for row in _without_hypotheses(bench, {claim.id for claim in chosen}, report))
+    rows = tuple(of_row(row, attacks) for row in _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report))
     report("done", total, total)
     corpus = bench.corpus.words if "corpus" in vars(bench) else ""
     return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.told)
 
 
-def _without_hypotheses(bench: Workbench, claims: set[str], report: Progress) -> tuple[Row, ...]:
+def _without_hypotheses(bench: Workbench, claims: set[str], machine: _Machine, report: Progress) -> tuple[Row, ...]:
     expected = expected_without()
     chosen = [experiment for experiment in experiments() if experiment.claim in claims]
     rows: list[Row] = []
     for done, experiment in enumerate(chosen):
         report(f"{experiment.claim} without its hypotheses", done, len(chosen))
         try:
-            rows += ablate(bench, experiment, expected[experiment.name])
+            rows += [_row_with_theorems(row, machine) for row in ablate(bench, experiment, expected[experiment.name])]
         except Exception as error:  # as for a reading: it did not finish, and the others go on
             words = f"{type(error).__name__}: {error}"
             rows.append(Row(experiment.name, experiment.claim, experiment.conclusion, (), Verdict.ERROR, words, None, (), 0))
@@ -85,6 +85,8 @@ class _Machine:
 def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
     """The theorems that these claims name."""
     names = {name for claim in claims for reading in claim.readings for name in reading.theorems}
+    ids = {claim.id for claim in claims}
+    names |= {name for e in experiments() if e.claim in ids and e.proof is not None for name in e.proof.theorems}
     if not names:
         return _Machine(None, None, "no theorem is named by these claims")
     try:
@@ -111,6 +113,18 @@ def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
     words = f"Rocq, without axioms: {', '.join(names)}; and {outcome.evidence}"
     verdict = outcome.verdict if outcome.verdict == Verdict.REFUTED else Verdict.PROVED
     return replace(result, outcome=replace(outcome, verdict=verdict, evidence=words), machine_checked=True)
+
+
+def _row_with_theorems(row: Row, machine: _Machine) -> Row:
+    """PROVED where theorems that do without what is dropped were checked, and no subject spoke against it."""
+    if not row.theorems or row.verdict != Verdict.CERTIFIED:
+        return row
+    if machine.failure is not None:
+        return replace(row, verdict=Verdict.ERROR, evidence=machine.failure)
+    if machine.theorems is None:
+        return row
+    words = f"Rocq, without axioms: {', '.join(row.theorems)}; and {row.evidence}"
+    return replace(row, verdict=Verdict.PROVED, evidence=words, machine_checked=True)
 
 
 def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:

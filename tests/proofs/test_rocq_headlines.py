@@ -309,8 +309,8 @@ def test_the_project_file_lists_every_file() -> None:
 # (e) what machine_checked refuses
 
 TINY = {
-    "Definitions.v": "Definition one := 1.\n",
-    "Headlines.v": "From faultspace Require Import Definitions.\nTheorem good : one = 1.\nProof. reflexivity. Qed.\n",
+    "Vocabulary.v": "Definition one := 1.\n",
+    "Headlines.v": "From faultspace Require Import Vocabulary.\nTheorem good : one = 1.\nProof. reflexivity. Qed.\n",
 }
 
 
