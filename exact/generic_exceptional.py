@@ -13,7 +13,8 @@ since they are so at one integer point; that gives r, n_z and zeta. Three bases 
     m >= p             the unit columns    zeta = n,  D = +- the pencil determinant of (A, P1, C, P2)
 
 In each, every maximal minor of the pencil of (A, Fhat P, C, Ghat P) is c_I D, multiplied out in sympy's ring and again by FLINT, and the
-c_I have no common factor in Q(entries)[q]: at the point they have none, and one of them keeps its degree there. So D is the greatest
+c_I have no common factor in Q(entries)[q]: at the point they have none, and one of them keeps its degree there. They may share a
+polynomial in the entries alone, a unit of that ring: with G = 0 and n = m it is det F. So D is the greatest
 common divisor of the minors over Q(entries)(P)[q], and what is bad generically is D = 0. Source: [G25] Theorem 3.
 """
 

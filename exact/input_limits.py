@@ -44,7 +44,7 @@ def by_output_error(known: Covariances, A: Matrix, C: Matrix) -> InputLimit | No
     monic = _characteristic(A)
     Q = stein(A.transposed(), A.transposed(), C.transposed() @ C, monic)
     present = known.now(process.u, process.u)
-    sums = _powers_along_lags(known, A)
+    sums = powers_along_lags(known, A)
     through = [[Q @ (A @ sums[i][j]) for j in range(nu)] for i in range(nu)]
     rows = []
     for i in range(nu):
@@ -95,7 +95,7 @@ def by_moesp(blocks: WindowCovariances, observability: Matrix, p: int) -> InputL
     return InputLimit(theta.rows(range(p, p + n)), theta.rows(range(p)))
 
 
-def _powers_along_lags(known: Covariances, A: Matrix) -> list[list[Matrix]]:
+def powers_along_lags(known: Covariances, A: Matrix) -> list[list[Matrix]]:
     """M_ij = sum_(l>=1) r_ij(l) A^(l-1), n x n.
 
     From l = 1 on, r(l) follows the recurrence of d, the polynomial that annihilates the state of u; so, with d of degree t,

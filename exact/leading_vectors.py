@@ -11,6 +11,7 @@ complement. Both are roots of rational polynomials, and two roots are equal only
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from flint import arb, ctx, fmpz_poly
 
@@ -80,8 +81,9 @@ def _smallest_exceeds_largest(above: list[fmpz_poly], below: list[fmpz_poly]) ->
 
 def _extreme(polynomials: list[fmpz_poly], choose: Callable[[arb, arb], arb]) -> arb:
     """A ball around the least or the largest of all roots."""
-    roots = [root.real for polynomial in polynomials for root, _ in polynomial.complex_roots()]
-    extreme = roots[0]
+    found: list[Any] = [pair for polynomial in polynomials for pair in polynomial.complex_roots()]
+    roots = [root.real for root, _ in found]
+    extreme: arb = roots[0]
     for root in roots[1:]:
         extreme = choose(extreme, root)
     return extreme

@@ -26,7 +26,7 @@ DESCRIPTIONS = {
 
 EXPERIMENTS = {
     "fault-leads-input": "v(k) = u(k+1), white: PI-MOESP finds A and C, and B + AF, D + CF in place of B, D",
-    "fault-follows-input": "v(k) = u(k-1) / 2, white: the limit has rank n + 1, and A and C of order n are wrong",
+    "fault-follows-input": "v(k) = u(k-1) / 2, white: the limit has rank n + 1, and its leading vectors miss the range of O_s",
     "independent-fault": "a coloured fault independent of the input: PI-MOESP finds A, B, C, D, past outputs as instruments do not",
 }
 

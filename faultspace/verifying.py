@@ -123,10 +123,10 @@ def attack_lines(attacks: Sequence[Attacked]) -> list[str]:
 
 
 def _standing(claim: ClaimResult) -> str:
-    """How many of the readings as printed hold."""
+    """How many of the readings as printed are not refuted."""
     printed = [result for result in claim.readings if not result.reading.repair]
-    holding = sum(result.outcome.verdict not in (Verdict.REFUTED, Verdict.ERROR) for result in printed)
-    return f"As printed: {holding} of {len(printed)} {'parts' if claim.claim.in_parts else 'readings'} hold."
+    standing = sum(result.outcome.verdict not in (Verdict.REFUTED, Verdict.ERROR) for result in printed)
+    return f"As printed: {standing} of {len(printed)} {'parts' if claim.claim.in_parts else 'readings'} stand."
 
 
 def _hashes(certificates: Sequence[Certificate], accepted: int) -> str:

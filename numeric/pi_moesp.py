@@ -1,7 +1,9 @@
 """PI-MOESP [V93]: a state-space model from inputs and outputs with coloured additive disturbances or faults, past inputs as instruments.
 
 1  L31, L32, L33 from the compression of [Uf; Up; Yf]: L32 is Yf seen along the past inputs, with the future inputs projected out.
-2  The column space of L32 tends to that of O_s: left singular vectors for the order n; A and C from its shift invariance.
+2  The column space of L32 tends into that of O_s where the faults are uncorrelated with the inputs at lags of both signs, and to all of it
+for a white input and for most others, (A, B) controllable and the past window of n rows at least: left singular vectors for the order n; A
+and C from its shift invariance. What is true of other inputs and faults: `exact.limits`, and proposition-1 of the ledger.
 3  B, D and x0 by output-error least squares over all samples; by MOESP's regression where there are no data any more, or where A is
 unstable.
 

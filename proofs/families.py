@@ -69,6 +69,11 @@ def adversarial() -> Iterator[tuple[str, ResidualSystem]]:
     yield "static gain, all zeros of the transfer function cancel", ResidualSystem.of([[0]], [[0]], [[1]], [[1]])
     yield "delay, one infinite zero", ResidualSystem.of([[0]], [[1]], [[1]], [[0]])
     yield "gap two at n - 1", ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 0]], [[0], [1]])
+    yield "a zero of the fault at an unobservable mode", ResidualSystem.of([[0, 0], [0, 1]], [[0], [1]], [[0, 1]], [[1]])
+    yield (
+        "two finite zeros, one unobservable mode of the same value",
+        ResidualSystem.of([[0, 0, 0], [0, 0, 0], [0, 1, 0]], [[0], [0], [1]], [[0, 0, 1]], [[0]]),
+    )
     yield "wrong columns at s = n", ResidualSystem.of([[0]], [[1]], [[1], [0]], [[0], [1]])
     yield "full column rank is not enough", ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]])
     yield "unobservable, bad P with one fault", ResidualSystem.of([[1]], [[1]], [[0]], [[1]])

@@ -21,7 +21,7 @@ class Reading:
     """One way to read a claim, precise enough to be decided.
 
     `theorems` of rocq/Headlines.v say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
-    proof for all systems lacks, where the reading holds and has none.
+    proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any.
     """
 
     id: str
@@ -31,6 +31,7 @@ class Reading:
     repair: bool
     theorems: tuple[str, ...] = ()
     missing: str = ""
+    part: str = ""
 
     @property
     def proved(self) -> str:
@@ -42,7 +43,8 @@ class Reading:
 class Claim:
     """A claim of the paper or of its review. `module` is its file in claims/: the id with underscores.
 
-    The readings of a claim are alternatives; where it is made `in_parts`, those not ours are its parts, and all must hold.
+    The readings of a claim are alternatives, or those of each `part` are; where it is made `in_parts`, each that is not ours is a part of
+    its own. Of every part one must hold.
     """
 
     id: str
@@ -93,6 +95,7 @@ def _claim(name: str, entry: dict[str, object]) -> Claim:
                 repair=bool(value.get("repair", False)),
                 theorems=tuple(value.get("theorems", ())),
                 missing=str(value.get("missing", "")),
+                part=str(value.get("part", "")),
             )
             for key, value in readings.items()
         ),

@@ -22,7 +22,12 @@ from .ledger import Claim, Reading
 
 
 class Verdict(StrEnum):
-    """The closed list, from the strongest to a check that did not finish."""
+    """The closed list, from the strongest to a check that did not finish.
+
+    PROVED: for all systems, by Rocq. IDENTITY: for all values of the entries at the dimensions named. CERTIFIED: of a statement on all
+    systems, no counterexample was found among those tried; of a statement that something exists, it is there; by certificates that the
+    checker accepted. REFUTED: by a counterexample. AMENDED: of a claim, refuted as printed, and a repair of it is not.
+    """
 
     PROVED = "PROVED"
     IDENTITY = "IDENTITY"
@@ -89,7 +94,8 @@ class ReadingResult:
 
 @dataclass(frozen=True)
 class ClaimResult:
-    """A claim with its readings checked. AMENDED: every reading as printed is refuted (of a claim in parts: one is), and a repair holds."""
+    """A claim with its readings checked. AMENDED: every reading as printed of the claim, or of one of its parts, is refuted, and a repair
+    is not."""
 
     claim: Claim
     readings: tuple[ReadingResult, ...]
@@ -131,16 +137,18 @@ class ClaimResult:
 
 
 def of_readings(readings: Sequence[tuple[Reading, Verdict]], *, in_parts: bool) -> Verdict:
-    """The verdict on a claim from those on its readings."""
+    """The verdict on a claim from those on its readings: a part is refuted when its readings all are, the claim when a part is."""
     verdicts = [verdict for _, verdict in readings]
     if not verdicts or Verdict.ERROR in verdicts:
         return Verdict.ERROR
-    printed = [verdict for reading, verdict in readings if not reading.repair]
+    parts: dict[str | int, list[Verdict]] = {}
+    for place, (reading, verdict) in enumerate(readings):
+        if not reading.repair:
+            parts.setdefault(reading.part or (place if in_parts else ""), []).append(verdict)
     holding = [verdict for reading, verdict in readings if reading.repair and verdict != Verdict.REFUTED]
-    fails = any if in_parts else all
-    if printed and fails(verdict == Verdict.REFUTED for verdict in printed):
+    if any(all(verdict == Verdict.REFUTED for verdict in part) for part in parts.values()):
         return Verdict.AMENDED if holding else Verdict.REFUTED
-    standing = [verdict for verdict in printed if verdict != Verdict.REFUTED] or holding
+    standing = [verdict for part in parts.values() for verdict in part if verdict != Verdict.REFUTED] or holding
     return max(standing, key=list(Verdict).index) if standing else Verdict.REFUTED
 
 

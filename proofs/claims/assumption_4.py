@@ -140,7 +140,8 @@ def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
     if not tried:
         return Outcome(Verdict.ERROR, "no trajectory meets the hypotheses")
     note = "" if excited else f", {deficient} of them with [X; V_(s+1)] rank-deficient"
-    words = f"on {tried} exact trajectories of left-invertible systems over Q, named and random, at s = max(lag, 1){note}"
+    which = f"{tried} exact trajectories of left-invertible systems over Q, named and random, at s = max(lag, 1)"
+    words = f"no counterexample found in {which}{note}"
     return Outcome(Verdict.CERTIFIED, words, headline, count)
 
 

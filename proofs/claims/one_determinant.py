@@ -24,7 +24,8 @@ def formula(bench: Workbench) -> Outcome:
 
 
 def parametric(bench: Workbench) -> Outcome:
-    """All entries of A, C, F, G and P indeterminate: every maximal minor is a multiple of D, the cofactors have no common factor."""
+    """All entries of A, C, F, G and P indeterminate: every maximal minor is a multiple of D, the cofactors have no common factor over
+    the field of the entries."""
     dimensions = [(1, 1, 1), (1, 2, 1), (1, 2, 2), (2, 2, 1), (2, 1, 1), (1, 1, 2)]
     if bench.full:
         dimensions += [(n, p, m) for n in range(3) for p in range(4) for m in range(3) if (n, p, m) not in dimensions]

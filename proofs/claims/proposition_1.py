@@ -8,11 +8,14 @@ smallest_seasonal  the same among inputs of period 3
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import product
 from typing import Any
 
+from ...exact.covariances import covariances
 from ...exact.experiments import Experiment
+from ...exact.hidden_states import hides_a_state
 from ...exact.matrices import Matrix
 from ...exact.population_limits import population_limits
 from ...exact.symbolic_leads import lead_identities
@@ -92,7 +95,8 @@ def autoregressive(bench: Workbench) -> Outcome:
 def autoregressive_longer(bench: Workbench) -> Outcome:
     """u autoregressive of order s + 1, v leads it."""
     den = ["1", "-1/2", "1/4", "-1/8"]
-    return smallest_limit(drives([(["1"], den)], [["0", "1"], ["0", "0", "1"]]), lambda d: not d.within, "u of order 3, s = 2")
+    inputs = drives([(["1"], den)], [["0", "1"], ["0", "0", "1"]])
+    return smallest_limit(inputs, lambda d: _observed(d) and not d.within, "u of order 3, s = 2")
 
 
 def lead_one(bench: Workbench) -> Outcome:
@@ -103,13 +107,18 @@ def lead_one(bench: Workbench) -> Outcome:
 def lead_one_with_feedthrough(bench: Workbench) -> Outcome:
     """The same with G other than 0."""
     return smallest_limit(
-        drives([MOVING_AVERAGE], [["0", "1"]]), lambda d: d.observable and not d.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
+        drives([MOVING_AVERAGE], [["0", "1"]]), lambda d: _observed(d) and not d.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
     )
 
 
 def two_sided(bench: Workbench) -> Outcome:
     """u and v uncorrelated at all lags: the limit lies in the range of O_s; B and D are right by either regression."""
     return certify_limits([d for d in bench.limits if d.uncorrelated], lambda d: d.within and d.inputs_right)
+
+
+def two_sided_output_error(bench: Workbench) -> Outcome:
+    """Output error with the true A and C gives the true B and D, u of any colour."""
+    return certify_limits([d for d in bench.limits if d.uncorrelated and d.state_inputs is not None], lambda d: d.output_error_right)
 
 
 def two_sided_range(bench: Workbench) -> Outcome:
@@ -121,6 +130,17 @@ def two_sided_one_state(bench: Workbench) -> Outcome:
     """All of it with one state, B not 0, whatever the colour and the number of inputs, past >= 1."""
     records = [d for d in bench.limits if d.whole_range_expected and d.experiment.system.residual.n == 1]
     return certify_limits(records, lambda d: d.equal)
+
+
+def two_sided_two_states(bench: Workbench) -> Outcome:
+    """n = past = 2, one input: it is less than the range for exactly the A that a formula names. On inputs of both kinds."""
+    records = [d for d in bench.limits if d.whole_range_expected and _two_states(d)]
+    records += [examine_experiment("kept in counterexamples/", kept(name)) for name in WITHOUT_RANK]
+    found = certify_limits(records, lambda d: d.equal != hides_a_state(d.experiment, covariances(d.experiment)))
+    lost = sum(not d.equal for d in records)
+    if found.verdict == Verdict.CERTIFIED and lost in (0, len(records)):
+        return replace(found, verdict=Verdict.ERROR, evidence="every experiment tried is of one kind")
+    return replace(found, evidence=f"{found.evidence}; {lost} of them lose a state")
 
 
 def two_sided_autoregressive(bench: Workbench) -> Outcome:
@@ -166,7 +186,7 @@ def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitDossier], bool
 
 
 def smallest_seasonal(fails: Callable[[LimitDossier], bool], taps: int, others: Sequence[str]) -> Outcome:
-    """The smallest experiment with an input of period 3 that fails, and as many of those kept in counterexamples/ as `others` names."""
+    """The smallest experiment with an input of period 3 that fails, with its two limits, and the `others`, kept in counterexamples/."""
     for one in in_order():
         dossier = examine_experiment("search", seasonal(one, taps))
         if not fails(dossier):
@@ -174,7 +194,7 @@ def smallest_seasonal(fails: Callable[[LimitDossier], bool], taps: int, others: 
         wrong = [name for name in others if not fails(examine_experiment("kept", kept(name)))]
         if wrong:
             return Outcome(Verdict.ERROR, f"counterexamples/{wrong[0]}.json refutes nothing")
-        return counterexample(f"{show_words(dossier)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(dossier))
+        return counterexample(f"{show_words(dossier)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(dossier)[:2])
     return Outcome(Verdict.ERROR, "no counterexample in the family")
 
 
@@ -193,6 +213,14 @@ def show_words(dossier: LimitDossier) -> str:
 def certify_limits(records: Sequence[LimitDossier], holds: Callable[[LimitDossier], bool]) -> Outcome:
     """`holds` on all of these experiments."""
     return certify_records(records, [d for d in records if not holds(d)], show_words, show, unit="experiments")
+
+
+def _observed(d: LimitDossier) -> bool:
+    return d.controllable and d.observable
+
+
+def _two_states(d: LimitDossier) -> bool:
+    return (d.experiment.system.residual.n, d.experiment.past, d.experiment.system.nu) == (2, 2, 1)
 
 
 def _regular(d: LimitDossier) -> bool:

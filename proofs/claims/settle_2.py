@@ -17,6 +17,11 @@ def n(bench: Workbench) -> Outcome:
     return assumption_4.n_known(bench)
 
 
+def excitation(bench: Workbench) -> Outcome:
+    """[X; V_s] of full row rank at the same s."""
+    return assumption_4.excitation_at_s(bench)
+
+
 def on_data(bench: Workbench) -> Outcome:
     """The ranks of R_s themselves, s >= lag, [X; V_(s+1)] of full row rank."""
     return assumption_4.excitation_at_s_plus_1(bench)

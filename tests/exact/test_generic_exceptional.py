@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from random import Random
 from typing import Any
 
@@ -121,3 +122,11 @@ def test_it_is_noticed(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert getattr(room, function).__globals__ is not vars(room)
     with pytest.raises((IdentityFailure, ArithmeticError)):
         _all_of_it()
+
+
+@pytest.mark.parametrize(("n", "p", "m", "shared"), [(1, 2, 1, "f11"), (2, 3, 2, "f11*f22 - f12*f21"), (2, 3, 1, "1"), (2, 2, 1, "1")])
+def test_without_feedthrough_the_cofactors_share_the_determinant_of_a_square_f(n: int, p: int, m: int, shared: str) -> None:
+    """They have no common factor over the field of the entries; in the ring of the entries they have this one."""
+    cofactors = [c.cofactor for c in generic_exceptional_without_feedthrough(n, p, m).cofactors]
+    common = reduce(lambda one, other: one.gcd(other), cofactors)
+    assert str(common.primitive()[1]) in (shared, f"-{shared}")

@@ -38,6 +38,8 @@ READINGS = (
     proposition_1.white_b_d_seen,
     proposition_1.autoregressive,
     proposition_1.lead_one,
+    proposition_1.two_sided_output_error,
+    proposition_1.two_sided_two_states,
     proposition_1.two_sided_one_state,
     proposition_1.two_sided_autoregressive,
     proposition_1.two_sided_nilpotent,

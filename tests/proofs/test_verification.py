@@ -61,6 +61,20 @@ def test_one_part_refuted_amends_a_claim_made_of_parts() -> None:
     assert claim(*readings).verdict == Verdict.CERTIFIED
 
 
+def test_of_every_part_one_alternative_must_stand() -> None:
+    """Two windows are alternatives, excitation is a part of its own: refuted, it amends the claim, whatever becomes of the windows."""
+
+    def part(name: str, verdict: Verdict) -> ReadingResult:
+        return ReadingResult(Reading(name, "s", (), "CERTIFIED", False, part=name), Outcome(verdict, ""), 0.0)
+
+    repair = result(Verdict.PROVED, repair=True)
+    windows = [part("window", Verdict.REFUTED), part("window", Verdict.PROVED)]
+    assert claim(*windows, part("excitation", Verdict.REFUTED), repair).verdict == Verdict.AMENDED
+    assert claim(*windows, part("excitation", Verdict.REFUTED)).verdict == Verdict.REFUTED
+    assert claim(*windows, part("excitation", Verdict.CERTIFIED), repair).verdict == Verdict.CERTIFIED
+    assert claim(windows[0], part("excitation", Verdict.CERTIFIED), repair).verdict == Verdict.AMENDED
+
+
 def test_a_claim_is_as_expected_only_with_all_its_readings() -> None:
     good = [result(Verdict.REFUTED, expected="REFUTED"), result(Verdict.CERTIFIED, repair=True)]
     assert claim(*good).as_expected
