@@ -12,9 +12,13 @@ first is broken by almost any point of a family, so that a few exact points deci
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
+from ...exact.covariances import covariances
+from ...exact.hidden_states import hides_a_state
 from ..experiments_tried import LimitDossier
 from .attacks import Aim, Attack, Family, Floats
 from .feedback_attacks import feedback_attacks
@@ -35,6 +39,7 @@ ALONE = "M of the limit O_s M, against the standard deviations of the state and 
 LEAST = "the least singular value of M of the limit O_s M, against the largest"
 SHARE = "the share of the limit outside the range of O_s, in the Frobenius norm"
 SHARE_PO = "the share of PO-MOESP's limit outside the range of O_s, in the Frobenius norm"
+FELT = "the response to u of the outputs that the fault alone makes, which output error takes for one of B and D"
 BIAS = "the bias of B and D by MOESP's regression, against the size of B, D, F, G"
 
 COLOURED = ([[0, 1]], [[0, 0]], [[0, 1]])
@@ -121,9 +126,9 @@ def _refuted() -> Iterator[Attack]:
     averaged_two = led_family(1, 2, lead_two, taps=1)
     yield on_containment("proposition-1.coloured-a-c", averaged_two, lambda d: _one_sided(d) and not d.within, "a fault two samples ahead")
     longer_memory = led_family(1, 2, lead_two, reflections=3)
-    yield on_containment("proposition-1.autoregressive-longer", longer_memory, lambda d: not d.within, "u of order s + 1")
+    yield on_containment("proposition-1.autoregressive-longer", longer_memory, lambda d: _regular(d) and not d.within, "u of order s + 1")
     fed = led_family(1, 2, lead_one, taps=1)
-    yield on_containment("proposition-1.lead-one-with-feedthrough", fed, lambda d: d.observable and not d.within, "a moving average")
+    yield on_containment("proposition-1.lead-one-with-feedthrough", fed, lambda d: _regular(d) and not d.within, "a moving average")
     po = open_family(1, 2, coloured_input=False, coloured_fault=True)
     yield on_containment(
         "past-outputs.coloured-fault",
@@ -166,6 +171,25 @@ def _standing() -> Iterator[Attack]:
             f"n = {n}, p = {p}",
             past_outputs=True,
         )
+    for name, family in (
+        ("two poles", shaped_family(2, 2, 2, 3, 1)),
+        ("a double pole", shaped_family(2, 2, 2, 3, 1, repeated=True)),
+        ("a double pole, s above n", shaped_family(2, 3, 2, 4, 1, repeated=True)),
+    ):
+        plain_range = on_the_range("proposition-1.two-sided-two-states", family, _formula_differs, name)
+        yield replace(plain_range, aim=Aim.STRATUM)
+    for n, p in ((1, 2), (2, 1)):
+        free = open_family(n, p, coloured_input=True, coloured_fault=True)
+        yield Attack(
+            "proposition-1.two-sided-output-error",
+            f"n = {n}, p = {p}",
+            Aim.NONZERO,
+            FELT,
+            free,
+            partial(_felt, free),
+            decided_by(free.at, lambda d: d.uncorrelated and d.state_inputs is not None and not d.output_error_right),
+            starts=8,
+        )
     driven = led_family(1, 2, (0, 0, 1), reflections=2)
     yield on_containment("proposition-1.autoregressive", driven, lambda d: not d.within, "two samples ahead, order s")
     ahead = led_family(2, 2, (0, 1), taps=2, feedthrough=False)
@@ -177,6 +201,18 @@ def nilpotent_family(n: int, s: int, reflections: int, tail: int) -> Family:
     family = shaped_family(n, s, n, reflections, tail, repeated=True)
     words = family.words.replace(f"one pole {n} times", f"the pole 0 {n} times")
     return Family(words, family.box[1:], lambda point: family.at([0 * point[0], *point]))
+
+
+def _felt(family: Family, point: Floats) -> float:
+    """Cov(Yf, Uf) Cov(Uf)^-1 of the outputs that the fault alone makes."""
+    drawn = family.at(point)
+    unknown = replace(drawn, B=[[0] * len(row) for row in drawn.B], D=[[0] * len(row) for row in drawn.D])
+    return float(np.linalg.norm(float_limits(unknown).response))
+
+
+def _formula_differs(d: LimitDossier) -> bool:
+    """Where a state is lost and the formula has none, or the other way round; n = past = 2, one input."""
+    return d.uncorrelated and _regular(d) and d.equal == hides_a_state(d.experiment, covariances(d.experiment))
 
 
 def not_whole(d: LimitDossier) -> bool:

@@ -43,7 +43,8 @@ def pair_attacks() -> Iterator[Attack]:
     yield from on_strata("canonical-form.any-a-c", "feedback", tall, [feedthrough], _other_form)
     yield from on_strata("canonical-form.feedback", "feedback", scalar, [seen], _other_dynamics)
     yield _bad_pair()
-    yield _excitation_at_s()
+    for target in ("assumption-4.excitation-at-s", "settle-2.excitation"):
+        yield _excitation_at_s(target)
     yield _excitation_necessary()
 
 
@@ -104,7 +105,7 @@ def _bad_pair() -> Attack:
     return Attack("theorem-3-ii.every-p", "D = 0", Aim.ZERO, measured, family, quantity, decide, blocks=(block,))
 
 
-def _excitation_at_s() -> Attack:
+def _excitation_at_s(target: str) -> Attack:
     """[X; V_1] of full row rank and [X; V_2], 3 x 3, singular."""
     family = driven_family(4, idle=False)
 
@@ -125,7 +126,7 @@ def _excitation_at_s() -> Attack:
     measured = "det [X; V_2], against Hadamard's bound"
     decide = _on_data(family, fails, 1)
     return Attack(
-        "assumption-4.excitation-at-s",
+        target,
         "a singular [X; V_(s+1)]",
         Aim.STRATUM,
         measured,
