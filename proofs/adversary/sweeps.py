@@ -17,7 +17,11 @@ from functools import partial
 from itertools import product
 from typing import Any
 
+from ...exact.behavior import compare
 from ...exact.generic_exceptional import generic_exceptional
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import Matrix
+from .. import certificate as make
 from .. import checker
 from ..certificate import Certificate
 from ..claims.common import delays, zeros
@@ -25,6 +29,8 @@ from ..exhaustive import Orbit, orbits
 from .structure_attacks import Decide, irrecoverable, misplaced, unlike, wrong_delay, wrong_signal
 
 BOXES = ((2, 3, 1, 1), (3, 2, 1, 2))
+
+PARTNERS = ((2, 2, 2, 1), (2, 1, 3, 2), (2, 2, 3, 1), (3, 2, 2, 1))
 
 Case = tuple[Any, int]
 Judge = Callable[[Any], tuple[str, list[Certificate]] | None]
@@ -70,6 +76,9 @@ def sweeps() -> Iterator[Sweep]:
         for q, n, p, m in BOXES:
             words = f"all systems over GF({q}) with n = {n}, p = {p}, m = {m}"
             yield Sweep(target, words, words, partial(_systems, q, n, p, m), decide)
+    for q, n, p, m in PARTNERS:
+        words = f"all systems over GF({q}) with n = {n}, p = {p}, m = {m}, each with all fault matrices"
+        yield Sweep("sharp-windows.equality-as-many-faults", words, words, partial(_systems, q, n, p, m), _without_partner)
     words = "all dimensions n, m <= 2, p <= 3, every entry free"
     yield Sweep("one-determinant.parametric", "common factors in the parameters", words, _dimensions, _common_factor)
 
@@ -97,6 +106,21 @@ def _systems(q: int, n: int, p: int, m: int) -> Iterator[Case]:
     found: list[Orbit] = orbits(q, n, p, m)
     for orbit in found:
         yield orbit.system, orbit.size
+
+
+def _without_partner(system: Any) -> tuple[str, list[Certificate]] | None:
+    """Left-invertible, m >= 1, lag >= 1: no (F', G') of as many columns, left-invertible, agrees on lag samples and no more."""
+    kernel = kernel_representation(system)
+    if kernel.normal_rank < system.m or not system.m or not kernel.lag:
+        return None
+    n, p, m = system.n, system.p, system.m
+    for entries in product(range(system.field.p), repeat=(n + p) * m):
+        rows = [list(entries[i * m : (i + 1) * m]) for i in range(n + p)]
+        F, G = (Matrix.of(part, system.field, shape=(size, m)) for part, size in ((rows[:n], n), (rows[n:], p)))
+        other = kernel_representation(system.with_faults(F, G))
+        if other.normal_rank == m and compare(kernel, other).first_difference == kernel.lag + 1:
+            return None
+    return f"{system}: none of its partners over the field differs first at lag + 1", [make.window_ranks(kernel)]
 
 
 def _dimensions() -> Iterator[Case]:
