@@ -1,4 +1,5 @@
-"""What docs/ has from the ledger: the table of the claims with their readings, that of the hypotheses, and the picture of the README.
+"""What docs/ has from the ledger: the table of the claims with their readings, that of the hypotheses, that of the attacks on them, and the
+picture of the README.
 
     python docs/make.py     writes them anew
     TABLES                  the page -> the function that makes the rows of its table
@@ -14,6 +15,8 @@ import io
 from collections.abc import Callable
 from pathlib import Path
 
+from faultspace.proofs.adversary.attacks import Aim
+from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
 from faultspace.proofs.hypotheses import experiments
 from faultspace.proofs.ledger import Claim, expected_without, load
 from faultspace.proofs.verdicts import Verdict, of_readings
@@ -99,7 +102,38 @@ def picture() -> str:
     return stream.getvalue()
 
 
-TABLES: dict[str, Callable[[], list[str]]] = {"claims.md": claims_table, "hypotheses.md": hypotheses_table}
+def attacks_table() -> list[str]:
+    """The table of adversary.md, a row an attack, from the stored results."""
+    rows = ["| statement | attacked by | outcome | tried | how near |", "|---|---|---|---|---|"]
+    before = None
+    for record in stored():
+        target, name = record["target"], record["attack"].removeprefix(f"{record['target']} by ")
+        rows.append(
+            f"| {f'**{target}**' if target != before else ''} | {name} | {record['outcome']} | {tried(record)} | {nearest(record)} |"
+        )
+        before = target
+    return rows
+
+
+def tried(record: AttackRecord) -> str:
+    """How much an attack tried, and when."""
+    spent = f"{record['seconds']:.0f} s, {record['date']}"
+    if record["aim"] == SWEPT:
+        extent = "all" if record["complete"] else "part of the box:"
+        return f"{extent} {record['subjects']} in {record['cases']} cases, {spent}"
+    return f"{record['starts']} starts, {record['evaluations']} values, {record['decided']} points, {spent}"
+
+
+def nearest(record: AttackRecord) -> str:
+    """The least value, or the largest where any value but zero refutes; nothing where the attack went to the zero set itself."""
+    if record["outcome"] != "none found" or record["aim"] == SWEPT:
+        return ""
+    if record["aim"] == Aim.STRATUM:
+        return f"decided where {record['measured'].partition(',')[0]} vanishes"
+    return f"{record['nearest']:.1e}: {record['measured']}"
+
+
+TABLES: dict[str, Callable[[], list[str]]] = {"adversary.md": attacks_table, "claims.md": claims_table, "hypotheses.md": hypotheses_table}
 
 
 def filled(page: str, rows: list[str]) -> str:

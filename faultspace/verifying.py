@@ -3,6 +3,7 @@
 run             the command's body
 verdict_table   one row a reading
 hypotheses_table   a row for each hypothesis dropped
+attack_lines    what the adversary tried on a statement
 statements      a claim in full: as printed, as checked, hypotheses, evidence, certificates
 write_out       the headline certificates and verdicts.json into a folder
 """
@@ -21,6 +22,7 @@ from .consoles import answers, print_json, stages
 from .exact.input_rules import InvalidInput, shown
 from .failures import ANSWERED, NOT_AS_EXPECTED, printable, say
 from .proofs import rocq_recheck
+from .proofs.adversary.attacks import Attacked
 from .proofs.certificate import Certificate, sha256
 from .proofs.ledger import load
 from .proofs.rocq_build import BrokenTheory, NoRocq, NotProved
@@ -106,6 +108,7 @@ def verdict_table(report: Report) -> Table:
                 (f"\nhypotheses: {'; '.join(reading.hypotheses) or 'none'}", "dim"),
                 (f"\n{outcome.evidence}", "dim italic"),
                 (f"\nfor all systems: {reading.missing}" if reading.missing else "", "dim italic"),
+                ("".join(f"\nattacked by {line}" for line in attack_lines(result.attacks)), "dim italic"),
             )
             name = f"  {reading.id}{' (repair)' if reading.repair else ''}"
             verdict = _verdict(outcome.verdict, result.expected, "\n")
@@ -130,8 +133,14 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
         if len(row.dropped) < 2 or (row.verdict not in (Verdict.CERTIFIED, Verdict.PROVED) and row.already is None):
             name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"
             verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + row.meaning, "dim"))
-            table.add_row(name, verdict, Text(row.evidence, style="dim italic"), _hashes(row.certificates, row.accepted))
+            told = Text("\n".join([row.evidence, *(f"attacked by {line}" for line in attack_lines(row.attacks))]), style="dim italic")
+            table.add_row(name, verdict, told, _hashes(row.certificates, row.accepted))
     return table
+
+
+def attack_lines(attacks: Sequence[Attacked]) -> list[str]:
+    """What the adversary tried on one statement, a line each, with what is wrong with a stored attack."""
+    return [f"{one.id}: {one.words}{f' ({one.trouble})' if one.trouble else ''}" for one in attacks]
 
 
 def _standing(claim: ClaimResult) -> str:
@@ -166,6 +175,8 @@ def _reading(result: ReadingResult) -> Iterator[Text]:
     yield Text(f"    evidence:     {outcome.evidence}")
     if reading.missing:
         yield Text(f"    to a proof:   {reading.missing}")
+    for line in attack_lines(result.attacks):
+        yield Text(f"    attacked by:  {line}")
     yield Text(f"    accepted:     {outcome.accepted} certificates by the checker")
     for name, lock in result.locks.items():
         yield Text(f"    theorem:      {name}, locked as SHA-256 {lock}")

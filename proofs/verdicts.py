@@ -16,6 +16,7 @@ from enum import StrEnum
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+from .adversary.attacks import Attacked
 from .certificate import Certificate, sha256
 from .ledger import Claim, Reading
 
@@ -61,6 +62,7 @@ class ReadingResult:
     seconds: float
     machine_checked: bool = False
     locks: Mapping[str, str] = field(default_factory=dict)
+    attacks: tuple[Attacked, ...] = ()
 
     @property
     def expected(self) -> str:
@@ -87,6 +89,7 @@ class ReadingResult:
             "evidence": self.outcome.evidence,
             "certificates_accepted": self.outcome.accepted,
             "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.outcome.certificates],
+            "attacks": [attack.to_json() for attack in self.attacks],
             "seconds": round(self.seconds, 3),
         }
 
@@ -176,6 +179,7 @@ class Row:
     tried: int | None = None
     lacking: int | None = None
     implied: str | None = None
+    attacks: tuple[Attacked, ...] = ()
 
     @property
     def expected(self) -> str | None:
@@ -222,6 +226,7 @@ class Row:
             "evidence": self.evidence,
             "certificates_accepted": self.accepted,
             "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.certificates],
+            "attacks": [attack.to_json() for attack in self.attacks],
         }
 
 

@@ -12,6 +12,7 @@ from importlib import import_module
 
 from ..exact.input_rules import InvalidInput
 from .ablation import ablate
+from .adversary.attacking import attacking, of_reading, of_row
 from .checker import Malformed, Rejected
 from .corpus import Progress
 from .hypotheses import experiments
@@ -44,16 +45,17 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
     bench = Workbench(effort, jobs, report)
     total = sum(len(claim.readings) for claim in chosen)
     machine = _theorems(chosen, report)
+    attacks = attacking({claim.id for claim in chosen}, effort, jobs, report)
     results: list[ClaimResult] = []
     done = 0
     for claim in chosen:
         readings = []
         for reading in claim.readings:
             report(f"{claim.id}: {reading.id}", done, total)
-            readings.append(_with_theorems(_check(claim, reading, bench), machine))
+            readings.append(of_reading(_with_theorems(_check(claim, reading, bench), machine), claim.id, attacks))
             done += 1
         results.append(ClaimResult(claim, tuple(readings)))
-    rows = _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report)
+    rows = tuple(of_row(row, attacks) for row in _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report))
     report("done", total, total)
     corpus = bench.corpus.words if "corpus" in vars(bench) else ""
     return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.told)

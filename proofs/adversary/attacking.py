@@ -1,0 +1,79 @@
+"""What a run of `verify` does with the attacks: shows them beside the verdict, and lets a counterexample that is confirmed now decide.
+
+    Attacking      records run now, or None: those of the package's file
+    attacking      of an effort: "full" runs every attack on the chosen claims again
+    of_reading     a reading's result with its attacks
+    of_row         a row of the hypothesis table with its attacks
+
+A reading that was CERTIFIED is REFUTED where a counterexample is confirmed; it is in ERROR where what the file tells is not found again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from ..corpus import Progress
+from .attacks import Attacked
+from .catalogue import WITHOUT, catalogue
+from .results import AttackRecord, run_attacks, shown
+
+if TYPE_CHECKING:
+    from ..verdicts import ReadingResult, Row
+
+SECONDS = 15.0
+
+
+@dataclass(frozen=True)
+class Attacking:
+    """The records on which this run rests."""
+
+    records: tuple[AttackRecord, ...] | None
+
+
+def attacking(claims: set[str], effort: str, jobs: int, progress: Progress) -> Attacking:
+    """The attacks on these claims, and on every row where all claims are meant; run now with effort "full"."""
+    if effort != "full":
+        return Attacking(None)
+    chosen = [attack for attack in catalogue() if attack.target.startswith(WITHOUT) or attack.target.partition(".")[0] in claims]
+
+    def told(name: str, done: int, total: int) -> None:
+        progress(f"adversary: {name}", done, total)
+
+    return Attacking(tuple(run_attacks(chosen, seconds=SECONDS, seed=0, jobs=jobs, progress=told)))
+
+
+def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> ReadingResult:
+    """The result with its attacks; its verdict gives way to a counterexample."""
+    from ..verdicts import Verdict  # which needs the records of this folder
+
+    found = shown(f"{claim}.{result.reading.id}", attacks.records)
+    result = replace(result, attacks=found)
+    words = _against(found)
+    if words is None or result.outcome.verdict in (Verdict.REFUTED, Verdict.ERROR):
+        return result
+    verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
+    return replace(result, outcome=replace(result.outcome, verdict=verdict, evidence=f"{words}; {result.outcome.evidence}"))
+
+
+def of_row(row: Row, attacks: Attacking) -> Row:
+    """The row with its attacks; one of a single hypothesis gives way to a counterexample."""
+    from ..verdicts import Verdict
+
+    if len(row.dropped) != 1:
+        return row
+    found = shown(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", attacks.records)
+    row = replace(row, attacks=found)
+    words = _against(found)
+    if words is None or row.verdict in (Verdict.REFUTED, Verdict.ERROR):
+        return row
+    verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
+    return replace(row, verdict=verdict, evidence=f"{words}; {row.evidence}")
+
+
+def _against(found: tuple[Attacked, ...]) -> str | None:
+    """What the attacks say against the statement: a counterexample, or something stored that was not found again."""
+    for one in found:
+        if one.refutes:
+            return f"the adversary, {one.id}: {one.words}"
+    return next((f"the adversary, {one.id}: {one.trouble}" for one in found if one.trouble and one.trouble.startswith("not found")), None)

@@ -1,0 +1,202 @@
+"""Attacks on settle-1: a fault that follows the input, v(k) = u(k-1), u white.
+
+    feedback_attacks   on "for every system", by the leading left singular vectors; on "A and C wrong", by the range; on "not both"
+    leading_gap        how far the n leading left singular vectors of L are from the range of O_s, and B, D from the truth
+
+The columns of L: the first is O_s B + T_s(F, G) e_1, the others O_s A^i (A B + F). Its n leading left singular vectors span the range of
+O_s iff that range is invariant under L L' and its n eigenvalues there are the largest: `exact.leading_vectors` decides it. Invariant:
+P L L' O_s = 0, P on the complement, which only the first column enters: affine in B. B and D by output error are right iff
+C'G + A'Q F = 0, Q = A'Q A + C'C: affine in G. The singular vectors are those of plain MOESP; with other weights on the outputs the
+condition is another one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ...exact.covariances import covariances, window_covariances
+from ...exact.input_limits import by_output_error
+from ...exact.kernel_representation import kernel_representation
+from ...exact.limits import past_input_limit
+from ...exact.lyapunov import solve
+from ...exact.matrices import Matrix
+from ...exact.population_limits import PopulationLimits, population_limits
+from ...exact.windows import observability_matrix
+from .. import checker
+from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
+from .attacks import Aim, Attack, Block, Family, Floats, Point, Witness
+from .float_limits import Drawn, exact_experiment, float_limits, outside
+from .limit_attacks import POLE, chain, describe
+
+Fails = Callable[[LimitDossier, PopulationLimits], bool]
+
+LEADING = "the bias of B, D by output error and the part of L L' that leaves the range of O_s, each against its parts and L L'"
+SHARE = "the share of (G; CF; CAF; ...) outside the range of O_s, in the Euclidean norm"
+BOTH = "that share and the bias of B, D by output error, against its parts"
+
+
+def feedback_attacks() -> Iterator[Attack]:
+    """For one state and for two."""
+    for n, p, past in ((1, 2, 6), (2, 2, 6), (2, 3, 6)):
+        family = _family(n, p, past)
+        first = n + p * n  # poles, C; then F, G, B
+        of_F, of_G, of_B = range(first, first + n), range(first + n, first + n + p), range(first + n + p, first + n + p + n)
+        bias = Block(partial(_bias, family), tuple(of_G))
+        leaving = Block(partial(_leaving, family), tuple(of_B))
+        name = f"n = {n}, p = {p}"
+        note = "its leading left singular vectors span the range of O_s, B and D by output error are right"
+        yield Attack(
+            target="settle-1.for-every-system",
+            name=name,
+            aim=Aim.ZERO,
+            measured=LEADING,
+            family=family,
+            quantity=lambda point, family=family: leading_gap(family.at(point)),  # type: ignore[misc]
+            decide=partial(_decide, family, fails=_leading_right, note=note),
+            blocks=(bias, leaving),
+        )
+        yield Attack(
+            target="settle-1.a-c-wrong",
+            name=name,
+            aim=Aim.ZERO,
+            measured=SHARE,
+            family=family,
+            quantity=lambda point, family=family: _share(family.at(point)),  # type: ignore[misc]
+            decide=partial(_decide, family, fails=_range_right, note="its range is that of O_s"),
+            blocks=(Block(partial(_outside, family), (*of_F, *of_G)),),
+        )
+        yield Attack(
+            target="settle-1.not-both",
+            name=name,
+            aim=Aim.ZERO,
+            measured=BOTH,
+            family=family,
+            quantity=lambda point, family=family: _both(family.at(point)),  # type: ignore[misc]
+            decide=partial(_decide, family, fails=_both_right, note="its range is that of O_s, B and D by output error are right"),
+            blocks=(bias,),
+            starts=8,
+        )
+
+
+def leading_gap(drawn: Drawn) -> Floats:
+    """n entries of bias, those of P L L' O_s, and by how much the largest eigenvalue of P L L' P exceeds the least within the range."""
+    found = float_limits(drawn)
+    basis, _ = np.linalg.qr(found.observability)
+    product = found.past_inputs @ found.past_inputs.T / np.linalg.norm(found.past_inputs) ** 2
+    outer = product - basis @ (basis.T @ product)
+    within = float(np.linalg.eigvalsh(basis.T @ product @ basis)[0])
+    excess = max(0.0, float(np.linalg.norm(outer - (outer @ basis) @ basis.T)) - within)
+    return np.concatenate([_bias_in_floats(drawn), (outer @ basis).ravel(), [excess]])
+
+
+def _family(n: int, p: int, past: int) -> Family:
+    box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p + n)
+
+    def at(point: Sequence[Any]) -> Drawn:
+        values = list(point)
+        poles, values = values[:n], values[n:]
+        C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
+        F, values = [[x] for x in values[:n]], values[n:]
+        return Drawn(
+            A=chain(poles),
+            F=F,
+            C=C,
+            G=[[x] for x in values[:p]],
+            B=[[x] for x in values[p:]],
+            D=[[0]] * p,
+            s=n + 1,
+            past=past,
+            u_taps=[[[1]]],
+            u_den=(1,),
+            v_taps=[[[0]], [[1]]],
+        )
+
+    return Family(f"n = {n}, p = {p}, s = {n + 1}, past = {past}, all matrices free, u white, v(k) = u(k-1)", tuple(box), at)
+
+
+def _bias_in_floats(drawn: Drawn) -> Floats:
+    A, F, C, G = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCG")
+    n = len(A)
+    Q = np.linalg.solve(np.eye(n * n) - np.kron(A.T, A.T), (C.T @ C).ravel()).reshape(n, n)
+    direct, later = (C.T @ G).ravel(), (A.T @ Q @ F).ravel()
+    return np.asarray((direct + later) / (np.linalg.norm(direct) + np.linalg.norm(later)))
+
+
+def _both(drawn: Drawn) -> Floats:
+    return np.append(_bias_in_floats(drawn), _share(drawn))
+
+
+def _share(drawn: Drawn) -> float:
+    A, F, C, G = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCG")
+    powers = [np.linalg.matrix_power(A, i) for i in range(drawn.s)]
+    return outside(np.vstack([G, *(C @ power @ F for power in powers[:-1])]), np.vstack([C @ power for power in powers]))
+
+
+def _bias(family: Family, point: Point) -> list[Fraction]:
+    """B and D by output error less the true ones, for n, p of the family: n + p numbers."""
+    experiment = exact_experiment(family.at(point))
+    system = experiment.system
+    found = by_output_error(covariances(experiment), system.residual.A, system.residual.C)
+    if found is None:
+        raise ArithmeticError("output error has no unique minimiser")
+    return _numbers(found.B - system.B) + _numbers(found.D - system.D)
+
+
+def _leaving(family: Family, point: Point) -> list[Fraction]:
+    """P L L' O_s."""
+    experiment = exact_experiment(family.at(point))
+    L = past_input_limit(experiment, window_covariances(experiment, covariances(experiment))).matrix
+    W = observability_matrix(experiment.system.residual, experiment.s)
+    outer = L - W @ solve(W.transposed() @ W, W.transposed() @ L)
+    return _numbers(outer @ (L.transposed() @ W))
+
+
+def _outside(family: Family, point: Point) -> list[Fraction]:
+    """P L."""
+    experiment = exact_experiment(family.at(point))
+    L = past_input_limit(experiment, window_covariances(experiment, covariances(experiment))).matrix
+    W = observability_matrix(experiment.system.residual, experiment.s)
+    return _numbers(L - W @ solve(W.transposed() @ W, W.transposed() @ L))
+
+
+def _numbers(matrix: Matrix) -> list[Fraction]:
+    return [Fraction(int(x.p), int(x.q)) for row in matrix.elements() for x in row]
+
+
+def _decide(family: Family, point: Point, fails: Fails, note: str) -> Witness | None:
+    """The fault is seen, and what every reading asks for is met; then `fails`."""
+    experiment = exact_experiment(family.at(point))
+    dossier = examine_experiment("adversary", experiment)
+    residual = experiment.system.residual
+    seen = kernel_representation(residual).normal_rank == residual.m
+    if not (seen and dossier.observable and dossier.controllable and dossier.long_past):
+        return None
+    found = population_limits(experiment)
+    if not fails(dossier, found):
+        return None
+    certificates = tuple(certificates_of(found))
+    for certificate in certificates:
+        checker.verify(certificate)
+    return Witness(f"{describe(family.at(point), dossier)}, {note}", point, certificates)
+
+
+def _leading_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
+    return _inputs_right(dossier) and found.leading_vectors_right(found.past_inputs)
+
+
+def _both_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
+    return _inputs_right(dossier) and dossier.equal
+
+
+def _range_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
+    return dossier.equal
+
+
+def _inputs_right(dossier: LimitDossier) -> bool:
+    system = dossier.experiment.system
+    return dossier.state_inputs == (system.B, system.D)

@@ -1,0 +1,240 @@
+"""Families of experiments, and how a point of one is decided: by certified population limits.
+
+shaped_family      n states of given poles, one input of any colour by its reflection coefficients, an independent fault
+led_family         a fault that leads the input, or comes with it
+open_family        every matrix of the system free, u and v independent
+decided_by         an exact decision from a test on certified limits
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from ...exact.covariances import covariances, window_covariances
+from ...exact.limits import past_input_limit
+from ...exact.lyapunov import solve
+from ...exact.population_limits import population_limits
+from ...exact.windows import observability_matrix
+from .. import checker
+from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
+from .attacks import Family, Point, Witness
+from .float_limits import Drawn, exact_experiment
+from .spectra import shaped_input
+
+POLE = (-0.97, 0.97)
+REFLECTION = (-0.95, 0.95)
+
+At = Callable[[Sequence[Any]], Drawn]
+Fails = Callable[[LimitDossier], bool]
+
+
+def decided_by(at: At, fails: Fails) -> Callable[[Point], Witness | None]:
+    """The experiment at a point, its limits certified; a witness where they fail the statement."""
+
+    def decide(point: Point) -> Witness | None:
+        experiment = exact_experiment(at(point))
+        dossier = examine_experiment("adversary", experiment)
+        if not fails(dossier):
+            return None
+        certificates = tuple(certificates_of(population_limits(experiment)))
+        for certificate in certificates:
+            checker.verify(certificate)
+        return Witness(describe(at(point), dossier), point, certificates)
+
+    return decide
+
+
+def describe(drawn: Drawn, dossier: LimitDossier) -> str:
+    """The experiment for a reader."""
+    e = dossier.experiment
+    u, v = e.u_filter.to_json(), e.v_filter.to_json()
+    rank = f"limit of rank {dossier.limit_rank}, n = {e.system.residual.n}"
+    return f"{e.system.residual}, B={e.system.B}, D={e.system.D}, s = {e.s}, past = {e.past}, u = {u}, v = {v}: {rank}".replace("'", "")
+
+
+def exact_determinant(at: At) -> Callable[[Point], Fraction]:
+    """det M of the limit O_s M, exactly, for past nu = n."""
+
+    def value(point: Point) -> Fraction:
+        experiment = exact_experiment(at(point))
+        blocks = window_covariances(experiment, covariances(experiment))
+        seen = observability_matrix(experiment.system.residual, experiment.s)
+        L = past_input_limit(experiment, blocks).matrix
+        M = solve(seen.transposed() @ seen, seen.transposed() @ L)
+        found = M.flint.det()
+        return Fraction(int(found.p), int(found.q))
+
+    return value
+
+
+def chain(poles: Sequence[Any]) -> list[list[Any]]:
+    """A companion matrix with these poles, repeated or not: (A, e_1) is controllable."""
+    coefficients: list[Any] = [1]
+    for pole in poles:
+        coefficients = [
+            (coefficients[i] if i < len(coefficients) else 0) - (pole * coefficients[i - 1] if i else 0)
+            for i in range(len(coefficients) + 1)
+        ]
+    n = len(poles)
+    return [[-c for c in coefficients[1:]], *([int(i == j) for j in range(n)] for i in range(n - 1))]
+
+
+def shaped_family(
+    n: int, s: int, past: int, reflections: int, tail: int, *, repeated: bool = False, fault: Sequence[Any] = ([[0, 1]],), words: str = ""
+) -> Family:
+    """Parameters: n poles (one where they are repeated), reflection coefficients, then the gain and the zeros of the rest of u.
+
+    C = I, B = e_1; the fault enters the last state and has white noise of its own through the taps `fault`.
+    """
+    count = 1 if repeated else n
+    box = [POLE] * count + [REFLECTION] * reflections + [REFLECTION] * (tail + 1 if tail else 0)
+
+    def at(point: Sequence[Any]) -> Drawn:
+        poles, rest = list(point[:count]) * (n if repeated else 1), point[count:]
+        behind = rest[reflections:]
+        u = shaped_input(rest[:reflections], behind[1:], behind[0] if tail else 0)
+        unit = [[int(i == j) for j in range(n)] for i in range(n)]
+        return Drawn(
+            A=chain(poles),
+            F=[[int(i == n - 1)] for i in range(n)],
+            C=unit,
+            G=[[0]] * n,
+            B=[[int(i == 0)] for i in range(n)],
+            D=[[0]] * n,
+            s=s,
+            past=past,
+            u_taps=[[[x, 0]] for x in u.numerator],
+            u_den=u.denominator,
+            v_taps=list(fault),
+        )
+
+    order = (*reversed(range(count, count + reflections)), *range(count + reflections, len(box)))
+    text = f"n = {n}, s = {s}, past = {past}, one {f'pole {n} times' if repeated else 'real pole a state'}, C = I, B = e_1, "
+    text += f"u of {reflections} reflection coefficients" + (f" and {tail} zeros behind them" if tail else "")
+    return Family(text + (f", {words}" if words else ", v white and independent of u"), tuple(box), at, order)
+
+
+def moving_average_family(n: int, s: int, past: int, order: int) -> Family:
+    """Parameters: one pole n times, the taps of u beyond the first."""
+
+    def at(point: Sequence[Any]) -> Drawn:
+        unit = [[int(i == j) for j in range(n)] for i in range(n)]
+        return Drawn(
+            A=chain([point[0]] * n),
+            F=[[int(i == n - 1)] for i in range(n)],
+            C=unit,
+            G=[[0]] * n,
+            B=[[int(i == 0)] for i in range(n)],
+            D=[[0]] * n,
+            s=s,
+            past=past,
+            u_taps=[[[x, 0]] for x in (1, *point[1:])],
+            u_den=(1,),
+            v_taps=[[[0, 1]]],
+        )
+
+    words = f"n = {n}, s = {s}, past = {past}, one pole {n} times, C = I, B = e_1, u a moving average of order {order}, v white of its own"
+    return Family(words, (POLE, *[(-2.0, 2.0)] * order), at)
+
+
+def led_family(
+    n: int, p: int, phi: Sequence[int], *, reflections: int = 0, taps: int = 0, feedthrough: bool = True, past: int | None = None
+) -> Family:
+    """v(k) = sum_j phi_j u(k+j). Parameters: n poles, C, B, then G if it is free, then the reflection coefficients or the taps of u.
+
+    F = e_1, D = 0, s = n + 1.
+    """
+    box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + (p if feedthrough else 0)) + [REFLECTION] * reflections + [(-0.9, 0.9)] * taps
+    lead = len(phi) - 1
+
+    def at(point: Sequence[Any]) -> Drawn:
+        values = list(point)
+        poles, values = values[:n], values[n:]
+        C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
+        B, values = [[x] for x in values[:n]], values[n:]
+        G, values = ([[x] for x in values[:p]], values[p:]) if feedthrough else ([[0]] * p, values)
+        u = shaped_input(values[:reflections])
+        numerator = [*u.numerator, *values[reflections:]] if taps else list(u.numerator)
+        fault: list[Any] = [0] * (len(numerator) + lead)
+        for j, weight in enumerate(phi):
+            for i, x in enumerate(numerator):
+                fault[i + lead - j] = fault[i + lead - j] + weight * x
+        return Drawn(
+            A=chain(poles),
+            F=[[int(i == 0)] for i in range(n)],
+            C=C,
+            G=G,
+            B=B,
+            D=[[0]] * p,
+            s=n + 1,
+            past=past or n + 1,
+            u_taps=[[[0]]] * lead + [[[x]] for x in numerator],
+            u_den=u.denominator,
+            v_taps=[[[x]] for x in fault],
+            v_den=u.denominator,
+        )
+
+    colour = f"u autoregressive of order {reflections}" if reflections else f"u a moving average of order {taps}" if taps else "u white"
+    led = " + ".join(f"{w} u(k+{j})" for j, w in enumerate(phi) if w)
+    words = f"n = {n}, p = {p}, s = {n + 1}, past = {past or n + 1}, F = e_1, G {'free' if feedthrough else '= 0'}, {colour}, v(k) = {led}"
+    return Family(words, tuple(box), at)
+
+
+def open_family(n: int, p: int, *, coloured_input: bool, coloured_fault: bool) -> Family:
+    """u and v independent, one of each. Parameters: n poles, C, F, G, B; then a tap and a pole of u and of v where they are coloured."""
+    colours = 2 * coloured_input + 2 * coloured_fault
+    box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p + n) + [(-0.9, 0.9)] * colours
+
+    def at(point: Sequence[Any]) -> Drawn:
+        values = list(point)
+        poles, values = values[:n], values[n:]
+        C, values = [values[i * n : (i + 1) * n] for i in range(p)], values[p * n :]
+        F, values = [[x] for x in values[:n]], values[n:]
+        G, values = [[x] for x in values[:p]], values[p:]
+        B, values = [[x] for x in values[:n]], values[n:]
+        (u_tap, u_pole), values = (values[:2], values[2:]) if coloured_input else ((0, 0), values)
+        v_tap, v_pole = values if coloured_fault else (0, 0)
+        return Drawn(
+            A=chain(poles),
+            F=F,
+            C=C,
+            G=G,
+            B=B,
+            D=[[1]] * p,
+            s=n + 1,
+            past=n,
+            u_taps=[[[1, 0]], [[u_tap, 0]]],
+            u_den=(1, -u_pole),
+            v_taps=[[[0, 1]], [[0, v_tap]]],
+            v_den=(1, -v_pole),
+        )
+
+    words = f"n = {n}, p = {p}, s = {n + 1}, past = {n}, all matrices free, {'coloured' if coloured_input else 'white'} u, "
+    return Family(words + f"{'coloured' if coloured_fault else 'white'} v of its own noise", tuple(box), at)
+
+
+def vector_family(n: int, s: int, past: int, order: int) -> Family:
+    """nu = n inputs, A = a I, B = I: parameters a and the entries of the taps of u beyond the first."""
+
+    def at(point: Sequence[Any]) -> Drawn:
+        unit = [[int(i == j) for j in range(n)] for i in range(n)]
+        taps = [point[1 + k * n * n : 1 + (k + 1) * n * n] for k in range(order)]
+        tables = [unit, *([list(tap[i * n : (i + 1) * n]) for i in range(n)] for tap in taps)]
+        return Drawn(
+            A=[[point[0] * x for x in row] for row in unit],
+            F=[[int(i == 0)] for i in range(n)],
+            C=unit,
+            G=[[0]] * n,
+            B=unit,
+            D=[[0] * n] * n,
+            s=s,
+            past=past,
+            u_taps=[[[*row, 0] for row in table] for table in tables],
+            u_den=(1,),
+            v_taps=[[[*[0] * n, 1]]],
+        )
+
+    words = f"A = a I, n = nu = {n}, B = C = I, s = {s}, past = {past}, u a vector moving average of order {order}, v white of its own"
+    return Family(words, (POLE, *[(-1.5, 1.5)] * (n * n * order)), at)

@@ -1,0 +1,210 @@
+"""The file of results: what attacked each statement, how near it came, and when; checked again where that is cheap.
+
+    run_attacks    attacks run now, in parallel, as records for the file
+    stored         the records of the package's file
+    stale          whether an attack has no record, or one of other words
+    shown          the records on one target as a run of `verify` shows them, each checked again
+    write          records into a file
+    refuting       whether a record tells of a counterexample
+
+A record keeps the SHA-256 of the statement that it attacked: where the words have changed since, it is told to be out of date and
+counts for nothing. Checked again: the quantity at the stored point, the exact decision at the point of a witness with its certificates,
+the signs at both ends of a bracket. Floats of another machine may differ in the last digits: values are compared to a hundredth.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterator, Sequence
+from datetime import UTC, datetime
+from fractions import Fraction
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from joblib import Parallel, delayed
+
+from ..certificate import Certificate, sha256
+from .attacks import Aim, Attack, Attacked, Trial
+from .catalogue import attacks_on, catalogue, statement_of
+from .engine import pursue, value_at
+from .following import NOTHING
+from .sweeps import Sweep, Swept, sweep
+
+FORMAT = "faultspace-adversary/1"
+FILE = "results.json"
+COUNTEREXAMPLE, CHANGE, NONE = "counterexample", "change of sign", "none found"
+SWEPT = "every case of a box"
+SWEEP = 8  # a sweep may take so many times as long as an attack
+
+AttackRecord = dict[str, Any]
+Progress = Callable[[str, int, int], None]
+
+
+def run_attacks(
+    attacks: Sequence[Attack | Sweep], *, seconds: float, seed: int, jobs: int = 1, progress: Progress | None = None
+) -> Iterator[AttackRecord]:
+    """Every attack for at most so many seconds, a sweep for SWEEP times as many, as records, in order. `progress(id, done,
+    total)` hears of each that has ended."""
+    places = {attack.id: place for place, attack in enumerate(catalogue())}
+    stream = Parallel(n_jobs=jobs, return_as="generator")(delayed(_run)(places[attack.id], seconds, seed) for attack in attacks)
+    for done, record in enumerate(stream, 1):
+        if progress is not None:
+            progress(record["attack"], done, len(attacks))
+        yield record
+
+
+def write(records: Sequence[AttackRecord], path: Path) -> None:
+    """The file, in the order of the catalogue."""
+    order = {attack.id: place for place, attack in enumerate(catalogue())}
+    kept = sorted((record for record in records if record["attack"] in order), key=lambda record: order[record["attack"]])
+    path.write_text(json.dumps({"format": FORMAT, "attacks": kept}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+@cache
+def stored() -> tuple[AttackRecord, ...]:
+    """The records that the package brings."""
+    return tuple(json.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))["attacks"])
+
+
+def refuting(record: AttackRecord) -> bool:
+    """Whether the record tells of a counterexample, or of a change of sign that proves one."""
+    return bool(record["outcome"] != NONE)
+
+
+def stale(attack: Attack | Sweep, records: Sequence[AttackRecord]) -> bool:
+    """Whether the records have none of this attack on the statement as it is now."""
+    digest = _digest(attack.target)
+    return not any(record["attack"] == attack.id and record["statement_sha256"] == digest for record in records)
+
+
+def shown(target: str, records: Sequence[AttackRecord] | None = None) -> tuple[Attacked, ...]:
+    """The records on a target (None: of the package's file), each checked again."""
+    known = {attack.id: attack for attack in attacks_on(target)}
+    here = [record for record in (stored() if records is None else records) if record["target"] == target]
+    return tuple(_shown(record, known.get(record["attack"])) for record in here)
+
+
+def words_of(record: AttackRecord) -> str:
+    """A record in a sentence or two."""
+    if record["aim"] == SWEPT:
+        extent = "all of it" if record["complete"] else "a part of it"
+        tried = f"{extent}, {record['subjects']} in {record['cases']} cases, {record['seconds']:.0f} s of one processor, {record['date']}"
+        if record["outcome"] == COUNTEREXAMPLE:
+            return f"A counterexample was found in {record['family']} ({tried}): {record['witness']['words']}"
+        return f"No counterexample was found in {record['family']} ({tried})"
+    tried = f"{record['starts']} starts, {record['evaluations']} values, {record['decided']} points decided exactly, "
+    tried += f"{record['seconds']:.0f} s of one processor, {record['date']}"
+    if record["outcome"] == COUNTEREXAMPLE:
+        return f"A counterexample was found in {record['family']} ({tried}): {record['witness']['words']}"
+    if record["outcome"] == CHANGE:
+        return (
+            f"A counterexample exists in {record['family']} ({tried}): {record['measured']} has opposite signs at two exact points, "
+            f"{' and '.join(str(tuple(point)).replace(chr(39), '') for point in record['bracket'])}, and vanishes between them"
+        )
+    reach = {Aim.NONZERO: "the largest value is", Aim.STRATUM: "exact points of the zero set were decided; least value of"}
+    sought = reach.get(Aim(record["aim"]), "the least value is")
+    near = f"{sought} {record['nearest']:.1e} ({record['measured']})"
+    if record["aim"] == Aim.STRATUM:
+        near = f"decided on the zero set of {record['measured']}"
+    return f"No counterexample was found in {record['family']} ({tried}); {near}"
+
+
+def _run(place: int, seconds: float, seed: int) -> AttackRecord:
+    attack = catalogue()[place]
+    if isinstance(attack, Sweep):
+        return _swept(sweep(attack, seconds=SWEEP * seconds))
+    return _record(pursue(attack, seconds=seconds, seed=seed), seed)
+
+
+def _record(trial: Trial, seed: int) -> AttackRecord:
+    attack, witness, bracket = trial.attack, trial.witness, trial.bracket
+    return {
+        "attack": attack.id,
+        "target": attack.target,
+        "statement_sha256": _digest(attack.target),
+        "family": attack.family.words,
+        "aim": str(attack.aim),
+        "measured": attack.measured,
+        "seed": seed,
+        "starts": trial.starts,
+        "evaluations": trial.evaluations,
+        "decided": trial.decided,
+        "seconds": round(trial.seconds, 2),
+        "date": datetime.now(UTC).date().isoformat(),
+        "nearest": trial.nearest,
+        "point": list(trial.point),
+        "outcome": COUNTEREXAMPLE if witness else CHANGE if bracket else NONE,
+        "witness": None
+        if witness is None
+        else {
+            "words": witness.words,
+            "point": [str(x) for x in witness.point],
+            "certificates": _named(witness.certificates),
+        },
+        "bracket": None if bracket is None else [[str(x) for x in point] for point in bracket],
+    }
+
+
+def _swept(result: Swept) -> AttackRecord:
+    one = result.sweep
+    found = result.found
+    return {
+        "attack": one.id,
+        "target": one.target,
+        "statement_sha256": _digest(one.target),
+        "family": one.words,
+        "aim": SWEPT,
+        "complete": result.complete,
+        "cases": result.cases,
+        "subjects": result.subjects,
+        "seconds": round(result.seconds, 2),
+        "date": datetime.now(UTC).date().isoformat(),
+        "outcome": COUNTEREXAMPLE if found else NONE,
+        "witness": None if found is None else {"words": found[0], "point": [], "certificates": _named(found[1])},
+    }
+
+
+def _named(certificates: Sequence[Certificate]) -> list[dict[str, str]]:
+    return [{"kind": c["kind"], "sha256": sha256(c)} for c in certificates]
+
+
+def _digest(target: str) -> str | None:
+    statement = statement_of(target)
+    return None if statement is None else hashlib.sha256(statement.encode()).hexdigest()
+
+
+def _shown(record: AttackRecord, attack: Attack | Sweep | None) -> Attacked:
+    words = words_of(record)
+    if record["statement_sha256"] != _digest(record["target"]):
+        return Attacked(record["attack"], words, False, "out of date: the statement has changed since, so that the attack must run again")
+    if attack is None:
+        return Attacked(record["attack"], words, False, "out of date: the attack is no longer in the catalogue")
+    trouble = _again(record, attack)
+    return Attacked(record["attack"], words, refuting(record) and trouble is None, trouble)
+
+
+def _again(record: AttackRecord, attack: Attack | Sweep) -> str | None:
+    """What is stored, found again; None where all of it is. A sweep is gone through again only where it found something."""
+    if isinstance(attack, Sweep):
+        again = record["witness"] is None or sweep(attack, seconds=SWEEP * 60.0).found is not None
+        return None if again else "not found again: the box has no counterexample"
+    if record["point"]:
+        value, before = value_at(attack, record["point"]), record["nearest"]
+        if abs(value - before) > 0.01 * max(value, before) and max(value, before) > NOTHING:
+            return f"not found again: the value at the stored point is {value:.3e}, and {before:.3e} was stored"
+    if record["witness"] is not None:
+        witness = attack.decide(tuple(Fraction(x) for x in record["witness"]["point"]))
+        if witness is None:
+            return "not found again: the stored point is no counterexample"
+        if [sha256(c) for c in witness.certificates] != [c["sha256"] for c in record["witness"]["certificates"]]:
+            return "not found again: the certificates of the counterexample are other ones than those stored"
+    if record["bracket"] is not None:
+        if attack.exact is None:
+            return "not found again: the quantity has no exact value"
+        first, second = (attack.exact(tuple(Fraction(x) for x in point)) for point in record["bracket"])
+        if first * second > 0:
+            return "not found again: the signs at the two stored points agree"
+    return None

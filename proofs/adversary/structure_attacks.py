@@ -1,0 +1,433 @@
+"""Attacks on what is said of single systems: each statement is decided on the zero sets where ranks drop, not only at random points.
+
+    structure_attacks    all of them
+    on_strata            one statement, one family, several quantities
+    unlike               a test on the certified quantities of a system, as an exact decision
+
+A statement about ranks that fails somewhere fails, as a rule, where some other rank drops: a zero comes to a pole, a state disappears
+from the outputs, an order at infinity rises. So a point is led to the zero set of a determinant by its change of sign, put on it exactly
+(the determinants are affine in every entry of C, F and G), and the statement is decided there with certificates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from random import Random
+
+import sympy
+from flint import fmpq, fmpq_poly
+
+from ...exact.bad_set import bad_equations
+from ...exact.canonical_form import behavior_name, with_feedback
+from ...exact.exceptional import Exceptional, polynomial_at
+from ...exact.fault_space import fault_space
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import Matrix, beside, column_basis, left_null_space, rank, solve_left, stacked
+from ...exact.polynomials import Poly, multiply
+from ...exact.systems import ResidualSystem
+from ...exact.windows import observability_matrix, reachability_matrix
+from ...exact.zero_assignment import assign_zeros, recoverable_pair
+from ...exact.zero_feedthrough import zero_feedthrough
+from .. import certificate as make
+from .. import checker
+from ..certificate import Certificate
+from ..claims.common import delays, ranks_and_inversion, spaces, zeros
+from ..corpus import Dossier, examine
+from ..judged_pairs import examine_judged, pencil_of
+from ..pairs import comparison_certificate
+from .attacks import Aim, Attack, Family, Point, Witness
+from .structure_families import (
+    Square,
+    crossed,
+    exact_value,
+    feedthrough,
+    free_family,
+    hadamard,
+    hidden_family,
+    idle_family,
+    later_product,
+    pencil,
+    product,
+    rank_deficient_family,
+    rank_one_family,
+    reached,
+    seen,
+    system_of,
+)
+
+Fails = Callable[[Dossier], bool]
+Show = Callable[[ResidualSystem], Iterable[Certificate]]
+Decide = Callable[[ResidualSystem], tuple[str, list[Certificate]] | None]
+
+at_zero, at_one = pencil(0), pencil(1)
+
+WORDS = {
+    at_zero: "det of a square part of P(0)",
+    at_one: "det of a square part of P(1)",
+    feedthrough: "det G",
+    product: "det CF",
+    later_product: "det CAF",
+    seen: "det of the first n rows of O_n",
+    reached: "det of the first n columns of [F AF ...]",
+    crossed: "CF between the kernel and the range of G",
+}
+
+
+def structure_attacks() -> Iterator[Attack]:
+    """First what is false, then what stands."""
+    yield from _refuted()
+    yield from _standing()
+
+
+def on_strata(target: str, name: str, family: Family, quantities: Sequence[Square], decide: Decide) -> Iterator[Attack]:
+    """An attack for each quantity."""
+    for square in quantities:
+        words = WORDS[square]
+        yield Attack(
+            target=target,
+            name=f"{name}: {words}",
+            aim=Aim.STRATUM,
+            measured=f"{words}, against Hadamard's bound",
+            family=family,
+            quantity=hadamard(family, square),
+            decide=_at_points(family, decide),
+            exact=exact_value(family, square),
+            starts=10,
+        )
+
+
+def unlike(fails: Fails, show: Show) -> Decide:
+    """A system whose certified quantities fail the statement."""
+
+    def decide(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+        return (str(system), list(show(system))) if fails(examine("adversary", system)) else None
+
+    return decide
+
+
+def _at_points(family: Family, decide: Decide) -> Callable[[Point], Witness | None]:
+    def at(point: Point) -> Witness | None:
+        found = decide(system_of(family.at(point)))
+        if found is None:
+            return None
+        for certificate in found[1]:
+            checker.verify(certificate)
+        return Witness(found[0], point, tuple(found[1]))
+
+    return at
+
+
+def _refuted() -> Iterator[Attack]:
+    tall, square, scalar = free_family(2, 2, 1), free_family(1, 2, 2), free_family(1, 1, 1)
+    yield from on_strata("theorem-2.finite-zeros-only", "one state", scalar, [feedthrough], unlike(_finite_only, zeros))
+    yield from on_strata("theorem-2.transfer-function-zeros", "an idle state", idle_family(2, 2, 1), [at_zero], _transfer_zeros)
+    yield from on_strata("theorem-2.every-window", "one fault", tall, [feedthrough], unlike(_every_window, zeros))
+    for target, known in (
+        ("assumption-4.n-minus-1-known", True),
+        ("assumption-4.n-minus-1-unknown", False),
+        ("proposition-3.as-printed", True),
+        ("settle-2.n-minus-1", True),
+    ):
+        yield from on_strata(target, "one fault", tall, [at_zero], unlike(lambda d, known=known: _early_gap(d, known), delays))  # type: ignore[misc]
+    yield from on_strata(
+        "proposition-3.without-left-invertibility", "two faults", free_family(1, 1, 2), [seen], unlike(_gap_not_m, ranks_and_inversion)
+    )
+    yield from on_strata(
+        "problem-11.window-n", "one fault", free_family(1, 2, 1), [feedthrough], unlike(_early_space, spaces(lambda s: s.n))
+    )
+    no_gain = free_family(2, 1, 1, feedthrough=False)
+    yield from on_strata("zero-feedthrough.fault-matrices", "G = 0", no_gain, [product], unlike(_other_matrices, zeros))
+    yield from on_strata("trajectory-recovered.state-unknown", "one fault", free_family(2, 1, 1), [at_zero], unlike(_state_needed, delays))
+    yield from on_strata("zeros-of-pairs.split", "two faults", square, [feedthrough], _other_split)
+    yield from on_strata(
+        "objection-3.controllability-needed", "an idle state", idle_family(2, 2, 1), [at_zero], unlike(_right_anyway, zeros)
+    )
+    yield from on_strata("problem-11.first-block-column", "one fault", free_family(1, 2, 1), [feedthrough], _first_column)
+    hidden = hidden_family(2, 2, 2)
+    yield from on_strata("bad-set.codimension-unobservable", "a hidden state", hidden_family(1, 1, 1), [feedthrough], _bad_on_a_line)
+    yield from on_strata("zero-assignment.without-observability", "a hidden state", hidden, [at_zero], _no_free_zeros)
+
+
+def _standing() -> Iterator[Attack]:
+    orders = unlike(wrong_delay, delays)
+    yield from on_strata("trajectory-recovered.state-known", "G of rank one", rank_one_family(2, 2), [crossed, at_zero, product], orders)
+    yield from on_strata(
+        "trajectory-recovered.state-known", "three states, G = 0", free_family(3, 2, 2, feedthrough=False), [product, later_product], orders
+    )
+    signal = unlike(wrong_signal, zeros)
+    for name, family in (
+        ("one fault, G = 0", free_family(2, 2, 1, feedthrough=False)),
+        ("two faults, G = 0", free_family(3, 2, 2, feedthrough=False)),
+        ("a hidden state, G = 0", hidden_family(3, 2, 2, feedthrough=False)),
+    ):
+        yield from on_strata("trajectory-recovered.zero-feedthrough-signal", name, family, [product, at_zero], signal)
+    for name, family in (
+        ("two states", hidden_family(2, 1, 1)),
+        ("two faults", hidden_family(2, 2, 2)),
+        ("three states", hidden_family(3, 2, 1)),
+    ):
+        yield from on_strata("zero-assignment.unobservable", name, family, [at_zero, feedthrough], misplaced)
+        yield from on_strata("zero-assignment.recoverable", name, family, [at_zero, at_one], irrecoverable)
+    for name, family in (
+        ("zeta = n", free_family(2, 2, 2)),
+        ("G of rank one", rank_one_family(2, 2)),
+        ("three outputs", free_family(2, 3, 2)),
+    ):
+        yield from on_strata(
+            "bad-set.codimension-two", name, family, [at_zero, feedthrough if "rank" not in name else product], _thick_bad_set
+        )
+    for dropped, family, first in (
+        ("controllable", idle_family(2, 2, 2), at_zero),
+        ("A stable", free_family(2, 2, 2), at_zero),
+        ("left-invertible", rank_deficient_family(), reached),
+        ("r >= 2", free_family(2, 2, 1, feedthrough=False), at_zero),
+    ):
+        yield from on_strata(f"without codimension: {dropped}", "lines", family, [first, seen], _thick_seen)
+    dependent = free_family(2, 2, 2, feedthrough=False)
+    yield from on_strata("without range-of-F: left-invertible", "G = 0", dependent, [product, at_zero], unlike(_range_lost, zeros))
+    for name, family in (
+        ("one fault", free_family(2, 2, 1)),
+        ("two faults", rank_one_family(2, 2)),
+        ("a hidden state", hidden_family(2, 2, 1)),
+    ):
+        yield from on_strata("canonical-form.popov-rows", name, family, [at_zero, seen, reached], _name_differs)
+
+
+# -- what is false ---------------------------------------------------------------------------------------------------------
+
+
+def _minimal(d: Dossier) -> bool:
+    return d.left_invertible and d.observable and d.controllable
+
+
+def _finite_only(d: Dossier) -> bool:
+    return _minimal(d) and any(d.rank(s) != d.n + s * d.m - (d.finite_zeros or 0) for s in range(max(d.n, 1), d.n + 3))
+
+
+def _every_window(d: Dossier) -> bool:
+    return _minimal(d) and any(d.rank(s) != d.n + s * d.m - (d.zeta or 0) for s in range(1, d.n + 3))
+
+
+def _early_gap(d: Dossier, known: bool) -> bool:
+    delay = d.delay_known_state if known else d.delay_unknown_state
+    if not (d.observable and d.left_invertible and delay is not None):
+        return False
+    return any(d.gap(s) != d.m for s in range(max(delay, d.n - 1, 1), d.n + 2))
+
+
+def _gap_not_m(d: Dossier) -> bool:
+    return d.observable and any(d.gap(s) != d.m for s in range(max(d.n, 1), d.n + 3))
+
+
+def _early_space(d: Dossier) -> bool:
+    if not (d.observable and d.left_invertible and d.delay_known_state is not None and d.n):
+        return False
+    return d.space_dimensions[max(d.n, d.delay_known_state) - 1] != d.limit_dimension
+
+
+def _right_anyway(d: Dossier) -> bool:
+    """The gap is m from n on, without controllability."""
+    return not d.controllable and d.observable and d.left_invertible and all(d.gap(s) == d.m for s in range(max(d.n, 1), d.n + 3))
+
+
+def _first_column(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """A z that the rows annihilate on the first block column of T_s(z) at s = lag + 1, and not on all of them."""
+    kernel = kernel_representation(system)
+    d = examine("adversary", system)
+    if not (d.observable and d.left_invertible):
+        return None
+    window = kernel.lag + 1
+    outputs = [beside(Matrix.zero(system.field, system.p, system.n), Matrix.identity(system.field, system.p))]
+    state = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.p))
+    for _ in range(window - 1):
+        outputs.append(system.C @ state)
+        state = system.A @ state
+    conditions = [
+        sum(
+            (row.coefficients.rows([k]) @ outputs[k + shift] for k in range(1, row.degree + 1)), row.coefficients.rows([0]) @ outputs[shift]
+        )
+        for row in kernel.rows_within(window)
+        for shift in range(window - row.degree)
+    ]
+    found = left_null_space(stacked(*conditions).transposed()) if conditions else Matrix.zero(system.field, 0, 0)
+    space = fault_space(kernel, window).basis
+    for i in range(found.nrows):
+        if rank(stacked(space, found.rows([i]))) > space.nrows:
+            z = found.rows([i]).transposed()
+            words = f"{system}, z = {[str(x) for x in z.transposed().elements()[0]]}, s = {window}"
+            return words, [make.first_column_only(kernel, window, z), make.window_ranks(kernel)]
+    return None
+
+
+def _other_matrices(d: Dossier) -> bool:
+    return d.observable and d.left_invertible and d.system.G.is_zero() and d.without_feedthrough != rank(d.system.F)
+
+
+def _state_needed(d: Dossier) -> bool:
+    return d.observable and d.left_invertible and d.delay_unknown_state is None
+
+
+def _transfer_zeros(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """The zeros of the reachable part, which is minimal where the system is observable, give another rank."""
+    d = examine("adversary", system)
+    if not (d.observable and d.left_invertible and not d.controllable):
+        return None
+    basis = column_basis(reachability_matrix(system))
+    parts = [solve_left(basis.transposed(), part.transposed()) for part in (system.A @ basis, system.F)]
+    if parts[0] is None or parts[1] is None:
+        raise ArithmeticError("the reachable subspace is not invariant")
+    part = ResidualSystem(parts[0].transposed(), parts[1].transposed(), system.C @ basis, system.G)
+    shown = [*zeros(system), make.finite_zeros(part), make.infinite_zeros(part)]
+    zeta = len(shown[-2]["statement"]["invariant_zero_polynomial"]) - 1 + sum(shown[-1]["statement"]["infinite_zero_orders"])
+    fails = any(d.rank(s) != d.n + s * d.m - zeta for s in range(max(d.n, 1), d.n + 3))
+    return (f"{system}, whose transfer function is that of its reachable part", shown) if fails else None
+
+
+def _other_split(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """Two good P of one system whose pairs have different numbers of finite zeros: unit columns, and their sums."""
+    pencil_ = pencil_of(system)
+    if not pencil_.columns or pencil_.zeta < 1:
+        return None
+    rows, cols = pencil_.n_z, pencil_.columns
+    found: dict[int, ResidualSystem] = {}
+    for shift in range(rows):
+        for tilt in (0, 1):
+            P = Matrix.of(
+                [[int((i + shift) % rows == j) + tilt * int(i == j) for j in range(cols)] for i in range(rows)], shape=(rows, cols)
+            )
+            pair = examine_judged("adversary", "unit", system, P, None, 1)
+            if pair.equal:
+                found[len(pair.zero_polynomial)] = pair.pair
+    if len(found) < 2:
+        return None
+    pairs = list(found.values())[:2]
+    kernels = [kernel_representation(one) for one in (system, *pairs)]
+    shown = [comparison_certificate(kernels[0], other) for other in kernels[1:]] + [make.finite_zeros(one) for one in pairs]
+    return f"{system} with the pairs {pairs[0].F}, {pairs[0].G} and {pairs[1].F}, {pairs[1].G}", shown
+
+
+def _no_free_zeros(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    pencil_ = pencil_of(system)
+    if pencil_.observable or not pencil_.columns or not pencil_.zeta:
+        return None
+    shown = [make.matrix_rank("observability", system), make.fault_space(pencil_.kernel, pencil_.space)]
+    return f"{system}: the zeros {list(map(str, pencil_.fixed))} (ascending) belong to every pair", shown
+
+
+def _bad_on_a_line(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    pencil_ = pencil_of(system)
+    return _thick(system) if pencil_.zeta >= 1 and pencil_.columns else None
+
+
+# -- what stands -----------------------------------------------------------------------------------------------------------
+
+
+def wrong_delay(d: Dossier) -> bool:
+    if d.infinite_zero_orders is None:
+        return False
+    if not d.left_invertible:
+        return d.delay_known_state is not None
+    return d.delay_known_state != max(d.infinite_zero_orders, default=0)
+
+
+def wrong_signal(d: Dossier) -> bool:
+    if not (d.left_invertible and d.m and d.finite_zeros is not None and d.system.G.is_zero()):
+        return False
+    hidden = d.n - rank(observability_matrix(d.system, d.n))
+    return zero_feedthrough(kernel_representation(d.system)).pins_v != (rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == hidden)
+
+
+def misplaced(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """Multiples of the fixed zeros, of every degree: q^k, and (q - 1)^k, which may meet a pole or a hidden mode."""
+    pencil_ = pencil_of(system)
+    field = system.field
+    if not pencil_.columns:
+        return None
+    for root in (0, 1):
+        free: Poly = (field.element(1),)
+        while len(free) + len(pencil_.fixed) - 2 <= pencil_.zeta:
+            wanted = multiply(free, pencil_.fixed)
+            P = assign_zeros(pencil_, [field.write(x) for x in wanted]).P
+            pair = examine_judged("adversary", "placed", system, P, wanted, 1)
+            if not (pair.equal and pair.zero_polynomial == pair.wanted):
+                shown = [comparison_certificate(pencil_.kernel, kernel_representation(pair.pair)), make.finite_zeros(pair.pair)]
+                return f"{system}, wanted {list(map(str, wanted))}", shown
+            free = multiply(free, (field.element(-root), field.element(1)))
+    return None
+
+
+def irrecoverable(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    pencil_ = pencil_of(system)
+    kernel = kernel_representation(recoverable_pair(pencil_).assignment.system)
+    shown = [comparison_certificate(pencil_.kernel, kernel), make.inversion_delay(kernel, known_state=False)]
+    fine = shown[0]["kind"] == "behaviour-equality" and shown[1]["statement"]["delay"] is not None
+    return None if fine else (str(system), shown)
+
+
+def _thick_bad_set(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    pencil_ = pencil_of(system)
+    return _thick(system) if pencil_.observable and pencil_.columns >= 2 and pencil_.zeta >= 1 else None
+
+
+def _thick_seen(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """The same without a word on r."""
+    pencil_ = pencil_of(system)
+    return _thick(system) if pencil_.observable and pencil_.columns and pencil_.zeta >= 1 else None
+
+
+def _range_lost(d: Dossier) -> bool:
+    """G = 0, rank CF = m, no finite zeros, and yet members of Z without feedthrough outside im F."""
+    system = d.system
+    return system.G.is_zero() and rank(system.C @ system.F) == d.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
+
+
+def _thick(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """The bad set is a hypersurface iff the coefficients of D(q; P) share a polynomial in P: not where some line misses it."""
+    pencil_ = pencil_of(system)
+    rows, cols = pencil_.n_z, pencil_.columns
+    random = Random(str(system))
+    P, Q = (Matrix.of([[random.randint(-999, 999) for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)) for _ in range(2))
+    if _common(pencil_, P, Q).degree() < 1:
+        return None
+    shared = sympy.gcd_list(list(bad_equations(pencil_).equations))
+    if not shared.free_symbols:
+        return None
+    shown = [make.fault_space(pencil_.kernel, pencil_.space), make.matrix_rank("observability", system), make.window_ranks(pencil_.kernel)]
+    return f"{system}: every coefficient of D(q; P) is a multiple of {shared}", shown
+
+
+def _common(pencil_: Exceptional, P: Matrix, Q: Matrix) -> fmpq_poly:
+    """The greatest common divisor in t of the coefficients of D(q; P + t Q), of degree r in t at most."""
+    degree = P.ncols
+    values = []
+    for t in range(degree + 1):
+        values.append([fmpq(x) for x in polynomial_at(pencil_, P + Matrix(P.field, *Q.shape, Q.flint * t))])
+    width = max(len(v) for v in values)
+    common = fmpq_poly([0])
+    for k in range(width):
+        common = common.gcd(_through([v[k] if k < len(v) else fmpq(0) for v in values]))
+    return common
+
+
+def _through(values: Sequence[fmpq]) -> fmpq_poly:
+    """The polynomial with these values at 0, 1, 2, ..."""
+    result, basis = fmpq_poly([0]), fmpq_poly([1])
+    for t, y in enumerate(values):
+        result += basis * ((y - result(fmpq(t))) / basis(fmpq(t)))
+        basis *= fmpq_poly([-t, 1])
+    return result
+
+
+def _name_differs(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    """Against systems of other states, coordinates, faults: equal behaviours and equal Popov rows must go together."""
+    kernel = kernel_representation(system)
+    others = [with_feedback(system, [[1] * system.n] * system.m), with_feedback(system, [[i - 1 for i in range(system.n)]] * system.m)]
+    others.append(recoverable_pair(pencil_of(system)).assignment.system)
+    others.append(ResidualSystem(system.A, -system.F, -system.C, system.G))
+    others.append(ResidualSystem(system.A, system.F, system.C, Matrix.zero(system.field, system.p, system.m)))
+    for other in others:
+        compared = kernel_representation(other)
+        shown = [comparison_certificate(kernel, compared), make.window_ranks(kernel), make.window_ranks(compared)]
+        if (shown[0]["kind"] == "behaviour-equality") != (behavior_name(kernel) == behavior_name(compared)):
+            return f"{system} and {other}", shown
+    return None

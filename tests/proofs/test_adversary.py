@@ -1,0 +1,262 @@
+"""The adversary finds what is false from nothing, loses it when its sign test is taken away, and its stored results are checked again."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+from importlib import resources
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+from faultspace.exact.covariances import covariances
+from faultspace.exact.population_limits import population_limits
+from faultspace.proofs import checker
+from faultspace.proofs.adversary import engine, following
+from faultspace.proofs.adversary.attacking import Attacking, of_reading, of_row
+from faultspace.proofs.adversary.attacks import Attack, Floats
+from faultspace.proofs.adversary.catalogue import attacks_on, catalogue, expected_of, statement_of
+from faultspace.proofs.adversary.engine import pursue
+from faultspace.proofs.adversary.float_limits import exact_experiment, float_limits
+from faultspace.proofs.adversary.following import Trace
+from faultspace.proofs.adversary.limit_attacks import led_family, open_family, shaped_family
+from faultspace.proofs.adversary.results import AttackRecord, refuting, run_attacks, shown, stored
+from faultspace.proofs.adversary.rounding import rational_roots, solve_affine
+from faultspace.proofs.adversary.spectra import shaped_input
+from faultspace.proofs.adversary.sweeps import Sweep
+from faultspace.proofs.ledger import load
+from faultspace.proofs.verdicts import Outcome, ReadingResult, Row, Verdict
+
+FALSE_REPAIR = "proposition-1.two-sided-range by a double pole"
+
+# Nothing to search: one system, or one family of data over it, is what the reading is about.
+OF_ONE_SYSTEM = {"example-v"}
+# Readings that claim no more than that something exists, and one for every u about almost every system.
+EXISTENTIAL = {"settle-1.biased", "objection-1.one-sided-is-not-enough", "proposition-1.two-sided-almost-every"}
+
+
+def attack(name: str) -> Attack:
+    found = next(one for one in catalogue() if one.id == name)
+    assert isinstance(found, Attack)
+    return found
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_the_false_repair_is_found_from_nothing(seed: int) -> None:
+    started = time.process_time()
+    trial = pursue(attack(FALSE_REPAIR), seconds=60, seed=seed)
+    assert trial.witness is not None, trial
+    assert time.process_time() - started < 20
+    drawn = trial.attack.family.at(trial.witness.point)
+    limits = population_limits(exact_experiment(drawn))
+    assert limits.past_inputs.rank < limits.past_inputs.observability_rank == len(drawn.A)
+    for certificate in trial.witness.certificates:
+        checker.verify(certificate)
+
+
+def test_without_its_sign_test_the_engine_does_not_find_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    def blind(trace: Trace) -> Iterator[Floats]:
+        yield from ()
+
+    monkeypatch.setattr(engine, "crossings", blind)
+    trial = pursue(attack(FALSE_REPAIR), seconds=8, seed=0)
+    assert not trial.refuted
+    assert trial.evaluations > 100
+
+
+def test_where_no_zero_is_rational_two_exact_points_of_opposite_sign_prove_one() -> None:
+    one = attack("proposition-1.two-sided-range by a double pole and a moving average")
+    assert one.exact is not None
+    trial = pursue(one, seconds=60, seed=0)
+    assert trial.refuted
+    if trial.bracket is not None:
+        first, second = (one.exact(point) for point in trial.bracket)
+        assert first * second < 0
+
+
+def test_no_file_of_counterexamples_is_read() -> None:
+    folder = Path(engine.__file__).parent
+    sources = "".join(path.read_text("utf-8") for path in folder.glob("*.py"))
+    assert "kept_experiments" not in sources and "counterexamples/" not in sources
+
+
+QUICK = (
+    "proposition-1.white-a-c by a fault one sample ahead",
+    "settle-1.for-every-system by n = 1, p = 2",
+    "settle-1.a-c-wrong by n = 2, p = 2",
+    "past-outputs.coloured-fault by all matrices free",
+    "theorem-3-ii.every-p by D = 0",
+    "theorem-2.finite-zeros-only by one state: det G",
+    "assumption-4.excitation-at-s by a singular [X; V_(s+1)]",
+    "bad-set.codimension-unobservable by a hidden state: det G",
+)
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_what_is_refuted_is_found_to_be(name: str) -> None:
+    trial = pursue(attack(name), seconds=60, seed=3)
+    assert trial.witness is not None, trial
+    for certificate in trial.witness.certificates:
+        checker.verify(certificate)
+
+
+def test_every_target_is_in_the_ledger_and_what_needs_an_attack_has_one() -> None:
+    targets = {one.target for one in catalogue()}
+    assert {target for target in targets if statement_of(target) is None} == set()
+    wanting = set()
+    for claim in load():
+        for reading in claim.readings:
+            name = f"{claim.id}.{reading.id}"
+            weak = reading.expected == "REFUTED" or not reading.theorems
+            if weak and name not in targets and name not in EXISTENTIAL and claim.id not in OF_ONE_SYSTEM:
+                wanting.add(name)
+    assert wanting == set()
+
+
+def test_the_file_of_results_is_whole_up_to_date_and_as_expected() -> None:
+    schema = json.loads(resources.files("faultspace.proofs").joinpath("schemas/adversary.schema.json").read_text("utf-8"))
+    jsonschema.Draft202012Validator(schema).validate({"format": "faultspace-adversary/1", "attacks": list(stored())})
+    assert [record["attack"] for record in stored()] == [one.id for one in catalogue()]
+    again = "python -m faultspace.proofs.adversary --reading ID --out proofs/adversary/results.json runs an attack again"
+    for target in dict.fromkeys(one.target for one in catalogue()):
+        found = shown(target)
+        assert [one.trouble for one in found if one.trouble] == [], f"{target}: {again}"
+        assert any(one.refutes for one in found) == (expected_of(target) == "REFUTED"), target
+
+
+def record_of(name: str) -> AttackRecord:
+    return next(record for record in stored() if record["attack"] == name)
+
+
+def test_a_record_that_was_tampered_with_is_noticed() -> None:
+    record = record_of(FALSE_REPAIR)
+    target = record["target"]
+    assert [one.trouble for one in shown(target, [record])] == [None]
+    other_words = record | {"statement_sha256": "0" * 64}
+    nearer = record | {"nearest": record["nearest"] + 0.5}
+    witness = record["witness"]
+    moved = record | {"witness": witness | {"point": ["0", *witness["point"][1:]]}}
+    renamed = record | {"witness": witness | {"certificates": [{"kind": "moesp-limit", "sha256": "0" * 64}]}}
+    for spoilt, word in ((other_words, "out of date"), (nearer, "value"), (moved, "no counterexample"), (renamed, "certificates")):
+        (told,) = shown(target, [spoilt])
+        assert told.trouble is not None and word in told.trouble
+        assert not told.refutes
+
+
+def reading_result(target: str, verdict: Verdict) -> tuple[ReadingResult, str]:
+    name, _, reading = target.partition(".")
+    claim = next(claim for claim in load() if claim.id == name)
+    return ReadingResult(next(one for one in claim.readings if one.id == reading), Outcome(verdict, "on systems"), 0.0), name
+
+
+def test_a_confirmed_counterexample_decides_a_reading_and_one_that_is_not_found_again_is_an_error() -> None:
+    record = record_of(FALSE_REPAIR)
+    result, claim = reading_result(record["target"], Verdict.CERTIFIED)
+    decided = of_reading(result, claim, Attacking((record,)))
+    assert decided.outcome.verdict == Verdict.REFUTED
+    assert decided.to_json()["attacks"][0]["refutes"]
+    spoilt = record | {"witness": record["witness"] | {"point": ["0", *record["witness"]["point"][1:]]}}
+    assert of_reading(result, claim, Attacking((spoilt,))).outcome.verdict == Verdict.ERROR
+    old = record | {"statement_sha256": "0" * 64}
+    kept = of_reading(result, claim, Attacking((old,)))
+    assert kept.outcome.verdict == Verdict.CERTIFIED
+    assert kept.attacks[0].trouble is not None
+
+
+def test_a_row_of_the_hypothesis_table_gives_way_too() -> None:
+    record = record_of("without consistency: u white by a double pole")
+    row = Row("consistency", "proposition-1", "right", ("u white",), Verdict.CERTIFIED, "on experiments", None, (), 0)
+    assert of_row(row, Attacking((record,))).verdict == Verdict.REFUTED
+    assert of_row(replace(row, dropped=("u white", "past >= n")), Attacking((record,))).verdict == Verdict.CERTIFIED
+
+
+def test_a_run_makes_the_records_that_are_stored_but_for_the_seconds() -> None:
+    name = "theorem-2.finite-zeros-only by one state: det G"
+    (made,) = run_attacks([attack(name)], seconds=60, seed=record_of(name)["seed"])
+    varying = {"seconds", "date", "nearest", "point"}
+    assert {k: v for k, v in made.items() if k not in varying} == {k: v for k, v in record_of(name).items() if k not in varying}
+    assert refuting(made)
+
+
+FAMILIES = (
+    shaped_family(2, 2, 3, 3, 1),
+    shaped_family(3, 2, 3, 2, 0, repeated=True),
+    led_family(2, 2, (0, 1), reflections=2),
+    led_family(1, 2, (1, 0, 2), taps=2),
+    open_family(2, 1, coloured_input=True, coloured_fault=True),
+)
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.words[:40])
+def test_limits_in_floats_are_the_exact_ones(family: object) -> None:
+    rng = np.random.default_rng(5)
+    low, high = np.array(family.box).T  # type: ignore[attr-defined]
+    for _ in range(3):
+        point = [Fraction(x).limit_denominator(20) for x in rng.uniform(0.7 * low, 0.7 * high)]
+        limits = population_limits(exact_experiment(family.at(point)))  # type: ignore[attr-defined]
+        floats = float_limits(family.at([float(x) for x in point]))  # type: ignore[attr-defined]
+        for exact, found in ((limits.past_inputs.matrix, floats.past_inputs), (limits.past_outputs.matrix, floats.past_outputs)):
+            wanted = np.array([[int(x.p) / int(x.q) for x in row] for row in exact.elements()])
+            np.testing.assert_allclose(found, wanted, atol=1e-9 * np.abs(wanted).max())
+
+
+def test_an_input_has_the_reflection_coefficients_it_was_made_of() -> None:
+    """By Levinson's recursion on its exact covariances."""
+    wanted = [Fraction(1, 3), Fraction(-3, 4), Fraction(1, 2), Fraction(-1, 5)]
+    made = shaped_input(wanted, [Fraction(1, 2), Fraction(-2, 3)], Fraction(4, 5))
+    drawn = shaped_family(1, 1, 1, 1, 0).at([Fraction(0), Fraction(0)])
+    drawn = replace(drawn, u_taps=[[[x, 0]] for x in made.numerator], u_den=made.denominator)
+    known = covariances(exact_experiment(drawn))
+    r = [known.sequence(known.process.u, known.process.u, k, k)[k][0, 0] for k in range(5)]
+    predictor, found = [r[0] / r[0]], []
+    for k in range(1, 5):
+        error = sum(a * r[i] for i, a in enumerate(predictor))
+        gain = -sum(a * r[k - i] for i, a in enumerate(predictor)) / error
+        found.append(-gain)
+        padded = [*predictor, predictor[0] * 0]
+        predictor = [a + gain * b for a, b in zip(padded, padded[::-1], strict=True)]
+    assert [Fraction(int(x.p), int(x.q)) for x in found] == wanted
+
+
+def test_rational_roots_of_a_rational_function_are_found_exactly() -> None:
+    def value(x: Fraction) -> Fraction:
+        return (7 * x - 3) * (x * x - 2) / (x * x + 1)
+
+    assert rational_roots(value, Fraction(0), Fraction(1)) == (Fraction(3, 7),)
+    assert rational_roots(value, Fraction(1), Fraction(2)) == ()
+    assert rational_roots(lambda x: x**40 - 2, Fraction(0), Fraction(2)) is None
+
+
+def test_affine_equations_are_solved_near_the_point_and_others_refused() -> None:
+    point = (Fraction(1), Fraction(2), Fraction(3))
+    solved = solve_affine(lambda x: [x[0] * x[1] + x[2] - 1], point, (1, 2))
+    assert solved == (Fraction(1), Fraction(0), Fraction(1))
+    assert solve_affine(lambda x: [x[1] * x[1] - 1], point, (1,)) is None
+    assert solve_affine(lambda x: [x[1] - x[1] + 1], point, (1,)) is None
+
+
+def test_a_trace_remembers_signs_but_not_those_of_rounding() -> None:
+    trace = Trace(lambda x: float(x[0]))
+    for value in (0.5, -0.25, 1e-12):
+        trace.number(np.array([value]))
+    assert trace.nearest == 1e-12
+    assert [len(trace.signs[side]) for side in (True, False)] == [1, 1]
+    (zero,) = following.crossings(trace)
+    assert abs(zero[0]) < 1e-9
+
+
+def test_sweeps_go_to_the_end_of_a_box_or_say_that_they_did_not() -> None:
+    one = next(one for one in attacks_on("zero-assignment.recoverable") if isinstance(one, Sweep))
+    few = replace(one, cases=lambda: list(one.cases())[:5])
+    from faultspace.proofs.adversary.sweeps import sweep
+
+    done = sweep(few, seconds=60)
+    assert (done.cases, done.complete, done.found) == (5, True, None)
+    assert not sweep(few, seconds=0).complete
+    failing = replace(few, judge=lambda case: ("fails", []))
+    assert sweep(failing, seconds=60).found == ("fails", [])
