@@ -93,6 +93,9 @@ def verify(
     ] = None,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
+    recheck: Annotated[
+        bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
+    ] = False,
     json: Json = False,
 ) -> None:
     """Decide every claim: the table of verdicts, with certificates. Exit 0 if every verdict is the expected one, else 1."""
@@ -101,7 +104,7 @@ def verify(
         from . import verifying
 
         workers = jobs or os.cpu_count() or 1
-        return verifying.run(claim or [], effort=effort.value, jobs=workers, out=out, as_json=json)
+        return verifying.run(claim or [], effort=effort.value, jobs=workers, out=out, recheck=recheck, as_json=json)
 
     _leave(body)
 

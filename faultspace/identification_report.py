@@ -21,6 +21,7 @@ from .failures import printable
 from .identification_pictures import PICTURES, pictures
 from .identification_summary import advice, fit, markdown, summary
 from .numeric.distances import containment_distance
+from .numeric.mean_shift import POWER
 from .records import SampleStore, Tell
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ def document(answer: Answer, data: str) -> dict[str, Any]:
         "order_given": answer.order_given,
         "singular_values": _plain(answer.singular_values),
         "n_v": answer.count,
+        "n_v_at_least": answer.at_least,
         "n_v_given": answer.count_given,
         "n_v_reason": answer.count_reason,
         "n_v_from": answer.counted_by,
@@ -83,7 +85,23 @@ def document(answer: Answer, data: str) -> dict[str, Any]:
             "healthy": list(answer.healthy),
             "visible": _plain(answer.against.visible),
         }
+    mean = answer.mean
+    result["mean_shift"] = mean and {
+        "against": "zero" if answer.healthy_until is None else "healthy samples",
+        "shifted": mean.shifted,
+        "reason": mean.reason,
+        "level": mean.level,
+        "statistic": _plain(mean.statistic),
+        "threshold": _plain(mean.threshold),
+        "shift": _plain(mean.shift),
+        "deviations": _plain(mean.deviations),
+        "outputs": [answer.record.outputs[i] for i in mean.channels],
+    }
+    if answer.healthy_until is not None and mean:
+        result["visible"] = {"power": POWER, "level": mean.level, "constant": _plain(mean.visible), "white": _plain(answer.visible)}
     result["fault_space"] = _space(answer)
+    result["explained"] = _plain(answer.explained)
+    result["explained_by_noise"] = _plain(answer.by_noise)
     signal = answer.signal
     result["fault_signal"] = signal and {
         "delay": signal.delay,

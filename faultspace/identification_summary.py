@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .failures import printable
+from .numeric.mean_shift import POWER
 
 if TYPE_CHECKING:
     from .identifying import Answer
@@ -30,9 +31,9 @@ def fit(answer: Answer) -> Array | None:
     """100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
     if answer.residual is None:
         return None
-    record = answer.record
+    record = answer.record if answer.healthy_until is None else answer.record.beginning(answer.healthy_until)
     spread = np.sqrt(len(record)) * record.channels.deviation[record.n_u :]
-    return np.asarray(100 * (1 - answer.residual.norm / np.where(spread > 0, spread, 1.0)))
+    return np.asarray(100 * (1 - answer.residual.early_norm / np.where(spread > 0, spread, 1.0)))
 
 
 def summary(answer: Answer, data: str) -> Iterator[str]:
@@ -54,12 +55,18 @@ def summary(answer: Answer, data: str) -> Iterator[str]:
         shown = fit(answer)
         if shown is not None:
             pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, shown, strict=True)]
-            yield f"fit, initial state included: {_several(pairs)}; what is left is faults, noise and the model's error"
+            left = "what is left is faults, noise and the model's error"
+            if answer.healthy_until is not None:
+                yield f"identified from the samples 0 to {answer.healthy_until - 1}, stated to be without fault"
+                left = "what is left is noise and the model's error"
+            yield f"fit, initial state included: {_several(pairs)}; {left}"
         yield ""
         yield "## Faults"
-        yield f"number of independent faults n_v: **{'undecided' if answer.count is None else answer.count}**"
+        yield f"number of independent faults n_v: **{_count(answer)}**"
         yield f"why: {answer.count_reason}"
         yield from _healthy_lines(answer)
+        yield from _mean_lines(answer)
+        yield from _visible_lines(answer)
         if answer.dimension and answer.dimension.regime == "rounding":
             yield f"gaps rank R_(s+1) - rank R_s beyond the inputs, s = 1, 2, ...: {' '.join(map(str, answer.dimension.gaps))}"
         yield from _space_lines(answer)
@@ -98,6 +105,39 @@ def _healthy_lines(answer: Answer) -> Iterator[str]:
     yield f"from the residual alone: {_said(alone.n_v)} ({alone.reason}){taken}" if alone else f"from the residual alone: none{taken}"
 
 
+def _count(answer: Answer) -> str:
+    if answer.count is not None:
+        return str(answer.count)
+    return f"undecided, at least {answer.at_least}" if answer.at_least else "undecided"
+
+
+def _mean_lines(answer: Answer) -> Iterator[str]:
+    """The mean beside the rank: what moved it, by how much."""
+    mean, rest, record = answer.mean, answer.residual, answer.record
+    if mean is None or rest is None:
+        return
+    against = "zero" if answer.healthy_until is None else "that of the healthy samples"
+    yield f"mean of the residual against {against}: {mean.reason}"
+    if not mean.shifted or mean.shift is None or mean.deviations is None:
+        return
+    noise = np.sqrt(answer.modelled) / np.where(rest.early_norm > 0, rest.early_norm, np.inf)
+    rows = zip(record.outputs, mean.shift, mean.deviations, mean.shift * noise, strict=True)
+    sigma = "" if answer.healthy_until is None else " ({:.3g} times the size of its healthy residual)"
+    yield "mean by output: " + _several([f"{name} {d:.4g} +- {e:.2g}{sigma.format(size)}" for name, d, e, size in rows])
+
+
+def _visible_lines(answer: Answer) -> Iterator[str]:
+    """What would have been seen, where little or nothing was."""
+    mean, outputs = answer.mean, answer.record.outputs
+    if answer.healthy_until is None or mean is None:
+        return
+    kinds = [("a constant at one output", mean.visible), ("a white signal at one output, deviation", answer.visible)]
+    for kind, sizes in kinds:
+        if sizes is not None:
+            told = _several([f"{name} {size:.3g}" for name, size in zip(outputs, sizes, strict=True)])
+            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {told}"
+
+
 def _said(number: int | None) -> str:
     return "undecided" if number is None else str(number)
 
@@ -128,12 +168,18 @@ def _space_lines(answer: Answer) -> Iterator[str]:
 
 def _signal_lines(answer: Answer) -> Iterator[str]:
     signal, space, record = answer.signal, answer.space, answer.record
+    if answer.explained is not None and answer.by_noise is not None:
+        yield ""
+        yield "## Fault signal"
+        on = " after the healthy samples" if answer.healthy_until is not None else ""
+        yield (
+            f"explained of the residual{on}: {100 * answer.explained:.4g} %, where mere noise of its spectra could give up to "
+            f"{100 * answer.by_noise:.3g} %{'' if signal is not None else ': **withheld**, with F and G'}"
+        )
     if signal is None or space is None:
         return
     first, last = signal.trusted
     N = len(record)
-    yield ""
-    yield "## Fault signal"
     delay = "not determined by the outputs" if signal.delay is None else _counted(signal.delay, "sample")
     yield f"delay until it is seen in the outputs, the state being unknown: {delay}"
     if first >= last:
@@ -168,19 +214,26 @@ def advice(answer: Answer) -> list[str]:
             lines.append("more outputs: with one, a fault cannot be told from noise")
         else:
             lines.append("more samples, larger --block-rows, or more outputs than faults; constant or sinusoidal faults count as fewer")
+        if answer.moved:
+            lines.append("for a constant fault: the outputs whose means moved, above, and by how much; record where it sets in or varies")
     elif answer.count == 0:
         lines.append("nothing about faults: record while one acts")
     elif answer.space is None or not answer.space.meaningful:
         lines.append("more outputs than independent faults: as many faults as outputs leave no relation to find F and G from")
     else:
         if not answer.space.decided:
-            lines.append("more samples: the dimension of the fault space is a near thing")
+            lines.append("more samples: the dimension of the fault space is a near thing; F, G and the signal follow where it is decided")
+        if answer.explained is not None and answer.signal is None:
+            lines.append("another --order or --faults: the signal explains no more of the residual than it would of noise")
         if answer.signal is not None and answer.signal.trusted[0] >= answer.signal.trusted[1]:
             lines.append("an output that sees the fault sooner, or another one: no sample of the signal is determined by these")
     other = answer.block_rows + max(answer.block_rows // 2, 2)
     lines.append(f"--block-rows {other}: order, n_v and n_z should stay as they are")
     if answer.pair is not None:
-        lines.append("faultspace inspect model.json --floats-exactly: zeros, delays and fault space of this very model, exactly")
+        lines.append(
+            "faultspace inspect model.json --floats-exactly: indices and delays of these very floats; it can confirm no zeros, because "
+            "floats that were estimated have none exactly"
+        )
     return lines
 
 

@@ -2,16 +2,18 @@
 
 run              the command's body
 identify         the whole chain on a record: an Answer, "undecided" where the data cannot tell
-choose_pair      n_v columns (F, G) out of a fault space, whose signal is then reconstructed
 default_block_rows   the window taken where none is given
 
 1  PI-MOESP. No clean gap in the singular values and no order given: the order is undecided, and the chain ends there.
 2  The residual of that model, its initial state fitted.
 3  The fault dimension, of the residual beside the inputs: an identified model is wrong by about N^(-1/2), so that the residual alone has
-the inputs in it as if they were faults. Where the first samples are stated to be without fault, it is counted once more, against what the
-residual shows there; that count goes first where it is decided, the other where it is not.
+the inputs in it as if they were faults. Where the first samples are stated to be without fault, model and means are from these alone, the
+faults of the others are counted once more against what the residual shows there, and its mean is held against theirs: a constant fault
+moves the mean and no rank. The count against them goes first where it is decided, the other where it is not; 0 is said only where nothing
+is counted and the mean is tested and has not moved, with the size of fault that would have been seen.
 4  The fault space, unless the dimension is undecided or 0.
-5  The fault signal for one pair out of the space: it is determined up to that choice.
+5  F, G and the fault signal for one pair out of the space: determined up to that choice, and given only where n_z is decided and the signal
+explains more of the residual than it would of noise.
 
 Memory. Steps 1, 2 and 5 read the record, or the residual, in pieces and hold none of them, whatever N. Steps 3 and 4 hold the residual
 (N x p floats) and the inputs (N x n_u) of at most HELD numbers together: of a longer record the stretch with most of the residual's energy,
@@ -35,18 +37,20 @@ from .consoles import answers, print_json
 from .data_files import read_record
 from .exact.input_rules import InvalidInput, shown
 from .failures import ANSWERED, placed, printable, say
+from .identification_signal import MEANS_FROM, ROUNDING, beyond_rounding, largest, with_signal, with_space
 from .identification_summary import summary
-from .long_reconstruction import FaultSignal, reconstructed
+from .long_reconstruction import FaultSignal
 from .long_residuals import LongResidual, loudest, residual_of
 from .numeric.compression import compress_chunks
+from .numeric.detectable_fault import visible_white_faults
 from .numeric.fault_against_healthy import FaultsAgainstHealthy, fault_dimension_against_healthy
 from .numeric.fault_dimension import FaultDimension, fault_dimension
-from .numeric.fault_space import FaultSpaceEstimate, fault_space
+from .numeric.fault_space import FaultSpaceEstimate
 from .numeric.healthy_reference import healthy_reference
 from .numeric.input_checks import InvalidData
+from .numeric.mean_shift import POWER, MeanShift, mean_about_zero, mean_shift
 from .numeric.pi_moesp import Identification, check_compression, pi_moesp_from_compression
 from .numeric.pi_moesp_chunks import pi_moesp_from_chunks
-from .numeric.reconstruction import reconstruct_fault
 from .pass_progress import passes
 from .reading_files import prepare_folder
 from .records import Passes, Record, Tell
@@ -56,14 +60,6 @@ Array = NDArray[np.float64]
 DEFAULT_WINDOW = 20
 SPARE = 3  # windows for each row of the Hankel matrices, at least
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
-PAIRS_TRIED = 6
-TRIED_ON = 4000  # samples that a pair is tried on
-ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
-JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which it is told
-FROM_IDENTIFIED = (
-    "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
-    "shows how much on systems of the paper's kind)"
-)
 COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
 """What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
 
@@ -74,8 +70,11 @@ class Answer:
 
     singular_values of PI-MOESP; order_given: the order was stated by the user; held: the samples that faults were counted on; count: the
     n_v taken (None: undecided), count_given: stated by the user, count_reason, counted_by: of COUNTED_BY what it rests on; healthy_until:
-    samples stated to be without fault, from the first on, healthy: the samples of these that `against` was counted against; pair:
-    F (n, n_v), G (p, n_v) of `signal`.
+    samples stated to be without fault, from the first on, `modelled` the part of the record that the model is from, healthy: the samples of
+    these that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
+    where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
+    visible (p,): standard deviation of a white fault at one output that would be seen; pair: F (n, n_v), G (p, n_v) of `signal`;
+    explained: share of the residual that the signal explains, by_noise: what it would of noise.
     """
 
     record: Record
@@ -94,10 +93,32 @@ class Answer:
     healthy_until: int | None = None
     healthy: tuple[int, int] = (0, 0)
     against: FaultsAgainstHealthy | None = None
+    mean: MeanShift | None = None
+    visible: Array | None = None
+    unexplained: bool = False
     space: FaultSpaceEstimate | None = None
     pair: tuple[Array, Array] | None = None
     signal: FaultSignal | None = None
+    explained: float | None = None
+    by_noise: float | None = None
     notes: tuple[str, ...] = ()
+
+    @property
+    def modelled(self) -> int:
+        """How many samples, from the first on, the model is from."""
+        return self.healthy_until or len(self.record)
+
+    @property
+    def at_least(self) -> int:
+        """Faults that act in any case: the count where there is one; else one where anything stands out, the mean included."""
+        if self.count is not None:
+            return self.count
+        return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
+
+    @property
+    def moved(self) -> bool:
+        """Whether the mean of the residual left that of the healthy samples."""
+        return self.healthy_until is not None and self.mean is not None and self.mean.shifted is True
 
 
 def run(
@@ -175,13 +196,17 @@ def identify(
         raise InvalidData(f"--faults: got {faults} for {record.p} outputs; at most as many can be told apart: state fewer")
     if healthy_until is not None and not 0 < healthy_until < len(record):
         raise InvalidData(f"--healthy-until: got {healthy_until} for {len(record)} samples; some must follow: state fewer")
-    rows = block_rows if block_rows is not None else default_block_rows(len(record), record.p, record.n_u, order)
-    _enough(record, rows)
-    _varying(record)
-    notes = () if remove_means else _far_from_zero(record)
+    part = record if healthy_until is None else record.beginning(healthy_until)
+    rows = block_rows if block_rows is not None else default_block_rows(len(part), record.p, record.n_u, order)
+    try:
+        _enough(part, rows)
+        _varying(part)
+    except InvalidData as error:
+        raise error if healthy_until is None else InvalidData(f"--healthy-until: the model is from these samples alone: {error}") from None
+    notes = () if remove_means else _far_from_zero(part)
     if remove_means:
-        record = record.about_means()
-    model, values, refusal = _model(record, order, rows, told)
+        record, part = record.about(part.channels.mean), part.about_means()
+    model, values, refusal = _model(part, order, rows, told)
     answer = Answer(record, rows, remove_means, order is not None, values, model, notes=notes)
     answer = replace(answer, count_given=faults is not None, healthy_until=healthy_until)
     if model is None:
@@ -189,12 +214,24 @@ def identify(
     notes += model.warnings
     if order is not None and not model.gap.clean:
         notes += (f"order {order} was given; the singular values have no clean gap there (ratio {model.gap.ratio:.3g})",)
-    rest = residual_of(record, model, "residual", told)
+    rest = residual_of(record, model, "residual", told, until=healthy_until)
     answer = replace(answer, residual=rest, notes=(*notes, *rest.notes))
-    if np.all(rest.peak <= ROUNDING * _largest(record)):
-        reason = "the model explains the outputs to rounding: no fault acts"
-        return replace(answer, count=0, count_given=False, count_reason=reason, counted_by="model")
-    return _with_signal(_with_space(_with_count(answer, faults, told), told), told)
+    if np.all(rest.peak <= ROUNDING * largest(record)):
+        return replace(answer, count=0, count_given=False, count_reason=_nothing_left(answer), counted_by="model")
+    return with_signal(with_space(_with_count(answer, faults, told), told), told)
+
+
+def _nothing_left(answer: Answer) -> str:
+    least = ROUNDING * largest(answer.record)
+    sizes = ", ".join(f"{shown(name)} {size:.2g}" for name, size in zip(answer.record.outputs, least, strict=True))
+    hidden = ""
+    if answer.healthy_until is None:
+        hidden = (
+            "; a fault that is constant over the whole record went with the means"
+            if answer.means_removed
+            else "; a fault that is constant over the whole record can pass for the response to the mean of the inputs"
+        )
+    return f"the model explains the outputs to rounding: nothing larger than {sizes} acts{hidden}"
 
 
 def _with_count(answer: Answer, faults: int | None, tell: Tell) -> Answer:
@@ -209,19 +246,18 @@ def _with_count(answer: Answer, faults: int | None, tell: Tell) -> Answer:
         first, last = healthy, min(healthy + most, len(record))
     if last - first < len(record):
         why = "where the residual is largest" if first > healthy or not healthy else "after those stated to be without fault"
-        notes += (
-            f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; the model and the fault signal are "
-            "from all samples",
-        )
+        source = "the fault signal is from all samples, the model from the healthy ones"
+        source = source if healthy else "the model and the fault signal are from all samples"
+        notes += (f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; {source}",)
     answer = replace(answer, held=(first, last), notes=notes)
-    r = rest.store.read(first, last)
+    r = beyond_rounding(answer)
     try:
         found = fault_dimension(r.astype(np.float32) if record.single else r, u=record.stretch(first, last)[1])
         by = None if found.n_v is None else "residual alone"
         answer = replace(answer, dimension=found, count=found.n_v, count_reason=found.reason, counted_by=by)
     except InvalidData as error:
         answer = replace(answer, count_reason=str(error))
-    answer = _against_healthy(answer, r, tell)
+    answer = _against_healthy(answer, r, tell) if healthy else _about_zero(answer, r)
     if faults is None:
         return answer
     said = "undecided" if answer.count is None else answer.count
@@ -229,86 +265,70 @@ def _with_count(answer: Answer, faults: int | None, tell: Tell) -> Answer:
     return replace(answer, count=faults, count_reason=f"{faults} given; {told}", counted_by="given")
 
 
+def _about_zero(answer: Answer, r: Array) -> Answer:
+    """Without healthy samples: the mean of the residual against zero, where it was not removed. It decides nothing, since a constant fault
+    over a whole record cannot be told from an operating point."""
+    if answer.count == 0:
+        answer = replace(answer, count_reason=f"{answer.count_reason}; a fault that is constant over the whole record would not be seen")
+    if answer.means_removed:
+        return answer
+    mean = mean_about_zero(r[:MEANS_FROM])
+    notes = answer.notes
+    if mean.shifted:
+        notes += (
+            f"the residual is not about zero ({mean.reason}): an operating point, or a constant fault; which of them, only samples without "
+            "fault can tell (--healthy-until)",
+        )
+    return replace(answer, mean=mean, notes=notes)
+
+
 def _against_healthy(answer: Answer, r: Array, tell: Tell) -> Answer:
     """The count of `answer`'s residual r beside that against the samples stated to be without fault, of which the last HELD numbers are
-    held; undecided leaves the first as it is."""
+    held, and beside the test of the mean."""
     record, rest, until = answer.record, answer.residual, answer.healthy_until
-    if until is None or rest is None:
-        return answer
+    assert rest is not None and until is not None
+    if np.all(rest.early_peak <= ROUNDING * largest(record)):
+        return _zero_or_not(replace(answer, unexplained=True))
     tell("counting faults against the healthy samples", 0, 0)
     start = max(until - HELD // (record.p + record.n_u), 0)
+    healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
+    mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[-MEANS_FROM:], before[-MEANS_FROM:])
+    if not rest.foreseen:
+        mean = replace(mean, shifted=None, reason="the model is too unstable to be run on from the healthy samples", visible=None)
+    answer = replace(answer, mean=mean)
     try:
-        reference = healthy_reference(rest.store.read(start, until), record.stretch(start, until)[1])
-        against = fault_dimension_against_healthy(r, reference, u=record.stretch(*answer.held)[1])
+        reference = healthy_reference(healthy, before)
+        against = fault_dimension_against_healthy(r, reference, u=u)
     except InvalidData as error:
-        return replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}"))
-    answer = replace(answer, healthy=(start, until), against=against)
-    if against.n_v is None:
+        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}")))
+    answer = replace(answer, healthy=(start, until), against=against, visible=visible_white_faults(reference, against, POWER))
+    if against.n_v is not None:
+        answer = replace(answer, count=against.n_v, count_reason=against.reason, counted_by="healthy samples")
+    return _zero_or_not(answer)
+
+
+def _zero_or_not(answer: Answer) -> Answer:
+    """0 is said only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
+    if answer.count != 0 and not (answer.count is None and (answer.moved or answer.unexplained)):
         return answer
-    return replace(answer, count=against.n_v, count_reason=against.reason, counted_by="healthy samples")
-
-
-def _with_space(answer: Answer, tell: Tell) -> Answer:
-    """The space of all fault columns, on the samples that faults were counted on."""
-    model, rest = answer.identification, answer.residual
-    if not answer.count or model is None or rest is None:
-        return answer
-    tell("fault space", 0, 0)
-    try:
-        space = fault_space(rest.store.read(*answer.held), model.A, model.C, n_v=answer.count)
-    except InvalidData as error:
-        return replace(answer, notes=(*answer.notes, f"no fault space: {error}"))
-    if space.method == "likelihood":
-        answer = replace(answer, notes=(*answer.notes, FROM_IDENTIFIED))
-    return replace(answer, space=space if answer.count_given else replace(space, reason=counted(space.reason)))
-
-
-def _with_signal(answer: Answer, tell: Tell) -> Answer:
-    """The signal of one choice of columns out of the space, over all samples."""
-    model, rest, space, count = answer.identification, answer.residual, answer.space, answer.count
-    if model is None or rest is None or space is None or not count or not space.meaningful or space.n_z < count:
-        return answer
-    tell("choosing F and G", 0, 0)
-    part = rest.store.read(*loudest(rest.energies, len(answer.record), TRIED_ON))
-    F, G = choose_pair(part, model.A, model.C, space, count)
-    try:
-        signal = reconstructed(rest.store, model.A, F, model.C, G, "fault signal", tell)
-    except InvalidData as error:
-        return replace(answer, pair=(F, G), notes=(*answer.notes, f"no fault signal: {error}"))
-    notes = answer.notes
-    if signal.mismatch > JOINED:
-        notes += (f"the fault signal was found piece by piece, and neighbouring pieces differ by up to {signal.mismatch:.2g} of its size",)
-    return replace(answer, pair=(F, G), signal=signal, notes=notes)
-
-
-def counted(reason: str) -> str:
-    """The reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
-    return reason.replace("n_v as given", "n_v as counted").replace("was given but", "was counted but")
-
-
-def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: int) -> tuple[Array, Array]:
-    """F (n, n_v), G (p, n_v) out of the space: of a few choices the one whose signal explains the residual r best, then the one with
-    most samples that no zero disturbs.
-
-    Tried are the directions of largest G, which have the least delay, and general mixes: a special choice of columns may be inequivalent.
-    """
-    if space.n_z == n_v:
-        return space.F, space.G
-    right = np.linalg.svd(space.G, full_matrices=True)[2]
-    draw = np.random.default_rng(space.n_z)
-    mixes = [right[:n_v].T] + [np.linalg.qr(draw.standard_normal((space.n_z, n_v)))[0] for _ in range(PAIRS_TRIED - 1)]
-    best: tuple[float, float] | None = None
-    chosen = mixes[0]
-    for mix in mixes:
-        try:
-            tried = reconstruct_fault(r, A, space.F @ mix, C, space.G @ mix)
-        except InvalidData:  # a mix without any effect
-            continue
-        first, last = tried.trusted
-        score = (-round(float(np.log10(tried.misfit + 1e-12)), 1), float(max(last - first, 0)))
-        if best is None or score > best:
-            best, chosen = score, mix
-    return space.F @ chosen, space.G @ chosen
+    mean, against = answer.mean, answer.against
+    if answer.unexplained:
+        reason = f"the model explains the healthy samples to rounding and not the others, so that a fault acts; {answer.count_reason}"
+        return replace(answer, count=None, counted_by=None, count_reason=reason)
+    assert mean is not None
+    if mean.shifted:
+        where = ", ".join(shown(answer.record.outputs[i]) for i in mean.channels) or "no output by itself, all of them together"
+        reason = (
+            f"a fault moves the mean of the residual ({where}; {mean.reason}), at least one; a constant fault changes no rank, so that "
+            f"ranks cannot count it; of faults that vary: {answer.count_reason}"
+        )
+        return replace(answer, count=None, counted_by=None, count_reason=reason)
+    if mean.shifted is None:
+        reason = f"{answer.count_reason}; but whether the mean has moved, as by a constant fault, is undecided: {mean.reason}"
+        return replace(answer, count=None, counted_by=None, count_reason=reason)
+    if against is not None and against.n_v is None:
+        return replace(answer, count=None, counted_by=None, count_reason=against.reason)
+    return replace(answer, count_reason=f"{answer.count_reason}; {mean.reason}")
 
 
 def default_block_rows(samples: int, p: int, n_u: int, order: int | None) -> int:
@@ -371,12 +391,6 @@ def _far_from_zero(record: Record) -> tuple[str, ...]:
         return ()
     which = ", ".join(far[:4]) + (f" and {len(far) - 4} more" if len(far) > 4 else "")
     return (f"the mean of {which} exceeds its deviation: about an operating point, try --remove-means",)
-
-
-def _largest(record: Record) -> Array:
-    """The largest |y| of each output, as the record is read."""
-    low, high = record.channels.least - record.offset, record.channels.greatest - record.offset
-    return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
 
 
 def _missing(folder: Path) -> list[Path]:

@@ -2,6 +2,7 @@
 
 run          the command's body
 sheet        what a person reads of a Structure
+FLOATS       what must be known of answers about floats
 """
 
 from __future__ import annotations
@@ -12,14 +13,22 @@ from .consoles import working
 from .exact.fields import QQ, NumberField
 from .exact.structure import Structure, structure
 from .exact.systems import FaultySystem, ResidualSystem
-from .failures import placed, printable
+from .failures import placed, printable, say
 from .file_by_file import Answer, answer_each
 from .notation import matrix_lines, polynomial, several
 from .reading_files import read_system
 
+FLOATS = (
+    "--floats-exactly takes every float for the dyadic rational that it is; floats that were measured or estimated have, exactly, no zeros "
+    "and indices as equal as they can be: that this is found here confirms nothing about the plant"
+)
+
 
 def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
     """Inspects one file after the other. The largest exit code."""
+
+    if floats_exactly:
+        say(FLOATS)
 
     def answer(name: str) -> Answer:
         system = read_system(name, floats_exactly=floats_exactly)

@@ -28,7 +28,8 @@ COMPARED = 64
 @dataclass(frozen=True, eq=False)
 class FaultSignal:
     """v (N, n_v) in `store`; delay, trusted (first, last), zeros, misfit and reason as in `Reconstruction`; mismatch: the largest
-    difference of neighbouring pieces where they meet, relative to the size of v there (0 where there is one piece)."""
+    difference of neighbouring pieces where they meet, relative to the size of v there (0 where there is one piece); left, whole (p,): sums
+    of squares of r - simulated and of r in each output, over the samples that were asked for."""
 
     store: SampleStore
     delay: int | None
@@ -38,26 +39,43 @@ class FaultSignal:
     misfit: float
     mismatch: float
     reason: str
+    left: Array
+    whole: Array
+
+    def explained(self, units: Array) -> float:
+        """The share of r that the signal explains, in squares, the outputs in these units (p,)."""
+        whole = float(np.sum(self.whole / units**2))
+        return 1.0 - float(np.sum(self.left / units**2)) / whole if whole else 0.0
 
 
-def reconstructed(r: SampleStore, A: Array, F: Array, C: Array, G: Array, stage: str, tell: Tell) -> FaultSignal:
-    """The signal of the faults F (n, n_v), G (p, n_v) in r (N, p). Raises InvalidData as `reconstruct_fault`."""
+def reconstructed(
+    r: SampleStore, A: Array, F: Array, C: Array, G: Array, stage: str, tell: Tell, *, judged: tuple[int, int] | None = None
+) -> FaultSignal:
+    """The signal of the faults F (n, n_v), G (p, n_v) in r (N, p); `judged`: samples (first, last) of `left` and `whole`, by default all.
+
+    Raises InvalidData as `reconstruct_fault`.
+    """
     N = len(r)
+    within = judged or (0, N)
     tell(stage, 0, N)
     begin = reconstruct_fault(r.read(0, LONGEST), A, F, C, G)
     if N <= LONGEST:
-        return _single(begin, tell, stage)
+        return _single(begin, r, within, tell, stage)
     lost = begin.trusted[0], LONGEST - begin.trusted[1]
     margin = max(*lost, LEAST_MARGIN)
     if begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST:
-        return _single(reconstruct_fault(r.read(0, N), A, F, C, G), tell, stage)
+        return _single(reconstruct_fault(r.read(0, N), A, F, C, G), r, within, tell, stage)
     v, left, mismatch = SampleStore(F.shape[1]), 0.0, 0.0
+    parts = np.zeros((2, r.width))
     start, piece = 0, begin
     while True:
         end = start + len(piece.v)
         kept = N if end == N else end - margin
         part = slice(len(v) - start, kept - start)
-        left += float(np.sum((r.read(start, end)[part] - piece.simulated[part]) ** 2))
+        given = r.read(start, end)[part]
+        error = given - piece.simulated[part]
+        left += float(np.sum(error**2))
+        parts += _squares(error, given, len(v), within)
         v.append(piece.v[part])
         tell(stage, kept, N)
         if end == N:
@@ -71,11 +89,19 @@ def reconstructed(r: SampleStore, A: Array, F: Array, C: Array, G: Array, stage:
     whole = float(sum(np.sum(part**2) for part in r.pieces()))
     trusted = begin.trusted[0], N - (len(piece.v) - piece.trusted[1])
     misfit = float(np.sqrt(left / whole)) if whole else 0.0
-    return FaultSignal(v, begin.delay, trusted, begin.zeros, begin.left_invertible, misfit, mismatch, begin.reason)
+    return FaultSignal(v, begin.delay, trusted, begin.zeros, begin.left_invertible, misfit, mismatch, begin.reason, *parts)
 
 
-def _single(whole: Reconstruction, tell: Tell, stage: str) -> FaultSignal:
+def _squares(error: Array, given: Array, start: int, within: tuple[int, int]) -> Array:
+    """Sums of squares (2, p) of both over those samples `within`; the first one is sample `start`."""
+    first, last = (min(max(edge - start, 0), len(given)) for edge in within)
+    return np.stack([np.sum(rows[first:last] ** 2, axis=0) for rows in (error, given)])
+
+
+def _single(whole: Reconstruction, r: SampleStore, within: tuple[int, int], tell: Tell, stage: str) -> FaultSignal:
     store = SampleStore(whole.v.shape[1])
     store.append(whole.v)
     tell(stage, len(store), len(store))
-    return FaultSignal(store, whole.delay, whole.trusted, whole.zeros, whole.left_invertible, whole.misfit, 0.0, whole.reason)
+    given = r.read(0, len(whole.v))
+    parts = _squares(given - whole.simulated, given, 0, within)
+    return FaultSignal(store, whole.delay, whole.trusted, whole.zeros, whole.left_invertible, whole.misfit, 0.0, whole.reason, *parts)

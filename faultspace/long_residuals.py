@@ -30,7 +30,8 @@ PART = PIECE // 16  # samples whose energy is kept as one number
 @dataclass(frozen=True, eq=False)
 class LongResidual:
     """r (N, p) in `store`; x0 (n,), covariance (p, p) of r about zero; `peak` and `norm` (p,) the largest |r| and the root of the sum of
-    squares of each channel; `energies`: sum over channels of r^2 / norm^2 in each part of PART samples; `notes` what a user must know."""
+    squares of each channel; `energies`: sum over channels of r^2 / norm^2 in each part of PART samples; `notes` what a user must know;
+    `early_peak`, `early_norm` (p,): the same over the samples that the model is from; `foreseen`: whether those alone fixed the state."""
 
     store: SampleStore
     x0: Array
@@ -39,10 +40,15 @@ class LongResidual:
     norm: Array
     energies: Array
     notes: tuple[str, ...]
+    early_peak: Array
+    early_norm: Array
+    foreseen: bool
 
 
-def residual_of(record: Record, found: Identification, stage: str, tell: Tell) -> LongResidual:
-    """The residual of the record for its own model; memory does not grow with N, but for models that are too unstable (see above)."""
+def residual_of(record: Record, found: Identification, stage: str, tell: Tell, *, until: int | None = None) -> LongResidual:
+    """The residual of the record for a model from its first `until` samples (by default all), in coordinates whose state at sample 0 it
+    knows; memory does not grow with N, but for models that are too unstable (see above)."""
+    early = len(record) if until is None else until
     store = SampleStore(record.p)
     if found.x0 is not None and found.residual_covariance is not None:
         simulator = Simulator(found.model, found.x0)
@@ -50,13 +56,13 @@ def residual_of(record: Record, found: Identification, stage: str, tell: Tell) -
         for y, u in record:
             store.append(y - simulator.respond(u))
             tell(stage, len(store), len(record))
-        return _measured(store, found.x0, found.residual_covariance, ())
+        return _measured(store, found.x0, found.residual_covariance, (), early, True)
     whole = residual(record.y, record.u, found.model)
     store.append(whole.r)
-    return _measured(store, whole.x0, whole.covariance, whole.notes)
+    return _measured(store, whole.x0, whole.covariance, whole.notes, early, False)
 
 
-def _measured(store: SampleStore, x0: Array, covariance: Array, notes: tuple[str, ...]) -> LongResidual:
+def _measured(store: SampleStore, x0: Array, covariance: Array, notes: tuple[str, ...], early: int, foreseen: bool) -> LongResidual:
     peaks = np.array([np.abs(r).max(axis=0) for r in store.pieces()])
     peak = peaks.max(axis=0)
     unit = np.where(peak > 0, peak, 1.0)
@@ -64,7 +70,9 @@ def _measured(store: SampleStore, x0: Array, covariance: Array, notes: tuple[str
     squares = np.vstack([np.add.reduceat((r / unit) ** 2, np.arange(0, len(r), PART), axis=0) for r in store.pieces()])
     total = squares.sum(axis=0)
     energies = np.sum(squares / np.where(total > 0, total, 1.0), axis=1)
-    return LongResidual(store, x0, covariance, peak, unit * np.sqrt(total), energies, notes)
+    early_peak = np.max([np.abs(r).max(axis=0) for r in store.pieces(0, early)], axis=0)
+    early_norm = unit * np.sqrt(np.sum([np.sum((r / unit) ** 2, axis=0) for r in store.pieces(0, early)], axis=0))
+    return LongResidual(store, x0, covariance, peak, unit * np.sqrt(total), energies, notes, early_peak, early_norm, foreseen)
 
 
 def loudest(energies: Array, samples: int, length: int) -> tuple[int, int]:

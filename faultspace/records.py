@@ -2,6 +2,7 @@
 
 SampleStore     rows (N, k) of floats: in memory while they are few, beyond IN_MEMORY bytes in a temporary file
 Record          inputs and outputs in one store, their names, and what is known of every channel; iterating gives pieces (y, u)
+Moments         least and greatest values, means and deviations of rows that come in pieces
 RecordWriter    takes the rows [u, y] as they come and makes the Record
 recorded        a Record from arrays
 Passes          the pieces of a Record, telling how far each reading of them has come
@@ -82,7 +83,8 @@ class Channels:
 class Record:
     """`store` holds rows [u, y] of finite numbers, `offset` (k,) is taken off every row that is read; `format` is how they came.
 
-    `single`: whether an output was given in float32, so that it is known to float32 rounding only.
+    `single`: whether an output was given in float32, so that it is known to float32 rounding only; `length`: samples of the store, from the
+    first on, that belong to it (None: all).
     """
 
     store: SampleStore
@@ -92,17 +94,18 @@ class Record:
     channels: Channels
     offset: Array
     single: bool = False
+    length: int | None = None
 
     def __len__(self) -> int:
-        return len(self.store)
+        return len(self.store) if self.length is None else self.length
 
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
-        for rows in self.store.pieces():
+        for rows in self.store.pieces(0, len(self)):
             yield self._split(rows)
 
     def stretch(self, first: int, last: int) -> tuple[Array, Array]:
         """y and u of samples first .. last - 1."""
-        return self._split(self.store.read(first, last))
+        return self._split(self.store.read(first, min(last, len(self))))
 
     @property
     def y(self) -> Array:
@@ -131,27 +134,36 @@ class Record:
 
     def about_means(self) -> Record:
         """The same record with every channel about its mean."""
-        return replace(self, offset=self.channels.mean)
+        return self.about(self.channels.mean)
+
+    def about(self, means: Array) -> Record:
+        """The same record with `means` (k,), inputs before outputs, taken off."""
+        return replace(self, offset=means)
+
+    def beginning(self, length: int) -> Record:
+        """The first `length` samples as a record of their own, with what is known of their channels; nothing is copied."""
+        known = Moments(self.store.width)
+        for rows in self.store.pieces(0, length):
+            known.add(rows)
+        return replace(self, channels=known.channels(), length=length)
 
     def _split(self, rows: Array) -> tuple[Array, Array]:
         rows = rows - self.offset
         return rows[:, self.n_u :], rows[:, : self.n_u]
 
 
-class RecordWriter:
-    """Takes rows [u, y] of finite numbers; `record` makes the Record of them. The moments of pieces are merged, not summed up from zero."""
+class Moments:
+    """What is known of channels whose rows come in pieces; the moments of pieces are merged, not summed up from zero."""
 
     def __init__(self, width: int) -> None:
-        self.store = SampleStore(width)
+        self._count = 0
         self._least, self._greatest = np.full(width, np.inf), np.full(width, -np.inf)
         self._mean, self._squares = np.zeros(width), np.zeros(width)
 
-    def append(self, rows: Array) -> None:
-        """Rows (any, width). Raises InvalidInput where there is no room."""
-        if not len(rows):
-            return
-        before, count = len(self.store), len(rows)
-        self.store.append(rows)
+    def add(self, rows: Array) -> None:
+        """Rows (1 or more, width)."""
+        before, count = self._count, len(rows)
+        self._count += count
         self._least, self._greatest = np.minimum(self._least, rows.min(axis=0)), np.maximum(self._greatest, rows.max(axis=0))
         with np.errstate(over="ignore", invalid="ignore"):  # numbers too large are refused by name later on
             mean = rows.mean(axis=0)
@@ -159,11 +171,29 @@ class RecordWriter:
             self._mean = self._mean + step * count / (before + count)
             self._squares = self._squares + ((rows - mean) ** 2).sum(axis=0) + step**2 * before * count / (before + count)
 
+    def channels(self) -> Channels:
+        """What has come."""
+        return Channels(self._least, self._greatest, self._mean, np.sqrt(self._squares / max(self._count, 1)))
+
+
+class RecordWriter:
+    """Takes rows [u, y] of finite numbers; `record` makes the Record of them."""
+
+    def __init__(self, width: int) -> None:
+        self.store = SampleStore(width)
+        self._known = Moments(width)
+
+    def append(self, rows: Array) -> None:
+        """Rows (any, width). Raises InvalidInput where there is no room."""
+        if len(rows):
+            self.store.append(rows)
+            self._known.add(rows)
+
     def record(self, *, outputs: Sequence[str], inputs: Sequence[str], format: str, single: bool = False) -> Record:
         """What has been taken."""
-        deviation = np.sqrt(self._squares / max(len(self.store), 1))
-        channels = Channels(self._least, self._greatest, self._mean, deviation)
-        return Record(self.store, tuple(outputs), tuple(inputs), format, channels, np.zeros(self.store.width), single)
+        return Record(
+            self.store, tuple(outputs), tuple(inputs), format, self._known.channels(), np.zeros(self.store.width), single
+        )
 
 
 def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequence[str]) -> Record:

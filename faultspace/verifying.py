@@ -20,8 +20,10 @@ from rich.text import Text
 from .consoles import answers, print_json, stages
 from .exact.input_rules import InvalidInput, shown
 from .failures import ANSWERED, NOT_AS_EXPECTED, printable, say
+from .proofs import rocq_recheck
 from .proofs.certificate import Certificate, sha256
 from .proofs.ledger import load
+from .proofs.rocq_build import BrokenTheory, NoRocq, NotProved
 from .proofs.verdicts import ClaimResult, ReadingResult, Report, Row, Verdict
 from .proofs.verification import verify
 from .reading_files import prepare_folder, write_json
@@ -38,14 +40,19 @@ SHORT = 12
 MOST_SHOWN = 2
 
 
-def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, as_json: bool) -> int:
-    """Decides the claims (all when none is named). Raises InvalidInput for an unknown claim or a folder that cannot be written into."""
+def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, recheck: bool, as_json: bool) -> int:
+    """Decides the claims (all when none is named), with `recheck` by theorems that are compiled anew.
+
+    Raises InvalidInput for an unknown claim or a folder that cannot be written into, and to recheck without Rocq.
+    """
     known = [claim.id for claim in load()]
     for name in claims:
         if name not in known:
             raise InvalidInput(f"--claim: got {shown(name)}, expected one of {', '.join(known)}")
     if out is not None:
         prepare_folder(out)
+    if recheck and not _rechecked():
+        return NOT_AS_EXPECTED
     with stages() as progress:
         report = verify(claims or None, effort=effort, jobs=jobs, progress=progress)
     if out is not None:
@@ -56,6 +63,19 @@ def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, as_j
     else:
         _print(answers(), report, in_full=bool(claims))
     return ANSWERED if report.as_expected else NOT_AS_EXPECTED
+
+
+def _rechecked() -> bool:
+    """Whether the theory, compiled anew, is accepted; says so. Raises InvalidInput where there is no Rocq."""
+    try:
+        with stages() as progress:
+            say(f"the Rocq theory was {rocq_recheck.recheck(progress)}")
+    except NoRocq as error:
+        raise InvalidInput(f"--recheck: {error}") from None
+    except (BrokenTheory, NotProved) as error:
+        say(f"the Rocq theory, compiled anew, is not accepted: {error}")
+        return False
+    return True
 
 
 def write_out(report: Report, folder: Path) -> int:
@@ -106,15 +126,11 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
             experiment = row.experiment
             table.add_section()
             table.add_row(Text(row.claim, style="bold"), "", Text(row.conclusion, style="bold"), "")
-        if len(row.dropped) < 2 or (row.verdict != Verdict.CERTIFIED and row.already is None):
+        if len(row.dropped) < 2 or (row.verdict not in (Verdict.CERTIFIED, Verdict.PROVED) and row.already is None):
             name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"
-            verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + _meaning(row), "dim"))
+            verdict = Text.assemble(_verdict(row.verdict, row.expected or row.verdict, "\n"), ("\n" + row.meaning, "dim"))
             table.add_row(name, verdict, Text(row.evidence, style="dim italic"), _hashes(row.certificates, row.accepted))
     return table
-
-
-def _meaning(row: Row) -> str:
-    return {Verdict.REFUTED: "needed", Verdict.CERTIFIED: "not needed"}.get(row.verdict, "")
 
 
 def _standing(claim: ClaimResult) -> str:
@@ -150,6 +166,8 @@ def _reading(result: ReadingResult) -> Iterator[Text]:
     if reading.missing:
         yield Text(f"    to a proof:   {reading.missing}")
     yield Text(f"    accepted:     {outcome.accepted} certificates by the checker")
+    for name, lock in result.locks.items():
+        yield Text(f"    theorem:      {name}, locked as SHA-256 {lock}")
     for certificate in outcome.certificates:
         yield Text(f"    certificate:  {certificate['kind']}, SHA-256 {sha256(certificate)}")
 

@@ -130,8 +130,10 @@ def _ranks_beyond(u: Array, r: Array, windows: int, unit: float) -> HankelRanks:
     """rank [U_s; R_s] - rank U_s: by the same law for the joint signal [u; r], driven by u and v, its gaps count the faults alone."""
     joint = rounding_ranks(np.hstack([u, r]), windows, unit=unit)
     own = rounding_ranks(u, windows, unit=unit)
-    ranks = tuple(both - one for both, one in zip(joint.ranks, own.ranks, strict=True))
-    margins = tuple(min(both, one) for both, one in zip(joint.margins, own.margins, strict=True))
+    # Fewer than none would be a joint rank that was decided too small: nothing is clear there.
+    ranks = tuple(max(both - one, 0) for both, one in zip(joint.ranks, own.ranks, strict=True))
+    clear = [both >= one for both, one in zip(joint.ranks, own.ranks, strict=True)]
+    margins = tuple(min(both, one) if sure else 0.0 for both, one, sure in zip(joint.margins, own.margins, clear, strict=True))
     return replace(joint, ranks=ranks, margins=margins)
 
 

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .fault_space_bound import largest_fault_space
 from .fault_space_error import fault_space_error_bound
 from .fault_space_estimate import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
 from .noisy_fault_space import fault_space_by_least_squares, fault_space_by_likelihood
@@ -131,8 +132,10 @@ def _from_ladder(data: Arguments, ladder: Ladder) -> FaultSpaceEstimate:
     triangular = np.linalg.qr(conditions, mode="r")
     _, strengths, right = np.linalg.svd(triangular)
     strengths = np.concatenate([strengths, np.zeros(n + p - strengths.size)]).astype(np.float64)
-    # The faults themselves are solutions, so that at most n + p - n_v conditions are independent.
-    possible = range(1, n + p - min(n_v, ladder.final_gap) + 1)
+    # The faults themselves are solutions, so that at most n + p - n_v conditions are independent; a window longer than the lag gives at
+    # least those that the observability indices demand.
+    fewest = n + p - largest_fault_space(coordinates.A, coordinates.C, ladder.final_gap) if s > lag else 1
+    possible = range(max(fewest, 1), n + p - min(n_v, ladder.final_gap) + 1)
     independent, drop = gap_rank(strengths, possible, 10 * s * EPS * float(strengths[0]))
     columns = right[independent:].T
     basis = orthonormal(coordinates.back(columns))

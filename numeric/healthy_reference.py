@@ -3,8 +3,8 @@
 A residual of measured data is never zero: noise of unequal size and colour, and the error of the model. A healthy record
 of the same plant shows both. From it
 
-    predictor       e(k) = r(k) - sum_j A_j r(k-j) - sum_j B_j u(k-j): least squares, the order by the corrected Akaike criterion
-                    [BT94]; e is nearly white. The filter I - sum A_j q^-j is invertible, so a fault keeps its rank in e at almost
+    predictor       e(k) = r(k) - sum_j A_j r(k-j) - sum_j B_j u(k-j), about means: least squares, the order by the corrected Akaike
+                    criterion [BT94]; e is nearly white. The filter I - sum A_j q^-j is invertible, so a fault keeps its rank in e at almost
                     every frequency
     forecast        in another record e also contains the error of the predictor's coefficients times its regressors: for T transforms
                     of regressors, the rows of X, these have the covariance I + X (X0' X0)^-1 X* between them, X0 the regressors of the
@@ -104,7 +104,7 @@ class HealthyReference:
         return self._innovations(*self._fitting(r, u))
 
     def _fitting(self, r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
-        residual, inputs = _checked(r, u)
+        residual, inputs = residual_and_inputs(r, u)
         if residual.shape[1] != self.p or inputs.shape[1] != len(self.input_scales):
             raise InvalidData(
                 f"the record has {residual.shape[1]} channels and {inputs.shape[1]} inputs, the healthy one {self.p} and "
@@ -117,7 +117,7 @@ class HealthyReference:
         return residual, inputs
 
     def _innovations(self, residual: Array, inputs: Array) -> tuple[Array, Array]:
-        past, now = _lagged(residual / self.scales, inputs / self.input_scales, self.lags)
+        past, now = _about_means(*lagged(residual / self.scales, inputs / self.input_scales, self.lags))
         return now - past @ self.coefficients, past @ self.root.T
 
     def spectra(self, r: ArrayLike, u: ArrayLike | None = None, *, tapers: int | None = None) -> Spectra:
@@ -139,6 +139,15 @@ class HealthyReference:
         steps = self.coefficients[: width * self.lags].reshape(self.lags, width, p)[:, :p].transpose(0, 2, 1)
         filters = np.eye(p) - np.tensordot(turns, steps, axes=1)
         return np.asarray(filters / self.scales)
+
+    def remembered(self, frequencies: Array) -> Complex:
+        """What a unit signal at each output is in the regressors X root' of `innovations`, (len, q, p)."""
+        width, count = self.p + len(self.input_scales), len(self.root)
+        turns = np.exp(-2j * np.pi * np.outer(frequencies, np.arange(1, self.lags + 1)))
+        places = np.zeros((self.lags, count, self.p))
+        for j in range(self.lags):
+            places[j, j * width : j * width + self.p] = np.diag(1.0 / self.scales)
+        return np.asarray(self.root @ np.tensordot(turns, places, axes=1))
 
     def nearest(self, frequencies: Array) -> NDArray[np.int_]:
         """The number of the centre nearest to each frequency."""
@@ -177,7 +186,7 @@ def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: 
     Raises InvalidData for NaN, fewer than 64 samples a channel, or channels that are constant or exact combinations of others (there
     is no noise to compare with; `fault_dimension` counts the faults of such residuals).
     """
-    residual, inputs = _checked(healthy, u)
+    residual, inputs = residual_and_inputs(healthy, u)
     samples, p = residual.shape
     if samples < LEAST_SAMPLES * max(p, 4):
         hint = "it looks transposed, pass healthy.T" if p > samples else "record more, or take fewer channels"
@@ -198,8 +207,8 @@ def _learnt(residual: Array, inputs: Array) -> HealthyReference:
     p = residual.shape[1]
     scales, input_scales = channel_sizes(residual), channel_sizes(inputs) if inputs.shape[1] else np.ones(0)
     scaled, pushed = residual / scales, inputs / input_scales
-    lags = _number_of_lags(scaled, pushed)
-    past, now = _lagged(scaled, pushed, lags)
+    lags = number_of_lags(scaled, pushed)
+    past, now = _about_means(*lagged(scaled, pushed, lags))
     factor, triangle = np.linalg.qr(past)
     e = now - factor @ (factor.T @ now)
     root = np.linalg.inv(triangle).T
@@ -223,7 +232,7 @@ def spectra(e: Array, tapers: int) -> Spectra:
     return Spectra(centres / (2.0 * (samples + 1)), (below - above) / (2j * np.sqrt((samples + 1) / 2.0)))
 
 
-def _checked(r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
+def residual_and_inputs(r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
     """r and u as arrays of equal length; without u none of its channels."""
     residual = signal(r, "r")
     inputs = np.zeros((len(residual), 0)) if u is None else signal(u, "u")
@@ -232,19 +241,25 @@ def _checked(r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
     return residual, inputs
 
 
-def _lagged(r: Array, u: Array, lags: int) -> tuple[Array, Array]:
+def lagged(r: Array, u: Array, lags: int) -> tuple[Array, Array]:
     """[r(k-1) u(k-1) .. r(k-lags) u(k-lags) u(k)] and r(k), for k = lags .. N - 1."""
     joint, samples = np.hstack([r, u]), len(r)
     past = [joint[lags - j : samples - j] for j in range(1, lags + 1)]
     return np.hstack([*past, u[lags:]]), r[lags:]
 
 
-def _number_of_lags(r: Array, u: Array) -> int:
+def _about_means(past: Array, now: Array) -> tuple[Array, Array]:
+    """Both without their means, which is a predictor with a constant: a mean that has moved is no fault that keeps exciting, and is
+    tested by `mean_shift`; left in, it would count as a fault at the lowest frequency."""
+    return past - past.mean(axis=0), now - now.mean(axis=0)
+
+
+def number_of_lags(r: Array, u: Array) -> int:
     """Lags of the predictor; one triangle serves every number of them, over the same samples."""
     samples, p = r.shape
     width, n_u = p + u.shape[1], u.shape[1]
     most = int(np.clip((samples // SPENT - n_u) // width, 0, MOST_LAGS))
-    past, now = _lagged(r, u, most)
+    past, now = lagged(r, u, most)
     # u(k) first, then the lags, so that fewer lags are leading columns.
     ordered = np.hstack([past[:, width * most :], past[:, : width * most], now])
     triangle = np.asarray(scipy.linalg.qr(ordered, mode="r", overwrite_a=True, check_finite=False)[0])[: ordered.shape[1]]

@@ -9,11 +9,12 @@
     mix                            n_v + 1 combinations of the outputs, which obey exactly one kernel row, of degree
                                    n - zeta
 
-zeta, the number of zeros, is chosen where a higher degree of the row no longer explains anything (likelihood), or by
-the largest drop among the possible ranks (least squares). On data of the paper's kind no rule finds it always, because a
-system that nearly has a zero looks like one that has it: `decided` and `margin` tell how clear it was, and `zeta` of the
-estimate is None where it was not. The number found, all p - n_v rows are fitted at once (`joint_kernel_basis`), which also
-tells how far the space may be off.
+zeta, the number of zeros, is never taken larger than the observability indices of (A, C) allow (`fault_space_bound`).
+It is chosen where a higher degree of the row no longer explains anything (likelihood), or by the largest drop among the
+possible ranks (least squares). On data of the paper's kind no rule finds it always, because a system that nearly has a
+zero looks like one that has it: `decided` and `margin` tell how clear it was, and `zeta` of the estimate is None where
+it was not. The number found, all p - n_v rows are fitted at once (`joint_kernel_basis`), which also tells how far the
+space may be off.
 
 What noise it takes. The likelihood form divides each channel by its size and takes the noise to have one colour and the same power in
 every divided channel: it is consistent only where the noise has one colour and the same power relative to each channel. Otherwise, as
@@ -34,6 +35,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .fault_dimension import fault_dimension
+from .fault_space_bound import largest_fault_space
 from .fault_space_estimate import FaultSpaceEstimate, condition_maps, everything, kernel_conditions, orthonormal
 from .fault_space_uncertainty import space_uncertainty
 from .input_checks import InvalidData
@@ -77,7 +79,8 @@ def fault_space_by_likelihood(
     moments = tapered_moments(data.r / coordinates.scale, coordinates.observed)
     fits = [_fit(moments, coordinates, mix) for mix in _mixes(data.p, faults)]
     levels = np.array([sum(fit.levels[degree] for fit in fits) / len(fits) for degree in range(moments.degree + 1)])
-    degree, margin = _least_degree(levels, len(data.r))
+    most = largest_fault_space(coordinates.A, coordinates.C, faults)
+    degree, margin = _least_degree(levels, len(data.r), data.n + faults - most)
     zeta = data.n - degree
     n_z = faults + zeta
     conditions = np.vstack([kernel_conditions(fit.rows[degree][None], coordinates.A, coordinates.C)[0] for fit in fits])
@@ -91,7 +94,7 @@ def fault_space_by_likelihood(
     strengths, columns = _solutions(conditions, n_z)
     decided = margin >= 1
     doubt = "" if decided else f"undecided: the number of zeros is a near thing (margin {margin:.2g}, 1 is needed); "
-    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {faults} + {zeta}; {why}; {NOISE_TAKEN}"
+    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {faults} + {zeta}; {why}; {_told_bound(n_z, most)}{NOISE_TAKEN}"
     return FaultSpaceEstimate(
         orthonormal(coordinates.back(columns)),
         n_z,
@@ -241,14 +244,18 @@ def _solutions(conditions: Array, n_z: int) -> tuple[Array, Array]:
     return np.concatenate([values, np.zeros(width - values.size)]), right[width - n_z :].T
 
 
-def _least_degree(levels: Array, samples: int) -> tuple[int, float]:
-    """The least degree after which no longer row gains more than IDLE nats, and how clear that is (1 or more: clear
-    on both sides).
+def _told_bound(n_z: int, most: int) -> str:
+    return "as many as the observability indices of (A, C) allow; " if n_z == most else ""
+
+
+def _least_degree(levels: Array, samples: int, least: int) -> tuple[int, float]:
+    """The least degree, `least` or more, after which no longer row gains more than IDLE nats, and how clear that is (1 or more: clear
+    on both sides). `least` is what the observability indices of (A, C) demand: below it there is no alternative that a gain could refute.
     """
     idle = max(IDLE, 30 / samples)
     best = np.minimum.accumulate(levels[::-1])[::-1]
-    degree = next(d for d in range(len(levels)) if np.isfinite(levels[d]) and levels[d] - best[d] <= idle)
-    gained = np.inf if degree == 0 else float(levels[degree - 1] - levels[degree])
+    degree = next(d for d in range(least, len(levels)) if np.isfinite(levels[d]) and levels[d] - best[d] <= idle)
+    gained = np.inf if degree == least else float(levels[degree - 1] - levels[degree])
     unused = max(float(levels[degree] - best[degree]), QUIET / 1e3)
     return degree, float(min(gained / NEEDED, QUIET / unused))
 
@@ -266,7 +273,8 @@ def _zeros_by_rank(data: Arguments, faults: int, s: int) -> tuple[int, float]:
     s = min(s, (len(data.r) + 1) // (data.p + 1))
     coordinates, P, _, values = _null_directions(data, s)
     hidden = data.n - coordinates.observed
-    ranks = {P.shape[0] - ((data.p - faults) * s - (data.n - zeta)): zeta for zeta in range(hidden, data.n + 1)}
+    most = largest_fault_space(coordinates.A, coordinates.C, faults) - faults
+    ranks = {P.shape[0] - ((data.p - faults) * s - (data.n - zeta)): zeta for zeta in range(hidden, most + 1)}
     possible = [rank for rank in ranks if 0 < rank < P.shape[0]]
     if not possible:
         raise InvalidData(

@@ -25,7 +25,8 @@ from . import checker
 Json = Any
 Integers = list[list[int]]
 MODULES = (
-    "Definitions",
+    "Vocabulary",
+    "CertificatesVocabulary",
     "Lists",
     "ListedSystems",
     "CheckRows",

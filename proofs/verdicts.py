@@ -10,7 +10,7 @@ Report           all claims of a run; `as_expected` decides the exit code
 from __future__ import annotations
 
 import platform
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from importlib.metadata import PackageNotFoundError, version
@@ -36,6 +36,9 @@ class Verdict(StrEnum):
     ERROR = "ERROR"
 
 
+IMPLIED = "IMPLIED"  # the ledger's word for a hypothesis that follows from the others
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the checker.
@@ -51,12 +54,13 @@ class Outcome:
 
 @dataclass(frozen=True)
 class ReadingResult:
-    """One reading of one claim, checked."""
+    """One reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
 
     reading: Reading
     outcome: Outcome
     seconds: float
     machine_checked: bool = False
+    locks: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def expected(self) -> str:
@@ -78,6 +82,7 @@ class ReadingResult:
             "expected": self.expected,
             "as_expected": self.as_expected,
             "theorems": list(self.reading.theorems) if self.machine_checked else [],
+            "locks": dict(self.locks),
             "missing_for_a_proof": self.reading.missing or None,
             "evidence": self.outcome.evidence,
             "certificates_accepted": self.outcome.accepted,
@@ -148,7 +153,13 @@ def of_readings(readings: Sequence[tuple[Reading, Verdict]], *, in_parts: bool) 
 
 @dataclass(frozen=True)
 class Row:
-    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already."""
+    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
+
+    `theorems` prove it without them, and `machine_checked` says that Rocq has checked these in the run. Of the `tried` subjects that meet
+    the other hypotheses, `lacking` violate one of the dropped. `implied`: why a dropped one follows from the others; None where it does
+    not. `ledger` is the ledger's entry: REFUTED, CERTIFIED, or IMPLIED. A row that rests on no subject which lacks the dropped is not as
+    expected, unless it is told why there is none.
+    """
 
     experiment: str
     claim: str
@@ -159,12 +170,38 @@ class Row:
     already: str | None
     certificates: tuple[Certificate, ...]
     accepted: int
-    expected: str | None = None
+    ledger: str | None = None
+    theorems: tuple[str, ...] = ()
+    machine_checked: bool = False
+    tried: int | None = None
+    lacking: int | None = None
+    implied: str | None = None
+
+    @property
+    def expected(self) -> str | None:
+        """The verdict expected: PROVED where Rocq has checked the theorems; rows of two follow from the subjects alone, and have none."""
+        if self.ledger is None or self.ledger == Verdict.REFUTED:
+            return self.ledger
+        return str(Verdict.PROVED if self.machine_checked else Verdict.CERTIFIED)
+
+    @property
+    def meaning(self) -> str:
+        """In the words of the table: needed, not needed, or not needed since it follows from the others."""
+        if self.verdict == Verdict.REFUTED:
+            return "needed"
+        if self.verdict == Verdict.ERROR:
+            return ""
+        if self.implied is not None:
+            return "follows from the others"
+        return "not needed" if self.verdict == Verdict.PROVED else "not seen to be needed"
 
     @property
     def as_expected(self) -> bool:
-        """Whether the verdict is the ledger's; rows of two hypotheses follow from the subjects alone, and have no expectation."""
-        return self.verdict != Verdict.ERROR and (self.expected is None or self.verdict == self.expected)
+        """Whether verdict and meaning are the ledger's."""
+        if self.verdict == Verdict.ERROR or self.ledger is None:
+            return self.verdict != Verdict.ERROR
+        rests_on_something = self.lacking != 0 or self.implied is not None
+        return self.verdict == self.expected and (self.implied is not None) == (self.ledger == IMPLIED) and rests_on_something
 
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
@@ -175,9 +212,13 @@ class Row:
             "dropped": list(self.dropped),
             "verdict": str(self.verdict),
             "needed": self.verdict == Verdict.REFUTED,
+            "follows_from_the_others": self.implied,
             "expected": self.expected,
             "as_expected": self.as_expected,
             "already_without": self.already,
+            "theorems": list(self.theorems) if self.machine_checked else [],
+            "tried": self.tried,
+            "lacking": self.lacking,
             "evidence": self.evidence,
             "certificates_accepted": self.accepted,
             "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.certificates],

@@ -6,8 +6,8 @@ verify     the report of a run over all claims, or those named
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 
 from ..exact.input_rules import InvalidInput
@@ -18,11 +18,13 @@ from .hypotheses import experiments
 from .ledger import Claim, Reading, expected_without, load
 from .machine_checked import Theorems
 from .machine_checked import check as machine_checked
-from .rocq_build import BrokenTheory, NoRocq, NotProved
+from .rocq_build import BrokenTheory, NoRocq, NotProved, sources
+from .rocq_locks import held
 from .verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from .workbench import Workbench
 
 EFFORTS = ("quick", "full")
+TRUSTED = "this trusts Rocq's kernel, MathComp, and files compiled before in your cache, which --recheck compiles anew"
 
 
 def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, progress: Progress | None = None) -> Report:
@@ -51,20 +53,20 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
             readings.append(_with_theorems(_check(claim, reading, bench), machine))
             done += 1
         results.append(ClaimResult(claim, tuple(readings)))
-    rows = _without_hypotheses(bench, {claim.id for claim in chosen}, report)
+    rows = _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report)
     report("done", total, total)
     corpus = bench.corpus.words if "corpus" in vars(bench) else ""
     return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.told)
 
 
-def _without_hypotheses(bench: Workbench, claims: set[str], report: Progress) -> tuple[Row, ...]:
+def _without_hypotheses(bench: Workbench, claims: set[str], machine: _Machine, report: Progress) -> tuple[Row, ...]:
     expected = expected_without()
     chosen = [experiment for experiment in experiments() if experiment.claim in claims]
     rows: list[Row] = []
     for done, experiment in enumerate(chosen):
         report(f"{experiment.claim} without its hypotheses", done, len(chosen))
         try:
-            rows += ablate(bench, experiment, expected[experiment.name])
+            rows += [_row_with_theorems(row, machine) for row in ablate(bench, experiment, expected[experiment.name])]
         except Exception as error:  # as for a reading: it did not finish, and the others go on
             words = f"{type(error).__name__}: {error}"
             rows.append(Row(experiment.name, experiment.claim, experiment.conclusion, (), Verdict.ERROR, words, None, (), 0))
@@ -73,25 +75,32 @@ def _without_hypotheses(bench: Workbench, claims: set[str], report: Progress) ->
 
 @dataclass(frozen=True)
 class _Machine:
-    """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), and what to tell of it."""
+    """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), what to tell of it, and the locks of
+    the theorems, which hold without it too.
+    """
 
     theorems: Theorems | None
     failure: str | None
     told: str
+    locks: Mapping[str, str] = field(default_factory=dict)
 
 
 def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
     """The theorems that these claims name."""
     names = {name for claim in claims for reading in claim.readings for name in reading.theorems}
+    ids = {claim.id for claim in claims}
+    names |= {name for e in experiments() if e.claim in ids and e.proof is not None for name in e.proof.theorems}
     if not names:
         return _Machine(None, None, "no theorem is named by these claims")
     try:
         theorems = machine_checked(names, report)
     except NoRocq as error:
-        return _Machine(None, None, f"{error}. Without it, readings that have a proof in proofs/rocq rest on their certificates")
+        told = f"{error}. Without it, readings that have a proof in proofs/rocq rest on their certificates"
+        return _Machine(None, None, told, {name: lock.sha256 for name, lock in held(sources()).theorems.items()})
     except (BrokenTheory, NotProved) as error:
         return _Machine(None, f"Rocq: {error}", f"failed: {error}")
-    return _Machine(theorems, None, f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all closed under the global context")
+    told = f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all as locked and closed under the global context; {TRUSTED}"
+    return _Machine(theorems, None, told, theorems.locks)
 
 
 def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
@@ -101,14 +110,27 @@ def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
         return result
     if machine.failure is not None:
         return replace(result, outcome=replace(outcome, verdict=Verdict.ERROR, evidence=machine.failure))
+    locks = {name: machine.locks[name] for name in names if name in machine.locks}
     if machine.theorems is None:
-        return result
+        return replace(result, locks=locks)
     if (outcome.verdict == Verdict.REFUTED) != (result.reading.expected == Verdict.REFUTED):
         words = f"Rocq has proved {', '.join(names)}, and yet the systems say {outcome.verdict}: {outcome.evidence}"
         return replace(result, outcome=replace(outcome, verdict=Verdict.ERROR, evidence=words))
     words = f"Rocq, without axioms: {', '.join(names)}; and {outcome.evidence}"
     verdict = outcome.verdict if outcome.verdict == Verdict.REFUTED else Verdict.PROVED
-    return replace(result, outcome=replace(outcome, verdict=verdict, evidence=words), machine_checked=True)
+    return replace(result, outcome=replace(outcome, verdict=verdict, evidence=words), machine_checked=True, locks=locks)
+
+
+def _row_with_theorems(row: Row, machine: _Machine) -> Row:
+    """PROVED where theorems that do without what is dropped were checked, and no subject spoke against it."""
+    if not row.theorems or row.verdict != Verdict.CERTIFIED:
+        return row
+    if machine.failure is not None:
+        return replace(row, verdict=Verdict.ERROR, evidence=machine.failure)
+    if machine.theorems is None:
+        return row
+    words = f"Rocq, without axioms: {', '.join(row.theorems)}; and {row.evidence}"
+    return replace(row, verdict=Verdict.PROVED, evidence=words, machine_checked=True)
 
 
 def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:

@@ -8,9 +8,9 @@ from __future__ import annotations
 from typing import Any
 
 from ..ablation import Experiment
-from .experiments import consistency
+from .experiments import consistency, consistency_coloured
 from .fault_matrices import theorem_3_ii
-from .pairs import theorem_1, theorem_3_i
+from .pairs import same_model, theorem_1, theorem_3_i
 from .pencils import bad_of_full_rank, codimension, determinant, placement, zeros_of_pair
 from .systems import (
     columns,
@@ -32,6 +32,7 @@ def experiments() -> tuple[Experiment[Any], ...]:
     """Every experiment, by the order of its claim."""
     return (
         consistency(),
+        consistency_coloured(),
         theorem_1(),
         rank_formula(),
         excited(),
@@ -42,6 +43,7 @@ def experiments() -> tuple[Experiment[Any], ...]:
         solutions_from_lag(),
         columns(),
         theorem_3_i(),
+        same_model(),
         theorem_3_ii(),
         range_of_f(),
         signal_from_known_state(),

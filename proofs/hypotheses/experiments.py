@@ -1,34 +1,53 @@
 """The hypotheses of proposition-1: how u and v may be correlated, controllability and observability, colour of u.
 
-    Driven          an experiment with certified limits, as a subject
-    consistency     PI-MOESP gives the range of O_s, and both regressions the true B and D
+    Driven                 an experiment with certified limits, as a subject
+    consistency            the limit of PI-MOESP carries the true A and C, and both regressions the true B and D; u is white
+    consistency_coloured   the same; u is autoregressive of order at most s, white or not
+
+That the limit carries A and C is decided on its state part: the (A, C) that is read off its columns, similar to the true one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
-from ...exact.population_limits import population_limits
-from ..ablation import Experiment, Found
-from ..claims.proposition_1 import BOX, MOVING_AVERAGE, WHITE, drives, show_words
-from ..experiments_tried import Drive, LimitDossier, certificates_of, examine_experiment, experiments_in_order, following, independent_white
+from joblib import Parallel, delayed
+
+from ...exact.experiments import Experiment as Record
+from ...exact.fields import QQ
+from ...exact.lyapunov import solve
+from ...exact.matrices import Matrix
+from ...exact.population_limits import PopulationLimits, population_limits
+from ...exact.systems import ResidualSystem
+from .. import certificate as make
+from ..ablation import Experiment, Found, first_found
+from ..certificate import Certificate
+from ..claims.proposition_1 import show_words
+from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
 from ..workbench import Workbench
+from .aimed_experiments import BOX, aimed_experiments, small_experiments
+from .changes_of_state import similarity
+from .facets import degenerate
 
 
 @dataclass(frozen=True)
 class Driven:
-    """An experiment with what accepted certificates say of it."""
+    """An experiment with what accepted certificates say of it; `model_right`: the limit carries A and C; `autoregressive`: u is, of order
+    at most s.
+    """
 
     record: LimitDossier
+    model_right: bool
+    autoregressive: bool
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p + nu, then n, m, p, nu."""
-        system = self.record.experiment.system
-        r = system.residual
-        return (r.n + r.m + r.p + system.nu, r.n, r.m, r.p, system.nu)
+        """n + m + p + nu, then n, m, p, nu, s, past, then how long the experiment is in words."""
+        e = self.record.experiment
+        r, nu = e.system.residual, e.system.nu
+        return (r.n + r.m + r.p + nu, r.n, r.m, r.p, nu, e.s, e.past, len(str(self)))
 
     @property
     def weight(self) -> int:
@@ -45,48 +64,120 @@ class Driven:
         """Accepted certificates."""
         return self.record.accepted
 
+    @cached_property
+    def degenerate(self) -> str:
+        """Why it would be a poor witness: its system is, its B is zero, or the weighting of a limit of higher rank decides."""
+        weighted = self.record.limit_rank > self.record.experiment.system.residual.n and self.record.inputs_right
+        return _degenerate(self.record.experiment) or (WEIGHTED if weighted else "")
+
     def __str__(self) -> str:
         return show_words(self.record)
 
 
-HYPOTHESES: dict[str, Callable[[Driven], bool]] = {
+WEIGHTED = "the limit has a rank above n, and B and D are right: its n leading singular vectors, in some weighting, may carry A and C"
+UNCORRELATED: dict[str, Callable[[Driven], bool]] = {
     "v(k), u(k-l) uncorrelated, l >= 1": lambda x: x.record.past_lags,
     "v(k), u(k) uncorrelated": lambda x: x.record.same_time,
     "v(k), u(k+l) uncorrelated, l >= 1": lambda x: x.record.leads,
     "(A, B) controllable": lambda x: x.record.controllable,
     "(A, C) observable on s - 1": lambda x: x.record.observable,
     "past >= n": lambda x: x.record.long_past,
-    "u white": lambda x: x.record.white,
 }
 
 
 def consistency() -> Experiment[Driven]:
-    """A, C from the limit of rank n, B and D by either regression."""
+    """With the hypothesis that is usually made."""
+    return _experiment("consistency", {**UNCORRELATED, "u white": lambda x: x.record.white})
+
+
+def consistency_coloured() -> Experiment[Driven]:
+    """With the weaker one that is enough."""
+    return _experiment("consistency-coloured", {**UNCORRELATED, "u autoregressive of order at most s": lambda x: x.autoregressive})
+
+
+def _experiment(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -> Experiment[Driven]:
     return Experiment(
-        name="consistency",
+        name=name,
         claim="proposition-1",
         conclusion="PI-MOESP converges to the true A, B, C, D",
-        hypotheses=HYPOTHESES,
+        hypotheses=hypotheses,
         holds=_right,
-        subjects=lambda bench: (Driven(record) for record in bench.limits),
-        over_q=_smallest,
-        show=lambda subject: certificates_of(population_limits(subject.record.experiment)),
+        subjects=_subjects,
+        over_q=partial(_smallest, hypotheses),
+        show=_show,
     )
 
 
+def driven(record: LimitDossier) -> Driven:
+    """The subject made of an experiment with certified limits."""
+    found = population_limits(record.experiment)
+    state, residual = found.past_inputs.state, record.experiment.system.residual
+    read = None if state is None else similarity(_without_faults(residual), _model(state.A, state.C))
+    return Driven(record, read is not None, autoregressive(found, record.experiment.s))
+
+
+def autoregressive(found: PopulationLimits, order: int) -> bool:
+    """Whether u(k) less its best prediction from u(k-1..k-order) is uncorrelated with all of its past.
+
+    Beyond `order` these correlations are powers of the joint state's matrix between two fixed ones, so that as many as it has rows decide
+    (Cayley-Hamilton).
+    """
+    known, u = found.known, found.known.process.u
+    near, now = range(-order, 0), range(1)
+    far = range(-order - known.process.Phi.nrows - 1, -order)
+    weights = solve(known.windows(u, u, near, near), known.windows(u, u, near, now)).transposed()
+    return known.windows(u, u, now, far) == weights @ known.windows(u, u, near, far)
+
+
+def _subjects(bench: Workbench) -> Iterator[Driven]:
+    return iter(bench.records("driven", partial(_made, bench)))
+
+
+def _made(bench: Workbench) -> list[Driven]:
+    aimed = list(aimed_experiments(400 if bench.full else 40))
+    batches = [aimed[i : i + 10] for i in range(0, len(aimed), 10)]
+    found: list[Driven] = []
+    for batch in Parallel(n_jobs=bench.jobs, return_as="generator")(delayed(_examined)(b) for b in batches):
+        found += batch
+        bench.progress("population limits, aimed", len(found), len(aimed))
+    return [driven(record) for record in bench.limits] + found
+
+
+def _examined(batch: Sequence[Record]) -> list[Driven]:
+    return [driven(examine_experiment("aimed", experiment)) for experiment in batch]
+
+
+def _smallest(hypotheses: Mapping[str, Callable[[Driven], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Driven]:
+    kept = [test for name, test in hypotheses.items() if name not in dropped]
+    searched = bench.records("small experiments", lambda: [driven(examine_experiment("search", e)) for e in small_experiments()])
+
+    def counterexamples(poor: bool) -> Iterator[Driven]:
+        for subject in searched:
+            if bool(subject.degenerate) == poor and all(test(subject) for test in kept) and not _right(subject):
+                yield subject
+
+    return first_found(counterexamples, BOX)
+
+
 def _right(subject: Driven) -> bool:
-    d = subject.record
-    return d.equal and d.limit_rank == d.experiment.system.residual.n and d.inputs_right
+    return subject.model_right and subject.record.inputs_right
 
 
-def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Driven]:
-    kept = [test for name, test in HYPOTHESES.items() if name not in dropped]
-    tried: list[Drive] = [independent_white, partial(following, gain="1"), *drives([WHITE, MOVING_AVERAGE], [["1"], ["0", "1"]])]
-    if set(dropped) <= {"past >= n", "u white"}:
-        return Found(None, "n = 1, where past >= n always")  # and the colour of u is not needed
-    box = f"{BOX}, v white of its own, u(k-1), u(k) or u(k+1), u white or e(k) + e(k-1)/2"
-    for experiment in experiments_in_order(tried):
-        subject = Driven(examine_experiment("search", experiment))
-        if all(test(subject) for test in kept) and not _right(subject):
-            return Found(subject, box)
-    return Found(None, box)
+def _degenerate(experiment: Record) -> str:
+    return degenerate(experiment.system.residual) or ("B = 0" if experiment.system.B.is_zero() else "")
+
+
+def _model(A: Matrix, C: Matrix) -> ResidualSystem:
+    return ResidualSystem(A, Matrix.zero(QQ, A.nrows, 0), C, Matrix.zero(QQ, C.nrows, 0))
+
+
+def _without_faults(system: ResidualSystem) -> ResidualSystem:
+    return _model(system.A, system.C)
+
+
+def _show(subject: Driven) -> Iterator[Certificate]:
+    """The limits and the regressions, and the rank of O_(s-1), which must be n for A to be read."""
+    experiment = subject.record.experiment
+    yield from certificates_of(population_limits(experiment))
+    if experiment.s > 1:
+        yield make.matrix_rank("window", _without_faults(experiment.system.residual), window=experiment.s - 1)

@@ -1,7 +1,8 @@
 """What is asked of one system alone, exactly and found once, and the same of many integer systems at a first look.
 
-    Facets   observable, controllable, left-invertible, stable, normal rank, lag
+    Facets   observable, controllable, left-invertible, stable, normal rank, lag, number of unobservable modes
     facets   those of a system
+    degenerate   why a system would be a poor witness; "" where it would not
     of_system   the hypotheses about one system, of subjects that have one
     flags    which of many systems meet all of some hypotheses about one system
 """
@@ -17,7 +18,7 @@ import numpy as np
 
 from ...exact.fields import PrimeField
 from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import rank
+from ...exact.matrices import rank, stacked
 from ...exact.stability import is_stable
 from ...exact.systems import ResidualSystem
 from ...exact.windows import observability_matrix, reachability_matrix
@@ -36,20 +37,36 @@ class Facets:
     stable: bool
     normal_rank: int
     lag: int
+    unobservable_modes: int
 
 
 @lru_cache(maxsize=1 << 18)
 def facets(system: ResidualSystem) -> Facets:
     """What is asked of the system."""
     kernel = kernel_representation(system)
+    seen = rank(observability_matrix(system, system.n))
     return Facets(
-        observable=rank(observability_matrix(system, system.n)) == system.n,
+        observable=seen == system.n,
         controllable=rank(reachability_matrix(system)) == system.n,
         left_invertible=kernel.normal_rank == system.m,
         stable=isinstance(system.field, PrimeField) or is_stable(system.A),
         normal_rank=kernel.normal_rank,
         lag=kernel.lag,
+        unobservable_modes=system.n - seen,
     )
+
+
+def degenerate(system: ResidualSystem) -> str:
+    """Why a counterexample made of this system says little: it fails for want of a state, an output or a fault that does something."""
+    reasons = {
+        "there is no state": system.n == 0,
+        "there is no output": system.p == 0,
+        "there is no fault": system.m == 0,
+        "C = 0": system.C.is_zero(),
+        "F = 0": system.F.is_zero(),
+        "the columns of [F; G] are dependent": rank(stacked(system.F, system.G)) < system.m,
+    }
+    return ", ".join(reason for reason, so in reasons.items() if so)
 
 
 def of_system(system: Callable[[S], ResidualSystem]) -> dict[str, Callable[[S], bool]]:

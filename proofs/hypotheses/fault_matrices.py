@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
+from random import Random
 
 from ...exact.behavior import compare
 from ...exact.fault_space import fault_space, with_pair
@@ -16,12 +18,13 @@ from ...exact.kernel_representation import kernel_representation
 from ...exact.matrices import Matrix, rank, stacked
 from ...exact.systems import ResidualSystem
 from .. import certificate as make
-from ..ablation import Experiment, Found
+from ..ablation import Experiment, Found, Proof, first_found
 from ..certificate import Certificate
-from ..pairs import comparison_certificate
+from ..pairs import RivalDossier, comparison_certificate, examine_rival
 from ..search import Box, systems_in_order
 from ..workbench import Workbench, size
-from .facets import facets, flags, of_system
+from .aimed import aimed_systems
+from .facets import degenerate, facets, flags, of_system
 
 BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
 
@@ -47,15 +50,21 @@ class Pair:
         """The field in words."""
         return str(self.system.field)
 
+    @property
+    def degenerate(self) -> str:
+        """Why it would be a poor witness: the system is, or P is not of full column rank."""
+        return degenerate(self.system) or degenerate(self.rival)
+
     def __str__(self) -> str:
         return f"{self.system} with F' = {self.rival.F}, G' = {self.rival.G}, s = {self.window}"
 
 
+GOOD = "P good: normal rank r"
 HYPOTHESES: dict[str, Callable[[Pair], bool]] = {
     **of_system(lambda x: x.system),
     "s >= lag + 1": lambda x: x.window >= facets(x.system).lag + 1,
     "P of full column rank": lambda x: rank(stacked(x.rival.F, x.rival.G)) == x.rival.m,
-    "P good: normal rank r": lambda x: facets(x.rival).normal_rank == facets(x.system).normal_rank,
+    GOOD: lambda x: facets(x.rival).normal_rank == facets(x.system).normal_rank,
 }
 
 
@@ -70,15 +79,30 @@ def theorem_3_ii() -> Experiment[Pair]:
         subjects=_subjects,
         over_q=_smallest,
         show=_show,
+        proof=Proof(("theorem_3_criterion",), frozenset({"s >= lag + 1", GOOD})),
+        implied={
+            "P of full column rank": "the system being left-invertible, a good pair has normal rank m, so its m columns are independent"
+        },
     )
 
 
 def _subjects(bench: Workbench) -> Iterator[Pair]:
     """Every rival with columns in Z, at lag + 1; the others at the longest window whose solutions they are, if there is one."""
-    for d in bench.rivals:
+    for d in (*bench.rivals, *bench.records("aimed rivals", partial(_aimed, 150 if bench.full else 40))):
         window = facets(d.system).lag + 1 if d.in_space else _longest(d.system, d.rival)
         if window:
             yield Pair(d.system, d.rival, window, d.equal, d.weight, d.accepted)
+
+
+def _aimed(count: int) -> list[RivalDossier]:
+    """Two random P for each aimed system, with m columns: bad for some, good for most."""
+    found = []
+    for system in aimed_systems(count):
+        space, rng = fault_space(kernel_representation(system)), Random(str(system))
+        for _ in range(2):
+            rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
+            found.append(examine_rival("aimed", system, with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))))
+    return found
 
 
 def _longest(system: ResidualSystem, rival: ResidualSystem) -> int:
@@ -94,19 +118,26 @@ def _longest(system: ResidualSystem, rival: ResidualSystem) -> int:
 def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
     """The first system, window and P, in this order, that meets what is kept and is not equivalent."""
     kept = [test for name, test in HYPOTHESES.items() if name not in dropped]
-    box = f"{BOX}, entries of P in {{-1, 0, 1}}"
-    for system in systems_in_order(BOX, flags(set(HYPOTHESES) - set(dropped))):
-        kernel = kernel_representation(system)
-        windows = range(1, kernel.lag + 2) if "s >= lag + 1" in dropped else range(kernel.lag + 1, kernel.lag + 2)
-        for s in windows:
-            space = fault_space(kernel, s)
-            shape = (space.dimension, system.m)
-            for entries in product((-1, 0, 1), repeat=shape[0] * shape[1]):
-                P = Matrix.of([list(entries[i * system.m : (i + 1) * system.m]) for i in range(shape[0])], shape=shape)
-                pair = Pair(system, with_pair(space, P), s, False, 1, 0)
-                if all(test(pair) for test in kept) and compare(kernel, kernel_representation(pair.rival)).first_difference is not None:
-                    return Found(pair, box)
-    return Found(None, box)
+
+    def counterexamples(poor: bool) -> Iterator[Pair]:
+        for system in systems_in_order(BOX, flags(set(HYPOTHESES) - set(dropped))):
+            if degenerate(system) and not poor:
+                continue
+            kernel = kernel_representation(system)
+            for s in range(1 if "s >= lag + 1" in dropped else kernel.lag + 1, kernel.lag + 2):
+                space = fault_space(kernel, s)
+                shape = (space.dimension, system.m)
+                for entries in product((-1, 0, 1), repeat=shape[0] * shape[1]):
+                    P = Matrix.of([list(entries[i * system.m : (i + 1) * system.m]) for i in range(shape[0])], shape=shape)
+                    pair = Pair(system, with_pair(space, P), s, False, 1, 0)
+                    if bool(pair.degenerate) == poor and all(test(pair) for test in kept) and _differs(pair):
+                        yield pair
+
+    return first_found(counterexamples, f"{BOX}, entries of P in {{-1, 0, 1}}")
+
+
+def _differs(pair: Pair) -> bool:
+    return compare(kernel_representation(pair.system), kernel_representation(pair.rival)).first_difference is not None
 
 
 def _show(pair: Pair) -> Iterator[Certificate]:

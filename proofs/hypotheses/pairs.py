@@ -1,8 +1,9 @@
 """The hypotheses of the claims about two systems: theorem-1 on a window, theorem-3 (i) on every window.
 
-    Compared      a pair of systems that agree on a window, by accepted certificates
-    theorem_1     equal on the window, so equal for ever?
-    theorem_3_i   equal for ever, so the second's fault columns lie in the first's Z?
+    Compared       a pair of systems that agree on a window, by accepted certificates
+    theorem_1      equal on the window, so equal for ever?
+    theorem_3_i    equal for ever: do the second's fault columns lie in the first's Z, once its state is changed in some way?
+    same_model     equal for ever: is the second (A, Fhat P, C, Ghat P), once its state is changed in some way?
 """
 
 from __future__ import annotations
@@ -10,19 +11,23 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
+from itertools import chain
 
 from ...exact.fault_space import fault_space
 from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import column_basis, rank, stacked
+from ...exact.matrices import Matrix, column_basis, rank, stacked
 from ...exact.systems import ResidualSystem
 from ...exact.windows import window_matrix
 from .. import certificate as make
-from ..ablation import Experiment, Found
+from ..ablation import Experiment, Found, Proof, first_found
 from ..certificate import Certificate
-from ..pairs import comparison_certificate
+from ..pairs import PairDossier, comparison_certificate, examine_pair
 from ..search import Box, systems_in_order
 from ..workbench import Workbench
-from .facets import facets, flags
+from .aimed import aimed_systems, other_columns
+from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
+from .facets import degenerate, facets, flags
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 SMALLER = Box(total=4, largest_n=1, largest_m=2, largest_p=2)
@@ -55,6 +60,17 @@ class Compared:
         """The two systems."""
         return self.first, self.second
 
+    @cached_property
+    def degenerate(self) -> str:
+        """Why it would be a poor witness: one of the systems is, or all outputs are possible and all columns lie in Z."""
+        everything = "every output is possible" if facets(self.first).normal_rank == self.first.p else ""
+        return degenerate(self.first) or degenerate(self.second) or everything
+
+    @cached_property
+    def similarity(self) -> Matrix | None:
+        """T with A T = T A' and C T = C', invertible, where (A', C') of the second is similar to (A, C) of the first."""
+        return similarity(self.first, self.second)
+
     def __str__(self) -> str:
         window = "" if self.window is None else f", equal on {self.window} samples"
         return f"{self.first} against {self.second}{window}"
@@ -66,8 +82,8 @@ def same_a_and_c(pair: Compared) -> bool:
 
 
 ALONE = {"both observable", "both controllable", "both left-invertible", "both A stable"}
+SIMILAR = "(A', C') similar to (A, C)"
 MODEL: dict[str, Callable[[Compared], bool]] = {
-    "same (A, C)": same_a_and_c,
     "both observable": lambda c: all(facets(s).observable for s in c.both),
     "both controllable": lambda c: all(facets(s).controllable for s in c.both),
     "both left-invertible": lambda c: all(facets(s).left_invertible for s in c.both),
@@ -85,37 +101,61 @@ def theorem_1() -> Experiment[Compared]:
         name="equal-on-a-window",
         claim="theorem-1",
         conclusion="behaviours equal on the window are equal for ever",
-        hypotheses={**MODEL, "window >= n + 1": long_enough},
+        hypotheses={"same (A, C)": same_a_and_c, **MODEL, "window >= n + 1": long_enough},
         holds=lambda pair: pair.equal,
         subjects=_agreeing,
         over_q=_smallest_agreeing,
         show=_show_difference,
+        proof=Proof(("theorem_1_lag", "lag_at_most_n"), frozenset({"window >= n + 1"})),
     )
 
 
 def theorem_3_i() -> Experiment[Compared]:
-    """Equal output behaviours of two systems with as many states."""
+    """Equal output behaviours of two systems with as many states: where the columns of the second lie."""
+    words = "the columns [T F'; G'] of an equivalent system lie in Z, for some change T of its state"
+    return _of_equivalent("columns-in-Z", words, _columns_in_space)
+
+
+def same_model() -> Experiment[Compared]:
+    """The same, with (A, C) as well: the outputs alone do not tell them."""
+    words = "an equivalent system is (A, Fhat P, C, Ghat P), after some change of its state"
+    return _of_equivalent("same-model", words, _same_model)
+
+
+def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool]) -> Experiment[Compared]:
     return Experiment(
-        name="columns-in-Z",
+        name=name,
         claim="theorem-3-i",
-        conclusion="the columns [F'; G'] of an equivalent system lie in Z",
-        hypotheses=MODEL,
-        holds=columns_in_space,
+        conclusion=words,
+        hypotheses={SIMILAR: lambda pair: pair.similarity is not None, **MODEL},
+        holds=holds,
         subjects=_equivalent,
-        over_q=_smallest_outside,
+        over_q=partial(_smallest_outside, holds),
         show=_show_outside,
+        # Of the second in the coordinates where it has the (A, C) of the first.
+        proof=Proof(("theorem_3_part_i",), frozenset({SIMILAR})),
     )
 
 
-def columns_in_space(pair: Compared) -> bool:
+def _columns_in_space(pair: Compared) -> bool:
+    T = columns_moved(pair.first, pair.second)
+    return T is not None and columns_in_space(pair.first, moved(pair.second, T))
+
+
+def _same_model(pair: Compared) -> bool:
+    """Whether the columns of the second lie in Z in the coordinates in which it has the (A, C) of the first."""
+    return pair.similarity is not None and columns_in_space(pair.first, moved(pair.second, pair.similarity))
+
+
+def columns_in_space(first: ResidualSystem, second: ResidualSystem) -> bool:
     """Whether the columns [F'; G'] of the second solve problem (11) of the first."""
-    basis = fault_space(kernel_representation(pair.first)).basis
-    return rank(stacked(basis, stacked(pair.second.F, pair.second.G).transposed())) == basis.nrows
+    basis = fault_space(kernel_representation(first)).basis
+    return rank(stacked(basis, stacked(second.F, second.G).transposed())) == basis.nrows
 
 
 def _agreeing(bench: Workbench) -> Iterator[Compared]:
     """Every pair that agrees on s samples, for each s it is so up to n + 2; certificates are told once a pair."""
-    for d in bench.pairs:
+    for d in (*bench.pairs, *_made(bench)):
         last = max(d.first.n, d.second.n) + 2 if d.first_difference is None else d.first_difference - 1
         for s in range(1, last + 1):
             yield Compared(d.first, d.second, s, d.first_difference is None, d.weight, d.accepted if s == 1 else 0)
@@ -126,9 +166,20 @@ def _equivalent(bench: Workbench) -> Iterator[Compared]:
     for rival in bench.rivals:
         if rival.equal:
             yield Compared(rival.system, rival.rival, None, True, rival.weight, rival.accepted)
-    for pair in bench.pairs:
+    for pair in (*bench.pairs, *_made(bench)):
         if pair.first_difference is None and pair.first.n == pair.second.n:
             yield Compared(pair.first, pair.second, None, True, pair.weight, pair.accepted)
+
+
+def _made(bench: Workbench) -> list[PairDossier]:
+    """Equivalent pairs whose (A, C) are not the same, and aimed systems with other fault columns of Z for the same (A, C), certified."""
+    others, aimed = (800, 100) if bench.full else (120, 25)
+
+    def made() -> list[PairDossier]:
+        pairs = chain(equivalent_pairs(others), ((system, other_columns(system)) for system in aimed_systems(aimed)))
+        return [examine_pair("made on purpose", *two) for two in pairs]
+
+    return bench.records("equivalent pairs", made)
 
 
 def _groups(
@@ -138,9 +189,8 @@ def _groups(
     for n, m, p in box.dimensions():
         here = Box(total=n + m + p, largest_n=n, largest_m=m, largest_p=p, least_m=m)
         systems = [s for s in systems_in_order(here, flags(ALONE - set(dropped), "both ")) if (s.n, s.m, s.p) == (n, m, p)]
-        shared = "same (A, C)" not in dropped
         groups: dict[object, list[ResidualSystem]] = defaultdict(list)
-        keys = [(key(system), (system.A, system.C) if shared else None) for system in systems]
+        keys = [key(system) for system in systems]
         for system, name in zip(systems, keys, strict=True):
             groups[name].append(system)
         for system, name in zip(systems, keys, strict=True):
@@ -155,23 +205,35 @@ def _smallest_agreeing(bench: Workbench, dropped: Sequence[str]) -> Found[Compar
     """The first system with a partner equal on n samples (n + 1, where that is kept) and not for ever, decided on 2n + 1."""
     extra = 0 if "window >= n + 1" in dropped else 1
     box = BOX if extra == 0 else SMALLER
-    for first, group in _groups(box, dropped, lambda s: column_basis(window_matrix(s, s.n + extra))):
-        if len(group) > 1:
-            longer = column_basis(window_matrix(first, 2 * first.n + 1))
+
+    def key(system: ResidualSystem) -> object:
+        shared = None if "same (A, C)" in dropped else (system.A, system.C)
+        return shared, column_basis(window_matrix(system, system.n + extra))
+
+    def counterexamples(poor: bool) -> Iterator[Compared]:
+        for first, group in _groups(box, dropped, key):
+            if len(group) > 1 and (poor or not degenerate(first)):
+                longer = column_basis(window_matrix(first, 2 * first.n + 1))
+                for second in group:
+                    pair = Compared(first, second, first.n + extra, False, 1, 0)
+                    if bool(pair.degenerate) == poor and column_basis(window_matrix(second, 2 * first.n + 1)) != longer:
+                        yield pair
+
+    return first_found(counterexamples, _words(box))
+
+
+def _smallest_outside(holds: Callable[[Compared], bool], bench: Workbench, dropped: Sequence[str]) -> Found[Compared]:
+    """The first system with an equivalent one for which the conclusion fails."""
+
+    def counterexamples(poor: bool) -> Iterator[Compared]:
+        for first, group in _groups(SMALLER, dropped, lambda s: column_basis(window_matrix(s, 2 * s.n + 1))):
             for second in group:
-                if column_basis(window_matrix(second, 2 * first.n + 1)) != longer:
-                    return Found(Compared(first, second, first.n + extra, False, 1, 0), _words(box))
-    return Found(None, _words(box))
+                pair = Compared(first, second, None, True, 1, 0)
+                kept = SIMILAR in dropped or pair.similarity is not None
+                if bool(pair.degenerate) == poor and kept and not holds(pair):
+                    yield pair
 
-
-def _smallest_outside(bench: Workbench, dropped: Sequence[str]) -> Found[Compared]:
-    """The first system with an equivalent one whose fault columns lie outside its Z."""
-    for first, group in _groups(SMALLER, dropped, lambda s: column_basis(window_matrix(s, 2 * s.n + 1))):
-        for second in group:
-            pair = Compared(first, second, None, True, 1, 0)
-            if not columns_in_space(pair):
-                return Found(pair, _words(SMALLER))
-    return Found(None, _words(SMALLER))
+    return first_found(counterexamples, _words(SMALLER))
 
 
 def _of_each(pair: Compared) -> Iterator[Certificate]:

@@ -5,9 +5,11 @@ The size of the bad set is counted from the degrees of L(q) by exact/bad_set, wh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
+from random import Random
 
 import numpy as np
 
@@ -16,11 +18,11 @@ from ...exact.exceptional import polynomial_at
 from ...exact.exceptional_witnesses import BadPair, bad_pair
 from ...exact.fault_space import with_pair
 from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix
+from ...exact.matrices import Matrix, rank
 from ...exact.pencil import infinite_zero_orders
 from ...exact.systems import ResidualSystem
 from .. import certificate as make
-from ..ablation import Experiment, Found
+from ..ablation import Experiment, Found, Proof, first_found
 from ..certificate import Certificate
 from ..claims.one_determinant import agrees
 from ..claims.one_determinant import show as show_pair
@@ -28,11 +30,15 @@ from ..judged_pairs import JudgedPair, examine_judged, pencil_of
 from ..pairs import comparison_certificate
 from ..search import Box, Facts, Integers, systems_in_order
 from ..workbench import Workbench, size
-from .facets import flags, of_system
+from .aimed import aimed_systems
+from .facets import degenerate, flags, of_system
+from .placed import every_polynomial_is_reached
 from .systems import MODEL
 from .windowed import NO_WINDOW, Condition, Windowed, windowed
 
 BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
+WIDER = Box(total=6, largest_n=1, largest_m=2, largest_p=3)
+LONGER = Box(total=4, largest_n=2, largest_m=1, largest_p=1)
 
 
 def _normal_rank(facts: Facts) -> Integers:
@@ -51,14 +57,20 @@ SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
 
 
 def codimension() -> Experiment[Windowed]:
-    """bad-set: codimension at least two."""
+    """bad-set: codimension at least two.
+
+    Why r, controllability and left-invertibility play no part: a hypersurface of bad P is f(P) = 0 with f irreducible, and f divides every
+    coefficient of D(q; P). The bad set is invariant under P -> P V, det V = 1, so that f is a polynomial in the r x r minors of P (the
+    first fundamental theorem); the coefficients are linear in these, so each is a number times f and D(q; P) = f(P) d(q), whose zeros no P
+    moves. But with (A, C) observable and zeta >= 1 every polynomial of degree at most zeta is reached.
+    """
 
     def at_least_two(subject: Windowed) -> bool:
         size = bad_set(pencil_of(subject.dossier.system)).codimension
         return size is None or size >= 2
 
     conclusion = Condition(at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
-    return _of_pencils("codimension", "bad-set", "the bad P have codimension at least 2", conclusion)
+    return _of_pencils("codimension", "the bad P have codimension at least 2", conclusion, None)
 
 
 def bad_of_full_rank() -> Experiment[Windowed]:
@@ -68,23 +80,26 @@ def bad_of_full_rank() -> Experiment[Windowed]:
         return isinstance(bad_pair(pencil_of(subject.dossier.system)), BadPair)
 
     conclusion = Condition(exists, lambda f, s: np.asarray((_normal_rank(f) >= 2) & (_zeta(f) >= 1)))
-    return _of_pencils("bad-of-full-rank", "bad-set", "some P of full column rank is bad", conclusion)
+    proof = Proof(("bad_set_full_rank",), frozenset({"r >= 2", "zeta >= 1"}))
+    return _of_pencils("bad-of-full-rank", "some P of full column rank is bad", conclusion, proof)
 
 
 def placement() -> Experiment[Windowed]:
-    """zero-assignment: the modes that no P moves are none."""
+    """zero-assignment: polynomials of every degree up to zeta, each assigned and looked for in the pair; at least one column for P."""
 
-    def every(subject: Windowed) -> bool:
-        pencil = pencil_of(subject.dossier.system)
-        return pencil.zeta == 0 or (len(pencil.fixed) == 1 and pencil.columns > 0)
+    def reached(subject: Windowed) -> bool:
+        return every_polynomial_is_reached(pencil_of(subject.dossier.system))
 
-    words = "every polynomial of degree at most zeta is the zero polynomial of some pair"
-    conclusion = Condition(every, lambda f, s: np.asarray((f.observable & (_normal_rank(f) >= 1)) | (_zeta(f) == 0)))
-    return windowed("placement", "zero-assignment", words, MODEL, conclusion, _show, windows=lambda n: NO_WINDOW, box=BOX)
+    words = "every nonzero polynomial of degree at most zeta is the zero polynomial of some pair"
+    conclusion = Condition(reached, lambda f, s: np.asarray(f.observable | (_zeta(f) == 0)))
+    some_column = Condition(lambda w: w.dossier.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
+    proof = Proof(("zero_assignment", "one_determinant", "one_determinant_exists"), frozenset({"observable"}))
+    made = ("placement", "zero-assignment", words, MODEL, conclusion, _show, some_column, lambda n: NO_WINDOW, LONGER)
+    return windowed(*made, proof=proof)
 
 
-def _of_pencils(name: str, claim: str, words: str, conclusion: Condition) -> Experiment[Windowed]:
-    return windowed(name, claim, words, SIZES, conclusion, _show, windows=lambda n: NO_WINDOW, box=BOX)
+def _of_pencils(name: str, words: str, conclusion: Condition, proof: Proof | None) -> Experiment[Windowed]:
+    return windowed(name, "bad-set", words, SIZES, conclusion, _show, windows=lambda n: NO_WINDOW, box=WIDER, proof=proof)
 
 
 def _show(system: ResidualSystem) -> Iterator[Certificate]:
@@ -126,11 +141,34 @@ class Judged:
         """Accepted certificates."""
         return self.record.accepted
 
+    @property
+    def degenerate(self) -> str:
+        """Why it would be a poor witness: the system is, or P is not of full column rank."""
+        return degenerate(self.record.system) or ("" if self.record.full_column_rank else "P is not of full column rank")
+
     def __str__(self) -> str:
         return f"{self.record.system} with F' = {self.record.pair.F}, G' = {self.record.pair.G}"
 
 
 OF_SYSTEM: dict[str, Callable[[Judged], bool]] = of_system(lambda j: j.record.system)
+GOOD = "P good: normal rank r"
+
+
+def _judged(bench: Workbench) -> Iterator[Judged]:
+    for record in (*bench.judged, *bench.records("aimed judged", partial(_aimed, 60 if bench.full else 15))):
+        yield Judged(record)
+
+
+def _aimed(count: int) -> list[JudgedPair]:
+    """Random P for each aimed system."""
+    found = []
+    for system in aimed_systems(count):
+        pencil, rng = pencil_of(system), Random(str(system))
+        for _ in range(2):
+            rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(pencil.columns)] for _ in range(pencil.n_z)]
+            P = Matrix.of(rows, shape=(pencil.n_z, pencil.columns))
+            found.append(examine_judged("aimed", "random", system, P, None, 1))
+    return found
 
 
 def determinant() -> Experiment[Judged]:
@@ -141,46 +179,53 @@ def determinant() -> Experiment[Judged]:
         conclusion="D(q; P) is the zero polynomial of the pair, and 0 iff P is bad",
         hypotheses=OF_SYSTEM,
         holds=lambda subject: agrees(subject.record),
-        subjects=lambda bench: (Judged(record) for record in bench.judged),
+        subjects=_judged,
         over_q=lambda bench, dropped: Found(None, "the pairs judged"),
         show=lambda subject: show_pair(subject.record),
+        proof=Proof(("one_determinant", "one_determinant_exists")),
     )
 
 
 def zeros_of_pair() -> Experiment[Judged]:
     """zeros-of-pairs: as many zeros as the system has."""
-    hypotheses: dict[str, Callable[[Judged], bool]] = {
-        **OF_SYSTEM,
-        "P good: normal rank r": lambda j: j.record.pair_normal_rank == j.record.normal_rank,
-    }
-
-    def as_many(subject: Judged) -> bool:
-        d = subject.record
-        return len(d.zero_polynomial) - 1 + d.infinite_zeros == d.zeta
-
-    def smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Judged]:
-        kept = [test for name, test in hypotheses.items() if name not in dropped]
-        box = f"{BOX}, entries of P in {{-1, 0, 1}}"
-        for system in systems_in_order(BOX, flags(set(hypotheses) - set(dropped))):
-            pencil = pencil_of(system)
-            shape = (pencil.n_z, pencil.columns)
-            for entries in product((-1, 0, 1), repeat=shape[0] * shape[1]):
-                P = Matrix.of([list(entries[i * shape[1] : (i + 1) * shape[1]]) for i in range(shape[0])], shape=shape)
-                pair = kernel_representation(with_pair(pencil.space, P))
-                count = len(polynomial_at(pencil, P)) - 1 + sum(infinite_zero_orders(pair))
-                if pair.normal_rank < pencil.columns or count != pencil.zeta:
-                    subject = Judged(examine_judged("search", "search", system, P, None, 1))
-                    if all(test(subject) for test in kept) and not as_many(subject):
-                        return Found(subject, box)
-        return Found(None, box)
-
+    hypotheses: dict[str, Callable[[Judged], bool]] = {**OF_SYSTEM, GOOD: lambda j: j.record.pair_normal_rank == j.record.normal_rank}
     return Experiment(
         name="zeros-of-pair",
         claim="zeros-of-pairs",
         conclusion="the pair has zeta zeros, finite and infinite",
         hypotheses=hypotheses,
-        holds=as_many,
-        subjects=lambda bench: (Judged(record) for record in bench.judged),
-        over_q=smallest,
+        holds=_as_many,
+        subjects=_judged,
+        over_q=partial(_smallest_pair, hypotheses),
         show=lambda subject: show_pair(subject.record),
+        proof=Proof(("zeros_of_pairs", "theorem_3_criterion", "left_invertible_transfer", "zeros_exist"), frozenset({GOOD})),
     )
+
+
+def _as_many(subject: Judged) -> bool:
+    d = subject.record
+    return len(d.zero_polynomial) - 1 + d.infinite_zeros == d.zeta
+
+
+def _smallest_pair(hypotheses: Mapping[str, Callable[[Judged], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Judged]:
+    """The first system and P, in this order, that meets what is kept and has another number of zeros."""
+    kept = [test for name, test in hypotheses.items() if name not in dropped]
+
+    def counterexamples(poor: bool) -> Iterator[Judged]:
+        for system in systems_in_order(BOX, flags(set(hypotheses) - set(dropped))):
+            if degenerate(system) and not poor:
+                continue
+            pencil = pencil_of(system)
+            rows, cols = pencil.n_z, pencil.columns
+            for entries in product((-1, 0, 1), repeat=rows * cols):
+                P = Matrix.of([list(entries[i * cols : (i + 1) * cols]) for i in range(rows)], shape=(rows, cols))
+                if rank(P) < cols and not poor:
+                    continue
+                pair = kernel_representation(with_pair(pencil.space, P))
+                count = len(polynomial_at(pencil, P)) - 1 + sum(infinite_zero_orders(pair))
+                if pair.normal_rank < cols or count != pencil.zeta:
+                    subject = Judged(examine_judged("search", "search", system, P, None, 1))
+                    if bool(subject.degenerate) == poor and all(test(subject) for test in kept) and not _as_many(subject):
+                        yield subject
+
+    return first_found(counterexamples, f"{BOX}, entries of P in {{-1, 0, 1}}")

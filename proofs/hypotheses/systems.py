@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from ...exact.matrices import rank
-from ..ablation import Experiment
+from ..ablation import Experiment, Proof
 from ..claims.common import delays, spaces, zeros
 from ..search import Box, Facts, Flags
+from .facets import facets
 from .windowed import (
     CONTROLLABLE,
     FROM_DELAY,
@@ -23,7 +26,7 @@ from .windowed import (
 )
 
 MODEL = {"observable": OBSERVABLE, "controllable": CONTROLLABLE, "left-invertible": LEFT_INVERTIBLE, "A stable": STABLE}
-
+INVERTIBLE = "left-invertible"
 
 
 def _formula(subject: Windowed) -> bool:
@@ -52,33 +55,39 @@ def rank_formula() -> Experiment[Windowed]:
     """theorem-2, zeros of the pencil counted."""
     hypotheses = {**MODEL, "s >= n": from_n()}
     conclusion = Condition(_formula, _formula_look)
-    return windowed("rank-formula", "theorem-2", "rank [O_s T_s] = n + s m - zeta", hypotheses, conclusion, zeros, ZEROS_KNOWN)
+    proof = _proof("theorem_2", "lag_at_most_n", uses={INVERTIBLE, "s >= n"})
+    return windowed("rank-formula", "theorem-2", "rank [O_s T_s] = n + s m - zeta", hypotheses, conclusion, zeros, ZEROS_KNOWN, proof=proof)
 
 
 def gap() -> Experiment[Windowed]:
     """proposition-3 as the paper bounds s."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= n": from_n()}
-    return windowed("gap", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays)
+    proof = _proof("proposition_3", uses={INVERTIBLE, "s >= n"})
+    implied = {"s >= l": "a left-invertible system is inverted with delay n at most (theorem left_invertible_delay), so l <= n <= s"}
+    return windowed("gap", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays, proof=proof, implied=implied)
 
 
 def gap_from_lag() -> Experiment[Windowed]:
     """proposition-3 with the sharp bound."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= lag": from_lag()}
-    return windowed("gap-from-lag", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays)
+    proof = _proof("proposition_3_lag", uses={INVERTIBLE, "s >= lag"})
+    return windowed("gap-from-lag", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays, proof=proof)
 
 
 def solutions() -> Experiment[Windowed]:
     """problem (11) at a window: are its solutions those of every longer one?"""
     hypotheses = {**MODEL, "s >= n + 1": from_n(1)}
     words = "the solutions of problem (11) at s are Z"
-    return windowed("solutions", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n))
+    proof = _proof("problem_11", uses={"s >= n + 1"})
+    return windowed("solutions", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n), proof=proof)
 
 
 def solutions_from_lag() -> Experiment[Windowed]:
     """The same with the sharp bound."""
     hypotheses = {**MODEL, "s >= lag + 1": from_lag(1)}
     words = "the solutions of problem (11) at s are Z"
-    return windowed("solutions-from-lag", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n))
+    proof = _proof("problem_11_lag", uses={"s >= lag + 1"})
+    return windowed("solutions-from-lag", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n), proof=proof)
 
 
 def columns() -> Experiment[Windowed]:
@@ -87,7 +96,8 @@ def columns() -> Experiment[Windowed]:
         lambda w: w.dossier.limit_dimension == w.dossier.m + (w.dossier.zeta or 0), lambda f, s: f.left_invertible
     )
     words = "Z has dimension n_z = m + zeta"
-    return windowed("columns", "problem-11", words, MODEL, conclusion, zeros, ZEROS_KNOWN, windows=lambda n: NO_WINDOW)
+    proof = _proof("problem_11_dimension", "zeros_exist", "lag_at_most_n", uses={INVERTIBLE})
+    return windowed("columns", "problem-11", words, MODEL, conclusion, zeros, ZEROS_KNOWN, windows=lambda n: NO_WINDOW, proof=proof)
 
 
 NO_FEEDTHROUGH = Condition(
@@ -98,6 +108,9 @@ RELATIVE_DEGREE_ONE = Condition(
     lambda f, s: np.asarray(f.rank_from_rest(2) == f.m),
 )
 NO_FINITE_ZEROS = Condition(lambda w: w.dossier.finite_zeros == 0, lambda f, s: np.full(len(f.A), True))
+ONLY_UNOBSERVABLE = Condition(
+    lambda w: w.dossier.finite_zeros == facets(w.dossier.system).unobservable_modes, lambda f, s: np.full(len(f.A), True)
+)
 
 
 def range_of_f() -> Experiment[Windowed]:
@@ -108,24 +121,33 @@ def range_of_f() -> Experiment[Windowed]:
     )
     words = "the members of Z without feedthrough are im F"
     box = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
-    return windowed("range-of-F", "zero-feedthrough", words, hypotheses, conclusion, zeros, NO_FEEDTHROUGH, lambda n: NO_WINDOW, box)
+    proof = _proof("zero_feedthrough", "zeros_exist", uses={INVERTIBLE, "rank CF = m", "no finite zeros"})
+    implied = {
+        "observable": "each unobservable mode is a finite zero",
+        INVERTIBLE: "as G = 0 and rank CF = m, the first v that is not 0 shows one step later, as CF v",
+    }
+    made = ("range-of-F", "zero-feedthrough", words, hypotheses, conclusion, zeros, NO_FEEDTHROUGH, lambda n: NO_WINDOW, box)
+    return windowed(*made, proof=proof, implied=implied)
 
 
 def signal_from_known_state() -> Experiment[Windowed]:
     """trajectory-recovered: v from the outputs and x(0)."""
     conclusion = Condition(lambda w: w.dossier.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n))
     words = "the outputs and x(0) determine v"
-    return windowed("signal-known-state", "trajectory-recovered", words, MODEL, conclusion, delays, windows=lambda n: NO_WINDOW)
+    proof = _proof("trajectory_state_known", uses={INVERTIBLE})
+    made = ("signal-known-state", "trajectory-recovered", words, MODEL, conclusion, delays)
+    return windowed(*made, windows=lambda n: NO_WINDOW, proof=proof)
 
 
 def signal_from_unknown_state() -> Experiment[Windowed]:
     """trajectory-recovered: v from the outputs alone."""
-    hypotheses = {**MODEL, "no finite zeros": NO_FINITE_ZEROS}
+    zeros_hidden = "as many finite zeros as unobservable modes"
+    hypotheses = {**MODEL, zeros_hidden: ONLY_UNOBSERVABLE}
     conclusion = Condition(lambda w: w.dossier.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n))
     words = "the outputs alone determine v"
-    return windowed(
-        "signal-unknown-state", "trajectory-recovered", words, hypotheses, conclusion, delays, ZEROS_KNOWN, lambda n: NO_WINDOW
-    )
+    proof = _proof("trajectory_no_finite_zeros", "zeros_exist", uses={INVERTIBLE, zeros_hidden})
+    made = ("signal-unknown-state", "trajectory-recovered", words, hypotheses, conclusion, delays, ZEROS_KNOWN)
+    return windowed(*made, lambda n: NO_WINDOW, proof=proof)
 
 
 def every_window() -> Experiment[Windowed]:
@@ -134,7 +156,8 @@ def every_window() -> Experiment[Windowed]:
         lambda w: w.dossier.rank(w.window) == w.dossier.window_ranks[w.window - 1], lambda f, s: np.full(len(f.A), False)
     )
     words = "rank [O_s T_s] = s r + sum of min(s, eta_i)"
-    return windowed("every-window", "window-ranks", words, MODEL, conclusion, spaces(lambda s: s.n + 1))
+    proof = _proof("window_ranks", "window_ranks_left_indices", "zeros_exist")
+    return windowed("every-window", "window-ranks", words, MODEL, conclusion, spaces(lambda s: s.n + 1), proof=proof)
 
 
 def sharp_gap() -> Experiment[Windowed]:
@@ -144,4 +167,8 @@ def sharp_gap() -> Experiment[Windowed]:
         lambda f, s: np.full(len(f.A), False),
     )
     words = "gap(s) = r iff s >= lag"
-    return windowed("sharp-gap", "sharp-windows", words, MODEL, conclusion, delays)
+    return windowed("sharp-gap", "sharp-windows", words, MODEL, conclusion, delays, proof=_proof("sharp_gap"))
+
+
+def _proof(*theorems: str, uses: Collection[str] = ()) -> Proof:
+    return Proof(theorems, frozenset(uses))

@@ -19,13 +19,14 @@ from ...exact.signals import persistency
 from ...exact.systems import ResidualSystem
 from .. import certificate as make
 from .. import checker
-from ..ablation import Experiment, Found
+from ..ablation import Experiment, Found, Proof, first_found
 from ..certificate import Certificate
 from ..exhaustive import orbits
 from ..families import adversarial, random_systems
 from ..search import Box, systems_in_order
 from ..workbench import Workbench, size
-from .facets import facets, flags, of_system
+from .aimed import aimed_systems
+from .facets import degenerate, facets, flags, of_system
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 
@@ -54,6 +55,11 @@ class Record:
         """The field in words."""
         return str(self.system.field)
 
+    @property
+    def degenerate(self) -> str:
+        """Why it would be a poor witness."""
+        return degenerate(self.system)
+
     def __str__(self) -> str:
         return f"{self.system}, x(0) = {self.x0}, v = {self.v}, s = {self.window}"
 
@@ -72,7 +78,7 @@ def excited() -> Experiment[Record]:
     def full(record: Record) -> bool:
         return record.excitation == record.system.n + record.system.m * (record.window + 1)
 
-    return _experiment("gap-on-data", {**MODEL, FULL_ROW_RANK: full})
+    return _experiment("gap-on-data", {**MODEL, FULL_ROW_RANK: full}, "assumption_4_excitation_at_s_plus_1")
 
 
 def persistently_excited() -> Experiment[Record]:
@@ -81,10 +87,10 @@ def persistently_excited() -> Experiment[Record]:
     def persistent(record: Record) -> bool:
         return record.order >= record.system.n + record.window + 1
 
-    return _experiment("gap-on-persistent-data", {**MODEL, PERSISTENT: persistent})
+    return _experiment("gap-on-persistent-data", {**MODEL, PERSISTENT: persistent}, "assumption_4_persistency_suffices")
 
 
-def _experiment(name: str, hypotheses: Mapping[str, Callable[[Record], bool]]) -> Experiment[Record]:
+def _experiment(name: str, hypotheses: Mapping[str, Callable[[Record], bool]], theorem: str) -> Experiment[Record]:
     return Experiment(
         name=name,
         claim="assumption-4",
@@ -94,6 +100,7 @@ def _experiment(name: str, hypotheses: Mapping[str, Callable[[Record], bool]]) -
         subjects=_subjects,
         over_q=partial(_smallest, hypotheses),
         show=_certificates,
+        proof=Proof((theorem,), frozenset(hypotheses) - {"observable", "controllable", "A stable"}),
     )
 
 
@@ -134,6 +141,7 @@ def _made(full: bool) -> list[Record]:
     sources += [(s, 1) for s in islice(random_systems(QQ, 400, seed=5, largest=3), 300 if full else 60) if s.n and s.m]
     for n, p, m in ((1, 1, 1), (1, 2, 1), *(((2, 2, 1), (1, 2, 2)) if full else ())):
         sources += [(orbit.system, orbit.size) for orbit in orbits(2, n, p, m)]
+    sources += [(system, 1) for system in aimed_systems(60 if full else 15)]
     found = []
     for system, weight in sources:
         lag = facets(system).lag
@@ -145,18 +153,20 @@ def _made(full: bool) -> list[Record]:
 def _smallest(hypotheses: Mapping[str, Callable[[Record], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Record]:
     """The first system and window, in this order, with one of the signals that meets what is kept and shows another gap."""
     kept = {name: test for name, test in hypotheses.items() if name not in dropped}
-    box = f"{BOX}, v constant, a pulse, or one of ten random signals, entries in {{-1, 0, 1}}"
     excitation_kept = FULL_ROW_RANK in kept or PERSISTENT in kept
-    for system in systems_in_order(BOX, flags(kept)):
-        lag = facets(system).lag
-        if excitation_kept and facets(system).left_invertible and lag <= 1:
-            continue  # excited data show the model's gap, which is m from the lag on: nothing to find
-        for s in range(1 if "s >= lag" in dropped else max(lag, 1), max(lag, 1) + 1):
-            for x0, v in signals(system, s, 10):
-                record = examined(system, x0, v, s)
-                if record.gap != system.m and all(test(record) for test in kept.values()):
-                    return Found(record, box)
-    return Found(None, box)
+
+    def counterexamples(poor: bool) -> Iterator[Record]:
+        for system in systems_in_order(BOX, flags(kept)):
+            lag = facets(system).lag
+            if bool(degenerate(system)) != poor or (excitation_kept and facets(system).left_invertible and lag <= 1):
+                continue  # excited data show the model's gap, which is m from the lag on: nothing to find
+            for s in range(1 if "s >= lag" in dropped else max(lag, 1), max(lag, 1) + 1):
+                for x0, v in signals(system, s, 10):
+                    record = examined(system, x0, v, s)
+                    if record.gap != system.m and all(test(record) for test in kept.values()):
+                        yield record
+
+    return first_found(counterexamples, f"{BOX}, v constant, a pulse, or one of ten random signals, entries in {{-1, 0, 1}}")
 
 
 def _data_ranks(record: Record) -> Iterator[Certificate]:

@@ -16,12 +16,13 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ..ablation import Experiment, Found
+from ..ablation import Experiment, Found, Proof, first_found
 from ..certificate import Certificate
 from ..corpus import Dossier, examine
 from ..search import Box, Facts, Flags, chunks
 from ..workbench import Show, Workbench
-from .facets import facets, nilpotent
+from .aimed import aimed_dossiers
+from .facets import degenerate, facets, nilpotent
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 
@@ -53,6 +54,11 @@ class Windowed:
     def accepted(self) -> int:
         """Accepted certificates, told once a system: at its first window."""
         return self.dossier.accepted if self.window <= 1 else 0
+
+    @cached_property
+    def degenerate(self) -> str:
+        """Why it would be a poor witness."""
+        return degenerate(self.dossier.system)
 
     def __str__(self) -> str:
         return f"{self.dossier.system}, s = {self.window}" if self.window else str(self.dossier.system)
@@ -114,11 +120,13 @@ def windowed(
     scope: Condition = EVERYTHING,
     windows: Callable[[int], range] = lambda n: range(1, n + 3),
     box: Box = BOX,
+    proof: Proof | None = None,
+    implied: Mapping[str, str] | None = None,
 ) -> Experiment[Windowed]:
-    """The experiment on every system of the corpus in the scope, at every window."""
+    """The experiment on every system of the corpus, and every aimed one, in the scope, at every window."""
 
     def subjects(bench: Workbench) -> Iterator[Windowed]:
-        for dossier in bench.corpus.dossiers:
+        for dossier in (*bench.corpus.dossiers, *aimed_dossiers(bench)):
             for s in windows(dossier.n):
                 if scope.holds(subject := Windowed(dossier, s)):
                     yield subject
@@ -135,6 +143,8 @@ def windowed(
         subjects=subjects,
         over_q=partial(_smallest, hypotheses, conclusion, scope, windows, box),
         show=certificates,
+        proof=proof,
+        implied=implied or {},
     )
 
 
@@ -148,19 +158,25 @@ def _smallest(
     dropped: Sequence[str],
 ) -> Found[Windowed]:
     kept = [scope, *(condition for name, condition in hypotheses.items() if name not in dropped)]
-    for facts in chunks(box):
-        looks: dict[int, Flags] = {}
-        for s in windows(facts.n):
-            open_still = ~conclusion.first_look(facts, s)
-            for condition in kept:
-                if not open_still.any():
-                    break
-                open_still &= condition.first_look(facts, s)
-            looks[s] = open_still
-        for index in np.flatnonzero(np.logical_or.reduce(list(looks.values()))):
-            dossier = examine("search", facts.system(int(index)))
+
+    def counterexamples(poor: bool) -> Iterator[Windowed]:
+        for facts in chunks(box):
+            looks: dict[int, Flags] = {}
             for s in windows(facts.n):
-                subject = Windowed(dossier, s)
-                if looks[s][index] and all(c.holds(subject) for c in kept) and not conclusion.holds(subject):
-                    return Found(subject, str(box))
-    return Found(None, str(box))
+                open_still = ~conclusion.first_look(facts, s)
+                for condition in kept:
+                    if not open_still.any():
+                        break
+                    open_still &= condition.first_look(facts, s)
+                looks[s] = open_still
+            for index in np.flatnonzero(np.logical_or.reduce(list(looks.values()))):
+                system = facts.system(int(index))
+                if bool(degenerate(system)) != poor:
+                    continue
+                dossier = examine("search", system)
+                for s in windows(facts.n):
+                    subject = Windowed(dossier, s)
+                    if looks[s][index] and all(c.holds(subject) for c in kept) and not conclusion.holds(subject):
+                        yield subject
+
+    return first_found(counterexamples, str(box))

@@ -2,7 +2,7 @@
     observable, or there are two faults and zeta >= 1. For an unobservable state u is a solution (u, 0) that no output shows; the rest is
     FullRankPairs.v. And with zeta = 0 the bad P are those with determinant zero. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Definitions Basics Windows Lag Trajectory Solutions Theorem3 CanonicalForm ZeroFeedthrough ClosedForm.
+From faultspace Require Import Vocabulary Basics Windows Lag Trajectory Solutions Theorem3 CanonicalForm ZeroFeedthrough ClosedForm.
 From faultspace Require Import SolutionCount FullRankPairs.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

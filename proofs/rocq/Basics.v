@@ -2,7 +2,7 @@
     words and the behavior form linear spaces that are closed under prefixes and suffixes. Equality of sequences is pointwise throughout,
     so functional extensionality is never needed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions.
+From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     determined by it; left-invertibility is not needed. So whatever names a row space names the class of equivalent fault matrices:
     MathComp's <<Z>>, or the reduced row echelon form, which is unique. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Infinite Theorem1 Solutions.
+From faultspace Require Import Vocabulary Basics Windows Infinite Theorem1 Solutions.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -1,7 +1,7 @@
 (** Two decreasing chains of subspaces of K^n: W_k, the states reachable at time k with zero output before (silently_reaches), and the
     states from which k zero outputs are possible. Both are row spaces, shrink, stay once they stop, and have stopped at k = n. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics.
+From faultspace Require Import Vocabulary Basics.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -50,8 +50,10 @@ Section Chain.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 Implicit Types (U V : 'M[K]_n) (x y : 'rV[K]_n) (v : nat -> 'rV[K]_m).
 
-(** One step with zero output from a state in U. *)
-Definition silent_step U : 'M[K]_n := <<kermx (col_mx (U *m sysC S) (sysG S)) *m col_mx (U *m sysA S) (sysF S)>>%MS.
+Notation silent_step := (silent_step S).
+Notation silent := (silent S).
+Notation holds_zero := (holds_zero S).
+Notation hold_step := (hold_step S).
 
 Lemma silent_stepP U y : (y <= silent_step U)%MS <->
   exists x (w : 'rV[K]_m), [/\ (x <= U)%MS, x *m sysC S + w *m sysG S = 0 & x *m sysA S + w *m sysF S = y].
@@ -69,9 +71,6 @@ move=> UV; apply/row_subP=> i; apply/silent_stepP.
 have /silent_stepP[x [w [xU e ey]]] := row_sub i (silent_step U).
 by exists x, w; split=> //; apply: submx_trans UV.
 Qed.
-
-(** The matrix of W_k. *)
-Definition silent k := iter k silent_step 1%:M.
 
 Lemma silently_reaches_step k y : silently_reaches S k.+1 y <->
   exists x (w : 'rV[K]_m), [/\ silently_reaches S k x, x *m sysC S + w *m sysG S = 0 & x *m sysA S + w *m sysF S = y].
@@ -115,12 +114,6 @@ Proof.
 move=> nk; split; last exact: chain_decreasing.
 by move/silentP=> h; apply/silentP; apply: submx_trans h (silent_constant nk).
 Qed.
-
-(** The states from which k zero outputs are possible. *)
-Definition holds_zero k x := exists v, forall j, (j < k)%N -> output S x v j = 0.
-
-Definition hold_step U : 'M[K]_n :=
-  <<lsubmx (kermx (block_mx (sysA S *m cokermx U) (sysC S) (sysF S *m cokermx U) (sysG S)))>>%MS.
 
 Lemma hold_stepP U x : (x <= hold_step U)%MS <->
   exists w : 'rV[K]_m, x *m sysC S + w *m sysG S = 0 /\ ((x *m sysA S + w *m sysF S)%R <= U)%MS.

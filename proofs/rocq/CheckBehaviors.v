@@ -4,26 +4,11 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Definitions Basics Windows Infinite.
-From faultspace Require Import Stacks Lists Independence KernelRows ListedSystems CheckRows CheckRanks.
+From faultspace Require Import Vocabulary Basics Windows Infinite.
+From faultspace Require Import Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems CheckRows CheckRanks.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-Definition shorter s (rows : seq kernel_row) : bool := all (fun row => size row.2 <= s)%N rows.
-
-Definition check_inclusion n m n' m' p l (inner outer : listed) rows ws : bool :=
-  [&& meets n' m' p n'.+1 l outer rows ws, well_formed n m p inner & kernel p inner rows].
-Definition check_equality n m n' m' p l (first second : listed) rows ws ws' : bool :=
-  meets n m p n.+1 l first rows ws && meets n' m' p n'.+1 l second rows ws'.
-Definition check_window_equality n m n' m' p s l (first second : listed) rows ws ws' : bool :=
-  [&& shorter s rows, meets n m p s l first rows ws & meets n' m' p s l second rows ws'].
-
-(** The row c over the outputs of the word, times a power of the denominator. *)
-Definition pairing (e : Z) (c outputs : seq vector) : Z := foldr Z.add Z0 [seq dot pair.1 pair.2 | pair <- zip outputs (weighted e c).2].
-Definition check_difference n m n' m' p s (first second : listed) x vs c : bool :=
-  [&& well_formed n m p first, well_formed n' m' p second, annihilated second c, (0 < size c <= s)%N & size vs == s]
-  && [&& all (fun r => size r <= p)%N (simulate first x vs) & pairing (den first) c (simulate first x vs) != Z0].
 
 Section TwoSystems.
 Variables (n m n' m' p : nat) (L L' : listed).

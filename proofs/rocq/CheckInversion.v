@@ -3,8 +3,8 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Definitions Basics Windows.
-From faultspace Require Import Stacks Lists Independence KernelRows ListedSystems CheckRows.
+From faultspace Require Import Vocabulary Basics Windows.
+From faultspace Require Import Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems CheckRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -12,33 +12,6 @@ Local Open Scope ring_scope.
 (** r(0), ..., r(l) determine v(0), from rest (known) or from any state; known, this is inverts_with_delay. *)
 Definition determines (K : fieldType) n m p (S : system K n m p) (known : bool) l :=
   forall x v, (known -> x = 0) -> (forall k, (k <= l)%N -> output S x v k = 0) -> v 0%N = 0.
-
-Fixpoint states (L : listed) (x : vector) (vs : seq vector) : seq vector :=
-  if vs is v :: vs' then x :: states L (add (times x (lA L)) (times v (lF L))) vs' else [:: x].
-Fixpoint run (L : listed) (x : vector) (vs : seq vector) : vector :=
-  if vs is v :: vs' then run L (add (times x (lA L)) (times v (lF L))) vs' else x.
-Definition agree (u v : vector) : bool := null (add u (scale (Zneg xH) v)).
-Fixpoint all_agree (us vs : seq vector) : bool :=
-  match us, vs with [::], [::] => true | u :: us', v :: vs' => agree u v && all_agree us' vs' | _, _ => false end.
-Definition nonzero m (v : vector) : bool := (size v == m) && ~~ null v.
-
-Definition check_not_left_invertible n m p (L : listed) (xs vs : seq vector) : bool :=
-  [&& well_formed n m p L, all null (simulate L [::] vs), null (run L [::] vs), has (nonzero m) vs
-    & all_agree (states L [::] vs) xs].
-Definition ambiguous n m p known s (L : listed) (x : vector) (vs : seq vector) : bool :=
-  [&& well_formed n m p L, size vs == s, all null (simulate L x vs), nonzero m (head [::] vs) & known ==> null x].
-
-(** Row i of the inverse, times an integer a, gives a v_i(0). *)
-Definition gives_entry m (known : bool) l (L : listed) i (row : Z * seq vector) : bool :=
-  let (X, ds) := demands L row.2 in
-  [&& size row.2 == l.+1, row.1 != Z0, known || null X, all (fun d => null (acts (lF L) (lG L) d)) (behead ds)
-    & agree (acts (lF L) (lG L) (head ([::], [::]) ds)) (mkseq (fun j => if j == i then Z.mul (weighted (den L) row.2).1 row.1 else Z0) m)].
-Definition inverse n m p known l (L : listed) (rows : seq (Z * seq vector)) : bool :=
-  [&& well_formed n m p L, size rows == m & all (fun i => gives_entry m known l L i (nth (Z0, [::]) rows i)) (iota 0 m)].
-
-Definition check_delay n m p known l (L : listed) rows x vs : bool :=
-  [&& (l <= n)%N, inverse n m p known l L rows & (l == 0%N) || ambiguous n m p known l L x vs].
-Definition check_no_delay n m p known (L : listed) x vs : bool := ambiguous n m p known n.+1 L x vs.
 
 Lemma determines_known (K : fieldType) n m p (S : system K n m p) l : determines S true l <-> inverts_with_delay S l.
 Proof. by split=> [h v|h x v /(_ isT)->]; [apply: h|apply: h]. Qed.

@@ -3,42 +3,20 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Definitions Basics Windows Excitation.
-From faultspace Require Import Stacks Lists Independence KernelRows ListedSystems TableRank.
+From faultspace Require Import Vocabulary Basics Windows Excitation.
+From faultspace Require Import Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems TableRank.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
-(** [F, AF, ..., A^(n-1) F] of the paper, which is n x n m. *)
-Definition reachability (K : fieldType) n m p (S : system K n m p) : 'M[K]_(n, n * m) :=
-  stack n (fun k => (iter k (mulmxr (sysA S)) (sysF S))^T).
-
-Definition flat p (us : seq vector) : vector := flatten [seq mkseq (entry u) p | u <- us].
-Definition basis_vector n i : vector := mkseq (fun j => if j == i then Zpos xH else Z0) n.
-Fixpoint powered (w e : Z) (vs : seq vector) : seq vector := if vs is v :: vs' then scale w v :: powered (Z.mul w e) e vs' else [::].
-Fixpoint reached (k : nat) (L : listed) (M : table) : table := if k is k'.+1 then M ++ reached k' L [seq times r (lA L) | r <- M] else [::].
-Fixpoint visited (L : listed) (x : vector) (vs : seq vector) : seq vector :=
-  if vs is v :: vs' then x :: visited L (add (times x (lA L)) (times v (lF L))) vs' else [:: x].
-
+(** The same for T_s and [O_s T_s], which no headline speaks of. *)
 Definition pulses m s (i : nat) : seq vector := [seq if k == (i %/ m)%N then basis_vector m (i %% m)%N else [::] | k <- iota 0 s].
-Definition free_table n p s (L : listed) : table := [seq flat p (simulate L (basis_vector n i) (nseq s [::])) | i <- iota 0 n].
 Definition forced_table m p s (L : listed) : table := [seq flat p (simulate L [::] (pulses m s i)) | i <- iota 0 (s * m)].
 
-Definition check_observability n m p r l (L : listed) nulls combinations : bool :=
-  well_formed n m p L && check_rank n (n * p) r l (free_table n p n L) nulls combinations.
 Definition check_toeplitz n m p s r l (L : listed) nulls combinations : bool :=
   well_formed n m p L && check_rank (s * m) (s * p) r l (forced_table m p s L) nulls combinations.
 Definition check_window n m p s r l (L : listed) nulls combinations : bool :=
   well_formed n m p L && check_rank (n + s * m) (s * p) r l (free_table n p s L ++ forced_table m p s L) nulls combinations.
-Definition check_reachability n m p r l (L : listed) nulls combinations : bool :=
-  well_formed n m p L && check_rank (n * m) n r l (reached n L (lF L)) nulls combinations.
-Definition check_hankel n m p N s r l (L : listed) (d : Z) x vs nulls combinations : bool :=
-  [&& well_formed n m p L, d != Z0, (N + s == (size vs).+1)%N & check_rank N (s * p) r l
-    [seq flat p (take s (drop i (simulate L x (powered (Zpos xH) (den L) vs)))) | i <- iota 0 N] nulls combinations].
-Definition check_excitation n m p N s r l (L : listed) (d : Z) x vs nulls combinations : bool :=
-  let ws := powered (Zpos xH) (den L) vs in let xs := visited L x ws in
-  [&& well_formed n m p L, d != Z0, (N + s == (size vs).+1)%N & check_rank N (n + s * m) r l
-    [seq mkseq (entry (nth [::] xs i)) n ++ flat m (take s (drop i ws)) | i <- iota 0 N] nulls combinations].
 
 (** Positions k p + l in a list, and (k, l) in a row vector. *)
 Section Positions.

@@ -3,21 +3,11 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Definitions Basics Windows Chain Gap Balance Proposition3.
-From faultspace Require Import Stacks Lists Independence KernelRows ListedSystems CheckRows.
+From faultspace Require Import Vocabulary Basics Windows Chain Gap Balance Proposition3.
+From faultspace Require Import Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems CheckRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** The bound from above at s samples, and the check that it is reached there. *)
-Definition ceiling p (rows : seq kernel_row) s : nat := sumn [seq p - count (fun row => size row.2 <= k.+1) rows | k <- iota 0 s]%N.
-Definition meets n m p s l (L : listed) rows ws : bool :=
-  [&& well_formed n m p L, kernel p L rows, words p s l L ws & size ws == ceiling p rows s].
-
-Definition check_window_ranks n m p r (etas ranks : seq nat) l L rows ws : bool :=
-  [&& meets n m p n.+1 l L rows ws, (r + size rows == p)%N, degrees rows == etas
-    & ranks == [seq (s * r + sumn [seq minn s eta | eta <- etas])%N | s <- iota 1 (size ranks)]].
-Definition check_left_invertible n m p l L ws : bool := [&& well_formed n m p L, words p n.+1 l L ws & (n.+1 * m <= size ws)%N].
 
 Lemma ceiling_bound p rows s : ceiling p rows s = bound (meant_rows p rows) s.
 Proof.

@@ -4,25 +4,10 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Definitions Basics Windows Stacks Lists Independence KernelRows ListedSystems.
+From faultspace Require Import Vocabulary Basics Windows Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** A kernel row: pivot and coefficients; a word: initial state, faults, and the sample and output where it has a one. *)
-Definition kernel_row := (nat * seq vector)%type.
-Definition sampled_word := ((vector * seq vector) * (nat * nat))%type.
-
-Definition degrees (rows : seq kernel_row) : seq nat := [seq (size row.2).-1 | row <- rows].
-Definition leading (rows : seq kernel_row) : table := [seq at_pivots [seq other.1 | other <- rows] (last [::] row.2) | row <- rows].
-Definition admissible p (rows : seq kernel_row) : bool :=
-  [&& all (fun row => (row.1 < p) && (0 < size row.2))%N rows, sorted leq [seq size row.2 | row <- rows] & triangular (leading rows)].
-Definition kernel p (L : listed) (rows : seq kernel_row) : bool := admissible p rows && all (fun row => annihilated L row.2) rows.
-
-Definition seen_at (pivots : seq (nat * nat)) (outputs : seq vector) : vector := [seq entry (nth [::] outputs k.1) k.2 | k <- pivots].
-Definition words p s (l : Z) (L : listed) (ws : seq sampled_word) : bool :=
-  [&& Z.eqb (Z.gcd (den L) l) (Zpos xH), all (fun w => [&& size w.1.2 == s, w.2.1 < s & w.2.2 < p])%N ws
-    & identity_modulo l [seq seen_at [seq other.2 | other <- ws] (simulate_modulo l L w.1.1 w.1.2) | w <- ws]].
 
 Definition meant_rows p (rows : seq kernel_row) : seq (seq 'cV[rat]_p) := [seq columns p row.2 | row <- rows].
 

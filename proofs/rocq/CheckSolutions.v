@@ -4,34 +4,12 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Definitions Basics Windows Solutions.
-From faultspace Require Import Stacks Lists Independence KernelRows ListedSystems TableRank CheckRows CheckRanks CheckBehaviors.
+From faultspace Require Import Vocabulary Basics Windows Solutions.
+From faultspace Require Import Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems TableRank.
+From faultspace Require Import CheckRows CheckRanks CheckBehaviors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** A demand as one vector of n + p integers; all demands of all rows. *)
-Definition joined n (d : vector * vector) : vector := mkseq (entry d.1) n ++ d.2.
-Definition all_demands n (L : listed) (rows : seq kernel_row) : table := flatten [seq map (joined n) (demands L row.2).2 | row <- rows].
-
-(** The basis, integers over d, is in reduced row echelon form and vanishes on the demands; the combinations of demands are the identity at
-    some entries, modulo l. *)
-Definition reduced_echelon (width : nat) (d : Z) (basis : table) (pivots : seq nat) : bool :=
-  [&& d != Z0, all (fun r => size r == width) basis, size pivots == size basis, sorted ltn pivots, all (fun j => j < width)%N pivots
-    & all (fun i => [&& all (fun j => entry (nth [::] basis i) j == Z0) (iota 0 (nth 0%N pivots i))
-      & all (fun a => entry (nth [::] basis a) (nth 0%N pivots i) == if a == i then d else Z0) (iota 0 (size basis))])
-      (iota 0 (size basis))].
-Definition solution_space n p (L : listed) rows l d basis pivots (combinations : pivoted) : bool :=
-  let table := all_demands n L rows in
-  [&& reduced_echelon (n + p) d basis pivots, all (fun b => all (fun demand => dot b demand == Z0) table) basis,
-    (size basis + size combinations == n + p)%N, all (fun u => u.1 < n + p)%N combinations,
-    all (fun r => size r == n + p)%N table &
-    identity_modulo l (led (combined table combinations))].
-
-Definition check_solutions n m p s l (L : listed) rows ws d basis pivots combinations : bool :=
-  [&& meets n m p s l L rows ws, shorter s rows & solution_space n p L rows l d basis pivots combinations].
-Definition check_limit n m p beyond l (L : listed) rows ws d basis pivots combinations : bool :=
-  [&& meets n m p n.+1 l L rows ws, shorter beyond.+1 rows & solution_space n p L rows l d basis pivots combinations].
 
 (** The column z = (f, g), integers over d: the demands at time 0 accept it, some other one does not. *)
 Definition impulse (K : fieldType) k : 'rV[K]_1 := if k is 0%N then 1%:M else 0.

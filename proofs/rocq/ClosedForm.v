@@ -2,7 +2,7 @@
     that can be reached silently, V the states that can hold the output at zero, they are the (f, g) with f = v F + x A + u and
     g = v G + x C, x and u in U. Those with g = 0 are exactly U. Neither left-invertibility nor observability is needed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Chain Gap Problem11 Kick Solutions CanonicalForm Trajectory ZeroFeedthrough.
+From faultspace Require Import Vocabulary Basics Windows Chain Gap Problem11 Kick Solutions CanonicalForm Trajectory ZeroFeedthrough.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -12,8 +12,8 @@ Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 Implicit Types (f x : 'rV[K]_n) (g : 'rV[K]_p) (v : nat -> 'rV[K]_m) (u : nat -> 'rV[K]_1).
 Notation alone f := (with_faults S f (0 : 'rV_p)).
 Notation W := (silent S n).
+Notation zero_states := (zero_states S).
 
-Definition zero_states : 'M[K]_n := (W + zero_holding S)%MS.
 Definition closed_form : 'M[K]_(m + (n + n), n + p) :=
   col_mx (row_mx (sysF S) (sysG S)) (col_mx (row_mx (zero_states *m sysA S) (zero_states *m sysC S)) (row_mx zero_states 0)).
 

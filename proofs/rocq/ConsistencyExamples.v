@@ -3,7 +3,7 @@
     controllable and (A, C) observable; any field, a = 1/2 among it. With u = e(k) + e(k-1)/2, v = e(k+1), A = 1/2, B = 1 the limit has
     rank 2 for n = 1: computed over rat. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Places Signals Consistency Leads.
+From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -19,7 +19,7 @@ Section ZeroLimit.
 Variables (K : fieldType) (a : K) (N H : nat) (Q : 'M[K]_N) (u : nat -> 'cV[K]_N).
 Hypothesis u_white : white Q u H.
 
-Definition leading_fault : system K 1 1 (1 + 1) := System a%:M 1%:M (row_mx 1%:M 0) (row_mx 0 1%:M).
+Notation leading_fault := (leading_fault a).
 Let B : 'M[K]_1 := (- a)%:M.
 Let v k := u k.+1.
 Let y k : 'M[K]_(N, 1 + 1) := row_mx (u k) (u k.+1).
@@ -68,12 +68,11 @@ exists (fun k => row_mx (u k) (u k.+1)); have [model one controllable observable
 by split=> //; apply: controllable.
 Qed.
 
-(** Signals as lists of their coefficients at seven uncorrelated variables: xi, e(-1), e(0), ..., e(4), where xi is what x(0) remembers of
-    e(-2), e(-3), ...: xi = sum_j 2^-j e(-2-j), of variance 4/3. *)
+(** Covariances of signals that are lists of their coefficients at seven uncorrelated variables. *)
 Section Signals.
 Variables (K : fieldType) (variance : K).
-Definition variances : 'M[K]_7 := diag_mx (\row_i nth 1 [:: variance] i).
-Definition signals k (l : seq (seq K)) : 'M[K]_(7, k) := \matrix_(i, j) nth 0 (nth [::] l j) i.
+Notation variances := (variances variance).
+Notation signals := (@signals K).
 Definition dot (a b : seq K) : K :=
   nth 0 a 0 * variance * nth 0 b 0 + nth 0 a 1 * nth 0 b 1 + nth 0 a 2 * nth 0 b 2 + nth 0 a 3 * nth 0 b 3
   + nth 0 a 4 * nth 0 b 4 + nth 0 a 5 * nth 0 b 5 + nth 0 a 6 * nth 0 b 6.
@@ -109,20 +108,7 @@ Proof. by apply/matrixP=> i j; rewrite cov_entry mxE; case: i => [[|[|//]] i2]; 
 End Signals.
 
 Module MovingAverage.
-Definition Q := variances (4%:R / 3%:R : rat).
-
-(** u(k) = e(k) + e(k-1)/2 and v(k) = e(k+1) for k = 0, ..., 3; x(0) = e(0) + 3/2 e(-1) + 5/4 xi, as if there had been no beginning. *)
-Definition half : rat := 1 / 2%:R.
-Definition us : seq (seq rat) := [:: [:: 0; half; 1]; [:: 0; 0; half; 1]; [:: 0; 0; 0; half; 1]; [:: 0; 0; 0; 0; half; 1]].
-Definition vs : seq (seq rat) := [:: [:: 0; 0; 0; 1]; [:: 0; 0; 0; 0; 1]; [:: 0; 0; 0; 0; 0; 1]; [:: 0; 0; 0; 0; 0; 0; 1]].
-Fixpoint xs k : seq rat := if k is j.+1 then mkseq (fun i => nth 0 (xs j) i * half + nth 0 (nth [::] us j) i + nth 0 (nth [::] vs j) i) 7
-  else [:: 5%:R / 4%:R; 3%:R / 2%:R; 1].
-
-Definition u k := signals 1 [:: nth [::] us k].
-Definition v k := signals 1 [:: nth [::] vs k].
-Definition x k := signals 1 [:: xs k].
-Definition y k : 'M[rat]_(7, 1 + 1) := row_mx (x k) (v k).
-Definition S := leading_fault half.
+Import Vocabulary.MovingAverage.
 
 Lemma signals_process : process S 1%:M 0 u v x y.
 Proof.

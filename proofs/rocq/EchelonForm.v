@@ -2,15 +2,10 @@
     same behaviour iff the reduced echelon forms of their solution spaces of problem (11), at any window s >= n + 1, are the same
     matrix. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Infinite Solutions CanonicalForm.
+From faultspace Require Import Vocabulary Basics Windows Infinite Solutions CanonicalForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** Section: definitions. Row i has its leading one in column pivot i, alone there, and the pivots ascend. *)
-Definition reduced_echelon (K : fieldType) k N (R : 'M[K]_(k, N)) := exists pivot : 'I_k -> 'I_N,
-  [/\ forall i j, R i (pivot j) = (i == j)%:R, forall i (l : 'I_N), (l < pivot i)%N -> R i l = 0
-    & forall i j : 'I_k, (i < j)%N -> (pivot i < pivot j)%N].
 
 Section Uniqueness.
 Variables (K : fieldType) (N : nat).

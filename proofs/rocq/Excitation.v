@@ -2,30 +2,10 @@
     it. So where [X V_s] has full rank, R_s has the row space of [O_s T_s], and ranks, gap and problem (11) may be computed from the
     data. The exact condition is weaker: the rows of [X V_s] together with the kernel of the window must span everything. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Gap Proposition3.
+From faultspace Require Import Vocabulary Basics Windows Gap Proposition3.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** Section: definitions. *)
-Section Definitions.
-Variables (K : fieldType) (n m p : nat).
-
-(** N windows of s samples: row i is r(i), ..., r(i+s-1). *)
-Definition hankel q N s (r : nat -> 'rV[K]_q) : 'M[K]_(N, s * q) := \matrix_(i < N) samples s (fun k => r (i + k)%N).
-
-(** [X V_s]: row i is the state at time i and the faults from then on. *)
-Definition excitation (S : system K n m p) x v N s : 'M[K]_(N, n + s * m) :=
-  \matrix_(i < N) row_mx (state S x v i) (samples s (fun k => v (i + k)%N)).
-
-(** v is persistently exciting of order s on N windows. *)
-Definition persistently_exciting N s (v : nat -> 'rV[K]_m) := row_full (hankel N s v).
-
-(** Problem (11) with R_s in the place of [O_s T_s]. *)
-Definition data_solves (S : system K n m p) N s r (f : 'rV[K]_n) (g : 'rV[K]_p) :=
-  (T (with_faults S f g) s <= hankel N s r)%MS.
-
-End Definitions.
 
 Section Data.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).

@@ -2,7 +2,7 @@
     values of r(s) after s zeros. The gap never grows, and is constant from s = n on. Whenever it no longer changes from M on, a sequence
     is a sequence of words as soon as all its parts of M + 1 samples are words. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Chain.
+From faultspace Require Import Vocabulary Basics Windows Chain.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -11,9 +11,9 @@ Section Gap.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 Implicit Types (x : 'rV[K]_n) (d : 'rV[K]_p) (v : nat -> 'rV[K]_m) (r : nat -> 'rV[K]_p) (s : nat).
 
-(** The values that may follow s zeros. *)
-Definition after_zeros s : 'M[K]_(n + m, p) := col_mx (silent S s *m sysC S) (sysG S).
-Definition gap s := \rank (after_zeros s).
+Notation after_zeros := (after_zeros S).
+Notation gap := (gap S).
+
 Definition only_at s d k : 'rV[K]_p := if k == s then d else 0.
 
 Lemma after_zerosP s d : (d <= after_zeros s)%MS <-> word S s.+1 (only_at s d).

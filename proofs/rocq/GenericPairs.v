@@ -2,7 +2,7 @@
     transfer matrix is H + t H1, linear in the pair; with a right inverse R of H, a bad t makes - 1 / t an eigenvalue of H1 R, an m x
     m matrix over the rational functions. (Good P exist: theorem_3_part_i.) *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Infinite TransferRank Solutions Theorem3.
+From faultspace Require Import Vocabulary Basics Windows Infinite TransferRank Solutions Theorem3.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -1,34 +1,12 @@
-(** The theorems that the ledger of claims names, in its order, each for any field K and any dimensions unless it says otherwise. To
-    read them takes Definitions.v and these words, told in full in the files named:
-    - gap S s: how much the rank of the window grows from s to s + 1 samples (Gap.v; gap_meaning below). lag S: the least s with gap S s
-      = gap S n; etas S: each length s as often as the gap drops on reaching it from s - 1 to s (from p to gap 0 for s = 0); zeta S: n
-      less their sum (Lag.v). The etas are the left minimal indices of the pencil (window_ranks_left_indices); zeta is the number of its
-      zeros, finite and infinite, where S is left-invertible (window_ranks_zeros), and elsewhere that number and the sum of the right
-      minimal indices (zeta_of_system).
-    - faults_of S Z: S with the rows of Z = [F G] as its faults; spans_solutions S s Z: the row space of Z is that of all solutions of
-      problem (11).
-    - hankel N s r: R_s with N rows; excitation S x v N s: [X V_s]; persistently_exciting N s v: hankel N s v has full rank
-      (Excitation.v).
-    - observable S: O S n has full rank; fault_controllable S: faults lead from rest to every state; inverts_at_once S: zero output now
-      is zero fault now, x known or not, so the delay is 0 (SmallSystems.v). holds_zero S k x: some faults keep the output from x zero
-      for k samples (Chain.v).
-    - gcd_of_minors P g: g is the greatest common divisor of the maximal minors of P; its degree is the number of finite zeros
-      (Minors.v). infinite_zeros S d: q^d is the highest power of q that divides those of the pencil at infinity (InfiniteZeros.v). The
-      same with the minors of order N, for systems that are not left-invertible: gcd_of_minors_of_order N, system_infinite_zeros
-      (MinorsOfOrder.v, SystemInfiniteZeros.v). minimal_basis P Y: the columns of Y are a minimal basis of the right kernel of P, degree
-      Y j their degrees (MinimalIndices.v).
-    - random signals u, v, x, y are matrices of N rows, cov Q their covariance for any N x N matrix Q, the sample covariance for
-      instance; process: the equations with the input (B, D); white Q u H: u(0..H-1) uncorrelated, of unit covariance; leads J Phi Q H u
-      v: cov of u(i) and v(k) is that of v(k) = sum_(j<J) u(k+j) Phi j; future t s: the samples t..t+s-1; projected_limit: the limit of
-      PI-MOESP, its rows in the place of columns (Signals.v, Leads.v); seen_B, seen_D: B and D with what the fault adds (Leads.v);
-      prediction: outputs of a model from rest (OutputError.v); mean_square: of its error (OneSided.v). *)
+(** The theorems that the ledger of claims names, in its order, each for any field K and any dimensions unless it says otherwise. To read
+    them takes Vocabulary.v, which tells every word that they use; this file and those that it includes define none. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Gap Lag Solutions Chain Signals Leads OutputError OneSided SmallSystems Minors InfiniteZeros.
-From faultspace Require Import MinorsOfOrder SystemInfiniteZeros MinimalIndices Excitation HeadlinesMore HeadlinesChecks.
-From faultspace Require Windows Infinite WindowBlocks Existence.
-From faultspace Require ConsistencyExamples Consistency Regression Controllable Autoregressive Undetectable.
-From faultspace Require Theorem1 SharpWindows Theorem1Sharp Proposition3 WeakExcitation Problem11.
-From faultspace Require SettledSolutions NormalRank TransferRank Readings.
+From faultspace Require Import Vocabulary.
+From faultspace Require HeadlinesMore HeadlinesLimits HeadlinesChecks.
+From faultspace Require Windows Infinite WindowBlocks Existence ConsistencyExamples OneSided Consistency.
+From faultspace Require Regression Controllable Leads OutputError Autoregressive Undetectable SmallSystems.
+From faultspace Require Theorem1 SharpWindows Theorem1Sharp Readings Lag WeakExcitation Proposition3.
+From faultspace Require NormalRank TransferRank Problem11 SettledSolutions.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -124,9 +102,9 @@ Print Assumptions proposition_1_white_a_c.
 
 (** coloured-a-c, refuted: u = e(k) + e(k-1)/2, v = e(k+1), A = 1/2, B = F = 1, C = [1 0], G = [0 1], written out at the times 0..3 that
     the limit is made of (ConsistencyExamples.v): it exists and is not in the range of O_2. *)
-Theorem proposition_1_coloured_a_c : let S := ConsistencyExamples.MovingAverage.S in let Q := ConsistencyExamples.MovingAverage.Q in
-  let u := ConsistencyExamples.MovingAverage.u in let v := ConsistencyExamples.MovingAverage.v in
-  let x := ConsistencyExamples.MovingAverage.x in let y := ConsistencyExamples.MovingAverage.y in
+Theorem proposition_1_coloured_a_c : let S := MovingAverage.S in let Q := MovingAverage.Q in
+  let u := MovingAverage.u in let v := MovingAverage.v in
+  let x := MovingAverage.x in let y := MovingAverage.y in
   [/\ process S 1%:M 0 u v x y, forall i k, (i <= k < 4)%N -> cov Q (u i) (v k) = 0,
       fault_controllable (with_faults S 1%:M 0), observable S &
     (exists L, projected_limit Q (future 0 2 u) (future 2 2 u) (future 2 2 y) L) /\
@@ -174,7 +152,7 @@ Theorem proposition_1_parametric (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : s
     H J Phi q t s L :
   process S B D u v x y -> white Q u H -> leads J Phi Q H u v -> (forall i, (J <= i < H)%N -> cov Q (u i) (x 0%N) = 0) ->
   (J + q <= t)%N -> (t + s + J <= H)%N -> projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L ->
-  L = (\sum_(j < q) (Places.place K nu j)^T *m times_power S (seen_B S J Phi B) (q.-1 - j)) *m O S s.
+  L = (\sum_(j < q) (place K nu j)^T *m times_power S (seen_B S J Phi B) (q.-1 - j)) *m O S s.
 Proof. move=> model white leads past; exact: (Leads.white_limit model white leads past). Qed.
 Print Assumptions proposition_1_parametric.
 
@@ -368,6 +346,8 @@ Theorem problem_11_dimension (K : fieldType) n m p (S : system K n m p) g d s k 
 Proof. move=> inv finite infinite; exact: (Readings.solution_dimension_by_zeros inv finite infinite). Qed.
 Print Assumptions problem_11_dimension.
 
-(** The rest of the ledger is in HeadlinesMore.v, the checks of certificates are in HeadlinesChecks.v; from here on all are in Headlines. *)
+(** The rest of the ledger is in HeadlinesMore.v, more about limits in HeadlinesLimits.v, the checks of certificates are in
+    HeadlinesChecks.v; from here on all are in Headlines. *)
 Include HeadlinesMore.
+Include HeadlinesLimits.
 Include HeadlinesChecks.

@@ -1,13 +1,12 @@
 (** The second half of Headlines.v, which includes it: the ledger from theorem-3 on, then left-invertibility in all its forms, and what
-    the checks of certificates prove. Words are told there. *)
+    the checks of certificates prove. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Gap Lag Solutions Chain SmallSystems Minors InfiniteZeros MinimalIndices MinorsOfOrder.
-From faultspace Require Import SystemInfiniteZeros EchelonForm Excitation.
-From faultspace Require Readings Trajectory Excitation WeakExcitation Chain Gap.
-From faultspace Require Theorem3 Theorem3Sharp GenericPairs GoodPairs ExceptionalPolynomial ZeroAssignment.
-From faultspace Require FaultMatrices WidePairs PairZeros.
-From faultspace Require ZeroFeedthrough ZeroFeedthroughUnique ClosedForm Counterexamples.
-From faultspace Require NormalRank TransferRank Proposition3 Inversion SolutionCount SystemInfiniteZeros EchelonExists Indices.
+From faultspace Require Import Vocabulary.
+From faultspace Require Theorem3 GoodPairs GenericPairs WidePairs Readings Theorem3Sharp Counterexamples.
+From faultspace Require FaultMatrices ZeroFeedthroughUnique Trajectory SmallSystems Indices.
+From faultspace Require SystemInfiniteZeros SolutionCount ClosedForm ExceptionalPolynomial PairZeros.
+From faultspace Require ZeroAssignment EchelonForm EchelonExists Inversion TransferRank Gap Lag Chain.
+From faultspace Require Excitation WeakExcitation.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -178,7 +177,7 @@ Proof. exact: Readings.limit_dimension. Qed.
 Print Assumptions window_ranks_limit.
 
 (** The solutions in closed form: f = v F + x A + u, g = v G + x C with x and u in V + S, here the rows of zero_states (ClosedForm.v). *)
-Theorem solutions_closed_form (K : fieldType) n m p (S : system K n m p) s : (n < s)%N -> let U := ClosedForm.zero_states S in
+Theorem solutions_closed_form (K : fieldType) n m p (S : system K n m p) s : (n < s)%N -> let U := zero_states S in
   spans_solutions S s (col_mx (row_mx (sysF S) (sysG S)) (col_mx (row_mx (U *m sysA S) (U *m sysC S)) (row_mx U 0))).
 Proof. exact: ClosedForm.solutions_closed_form. Qed.
 Print Assumptions solutions_closed_form.
@@ -208,7 +207,7 @@ Print Assumptions sharp_equality_left_invertible.
 (** formula: U is a basis of the zero states, a and b tell (u A, u C) and (u, 0) in the basis Z, and D = det [q b - a; P]. The product
     of the diagonal form of a pencil is the greatest common divisor of its maximal minors. Such U, a, b exist. *)
 Theorem one_determinant (K : fieldType) n m p (S : system K n m p) s r e (Z : 'M_(e + r, n + p)) U a b (P : 'M_(r, e + r)) :
-  (n < s)%N -> spans_solutions S s Z /\ row_free Z -> row_free U -> (U :=: ClosedForm.zero_states S)%MS ->
+  (n < s)%N -> spans_solutions S s Z /\ row_free Z -> row_free U -> (U :=: zero_states S)%MS ->
   a *m Z = row_mx (U *m sysA S) (U *m sysC S) -> b *m Z = row_mx U (0 : 'M_(e, p)) ->
   let D := \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) in
   gcd_of_minors (pencil (faults_of S (P *m Z))) D /\ (\rank (transfer (faults_of S (P *m Z))) = r <-> D != 0).
@@ -216,7 +215,7 @@ Proof. exact: GoodPairs.determinant_of_pair. Qed.
 Print Assumptions one_determinant.
 Theorem one_determinant_exists (K : fieldType) n m p (S : system K n m p) s : (n < s)%N ->
   exists (Z : 'M_(zeta S + \rank (transfer S), n + p)) (U : 'M_(zeta S, n)) (a b : 'M_(zeta S, zeta S + \rank (transfer S))),
-  [/\ spans_solutions S s Z /\ row_free Z, row_free U, (U :=: ClosedForm.zero_states S)%MS,
+  [/\ spans_solutions S s Z /\ row_free Z, row_free U, (U :=: zero_states S)%MS,
       a *m Z = row_mx (U *m sysA S) (U *m sysC S) & b *m Z = row_mx U 0].
 Proof. exact: ExceptionalPolynomial.coordinates_exist. Qed.
 Print Assumptions one_determinant_exists.
@@ -266,7 +265,7 @@ Print Assumptions bad_set_full_rank.
 
 (** every-polynomial, of normal rank 1 + r: by one_determinant D is the zero polynomial of the pair *)
 Theorem zero_assignment (K : fieldType) n m p (S : system K n m p) s r e (Z : 'M_(e + (1 + r), n + p)) U a b (g : {poly K}) :
-  (n < s)%N -> spans_solutions S s Z /\ row_free Z -> row_free U -> (U :=: ClosedForm.zero_states S)%MS ->
+  (n < s)%N -> spans_solutions S s Z /\ row_free Z -> row_free U -> (U :=: zero_states S)%MS ->
   a *m Z = row_mx (U *m sysA S) (U *m sysC S) -> b *m Z = row_mx U (0 : 'M_(e, p)) -> row_free (O S n) -> (size g <= e.+1)%N ->
   exists P : 'M_(1 + r, e + (1 + r)), \det (col_mx ('X *: map_mx polyC b - map_mx polyC a) (map_mx polyC P)) = g.
 Proof.

@@ -3,20 +3,10 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Lists.
+From faultspace Require Import CertificatesVocabulary Lists.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** To be read at the pivots j of a list of vectors: entry (a, b) is entry j_b of vector a. *)
-Definition at_pivots (pivots : seq nat) (u : vector) : vector := map (entry u) pivots.
-Definition triangular (M : table) : bool :=
-  all (fun i => (entry (nth [::] M i) i != Z0) && all (fun j => entry (nth [::] M i) j == Z0) (iota 0 i)) (iota 0 (size M)).
-Definition identity_modulo (l : Z) (M : table) : bool :=
-  Z.ltb 1 l && all (fun i => all (fun j => Z.modulo (Z.sub (entry (nth [::] M i) j) (if i == j then Zpos xH else Z0)) l == Z0 :> Z)
-    (iota 0 (size M))) (iota 0 (size M)).
-
-Notation ratn := (number [fieldType of rat]).
 
 Section Units.
 Variables (t : nat) (Q : 'M[Z]_t).

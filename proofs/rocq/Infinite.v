@@ -2,7 +2,7 @@
     shrink with s, but no more from s = n on, since their differences are the second chain of Chain.v. So an initial state that explains n
     samples explains all, and faults can be picked sample by sample (with a generalised inverse, so that no choice is needed). *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Chain.
+From faultspace Require Import Vocabulary Basics Windows Chain.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

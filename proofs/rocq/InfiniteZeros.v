@@ -3,7 +3,7 @@
     silently from rest the last step is unique, and its state before is given by a nilpotent matrix N: so q^dim S is the power of q in the
     maximal minors. With the dim V finite zeros, zeta = n - sum eta counts all zeros of the pencil. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Chain Lag Trajectory Minors FiniteZeros SilentSubspaces.
+From faultspace Require Import Vocabulary Basics Windows Chain Lag Trajectory Minors FiniteZeros SilentSubspaces.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -11,14 +11,6 @@ Local Open Scope ring_scope.
 (** Section: definitions *)
 Section Definitions.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
-Notation const := (map_mx (@polyC K)).
-
-Definition pencil_at_infinity : 'M[{poly K}]_(n + m, n + p) :=
-  block_mx (1%:M - 'X *: const (sysA S)) (const (sysC S)) (- ('X *: const (sysF S))) (const (sysG S)).
-
-(** 0 is a root, of multiplicity d, of the greatest common divisor of the maximal minors. *)
-Definition infinite_zeros d := forall e, divides_minors pencil_at_infinity 'X^e <-> (e <= d)%N.
-
 (** The rows of Z are a basis of S; the state a Z is reached from a N Z with the faults a L, with zero output. *)
 Definition infinite_dynamics d (Z : 'M[K]_(d, n)) (L : 'M[K]_(d, m)) (N : 'M[K]_d) := [/\ row_free Z,
   forall x, (x <= Z)%MS <-> exists k, silent_from_rest_at S k x,

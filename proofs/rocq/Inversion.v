@@ -3,7 +3,7 @@
     trajectory from rest to rest; and n + 1 states of a silent trajectory from rest are linearly dependent, which gives a polynomial row
     in the kernel. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Definitions Basics PolynomialKernel.
+From faultspace Require Import Vocabulary Basics PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -3,7 +3,7 @@
     window; and where the rank of the window reaches the sum of these, the words are exactly the solutions of the relations. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify.
-From faultspace Require Import Definitions Basics Windows Stacks.
+From faultspace Require Import Vocabulary Basics Windows Stacks.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,22 +2,8 @@
     gap n, and each time it falls by one there is an index eta equal to the length reached. That is, here the etas are defined by ranks.
     L1: the rank of every window is s * gap n + sum of min (s, eta), for every system; the lag is the largest eta, and sum eta <= n. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Definitions Basics Windows Chain Gap Balance.
+From faultspace Require Import Vocabulary Basics Windows Chain Gap Balance.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
-
-Section Definitions.
-Variables (K : fieldType) (n m p : nat) (S : system K n m p).
-
-(** The number of samples from which on the gap no longer changes (by gap_constant, at most n). *)
-Lemma gap_settles : exists s, gap S s == gap S n. Proof. by exists n. Qed.
-Definition lag := ex_minn gap_settles.
-
-(** Each s as often as the gap falls at s. *)
-Definition drop s := ((if s is t.+1 then gap S t else p) - gap S s)%N.
-Definition etas := flatten [seq nseq (drop s) s | s <- iota 0 n.+1].
-Definition zeta := (n - sumn etas)%N.
-
-End Definitions.
 
 Section Lag.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
@@ -41,7 +27,7 @@ Proof. by have [sn|ns] := leqP s n; [apply: gap_decreasing|rewrite (gap_constant
 
 (** How many indices exceed s: counted in the first N lengths. *)
 Lemma count_drops N s :
-  count (fun e => s < e)%N (flatten [seq nseq (drop S t) t | t <- iota 0 N.+1]) = (gap S s - gap S (maxn s N))%N.
+  count (fun e => s < e)%N (flatten [seq nseq (gap_drop S t) t | t <- iota 0 N.+1]) = (gap S s - gap S (maxn s N))%N.
 Proof.
 elim: N => [|N IH]; first by rewrite /= cats0 count_nseq ltn0 mul0n maxn0 subnn.
 rewrite -(addn1 N.+1) iotaD map_cat flatten_cat count_cat IH /= cats0 count_nseq add0n.

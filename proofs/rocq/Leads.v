@@ -2,29 +2,17 @@
     is what B + sum_j Phi_j F A^j and D + Phi_0 G + sum_(j >= 1) Phi_j F A^(j-1) C would do without a fault. So the limit of
     PI-MOESP is a product with O_s still, of rank n iff A is controllable from this seen B, which is not the true one. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Definitions Basics Windows Places Signals Consistency.
+From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
 (** Section: definitions. *)
 Section Definitions.
-Variables (K : fieldType) (n m p nu : nat) (S : system K n m p) (J : nat) (Phi : nat -> 'M[K]_(nu, m)).
-
-(** M A^k, with no condition on n. *)
-Definition times_power a (M : 'M[K]_(a, n)) k : 'M[K]_(a, n) := iter k (mulmxr (sysA S)) M.
-
-Definition seen_B (B : 'M_(nu, n)) := B + \sum_(j < J) times_power (Phi j *m sysF S) j.
-Definition seen_D (D : 'M_(nu, p)) := D + (if J is _.+1 then Phi 0%N *m sysG S else 0)
-  + \sum_(j < J.-1) times_power (Phi j.+1 *m sysF S) j *m sysC S.
-
-(** v(k) is correlated with u(k), ..., u(k+J-1) alone, among the inputs before H, as sum_j u(k+j) Phi_j is where u is white. For J = 0
-    the fault is uncorrelated with the input at all lags. *)
-Definition leads N Q H (u : nat -> 'M[K]_(N, nu)) v :=
-  forall i k, (i < H)%N -> (k + J <= H)%N -> cov Q (u i) (v k) = if (k <= i < k + J)%N then Phi (i - k)%N else 0.
+Variables (K : fieldType) (n m p nu : nat) (S : system K n m p).
 
 (** What q samples of an input through B reach. *)
-Definition reached (B : 'M_(nu, n)) q : 'M[K]_n := (\sum_(j < q) <<times_power B j>>)%MS.
+Definition reached (B : 'M_(nu, n)) q : 'M[K]_n := (\sum_(j < q) <<times_power S B j>>)%MS.
 
 End Definitions.
 

@@ -4,51 +4,17 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Definitions Basics Lists Independence KernelRows.
+From faultspace Require Import Vocabulary Basics CertificatesVocabulary Lists Independence KernelRows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
-Record listed := Listed { den : Z; lA : table; lF : table; lC : table; lG : table }.
-
-(** What a listed system means, with n states, m faults, p outputs. *)
-Definition fraction (e : Z) a b (M : table) : 'M[rat]_(a, b) := \matrix_(i, j) (ratn (entry (nth [::] M i) j) / ratn e).
-Definition meant n m p (L : listed) : system [fieldType of rat] n m p :=
-  System (fraction (den L) n n (lA L)) (fraction (den L) m n (lF L)) (fraction (den L) n p (lC L)) (fraction (den L) m p (lG L)).
-
-Definition well_formed n m p (L : listed) : bool :=
-  [&& den L != Z0, shaped n n (lA L), shaped m n (lF L), shaped n p (lC L) & shaped m p (lG L)].
-
-(** The outputs from x under the faults vs, of the integer system. *)
-Fixpoint simulate (L : listed) (x : vector) (vs : seq vector) : seq vector :=
-  if vs is v :: vs' then add (times x (lC L)) (times v (lG L)) :: simulate L (add (times x (lA L)) (times v (lF L))) vs' else [::].
-
-(** The same modulo l, to keep the numbers small. *)
-Definition reduced (l : Z) (u : vector) : vector := [seq Z.modulo a l | a <- u].
-Fixpoint simulate_modulo (l : Z) (L : listed) (x : vector) (vs : seq vector) : seq vector :=
-  if vs is v :: vs' then reduced l (add (times x (lC L)) (times v (lG L)))
-    :: simulate_modulo l L (reduced l (add (times x (lA L)) (times v (lF L)))) vs' else [::].
-
 Lemma simulate_size L x vs : size (simulate L x vs) = size vs.
 Proof. by elim: vs x => //= v vs IH x; rewrite IH. Qed.
-
-(** A row c_0, ..., c_mu becomes e^mu c_0, ..., e c_(mu-1), c_mu; then Horner's rule: X_k = C c_k + A X_(k+1) and the demands (X_(k+1),
-    c_k), on which a fault acts by F X_(k+1) + G c_k. *)
-Fixpoint weighted (e : Z) (c : seq vector) : Z * seq vector :=
-  if c is c0 :: c' then let (w, cs) := weighted e c' in (Z.mul w e, scale w c0 :: cs) else (Zpos xH, [::]).
-Fixpoint horner (L : listed) (c : seq vector) : vector * seq (vector * vector) :=
-  if c is c0 :: c' then let (X, ds) := horner L c' in (add (apply (lC L) c0) (apply (lA L) X), (X, c0) :: ds) else ([::], [::]).
-Definition acts (F G : table) (d : vector * vector) : vector := add (apply F d.1) (apply G d.2).
-Definition demands (L : listed) (c : seq vector) := horner L (weighted (den L) c).2.
-Definition annihilated (L : listed) (c : seq vector) : bool :=
-  let (X, ds) := demands L c in null X && all (fun d => null (acts (lF L) (lG L) d)) ds.
 
 Notation ratF := [fieldType of rat].
 Definition column k (u : vector) : 'cV[rat]_k := (vec ratF k u)^T.
 Definition columns p (c : seq vector) : seq 'cV[rat]_p := map (column p) c.
-
-(** A vector of integers over d. *)
-Definition recorded (d : Z) k (u : vector) : 'rV[rat]_k := (ratn d)^-1 *: vec [fieldType of rat] k u.
 
 (** Multiplying A, F, C, G by e. *)
 Section Scaling.

@@ -3,26 +3,10 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
+From faultspace Require Import CertificatesVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-Definition vector := seq Z.
-Definition table := seq vector.
-
-Fixpoint add (u v : vector) : vector :=
-  match u, v with [::], _ => v | _, [::] => u | a :: u', b :: v' => Z.add a b :: add u' v' end.
-Definition scale (a : Z) (u : vector) : vector := map (Z.mul a) u.
-Fixpoint dot (u v : vector) : Z := if u is a :: u' then if v is b :: v' then Z.add (Z.mul a b) (dot u' v') else Z0 else Z0.
-
-(** A row times a matrix, a matrix times a column. *)
-Fixpoint times (x : vector) (M : table) : vector :=
-  if x is a :: x' then if M is r :: M' then add (scale a r) (times x' M') else [::] else [::].
-Definition apply (M : table) (x : vector) : vector := map (dot^~ x) M.
-
-Definition null (u : vector) : bool := all (pred1 Z0) u.
-Definition shaped (a b : nat) (M : table) : bool := (size M == a) && all (fun r => size r == b) M.
-Definition entry (u : vector) (j : nat) : Z := nth Z0 u j.
 
 Lemma entry_add u v j : entry (add u v) j = entry u j + entry v j.
 Proof.
@@ -37,14 +21,14 @@ Proof. by rewrite /entry; elim: u j => [|b u IH] [|j] //= /andP[/eqP e h] //; ap
 
 Section Meaning.
 Variable (K : fieldType).
+Notation number := (number K).
+Notation vec := (vec K).
 
-Definition number (z : Z) : K := (int_of_Z z)%:~R.
 Lemma number_is_rmorphism : rmorphism number.
 Proof. by split=> [x y|]; [|split=> [x y|]]; rewrite /number ?rmorphB ?rmorphM ?rmorph1. Qed.
 Canonical number_additive := Additive number_is_rmorphism.
 Canonical number_rmorphism := RMorphism number_is_rmorphism.
 
-Definition vec k (u : vector) : 'rV[K]_k := \row_j number (entry u j).
 Definition mat a b (M : table) : 'M[K]_(a, b) := \matrix_(i < a) vec b (nth [::] M i).
 
 Lemma vec_nil k : vec k [::] = 0.

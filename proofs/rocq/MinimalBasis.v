@@ -3,7 +3,7 @@
     earlier ones, and span with them the leading coefficients of all columns of degree s. D (s + 1) - D s is the number of columns of degree
     at most s; so in the end none is added. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import PolynomialKernel MinimalIndices.
+From faultspace Require Import Vocabulary PolynomialKernel MinimalIndices.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

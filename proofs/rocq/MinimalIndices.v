@@ -2,7 +2,7 @@
     polynomial columns of the kernel and whose leading coefficients are independent (a minimal basis); their degrees are the indices. Here
     they are determined by the dimensions, over K, of the polynomial columns of degree < s in the kernel: sum of max(0, s - e). *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import PolynomialKernel.
+From faultspace Require Import Vocabulary PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -15,12 +15,6 @@ Variables (K : fieldType) (a b : nat) (M : 'M[{poly K}]_(a, b)).
 Definition kernel_basis s d (B : 'M[{poly K}]_(b, d)) := [/\ M *m B = 0, (sizem B <= s)%N &
   forall y : 'cV_b, M *m y = 0 -> (sizem y <= s)%N -> exists! u : 'cV[K]_d, y = B *m map_mx polyC u].
 Definition kernel_dimension s d := exists B : 'M_(b, d), kernel_basis s B.
-
-(** Columns that generate the kernel over K[q], with independent leading coefficients. *)
-Definition degree d (Y : 'M[{poly K}]_(b, d)) j := (sizem (col j Y)).-1.
-Definition leading d (Y : 'M[{poly K}]_(b, d)) : 'M[K]_(b, d) := \matrix_(i, j) (Y i j)`_(degree Y j).
-Definition minimal_basis d (Y : 'M[{poly K}]_(b, d)) := [/\ M *m Y = 0,
-  forall y : 'cV_b, M *m y = 0 -> exists u, y = Y *m u & \rank (leading Y) = d].
 
 End Definitions.
 

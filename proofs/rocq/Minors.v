@@ -2,18 +2,10 @@
     their multiplicities, are the zeros of P. If the constant rows E satisfy E P = D Z for constant independent rows Z, then det D divides
     all maximal minors; and it can be reached where the rows that complete E can be inverted. *)
 From mathcomp Require Import all_ssreflect all_fingroup all_algebra.
+From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** Section: definitions *)
-Section Definitions.
-Variables (K : fieldType) (a b : nat) (P : 'M[{poly K}]_(a, b)).
-
-Definition divides_minors (g : {poly K}) := forall f : 'I_a -> 'I_b, g %| \det (colsub f P).
-Definition gcd_of_minors g := divides_minors g /\ forall h, divides_minors h -> h %| g.
-
-End Definitions.
 
 (** Any square matrix made of the columns of P: its determinant is a combination of maximal minors. *)
 Lemma det_mulmx_minors (R : comRingType) a b (P : 'M[R]_(a, b)) (C : 'M[R]_(b, a)) :

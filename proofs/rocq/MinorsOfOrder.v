@@ -2,19 +2,10 @@
     satisfy E P = [D' 0; H D] Z for constant independent rows Z, where D' has a polynomial left inverse, and all constant columns that E
     annihilates are combinations of columns of P, then det D is the greatest common divisor of the minors of the highest order. *)
 From mathcomp Require Import all_ssreflect all_fingroup all_algebra.
-From faultspace Require Import Minors.
+From faultspace Require Import Vocabulary Minors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** Section: definitions *)
-Section Definitions.
-Variables (K : fieldType) (N a b : nat) (P : 'M[{poly K}]_(a, b)).
-
-Definition divides_minors_of_order (g : {poly K}) := forall (h : 'I_N -> 'I_a) (f : 'I_N -> 'I_b), g %| \det (mxsub h f P).
-Definition gcd_of_minors_of_order g := divides_minors_of_order g /\ forall h, divides_minors_of_order h -> h %| g.
-
-End Definitions.
 
 Lemma divides_minors_of_order_det (K : fieldType) N a b (P : 'M[{poly K}]_(a, b)) (g : {poly K}) :
   divides_minors_of_order N P g <-> forall (B : 'M_(N, a)) (C : 'M_(b, N)), g %| \det (B *m P *m C).

@@ -2,7 +2,7 @@
     and all systems are A = a, F = 1, C = [1 0], G = [0 1] in rows, with B such that the fault hides the state: v(k) = u(k+1), B = -a,
     where x = u; or v(k) = u(k), B = -1, where x = 0. The best fit of B and D, given the true A and C, is not the true one. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Places Signals Consistency Leads ConsistencyExamples OutputError SmallSystems.
+From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads ConsistencyExamples OutputError SmallSystems.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
@@ -12,11 +12,6 @@ Proof.
 apply: observable_from_zeros => x /(_ 0%N isT); rewrite /output /= mul0mx addr0 mul_mx_row mulmx1 mulmx0 -row_mx0.
 by case/eq_row_mx.
 Qed.
-
-(** The mean square error at time t + k of predictions from rest at time t. *)
-Definition mean_square (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (u : nat -> 'M[K]_(N, nu))
-    (y : nat -> 'M_(N, p)) t k B D :=
-  let e := y (t + k)%N - prediction S B D u t k in \tr (cov Q e e).
 
 Lemma worse_fit (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B B' : 'M_(nu, n)) (D D' : 'M_(nu, p))
     u v x y H J Phi t k :

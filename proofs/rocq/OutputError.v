@@ -3,20 +3,10 @@
     other B, D adds its own distance. Predictions start from rest at any time t; the fit is the same for each number of samples that
     observes (A, C). *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Definitions Basics Windows Places Signals Consistency Leads.
+From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.
-
-(** Section: definitions. *)
-Section Definitions.
-Variables (K : fieldType) (n m p nu : nat) (S : system K n m p) (B : 'M[K]_(nu, n)) (D : 'M[K]_(nu, p)).
-
-(** D, B C, B A C, ... *)
-Definition impulse d : 'M_(nu, p) := if d is e.+1 then times_power S B e *m sysC S else D.
-Definition prediction N (u : nat -> 'M[K]_(N, nu)) t k := \sum_(i < k.+1) u (t + i)%N *m impulse (k - i).
-
-End Definitions.
 
 Section Predictions.
 Variables (K : fieldType) (N n m p nu : nat) (Q : 'M[K]_N) (S : system K n m p) (u : nat -> 'M[K]_(N, nu)).

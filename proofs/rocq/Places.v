@@ -1,14 +1,13 @@
 (** The samples of one time, put in their place among s: so that a row vector of samples is a sum over times. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows.
+From faultspace Require Import Vocabulary Basics Windows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
 Section Places.
 Variable K : fieldType.
-
-Definition place p s (k : 'I_s) : 'M[K]_(p, s * p) := \matrix_i samples s (fun j => if j == k then row i 1%:M else 0).
+Notation place := (place K).
 
 Lemma mul_place p s (k : 'I_s) (w : 'rV[K]_p) : w *m place p k = samples s (fun j => if j == k then w else 0).
 Proof.

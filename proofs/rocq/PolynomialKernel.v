@@ -2,6 +2,7 @@
     rank over the fractions can be decided with polynomial vectors alone, whose coefficients are trajectories (Inversion.v) or
     annihilators of outputs (Annihilator.v). *)
 From mathcomp Require Import all_ssreflect all_algebra.
+From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -104,7 +105,6 @@ Lemma coefmX a b k (M : 'M_(a, b)) : coefm k ('X *: M) = if k is j.+1 then coefm
 Proof. by apply/matrixP => i j; rewrite !mxE /= coefXM; case: k => [|k]; rewrite !mxE. Qed.
 
 (** Beyond some degree all coefficients vanish. *)
-Definition sizem a b (M : 'M[{poly K}]_(a, b)) := \max_ij size (M ij.1 ij.2).
 
 Lemma sizem_leP a b s (M : 'M[{poly K}]_(a, b)) : reflect (forall k, (s <= k)%N -> coefm k M = 0) (sizem M <= s)%N.
 Proof.

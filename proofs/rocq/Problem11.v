@@ -2,7 +2,7 @@
     behaviour lies in that of S, with free initial states or from rest. At s = n it accepts wrong columns, and of the block columns of
     T_s(z) the first alone is not enough: both on the system with A = 0, F = 1, C = [1 0], G = [0 1] in rows, over any field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Infinite Gap Theorem1.
+From faultspace Require Import Vocabulary Basics Windows Infinite Gap Theorem1.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -1,7 +1,7 @@
 (** The theorems put together as the claims are read: with the normal rank (the rank of the transfer matrix) for gap n, with zeros
     counted on the pencil, and on data. New are only the partner with the same (A, C), and that full excitation is not necessary. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Infinite Chain Gap Proposition3 Inversion Theorem1 Lag SharpWindows.
+From faultspace Require Import Vocabulary Basics Windows Infinite Chain Gap Proposition3 Inversion Theorem1 Lag SharpWindows.
 From faultspace Require Import Problem11 Solutions CanonicalForm NormalRank TransferRank Theorem3 Theorem3Sharp Excitation.
 From faultspace Require Import ExcitationExamples WeakExcitation SmallSystems LagNecessary SettledSolutions SolutionCount.
 From faultspace Require Import ZeroFeedthrough Trajectory ClosedForm SilentSubspaces Minors FiniteZeros InfiniteZeros.

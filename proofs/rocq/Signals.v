@@ -3,35 +3,10 @@
     finite set of random variables can be written in this way, and with Q = 1/N the matrices may also be N samples of data, cov their
     sample covariance. So every identity here holds for finite data, for each sample size, and for the population limit. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics.
+From faultspace Require Import Vocabulary Basics.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** Section: definitions. *)
-Section Definitions.
-Variables (K : fieldType) (N : nat).
-
-Definition cov (Q : 'M[K]_N) a b (x : 'M[K]_(N, a)) (y : 'M[K]_(N, b)) : 'M[K]_(a, b) := x^T *m Q *m y.
-
-(** u white at the times before H: u(0), ..., u(H-1) of unit covariance and uncorrelated with each other. *)
-Definition white Q nu (u : nat -> 'M[K]_(N, nu)) H :=
-  forall i k, (i < H)%N -> (k < H)%N -> cov Q (u i) (u k) = if i == k then 1%:M else 0.
-
-(** x(k+1) = x(k) A + u(k) B + v(k) F and y(k) = x(k) C + u(k) D + v(k) G as random signals. *)
-Definition process n m p nu (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p)) (u : nat -> 'M[K]_(N, nu))
-    (v : nat -> 'M[K]_(N, m)) (x : nat -> 'M[K]_(N, n)) (y : nat -> 'M[K]_(N, p)) :=
-  forall k, x k.+1 = x k *m sysA S + u k *m B + v k *m sysF S /\ y k = x k *m sysC S + u k *m D + v k *m sysG S.
-
-(** The samples r(t), ..., r(t+s-1) side by side: the random row vector that a window of s samples is. *)
-Definition future p t s (r : nat -> 'M[K]_(N, p)) : 'M[K]_(N, s * p) := \matrix_i samples s (fun k => row i (r (t + k)%N)).
-
-(** The matrix that PI-MOESP (Z past inputs) and PO-MOESP (Z past inputs and outputs) converge to, transposed: the covariance of Z with
-    Yf once Uf has been projected away. It is unique where Cov(Uf, Uf) is invertible. *)
-Definition projected_limit Q z f g (Z : 'M_(N, z)) (Uf : 'M_(N, f)) (Yf : 'M_(N, g)) (L : 'M[K]_(z, g)) :=
-  exists X, X *m cov Q Uf Uf = cov Q Z Uf /\ L = cov Q Z Yf - X *m cov Q Uf Yf.
-
-End Definitions.
 
 Section Covariances.
 Variables (K : fieldType) (N : nat) (Q : 'M[K]_N).

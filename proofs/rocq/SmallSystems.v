@@ -3,19 +3,11 @@
     that problem (11) is not exact at s = n, and three more are told where they come. Any field, unless a number other than 0 and 1 is
     needed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Infinite Chain Gap Proposition3 Inversion Lag SharpWindows Theorem1Sharp.
+From faultspace Require Import Vocabulary Basics Windows Infinite Chain Gap Proposition3 Inversion Lag SharpWindows Theorem1Sharp.
 From faultspace Require Import Solutions Problem11 Counterexamples Trajectory CanonicalForm ClosedForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-(** Section: definitions. Minimality; and the best delay, that the first sample tells the first fault, whatever the initial state. *)
-Section Definitions.
-Variables (K : fieldType) (n m p : nat) (S : system K n m p).
-Definition observable := row_free (O S n).
-Definition fault_controllable := forall y, exists k v, state S 0 v k = y.
-Definition inverts_at_once := forall x v, output S x v 0 = 0 -> v 0%N = 0.
-End Definitions.
 
 Section Facts.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).

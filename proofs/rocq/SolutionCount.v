@@ -4,7 +4,7 @@
     solves the problem without feedthrough is reached silently at all times; W_(s-1) consists of these; and of the silent pairs (x, v)
     just those with such an x can be brought to zero. So the balance of dimensions of one silent step says it all. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Definitions Basics Windows Chain Infinite Gap Balance Lag Problem11 Kick Solutions.
+From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap Balance Lag Problem11 Kick Solutions.
 From faultspace Require Import CanonicalForm ZeroFeedthrough ClosedForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -192,7 +192,7 @@ Proof.
 move=> /behavior_eqP same; have rank_eq s : \rank (window S s) = \rank (window S' s) by apply/eqmx_rank/window_eqP.
 have gap_eq s : gap S s = gap S' s by apply: (@addnI (\rank (window S s))); rewrite -rank_window_step !rank_eq -rank_window_step.
 have etas_eq : etas S = etas S'.
-  by congr flatten; apply: eq_map => -[|s]; rewrite /drop !gap_eq.
+  by congr flatten; apply: eq_map => -[|s]; rewrite /gap_drop !gap_eq.
 by rewrite /zeta etas_eq.
 Qed.
 

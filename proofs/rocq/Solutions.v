@@ -1,7 +1,7 @@
 (** Solutions of problem (11) are superposed: the behaviour of a pair (F, G) is included in that of S iff all its rows are solutions,
     iff it is a combination P Z of a matrix Z whose rows span the solutions. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows.
+From faultspace Require Import Vocabulary Basics Windows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -9,9 +9,8 @@ Local Open Scope ring_scope.
 Section Solutions.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 
-(** Section: definitions. A matrix Z = [F G] as a pair of fault matrices; and as the space of all solutions of problem (11). *)
-Definition faults_of k (Z : 'M[K]_(k, n + p)) := with_faults S (lsubmx Z) (rsubmx Z).
-Definition spans_solutions s k (Z : 'M[K]_(k, n + p)) := forall (f : 'rV_n) (g : 'rV_p), solves S s f g <-> (row_mx f g <= Z)%MS.
+Notation faults_of := (faults_of S).
+Notation spans_solutions := (spans_solutions S).
 
 Section Rows.
 Variables (m' : nat) (F : 'M[K]_(m', n)) (G : 'M[K]_(m', p)).

@@ -2,7 +2,7 @@
     s by the rank of what sample s shows of the combinations that have been silent so far. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify.
-From faultspace Require Import Definitions.
+From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -10,8 +10,6 @@ Local Open Scope ring_scope.
 Section Stacks.
 Variables (K : fieldType) (a p : nat).
 Implicit Types (r : nat -> 'M[K]_(a, p)).
-
-Definition stack s r : 'M[K]_(a, s * p) := \matrix_i samples s (fun k => row i (r k)).
 
 Lemma stackE s r i (k : 'I_s) l : stack s r i (mxvec_index k l) = r k i l.
 Proof. by rewrite mxE mxvecE !mxE. Qed.

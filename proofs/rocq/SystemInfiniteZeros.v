@@ -2,7 +2,7 @@
     the pencil at infinity. The last silent step to a state of S comes from a state that is given, modulo V n S, by a nilpotent matrix N.
     So, for every system, n = left indices + right indices + finite zeros + infinite zeros, and zeta is the sum of the last three. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Definitions Basics Windows Chain Gap Lag Trajectory MinimalIndices Indices SilentSubspaces RightIndices.
+From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Trajectory MinimalIndices Indices SilentSubspaces RightIndices.
 From faultspace Require Import Minors InfiniteZeros MinorsOfOrder SystemZeros SystemZeroPolynomial.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
@@ -14,10 +14,6 @@ Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 
 Definition dynamics_at_infinity d (Z X : 'M[K]_(d, n)) (L : 'M[K]_(d, m)) (N : 'M[K]_d) := [/\ row_free Z, (Z :&: both S)%MS = 0,
   (Z + both S :=: reached S n)%MS, (X - N *m Z <= both S)%MS & X *m sysA S + L *m sysF S = Z /\ X *m sysC S + L *m sysG S = 0].
-
-(** 0 is a root, of multiplicity d, of the greatest common divisor of the minors of order n + gap n. *)
-Definition system_infinite_zeros d :=
-  forall e, divides_minors_of_order (n + gap S n) (pencil_at_infinity S) 'X^e <-> (e <= d)%N.
 
 End Definitions.
 

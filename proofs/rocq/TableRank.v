@@ -4,19 +4,10 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Lists Independence.
+From faultspace Require Import CertificatesVocabulary Lists Independence.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-
-Notation pivoted := (seq (nat * vector)).
-Definition led (us : pivoted) : table := [seq at_pivots [seq other.1 | other <- us] u.2 | u <- us].
-Definition combined (T : table) (us : pivoted) : pivoted := [seq (u.1, times u.2 T) | u <- us].
-Definition check_rank a b (r : nat) (l : Z) (T : table) (nulls combinations : pivoted) : bool :=
-  [&& shaped a b T, all (fun c => c.1 < b)%N nulls, all (fun u => u.1 < b)%N combinations, (size nulls + r == b)%N
-    & size combinations == r]
-  && [&& all (fun row => all (fun c => dot row c.2 == Z0) nulls) T, triangular (led nulls)
-    & identity_modulo l (led (combined T combinations))].
 
 Section Ranks.
 Variable b : nat.

@@ -2,7 +2,7 @@
     shows the other end, the second one the fault itself, so both systems are left-invertible, and A, C, G are the same. They agree on n
     samples; at time n the fed register shows the fault of time 0. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics.
+From faultspace Require Import Vocabulary Basics.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     state from which some fault keeps the output zero keeps it zero without faults (no finite zeros but the unobservable modes); then n
     + 1 samples give v(0). *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics Windows Chain Infinite PolynomialKernel Inversion.
+From faultspace Require Import Vocabulary Basics Windows Chain Infinite PolynomialKernel Inversion.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -23,8 +23,7 @@ apply/eqP; rewrite -subr_eq0; apply/eqP; apply: (inv (fun j => v j - w j)) => j.
 by rewrite -[X in output S X](subrr x) output_sub same subrr.
 Qed.
 
-(** The states from which n zeros are possible, and those that give n zeros without faults. *)
-Definition zero_holding : 'M[K]_n := iter n (hold_step S) 1%:M.
+Notation zero_holding := (zero_holding S).
 
 Lemma zero_holdingP x : (x <= zero_holding)%MS <-> holds_zero S n x.
 Proof. exact: holdP. Qed.

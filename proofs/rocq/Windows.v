@@ -1,7 +1,7 @@
 (** The row space of window S s = [O_s T_s] is the set of words of length s. So inclusions and equalities of restricted behaviours, and
     problem (11), may be decided by row spaces; and its kernel is the set of all (x, v(0), ..., v(s-1)) with zero output. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Definitions Basics.
+From faultspace Require Import Vocabulary Basics.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -165,7 +165,7 @@ def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> flo
 
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc to read the peak of memory from")
-@pytest.mark.parametrize("format", ["csv", "parquet", "npy"])
+@pytest.mark.parametrize("format", ["csv", pytest.param("parquet", marks=pytest.mark.slow), pytest.param("npy", marks=pytest.mark.slow)])
 def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
     if format == "parquet" and importlib.util.find_spec("pyarrow") is None:
         pytest.skip("pyarrow is not installed")

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from importlib import resources
 from itertools import product
 
 import pytest
 
 from faultspace.proofs import corpus
-from faultspace.proofs.ablation import Experiment, Found, ablate
+from faultspace.proofs.ablation import Experiment, Found, Proof, ablate, first_found
 from faultspace.proofs.hypotheses import experiments
-from faultspace.proofs.hypotheses.facets import flags
+from faultspace.proofs.hypotheses.facets import degenerate, flags
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
 from faultspace.proofs.ledger import expected_without, load
 from faultspace.proofs.search import Box, chunks
 from faultspace.proofs.verdicts import Row, Verdict
+from faultspace.proofs.verification import _Machine, _row_with_theorems
 from faultspace.proofs.workbench import Workbench
 from tests.oracle import inspect_slowly
 
@@ -35,6 +38,7 @@ class Triple:
     weight: int = 1
     field: str = "Q"
     accepted: int = 2
+    degenerate: str = ""
 
     @property
     def size(self) -> tuple[int, ...]:
@@ -44,7 +48,7 @@ class Triple:
 def experiment(subjects: Sequence[Triple]) -> Experiment[Triple]:
     def search(bench: Workbench, dropped: Sequence[str]) -> Found[Triple]:
         failing = [s for s in subjects if not s.conclusion and all(getattr(s, name) for name in "abc" if name not in dropped)]
-        return Found(min(failing, key=lambda s: s.size) if failing else None, "a box")
+        return first_found(lambda poor: sorted((s for s in failing if bool(s.degenerate) == poor), key=lambda s: s.size), "a box")
 
     return Experiment(
         "toy", "theorem-1", "it holds", {name: (lambda s, name=name: getattr(s, name)) for name in "abc"},  # type: ignore[misc]
@@ -52,9 +56,12 @@ def experiment(subjects: Sequence[Triple]) -> Experiment[Triple]:
     )  # fmt: skip
 
 
-def rows(subjects: Sequence[Triple], full: bool = False) -> dict[str, Row]:
-    bench = Workbench("full" if full else "quick", 1, quiet)
-    return {" ".join(row.dropped): row for row in ablate(bench, experiment(subjects), {})}
+def rows_of(made: Experiment[Triple], expected: dict[str, str] | None = None) -> dict[str, Row]:
+    return {" ".join(row.dropped): row for row in ablate(Workbench("quick", 1, quiet), made, expected or {})}
+
+
+def rows(subjects: Sequence[Triple]) -> dict[str, Row]:
+    return rows_of(experiment(subjects))
 
 
 EVERY = [(a, b, c) for a, b, c in product((True, False), repeat=3)]
@@ -66,7 +73,14 @@ def test_a_hypothesis_is_needed_exactly_when_something_fails_without_it() -> Non
         "a": "REFUTED", "b": "CERTIFIED", "c": "CERTIFIED", "a b": "REFUTED", "a c": "REFUTED", "b c": "CERTIFIED",
     }  # fmt: skip
     assert found["a b"].already == "a" and found["a"].already is None
-    assert "4 tried" not in found["a"].evidence and "all 4 tried" in found["b c"].evidence and "3 of them" in found["b c"].evidence
+    assert found["b c"].evidence == "no counterexample among 4 tried that meet the others, 3 of which lack one of the two"
+    assert (found["b c"].tried, found["b c"].lacking, found["b"].tried, found["b"].lacking) == (4, 3, 2, 1)
+    assert found["b"].meaning == "not seen to be needed" and found["a"].meaning == "needed"
+
+
+def test_what_was_tried_is_never_said_to_hold() -> None:
+    for row in rows([Triple(a, b, c, True) for a, b, c in EVERY]).values():
+        assert row.verdict == Verdict.CERTIFIED and "no counterexample among" in row.evidence and "holds" not in row.evidence
 
 
 def test_two_hypotheses_can_be_needed_only_together() -> None:
@@ -83,16 +97,59 @@ def test_a_claim_that_fails_with_all_its_hypotheses_is_an_error() -> None:
 
 def test_nothing_tried_is_an_error_and_not_a_verdict() -> None:
     assert {row.verdict for row in rows([]).values()} == {"ERROR"}
-    assert rows([Triple(True, True, True, True)])["a"].verdict == "CERTIFIED"
-    assert "none of these lacks it" in rows([Triple(True, True, True, True)])["a"].evidence
+    alone = rows([Triple(True, True, True, True)])["a"]
+    assert alone.verdict == "CERTIFIED" and "none of which lacks it; why, is not known" in alone.evidence
+    assert not replace(alone, ledger="CERTIFIED").as_expected, "a row that rests on nothing"
 
 
 def test_what_fails_over_a_finite_field_alone_is_told() -> None:
     odd = [Triple(a, b, c, a, field="GF(2)") for a, b, c in EVERY]
-    made = experiment(odd)
-    made = replace(made, over_q=lambda bench, dropped: Found(None, "a box"))
-    found = {" ".join(row.dropped): row for row in ablate(Workbench("quick", 1, quiet), made, {})}
+    made = replace(experiment(odd), over_q=lambda bench, dropped: Found(None, "a box"))
+    found = rows_of(made)
     assert found["a"].verdict == "REFUTED" and "over GF(2), and none over Q" in found["a"].evidence
+
+
+def test_a_witness_that_is_not_degenerate_comes_first_and_a_degenerate_one_is_told() -> None:
+    poor, sound = Triple(False, False, False, False, degenerate="C = 0"), Triple(False, True, True, False)
+    meets = [Triple(True, b, c, True) for b, c in product((True, False), repeat=2)]
+    smaller = replace(poor, b=True, c=True)
+    found = rows([*meets, smaller, sound])["a"]
+    assert found.evidence.startswith(str(sound)) and "degenerate ones left out" in found.evidence
+    told = rows([*meets, smaller])["a"]
+    assert told.verdict == "REFUTED" and told.evidence.endswith("every counterexample found is degenerate: C = 0")
+
+
+def test_a_hypothesis_follows_from_the_others_where_a_reason_is_given_and_no_subject_lacks_it() -> None:
+    follows = [Triple(a, a or b, c, a) for a, b, c in EVERY]  # b wherever a is
+    reason = {"b": "a makes it so"}
+    found = rows_of(replace(experiment(follows), implied=reason), {"b": "IMPLIED", "c": "CERTIFIED", "a": "REFUTED"})
+    assert found["b"].meaning == "follows from the others" and "a makes it so; of the 2 subjects" in found["b"].evidence
+    assert all(found[name].as_expected for name in "abc")
+    assert found["b"].to_json()["follows_from_the_others"] == "a makes it so"
+    assert not rows_of(replace(experiment(follows), implied=reason), {"b": "CERTIFIED"})["b"].as_expected
+    assert not rows_of(experiment(follows), {"b": "IMPLIED"})["b"].as_expected, "a reason is wanted"
+    wrong = rows_of(replace(experiment([Triple(a, b, c, a) for a, b, c in EVERY]), implied=reason), {"b": "IMPLIED"})["b"]
+    assert wrong.verdict == "ERROR" and "1 of the 2 subjects that meet the others lack it" in wrong.evidence
+
+
+def test_a_row_is_proved_where_the_theorems_do_without_what_is_dropped() -> None:
+    proved = replace(experiment([Triple(a, b, c, a) for a, b, c in EVERY]), proof=Proof(("some_theorem",), frozenset({"a"})))
+    found = rows_of(proved, {"a": "REFUTED", "b": "CERTIFIED", "c": "CERTIFIED"})
+    assert {name for name, row in found.items() if row.theorems} == {"b", "c", "b c"}
+    checked = _Machine(object(), None, "")  # type: ignore[arg-type]
+    told = {name: _row_with_theorems(row, checked) for name, row in found.items()}
+    assert [told[name].verdict for name in ("a", "b", "c", "b c", "a b")] == ["REFUTED", "PROVED", "PROVED", "PROVED", "REFUTED"]
+    assert all(row.as_expected for row in told.values()) and told["b"].expected == "PROVED" and told["b"].meaning == "not needed"
+    assert "some_theorem" in told["b"].evidence and told["b"].to_json()["theorems"] == ["some_theorem"]
+    without_rocq = _row_with_theorems(found["b"], _Machine(None, None, ""))
+    assert without_rocq == found["b"] and without_rocq.expected == "CERTIFIED" and without_rocq.to_json()["theorems"] == []
+    broken = _row_with_theorems(found["b"], _Machine(None, "Rocq: broken", ""))
+    assert broken.verdict == "ERROR" and not broken.as_expected
+
+
+def test_a_counterexample_to_what_is_proved_is_an_error() -> None:
+    made = replace(experiment([Triple(a, b, c, a) for a, b, c in EVERY]), proof=Proof(("some_theorem",)))
+    assert rows_of(made)["a"].verdict == "ERROR" and "some_theorem prove it without" in rows_of(made)["a"].evidence
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +167,27 @@ def test_the_ledger_and_the_experiments_name_the_same() -> None:
     assert list(expected) == [e.name for e in experiments()]
     for e in experiments():
         assert list(expected[e.name]) == list(e.hypotheses), e.name
-        assert set(expected[e.name].values()) <= {"REFUTED", "CERTIFIED"} and e.claim in claims
+        assert set(expected[e.name].values()) <= {"REFUTED", "CERTIFIED", "IMPLIED"} and e.claim in claims
+        assert {name for name, entry in expected[e.name].items() if entry == "IMPLIED"} == set(e.implied), e.name
+
+
+def test_the_proofs_name_theorems_that_are_there_and_use_no_more_than_what_is_needed() -> None:
+    files = resources.files("faultspace.proofs") / "rocq"
+    there = {
+        name for path in files.iterdir() if path.name.startswith("Headlines") and path.name.endswith(".v")
+        for name in re.findall(r"^Theorem (\w+)", path.read_text("utf-8"), re.MULTILINE)
+    }  # fmt: skip
+    for e in experiments():
+        if e.proof is None:
+            continue
+        entries = expected_without()[e.name]
+        assert set(e.proof.theorems) <= there and e.proof.hypotheses <= set(e.hypotheses), e.name
+        needed = {name for name, entry in entries.items() if entry == "REFUTED"}
+        assert needed <= e.proof.hypotheses <= needed | set(e.implied) | UNPROVED.get(e.name, set()), e.name
+
+
+# What the theorems use although no counterexample without it is known.
+UNPROVED = {"columns-in-Z": {"(A', C') similar to (A, C)"}}
 
 
 @pytest.mark.parametrize("make", [rank_formula, gap, range_of_f])
@@ -120,7 +197,7 @@ def test_every_needed_hypothesis_has_a_counterexample_that_meets_the_others(make
         if row.verdict == Verdict.REFUTED and row.already is None:
             found = e.over_q(bench, row.dropped).subject
             assert found is not None and e.violated(found) <= set(row.dropped) and not e.holds(found)
-            assert row.certificates and str(found) in row.evidence
+            assert row.certificates and str(found) in row.evidence and not found.degenerate
 
 
 def test_a_conclusion_broken_on_purpose_is_noticed(bench: Workbench) -> None:
@@ -133,6 +210,18 @@ def test_a_conclusion_broken_on_purpose_is_noticed(bench: Workbench) -> None:
     assert not all(row.as_expected for row in wrong)
 
 
+@pytest.mark.parametrize("too_little", [{"left-invertible"}, {"s >= n"}, set()])
+def test_a_proof_that_is_said_to_use_too_little_is_noticed(too_little: set[str], bench: Workbench) -> None:
+    unsought = replace(gap(), over_q=lambda bench, dropped: Found(None, "no box"), proof=Proof(("proposition_3",), frozenset(too_little)))
+    assert any(row.verdict == Verdict.ERROR for row in ablate(bench, unsought, expected_without()["gap"]))
+
+
+def test_a_reason_why_a_hypothesis_follows_is_held_against_the_subjects(bench: Workbench) -> None:
+    unsought = replace(gap(), over_q=lambda bench, dropped: Found(None, "no box"), implied={"observable": "it is said to"})
+    found = next(row for row in ablate(bench, unsought, expected_without()["gap"]) if row.dropped == ("observable",))
+    assert found.verdict == Verdict.ERROR and "lack it, although it is said to follow" in found.evidence
+
+
 def test_first_looks_are_the_definitions() -> None:
     """The vectorised hypotheses about one system against the slow oracle, on every system of a small box."""
     for facts in chunks(Box(total=4, largest_n=2, largest_m=1, largest_p=1)):
@@ -141,3 +230,10 @@ def test_first_looks_are_the_definitions() -> None:
             for index in range(0, len(facts.A), 199):
                 known = inspect_slowly(facts.system(index).to_json())
                 assert found[index] == known[name.replace("-", "_")], (name, facts.system(index))
+
+
+def test_what_a_poor_witness_is() -> None:
+    sound = next(facts.system(len(facts.A) - 1) for facts in chunks(Box(total=3, largest_n=1, largest_m=1, largest_p=1)))
+    assert degenerate(sound) == ""
+    assert degenerate(sound.with_faults(sound.F - sound.F, sound.G)) == "F = 0"
+    assert "dependent" in degenerate(sound.with_faults(sound.F - sound.F, sound.G - sound.G))

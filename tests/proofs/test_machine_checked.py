@@ -12,7 +12,8 @@ import pytest
 from faultspace.proofs import machine_checked, verification
 from faultspace.proofs.ledger import Claim, Reading, load
 from faultspace.proofs.machine_checked import Theorems, answers
-from faultspace.proofs.rocq_build import BrokenTheory, NoRocq, NotProved
+from faultspace.proofs.rocq_build import BrokenTheory, NoRocq, NotProved, sources
+from faultspace.proofs.rocq_statements import read
 from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
 
 NAMED = Reading("r", "s", (), "CERTIFIED", False, ("one", "two"))
@@ -104,8 +105,11 @@ def test_what_holds_without_a_theorem_says_what_is_missing() -> None:
 def test_the_ledger_names_theorems_of_readings_alone() -> None:
     names = [name for claim in load() for reading in claim.readings for name in reading.theorems]
     assert all(name.isidentifier() for name in names)
-    text = machine_checked.question(sorted(set(names)))
-    assert all(f"Check Headlines.{name}." in text and f"(@Headlines.{name})" in text for name in names)
+    statements = read(sources())
+    lines = machine_checked.question([statements.headlines[name] for name in sorted(set(names))], statements.openings)
+    for name in names:
+        assert f"Check Headlines.{name}." in lines and f"(@Headlines.{name})" in lines[-2]
+        assert any(line.startswith("Goal ") and line.endswith(f"exact (@Headlines.{name}). Qed.") for line in lines)
 
 
 def test_the_readme_of_the_theorems_counts_them() -> None:

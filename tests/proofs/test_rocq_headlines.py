@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
 import pytest
 
-from faultspace.proofs import machine_checked, rocq_build
+from faultspace.proofs import rocq_build
 from faultspace.proofs.ledger import load
-from faultspace.proofs.machine_checked import check
+from faultspace.proofs.machine_checked import asked, check
 from faultspace.proofs.rocq_build import NoRocq, NotProved, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq_statements import Headline, read, refusals
 
 FOLDER = resources.files("faultspace.proofs").joinpath("rocq")
-HEADLINE = re.compile(r"^Theorem (\w+)(.*?)\.\nProof\.\s(.*?)\sQed\.\nPrint Assumptions (\w+)\.\n", re.DOTALL | re.MULTILINE)
 LONGEST_FILE, LONGEST_LINE = 400, 140
 
 # For each headline one hypothesis, number or word of its statement and what it is changed to.
@@ -118,6 +116,20 @@ CHANGES: dict[str, tuple[str, str]] = {
     "chain_constant": ("(n <= k)", "(n <= k.+1)"),
     "data_exact": ("kermx (window S s)", "0 : 'M_(n + s * m)"),
     "data_problem_11": ("(n + s.+1)", "(n + s)"),
+    "noise_is_a_fault": ("sysG S + w k", "sysG S"),
+    "whole_range_autoregressive": ("(n + a <= q <= t)", "(n <= q <= t)"),
+    "whole_range_autoregressive_stationary": ("(a <= s)", "(a <= s.+1)"),
+    "autoregressive_signals_exist": (" -> alpha * rho != 1", ""),
+    "whole_range_controllable": ("row_free (O S s)", "row_free (O S s.+1)"),
+    "whole_range_one_state": (" -> `|sysA S 0 0| < 1", ""),
+    "one_state_signals_exist": ("cov Q (u 0%N) (u 1%N) != 0", "cov Q (u 0%N) (u 1%N) == 0"),
+    "range_determines_a_c": ("O S s.-1", "O S s"),
+    "white_a_c_up_to_basis": ("O S s.-1", "O S s"),
+    "white_b_d_wrong_a_c_right": ("a + b != 0 -> ", ""),
+    "coloured_a_c_stationary": ("(i < 3)", "(i < 4)"),
+    "settle_1_not_both": ("O S s.-1", "O S s"),
+    "settle_1_biased": ("0 < f ->", "0 <= f ->"),
+    "settle_1_all_right": ("(2 < q <= t)", "(1 < q <= t)"),
     "check_window_ranks": ("minn s eta", "minn s.+1 eta"),
     "check_left_invertible": ("-> left_invertible", "-> ~ left_invertible"),
     "check_solutions": ("(meant n m p L) s (", "(meant n m p L) s.+1 ("),
@@ -136,35 +148,15 @@ CHANGES: dict[str, tuple[str, str]] = {
 }
 
 
-@dataclass(frozen=True)
-class Headline:
-    """A theorem as Headlines.v states it: binders and statement with their colon, the tactics of its proof, the file it stands in."""
-
-    name: str
-    statement: str
-    tactics: str
-    file: str
-
-    @property
-    def proof_file(self) -> str:
-        """The file whose theorem the proof names last."""
-        modules: list[str] = re.findall(r"([A-Z]\w*)\.\w", self.tactics)
-        return f"{modules[-1]}.v"
+STATEMENTS = read(sources())
+FILES = ["Headlines.v", *(f"{name}.v" for name in re.findall(r"^Include (\w+)\.", sources()["Headlines.v"], re.MULTILINE))]
+HEADLINES = [one for file in FILES for one in STATEMENTS.headlines.values() if one.file == file]
 
 
-def headlines(texts: dict[str, str]) -> list[Headline]:
-    """The headlines of Headlines.v and of the files it includes, in their order."""
-    parts = ["Headlines.v", *(f"{name}.v" for name in re.findall(r"^Include (\w+)\.", texts["Headlines.v"], re.MULTILINE))]
-    found = []
-    for part in parts:
-        for name, statement, tactics, asked in HEADLINE.findall(texts[part]):
-            assert asked == name, f"{part} asks for the assumptions of {asked} after {name}"
-            found.append(Headline(name, statement, tactics, part))
-        assert len(re.findall(r"^Theorem", texts[part], re.MULTILINE)) == len([h for h in found if h.file == part]), part
-    return found
-
-
-HEADLINES = headlines(sources())
+def proof_file(headline: Headline) -> str:
+    """The file whose theorem the proof names last."""
+    modules: list[str] = re.findall(r"([A-Z]\w*)\.\w", headline.tactics)
+    return f"{modules[-1]}.v"
 
 
 @pytest.fixture(scope="module")
@@ -195,6 +187,7 @@ def test_every_theorem_of_the_ledger_is_a_headline() -> None:
 
 
 def test_every_headline_has_a_change() -> None:
+    assert len(HEADLINES) == len(STATEMENTS.headlines), "Headlines.v includes all files of headlines"
     assert list(CHANGES) == [h.name for h in HEADLINES]
     for headline in HEADLINES:
         old, new = CHANGES[headline.name]
@@ -231,64 +224,8 @@ def test_the_replay_notices_a_change_that_changes_nothing(theory: Path, monkeypa
 # (c), (d) nothing assumed, nothing switched off, files of readable size
 
 
-def without_comments(text: str) -> str:
-    """The text without its comments, which may be nested, and without its strings."""
-    kept, depth = [], 0
-    for piece in re.split(r'("[^"]*"|\(\*|\*\))', text):
-        depth += {"(*": 1, "*)": -1}.get(piece, 0)
-        if depth == 0 and piece != "*)" and not piece.startswith('"'):
-            kept.append(piece)
-    return "".join(kept)
-
-
-ALWAYS = re.compile(
-    r"\b(?:Admitted|admit|give_up|Axioms?|Parameters?|Conjectures?|bypass_check|native_compute)\b"
-    r"|Unset\s+(?:Guard|Positivity|Universe)\w*|(?:Set|Unset)\s+Typing\s+Flags|type-in-type"
-)
-SECTIONS = re.compile(
-    r"^\s*(?:(Section)\s+\w+|(End)\s+(\w+)|((?:Local\s+)?(?:Hypothes[ie]s|Variables?|Context)\b))",
-    re.MULTILINE,
-)
-
-
-def assumptions(text: str) -> list[str]:
-    """The commands in a file that assume something, leave a proof open, or switch a check of the kernel off."""
-    bare = without_comments(text)
-    found = ALWAYS.findall(bare)
-    sections = 0
-    for m in SECTIONS.finditer(bare):
-        if m[1]:
-            sections += 1
-        elif m[2]:
-            sections -= bool(re.search(rf"\bSection\s+{m[3]}\s*\.", bare))
-        elif not sections:
-            found.append(m[4])
-    return found
-
-
 def test_no_file_assumes_anything() -> None:
-    assert {name: found for name, text in sources().items() if (found := assumptions(text))} == {}
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "Lemma a : False. Admitted.",
-        "Axiom a : False.",
-        "Parameters a b : nat.",
-        "Conjecture a : False.",
-        "Hypothesis a : False.",
-        "Section s.\nVariable a : nat.\nEnd s.\nVariables b : nat.",
-        "Unset Guard Checking.",
-        "#[bypass_check(guard)] Fixpoint f (n : nat) : nat := f n.",
-        "Unset Universe Checking.",
-        "Unset Typing Flags.",
-        "Lemma a : False. Proof. admit. Abort.",
-    ],
-)
-def test_what_is_assumed_is_noticed(text: str) -> None:
-    assert assumptions(text)
-    assert not assumptions(f"(* {text} (* nested *) *) Section s.\nHypothesis a : nat.\nEnd s.")
+    assert refusals(sources()) == {}
 
 
 def test_files_are_short_and_say_what_they_are() -> None:
@@ -309,40 +246,37 @@ def test_the_project_file_lists_every_file() -> None:
 # (e) what machine_checked refuses
 
 TINY = {
-    "Definitions.v": "Definition one := 1.\n",
-    "Headlines.v": "From faultspace Require Import Definitions.\nTheorem good : one = 1.\nProof. reflexivity. Qed.\n",
+    "Vocabulary.v": "Definition one := 1.\n",
+    "Proofs.v": "From faultspace Require Import Vocabulary.\nLemma good : one = 1.\nProof. reflexivity. Qed.\n",
+    "Headlines.v": "From faultspace Require Import Vocabulary.\nFrom faultspace Require Proofs.\n"
+    "Theorem good : one = 1.\nProof. exact Proofs.good. Qed.\nPrint Assumptions good.\n",
 }
+BAD = "Theorem bad : one = 2.\nProof. exact Proofs.bad. Qed.\nPrint Assumptions bad.\n"
 
 
-@pytest.fixture
-def tiny(theory: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
-    """Puts a theory of two files in the place of ours, its Headlines.v with these lines added."""
-
-    def put(added: str) -> None:
-        texts = {**TINY, "Headlines.v": TINY["Headlines.v"] + added}
-        monkeypatch.setattr(machine_checked, "compiled_theory", lambda progress: compiled_theory(progress, texts=texts))
-
-    return put
+def tiny(proofs: str = "", headlines: str = "") -> dict[str, str]:
+    """A theory of three files, with these lines added."""
+    return {**TINY, "Proofs.v": TINY["Proofs.v"] + proofs, "Headlines.v": TINY["Headlines.v"] + headlines}
 
 
-def test_a_closed_theorem_passes(tiny: Callable[[str], None]) -> None:
-    tiny("")
-    assert check(["good"]).statements == {"good": "one = 1"}
+def test_a_closed_theorem_passes(theory: Path) -> None:
+    assert asked(["good"], tiny(), compiled_theory(texts=tiny())) == {"good": "one = 1"}
 
 
 @pytest.mark.parametrize(
-    ("added", "names", "reason"),
+    ("proofs", "headlines", "names", "reason"),
     [
-        ("Theorem bad : one = 2.\nAdmitted.\n", ["bad"], "rest on more"),
-        ("Theorem bad : one = 2.\nAdmitted.\n", ["bad", "good"], "rest on more"),
-        ("Axiom absurd : one = 2.\nTheorem bad : 2 = one.\nProof. symmetry. exact absurd. Qed.\n", ["bad"], "rest on more"),
-        ("", ["missing"], "missing, which rocq/Headlines.v does not have"),
+        ("Theorem bad : one = 2.\nAdmitted.\n", BAD, ["bad"], "rest on more"),
+        ("Theorem bad : one = 2.\nAdmitted.\n", BAD, ["bad", "good"], "rest on more"),
+        ("Axiom absurd : one = 2.\nTheorem bad : one = 2.\nProof. exact absurd. Qed.\n", BAD, ["bad"], "rest on more"),
+        ("", "", ["missing"], "missing, which is in no file rocq/Headlines"),
     ],
 )
-def test_machine_checked_refuses(tiny: Callable[[str], None], added: str, names: list[str], reason: str) -> None:
-    tiny(added)
+def test_machine_checked_refuses(theory: Path, proofs: str, headlines: str, names: list[str], reason: str) -> None:
+    """Whatever the text of the sources may look like: Rocq itself says it."""
+    texts = tiny(proofs, headlines)
     with pytest.raises(NotProved, match=reason):
-        check(names)
+        asked(names, texts, compiled_theory(texts=texts))
 
 
 # README
@@ -355,7 +289,7 @@ def table() -> list[tuple[str, str, list[str], list[str]]]:
 
 
 def test_the_readme_names_every_headline_and_its_file() -> None:
-    files = {h.name: h.proof_file for h in HEADLINES}
+    files = {h.name: proof_file(h) for h in HEADLINES}
     told = {name for _, _, names, _ in table() for name in names}
     assert told == set(files)
     for claim, reading, names, told_files in table():

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
+import os
 import shutil
-import subprocess
+import stat
 from pathlib import Path
 
 import pytest
 
 from faultspace.proofs import rocq_build
+from faultspace.proofs.rocq_recheck import recheck, second_check
 
 COQCHK = shutil.which("coqchk")
 TINY = {
@@ -70,13 +73,128 @@ def test_a_mathcomp_that_is_not_there_is_no_broken_theory(monkeypatch: pytest.Mo
 @pytest.mark.timeout(1500)
 def test_the_second_checker_finds_no_axiom() -> None:
     theory = rocq_build.compiled_theory()
-    names = [f"faultspace.{one.stem}" for one in sorted(theory.glob("*.vo"))]
-    assert "faultspace.Headlines" in names
-    command = [str(COQCHK), "-silent", "-o", "-Q", str(theory), "faultspace", *names]
-    told = subprocess.run(command, capture_output=True, text=True, check=False, timeout=1200)
-    assert told.returncode == 0, told.stderr[-2000:]
-    for heading in ("Axioms", "Constants/Inductives relying on type-in-type", "Constants/Inductives relying on unsafe (co)fixpoints"):
-        assert f"* {heading}: <none>" in told.stdout + told.stderr, told.stderr[-2000:]  # with -silent it tells them on standard error
+    assert (theory / "Headlines.vo").is_file()
+    second_check(theory, 1200)
+
+
+@pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
+@pytest.mark.parametrize(
+    "assumed, told",
+    [
+        ("Axiom absurd : False.", "Axioms: .*absurd"),
+        ("Lemma absurd : False. Admitted.", "Axioms: .*absurd"),
+        ("#[bypass_check(guard)] Fixpoint absurd (n : nat) : False := absurd n.", "fixpoints: .*absurd"),
+    ],
+)
+def test_the_second_checker_finds_what_is_assumed(cache: Path, assumed: str, told: str) -> None:
+    """Also where no theorem of ours uses it."""
+    theory = rocq_build.compiled_theory(texts={"First.v": f"{assumed}\n{TINY['First.v']}"})
+    with pytest.raises(rocq_build.NotProved, match=told):
+        second_check(theory)
+
+
+@pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
+def test_recheck_believes_nothing_that_was_compiled_before(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not even a forgery that nothing else notices: compiled files of another theory, with their digests, under our sources."""
+    monkeypatch.setattr(rocq_build, "sources", lambda: TINY)
+    place = rocq_build.compiled_theory(texts=TINY)
+    true = (place / "Second.vo").read_bytes()
+    forged = rocq_build.compiled_theory(texts=TINY | {"Second.v": TINY["Second.v"].replace("True", "0 = 0").replace("first", "eq_refl")})
+    shutil.copyfile(forged / "Second.vo", place / "Second.vo")
+    (place / rocq_build.DIGESTS).write_text(json.dumps(rocq_build._digests(place)), "utf-8")
+    kept = place.with_suffix(".0123456789ab.json")
+    kept.write_text("{}", "utf-8")
+    assert rocq_build.compiled_theory(texts=TINY) == place and (place / "Second.vo").read_bytes() != true
+    assert "compiled anew, and read again by coqchk" in recheck()
+    assert (place / "Second.vo").read_bytes() == true and not kept.exists()
+
+
+@pytest.mark.parametrize("spoil", ["source", "more", "folder", "above", "link"])
+def test_a_cache_that_may_be_somebody_elses_is_not_believed(cache: Path, spoil: str) -> None:
+    place = rocq_build.compiled_theory(texts=TINY)
+    if spoil == "source":
+        (place / "First.v").write_text("Lemma first : 0 = 0. Proof. reflexivity. Qed.\n", "utf-8")
+    elif spoil == "more":
+        shutil.copyfile(place / "First.vo", place / "Third.vo")
+    elif spoil == "folder":
+        place.chmod(0o770)
+    elif spoil == "above":
+        place.parent.chmod(0o777)
+    else:
+        shutil.move(place / "First.vo", cache / "First.vo")
+        (place / "First.vo").symlink_to(cache / "First.vo")
+    (place / rocq_build.DIGESTS).write_text(json.dumps(rocq_build._digests(place)), "utf-8")
+    with pytest.raises(rocq_build.Poisoned, match=r"is not believed: .* verify --recheck"):
+        rocq_build.compiled_theory(texts=TINY)
+
+
+def test_a_cache_of_another_user_is_not_believed(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rocq_build.compiled_theory(texts=TINY)
+    me = os.getuid()
+    monkeypatch.setattr(os, "getuid", lambda: me + 1)
+    with pytest.raises(rocq_build.Poisoned, match="others than you"):
+        rocq_build.compiled_theory(texts=TINY)
+
+
+def test_what_is_compiled_is_for_the_user_alone(cache: Path) -> None:
+    before = os.umask(0)
+    try:
+        place = rocq_build.compiled_theory(texts=TINY)
+    finally:
+        os.umask(before)
+    assert [stat.S_IMODE(one.stat().st_mode) for one in (place, place.parent, place.parent.parent)] == [0o700] * 3
+
+
+def test_the_same_source_is_compiled_to_the_same_bytes(cache: Path) -> None:
+    """By this a vocabulary in the cache is known to be ours."""
+    place = rocq_build.compiled_theory(texts=TINY)
+    assert rocq_build.compiled_again({"First.v": TINY["First.v"]}) == {"First.v": (place / "First.vo").read_bytes()}
+    other = rocq_build.compiled_again({"First.v": TINY["First.v"].replace("True", "0 = 0").replace("exact I", "reflexivity")})
+    assert other["First.v"] != (place / "First.vo").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "text, told",
+    [
+        ("Fixpoint count n := match n with 0 => 0 | S m => count m + count m end.\nEval vm_compute in count 60.\n", "took more than 3 s"),
+        ('Goal True. do 100000000 idtac "x". Abort.\n', "took more than|was stopped"),
+        ('Redirect "stolen" Check True.\n', "says Redirect"),
+        ('Extraction "stolen" nat.\n', "says Extraction"),
+        ('Load "stolen".\n', "says Load"),
+        ('Declare ML Module "stolen".\n', "says Declare ML"),
+    ],
+)
+def test_coqc_runs_under_limits(cache: Path, text: str, told: str) -> None:
+    place = rocq_build.compiled_theory(texts=TINY)
+    with pytest.raises(rocq_build.BrokenTheory, match=told):
+        rocq_build.compile_file(place, "Asked.v", text, seconds=3)
+
+
+@pytest.mark.parametrize(
+    "limit, most, text",
+    [
+        ("MOST_MEMORY", 2**28, "From mathcomp Require Import all_ssreflect all_algebra.\n"),
+        ("MOST_WRITTEN", 2**15, 'Goal True. do 5000 idtac "0123456789". Abort.\n'),
+        ("MOST_SAID", 2**12, 'Goal True. do 5000 idtac "0123456789". Abort.\n'),
+    ],
+)
+def test_memory_and_output_are_limited(cache: Path, monkeypatch: pytest.MonkeyPatch, limit: str, most: int, text: str) -> None:
+    place = rocq_build.compiled_theory(texts=TINY)
+    rocq_build.compile_file(place, "Asked.v", text)
+    monkeypatch.setattr(rocq_build, limit, most)
+    with pytest.raises(rocq_build.BrokenTheory, match="was stopped" if limit != "MOST_MEMORY" else "Rocq was stopped|does not compile"):
+        rocq_build.compile_file(place, "Asked.v", text)
+
+
+def test_coqc_has_a_home_of_its_own(cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A compiler that tells where it runs."""
+    told = tmp_path / "coqc"
+    told.write_text('#!/bin/sh\necho "$HOME"; echo "$TMPDIR"; pwd; ulimit -t\n', "utf-8")
+    told.chmod(0o755)
+    monkeypatch.setattr(rocq_build, "found", lambda: rocq_build.Rocq(str(told), "0"))
+    home, scratch, folder, seconds = rocq_build.compile_file(tmp_path, "Asked.v", "Check True.\n", seconds=7).split()
+    assert home == scratch and not Path(home).exists() and not Path(folder).exists() and int(seconds) == 8
+    assert Path.home() not in (Path(home), Path(folder)) and Path.cwd() != Path(folder)
 
 
 def test_a_cache_that_cannot_be_written_is_no_broken_theory(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,90 @@
+"""How often `identify --healthy-until` finds a fault where there is none, and one of the size that it says it would see.
+
+    python benchmarks/identify_healthy.py [--trials 40] [--seed 1] [--markdown]
+
+Random stable plants of three states, two inputs and three outputs, order given; noise of a random colour and of levels 1 to 100 apart; K
+healthy samples, then as many again and a half. Of each record three are made: as it is; with a constant at one output, and with a white
+signal there, of the sizes that the answer to the first says are seen with a chance of .9.
+
+    zero, undecided, fault    what is told of the record without a fault: a fault there is a false alarm
+    constant, white           share of the faults of the stated size that are found
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from faultspace.identifying import identify
+from faultspace.numeric.models import StateSpaceModel
+from faultspace.records import recorded
+
+Array = NDArray[np.float64]
+
+HEALTHY = (300, 600, 1500)
+OUTPUTS, INPUTS = ("y1", "y2", "y3"), ("u1", "u2")
+
+
+def plant(random: np.random.Generator) -> StateSpaceModel:
+    """A stable plant."""
+    A = random.standard_normal((3, 3))
+    A *= random.uniform(0.3, 0.95) / np.abs(np.linalg.eigvals(A)).max()
+    return StateSpaceModel(A, random.standard_normal((3, 2)), random.standard_normal((3, 3)), np.zeros((3, 2)))
+
+
+def noise(random: np.random.Generator, samples: int) -> Array:
+    """Correlated noise of one random colour and very unequal levels, some per cent of the outputs."""
+    white = random.standard_normal((samples + 200, 3)) @ (np.eye(3) + 0.5 * random.standard_normal((3, 3)))
+    coloured = lfilter([1.0, random.uniform(-0.8, 0.8)], [1.0, -random.uniform(-0.8, 0.8)], white, axis=0)[200:]
+    return np.asarray(coloured * 10.0 ** random.uniform(-2.5, -0.5, 3))
+
+
+def trial(random: np.random.Generator, until: int) -> tuple[str, bool | None, bool | None]:
+    """What is told without a fault; whether the constant and the white one of the stated sizes are found (None: no size was stated)."""
+    samples = until + until * 3 // 2
+    u = random.standard_normal((samples, 2))
+    y = plant(random).simulate(u) + noise(random, samples)
+    output = int(random.integers(3))
+
+    def told(added: Array | float) -> tuple[int | None, int, tuple[Array | None, Array | None]]:
+        faulty = y.copy()
+        faulty[until:, output] += added
+        answer = identify(recorded(faulty, u, outputs=OUTPUTS, inputs=INPUTS), order=3, healthy_until=until)
+        return answer.count, answer.at_least, (answer.mean.visible if answer.mean else None, answer.visible)
+
+    count, at_least, (constant, white) = told(0.0)
+    verdict = "fault" if at_least else "undecided" if count is None else "zero"
+    if verdict != "zero" or constant is None or white is None or not np.isfinite(white[output]):
+        return verdict, None, None
+    return verdict, told(constant[output])[1] > 0, told(white[output] * random.standard_normal(samples - until))[1] > 0
+
+
+def main() -> None:
+    """Measure and print a line for each number of healthy samples."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--trials", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--markdown", action="store_true", help="print a table in Markdown")
+    arguments = parser.parse_args()
+    heads = ("healthy", "records", "zero", "undecided", "fault", "constant found", "white found", "seconds a record")
+    row = "| {} |".format(" | ".join(["{}"] * len(heads))) if arguments.markdown else "  ".join(f"{{:>{len(head)}}}" for head in heads)
+    print(row.format(*heads))
+    if arguments.markdown:
+        print("|---" * len(heads) + "|")
+    for until in HEALTHY:
+        start = time.perf_counter()
+        found = [trial(np.random.default_rng((arguments.seed, until, k)), until) for k in range(arguments.trials)]
+        asked = [(constant, white) for _, constant, white in found if constant is not None]
+        seconds = (time.perf_counter() - start) / (len(found) + 2 * len(asked))
+        verdicts = [verdict for verdict, _, _ in found]
+        shares = [f"{sum(bool(answers[i]) for answers in asked)} of {len(asked)}" for i in (0, 1)]
+        told = (verdicts.count("zero"), verdicts.count("undecided"), verdicts.count("fault"))
+        print(row.format(until, len(found), *told, *shares, f"{seconds:.2f}"), flush=True)
+
+
+if __name__ == "__main__":
+    main()

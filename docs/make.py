@@ -1,0 +1,121 @@
+"""What docs/ has from the ledger: the table of the claims with their readings, that of the hypotheses, and the picture of the README.
+
+    python docs/make.py     writes them anew
+    TABLES                  the page -> the function that makes the rows of its table
+    filled                  the page with these rows between its two marks
+    picture                 claims.svg: one square a reading, its verdict told by a letter and a colour
+
+A test compares what these functions give with what is in the folder.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+
+from faultspace.proofs.hypotheses import experiments
+from faultspace.proofs.ledger import Claim, expected_without, load
+from faultspace.proofs.verdicts import Verdict, of_readings
+
+HERE = Path(__file__).parent
+COLOURS = {
+    Verdict.PROVED: "#1b7837",
+    Verdict.IDENTITY: "#5aae61",
+    Verdict.CERTIFIED: "#a6dba0",
+    Verdict.REFUTED: "#e08214",
+    Verdict.AMENDED: "#9970ab",
+}
+BEGIN, END = "<!-- docs/make.py makes what stands here -->", "<!-- as far as here -->"
+
+
+def claims_table() -> list[str]:
+    """The table of claims.md, a row a reading."""
+    rows = ["| claim | verdict | read as | verdict on the reading |", "|---|---|---|---|"]
+    for claim in load():
+        for i, reading in enumerate(claim.readings):
+            first = f"| **{claim.id}** | {verdict(claim)} " if i == 0 else "| | "
+            mark = "ours: " if reading.repair else ""
+            rows.append(f"{first}| {mark}{reading.statement} | {reading.proved} |")
+    return rows
+
+
+def hypotheses_table() -> list[str]:
+    """The table of hypotheses.md, a row an experiment: what the ledger expects, PROVED where the experiment names theorems that say so."""
+    heads = "claim", "conclusion", "needed", "not needed: PROVED", "no counterexample found", "follows from the others"
+    rows = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
+    expected = expected_without()
+    for experiment in experiments():
+        cells: dict[str, list[str]] = {"REFUTED": [], "PROVED": [], "CERTIFIED": [], "IMPLIED": []}
+        for name, entry in expected[experiment.name].items():
+            proved = entry == "CERTIFIED" and experiment.theorems_without((name,))
+            cells["PROVED" if proved else entry].append(name)
+        rows.append(f"| {experiment.claim} | {experiment.conclusion} | {' | '.join('; '.join(names) for names in cells.values())} |")
+    return rows
+
+
+def verdict(claim: Claim) -> Verdict:
+    """The verdict that the ledger expects of a claim where there is Rocq."""
+    return of_readings([(one, Verdict(one.proved)) for one in claim.readings], in_parts=claim.in_parts)
+
+
+def picture() -> str:
+    """An SVG: a line a claim, first its readings as printed, then ours."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    matplotlib.rcParams |= {"svg.hashsalt": "faultspace", "svg.fonttype": "none", "font.family": "sans-serif"}
+    from matplotlib.figure import Figure
+    from matplotlib.patches import FancyBboxPatch, Patch
+
+    claims = load()
+    printed = max(sum(not one.repair for one in claim.readings) for claim in claims)
+    ours = max(sum(one.repair for one in claim.readings) for claim in claims)
+    figure = Figure(figsize=(9, 0.27 * len(claims) + 1.1))
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    left, gap = 8.2, 0.6
+    for row, claim in enumerate(claims):
+        axes.text(0.1, row, claim.id, va="center", fontsize=9)
+        axes.text(4.9, row, str(verdict(claim)), va="center", fontsize=8, color="#333333")
+        for repair, start in ((False, left), (True, left + printed + gap)):
+            for column, reading in enumerate(one for one in claim.readings if one.repair == repair):
+                told = Verdict(reading.proved)
+                box = FancyBboxPatch((start + column + 0.08, row - 0.36), 0.84, 0.72, boxstyle="round,pad=0,rounding_size=0.12")
+                box.set(facecolor=COLOURS[told], edgecolor="none")
+                axes.add_patch(box)
+                light = told in (Verdict.PROVED, Verdict.AMENDED)
+                axes.text(start + column + 0.5, row, told[0], ha="center", va="center", fontsize=8, color="white" if light else "black")
+    axes.text(left, -1.0, "readings as printed", fontsize=9, weight="bold")
+    axes.text(left + printed + gap, -1.0, "readings of ours", fontsize=9, weight="bold")
+    axes.text(0.1, -1.0, "claim", fontsize=9, weight="bold")
+    axes.text(4.9, -1.0, "verdict", fontsize=9, weight="bold")
+    used = [Verdict.PROVED, Verdict.IDENTITY, Verdict.CERTIFIED, Verdict.REFUTED]
+    handles = [Patch(facecolor=COLOURS[one], label=f"{one[0]}  {one}") for one in used]
+    axes.legend(handles=handles, loc="lower center", ncol=4, frameon=False, fontsize=8.5, bbox_to_anchor=(0.5, 0.0))
+    axes.set(xlim=(0, left + printed + gap + ours + 0.2), ylim=(len(claims) + 0.8, -1.7))
+    axes.axis("off")
+    stream = io.StringIO()
+    figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    return stream.getvalue()
+
+
+TABLES: dict[str, Callable[[], list[str]]] = {"claims.md": claims_table, "hypotheses.md": hypotheses_table}
+
+
+def filled(page: str, rows: list[str]) -> str:
+    """The page with these rows between its two marks. Raises ValueError where it does not have them."""
+    before, rest = page.split(BEGIN)
+    _, after = rest.split(END)
+    return "\n".join([before + BEGIN, "", *rows, "", END + after])
+
+
+def main() -> None:
+    """Writes the tables into their pages, and the picture."""
+    for name, rows in TABLES.items():
+        page = HERE / name
+        page.write_text(filled(page.read_text("utf-8"), rows()), "utf-8")
+    (HERE / "claims.svg").write_text(picture(), "utf-8")
+
+
+if __name__ == "__main__":
+    main()

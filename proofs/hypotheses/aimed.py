@@ -1,0 +1,87 @@
+"""Systems that lack one hypothesis about a system and have all the others: those of the corpus lack some of them only now and then.
+
+    aimed_systems     as many for each of the four hypotheses: observable, controllable, left-invertible, A stable
+    other_columns     one of them with other fault columns of its Z
+    aimed_dossiers    the same with accepted certificates, and HIDDEN_ZEROS, made once a run
+    HIDDEN_ZEROS      two systems all of whose finite zeros are unobservable modes, the zeros being more than the modes
+
+Most are without feedthrough and with more outputs than faults, so that they have zeros, at infinity and rarely finite ones: that is where
+the claims about zeros and about the bad P have something to say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from random import Random
+
+from ...exact.fault_space import fault_space, with_pair
+from ...exact.kernel_representation import kernel_representation
+from ...exact.matrices import Matrix, beside
+from ...exact.systems import ResidualSystem
+from ..corpus import Dossier, examine
+from ..workbench import Workbench
+from .facets import of_system
+
+
+def _itself(system: ResidualSystem) -> ResidualSystem:
+    return system
+
+
+HYPOTHESES = of_system(_itself)
+HIDDEN_ZEROS = (
+    ResidualSystem.of([[0, 0], [0, 1]], [[0], [1]], [[0, 1]], [[1]]),
+    ResidualSystem.of([[0, 0, 0], [0, 0, 0], [0, 1, 0]], [[0], [0], [1]], [[0, 0, 1]], [[0]]),
+)
+Table = list[list[str]]
+
+
+def aimed_dossiers(bench: Workbench) -> list[Dossier]:
+    """The aimed systems of the effort, certified."""
+    return bench.records("aimed systems", lambda: [examine("aimed", s) for s in (*HIDDEN_ZEROS, *aimed_systems(400 if bench.full else 80))])
+
+
+def aimed_systems(count: int) -> Iterator[ResidualSystem]:
+    """`count` systems over Q for each hypothesis, which lack it and no other."""
+    for lacked in HYPOTHESES:
+        random, found = Random(lacked), 0
+        while found < count:
+            system = _drawn(random, lacked)
+            if [name for name, meets in HYPOTHESES.items() if not meets(system)] == [lacked]:
+                found += 1
+                yield system
+
+
+def _drawn(random: Random, lacked: str) -> ResidualSystem:
+    n, m = random.randint(1, 3), random.choice((1, 2, 2))
+    p = random.randint(m, 3)
+    A, F, C = (_entries(random, *shape) for shape in ((n, n), (n, m), (p, n)))
+    G = _entries(random, p, m) if random.random() < 0.25 else [["0"] * m for _ in range(p)]
+    if lacked != "A stable":
+        A = [[f"{x}/4" for x in row] for row in A]
+    if lacked == "controllable":
+        A[-1][:-1], F[-1] = ["0"] * (n - 1), ["0"] * m
+    if lacked == "observable":
+        for row in (*A[:-1], *C):
+            row[-1] = "0"
+    system = ResidualSystem.of(A, F, C, G, n=n, m=m, p=p)
+    return _with_a_column_more(random, system) if lacked == "left-invertible" else system
+
+
+def other_columns(system: ResidualSystem) -> ResidualSystem:
+    """(A, Fhat P, C, Ghat P) with a random P of m columns."""
+    random, space = Random(str(system)), fault_space(kernel_representation(system))
+    rows = [[random.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
+    return with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))
+
+
+def _with_a_column_more(random: Random, system: ResidualSystem) -> ResidualSystem:
+    """A member of Z as one more fault: the outputs are the same, and the faults are not determined by them."""
+    basis = fault_space(kernel_representation(system)).basis
+    weights = Matrix.of([[random.choice((-1, 0, 1, 2)) for _ in range(basis.nrows)]], shape=(1, basis.nrows))
+    column = (weights @ basis).transposed()
+    n, p = system.n, system.p
+    return system.with_faults(beside(system.F, column.rows(range(n))), beside(system.G, column.rows(range(n, n + p))))
+
+
+def _entries(random: Random, nrows: int, ncols: int) -> Table:
+    return [[str(random.choice((-2, -1, 0, 1, 1, 2, 3))) for _ in range(ncols)] for _ in range(nrows)]

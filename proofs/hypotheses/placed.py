@@ -1,0 +1,60 @@
+"""zero-assignment, tried: polynomials of every degree up to zeta, each made the zero polynomial of a pair, and found there again.
+
+    every_polynomial_is_reached   of a system's exceptional pencil: whether all of `wanted` are
+    wanted                        the polynomials: random of every degree, with a zero constant term, with one repeated root, not monic
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from random import Random
+from typing import Any
+
+from ...exact.exceptional import Exceptional, polynomial_at
+from ...exact.fields import PrimeField
+from ...exact.input_rules import InvalidInput
+from ...exact.kernel_representation import kernel_representation
+from ...exact.pencil import invariant_zero_polynomial
+from ...exact.polynomials import Poly, monic, multiply, trimmed
+from ...exact.zero_assignment import assign_zeros
+
+
+def every_polynomial_is_reached(pencil: Exceptional) -> bool:
+    """Whether each has a P whose D(q; P) it is up to a unit; of the last the pair's own zeros are asked as well, by another route.
+
+    A polynomial that `assign_zeros` refuses is not reached by any P: the unobservable modes are zeros of every pair.
+    """
+    last: tuple[Poly, Any] | None = None
+    for polynomial in wanted(pencil):
+        try:
+            assignment = assign_zeros(pencil, [pencil.system.field.write(x) for x in polynomial])
+        except InvalidInput:
+            return False
+        if monic(polynomial_at(pencil, assignment.P)) != monic(polynomial):
+            return False
+        last = polynomial, assignment.system
+    if last is None:
+        return True
+    polynomial, pair = last
+    return monic(invariant_zero_polynomial(kernel_representation(pair), len(polynomial) - 1)) == monic(polynomial)
+
+
+def wanted(pencil: Exceptional) -> Iterator[Poly]:
+    """A nonzero constant; of each degree up to zeta a random one; q^zeta, (q - c)^zeta and c q^zeta + ... + 1."""
+    field, zeta, random = pencil.system.field, pencil.zeta, Random(str(pencil.system))
+    size = min(field.p, 7) if isinstance(field, PrimeField) else 7
+
+    def number(*, nonzero: bool = False) -> Any:
+        return field.element(random.randint(1, size - 1) if nonzero else random.randint(0, size - 1) - (0 if size < 7 else 3))
+
+    one, zero = field.element(1), field.element(0)
+    for degree in range(zeta + 1):
+        yield trimmed([*(number() for _ in range(degree)), number(nonzero=True)])
+    if zeta:
+        yield trimmed([zero] * zeta + [one])
+        repeated = trimmed([one])
+        root = number(nonzero=True)
+        for _ in range(zeta):
+            repeated = multiply(repeated, trimmed([-root, one]))
+        yield trimmed([one, *[zero] * (zeta - 1), number(nonzero=True)])
+        yield repeated

@@ -1,0 +1,24 @@
+(** The words of the statements about limits that no other file has. *)
+From mathcomp Require Import all_ssreflect all_algebra.
+From faultspace Require Import Vocabulary.
+Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
+Import GRing.Theory.
+Local Open Scope ring_scope.
+
+(** Inputs through B lead from rest to the state z. (A, B) is controllable when they lead to every state. *)
+Definition steered (K : fieldType) n m p nu (S : system K n m p) (B : 'M[K]_(nu, n)) (z : 'rV_n) :=
+  exists k w, state (with_faults S B (0 : 'M_(nu, p))) 0 w k = z.
+
+(** The same (A, C) in another basis of the state. *)
+Definition similar (K : fieldType) n m m' p (S : system K n m p) (S' : system K n m' p) :=
+  exists2 P, P \in unitmx & sysA S' = P *m sysA S *m invmx P /\ sysC S' = P *m sysC S.
+
+(** u(k) = u(k-1) A_0 + ... + u(k-a) A_(a-1) + e(k) at the times a, ..., H - 1, where the innovation e(k) has an invertible covariance and
+    knows nothing of earlier inputs. *)
+Definition autoregressive (K : fieldType) N nu (Q : 'M[K]_N) a (A : nat -> 'M[K]_nu) (u e : nat -> 'M[K]_(N, nu)) H :=
+  forall k, (a <= k < H)%N -> [/\ u k = \sum_(i < a) u (k - i.+1)%N *m A i + e k, cov Q (e k) (e k) \in unitmx &
+    forall i, (i < k)%N -> cov Q (e k) (u i) = 0].
+
+(** The covariances of x and y at the times before H depend on the difference of the times alone. *)
+Definition stationary (K : fieldType) N a b (Q : 'M[K]_N) (x : nat -> 'M[K]_(N, a)) (y : nat -> 'M[K]_(N, b)) H :=
+  forall i k, (i.+1 < H)%N -> (k.+1 < H)%N -> cov Q (x i.+1) (y k.+1) = cov Q (x i) (y k).

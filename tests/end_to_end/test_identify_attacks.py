@@ -1,0 +1,220 @@
+"""Records made to mislead `identify --healthy-until`: no fault is told as a bold 0, and no healthy record as a fault.
+
+record      the packaged plant with a fault that begins at a sample, under unequal, coloured noise; the healthy part is what is stated
+FAULTS      what is added to the outputs from the sample START on, in units of each sensor's noise
+HEALTHY     records without a fault that look as if they had one
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from faultspace import example_data as made
+from faultspace import identification_report as report
+from faultspace.identification_summary import summary
+from faultspace.identifying import Answer, identify
+from faultspace.numeric.fault_space_bound import largest_fault_space
+from faultspace.numeric.input_checks import InvalidData
+from faultspace.numeric.models import StateSpaceModel
+from faultspace.records import recorded
+from tests.end_to_end.identify_runs import valid
+
+Array = NDArray[np.float64]
+
+N, START = 1600, 800
+LEVELS = np.array([0.3, 0.1, 0.02])
+
+
+def noise(draw: np.random.Generator, samples: int, pole: float = 0.3) -> Array:
+    white = draw.standard_normal((samples + 100, 3))
+    return np.asarray(lfilter([np.sqrt(1 - pole**2)], [1.0, -pole], white, axis=0)[100:] * LEVELS)
+
+
+def clean(u: Array, A: Array = made.A) -> Array:
+    return np.asarray(StateSpaceModel(A, made.B, made.C, np.zeros((3, 2))).simulate(u))
+
+
+def answered(
+    y: Array, u: Array, *, until: int = START, outputs: tuple[str, ...] = made.OUTPUTS, **options: Any
+) -> tuple[Answer, dict[str, Any], str]:
+    """The answer, its document, which the schema accepts, and what people read."""
+    answer = identify(recorded(y, u, outputs=outputs, inputs=made.INPUTS), order=3, healthy_until=until, **options)
+    document = valid("identify", report.document(answer, "record") | {"files": []})
+    space = answer.space
+    if space is not None and space.meaningful and space.n_v is not None:
+        assert answer.identification is not None
+        assert space.n_z <= largest_fault_space(answer.identification.A, answer.identification.C, space.n_v)
+    assert (answer.pair is None) == (answer.signal is None)
+    assert answer.signal is None or (space is not None and space.decided)
+    return answer, document, "\n".join(summary(answer, "record"))
+
+
+def _only(output: int, values: NDArray[Any]) -> Array:
+    added = np.zeros((len(values), 3))
+    added[:, output] = values
+    return added
+
+
+FAULTS: dict[str, Callable[[NDArray[np.int_], np.random.Generator], Array]] = {
+    "bias of one sensor": lambda k, draw: _only(2, np.full(len(k), 20.0)),
+    "small bias of one sensor": lambda k, draw: _only(0, np.full(len(k), 1.0)),
+    "bias of all sensors": lambda k, draw: np.full((len(k), 3), 5.0),
+    "ramp": lambda k, draw: _only(1, 10.0 * k / len(k)),
+    "ramp about zero": lambda k, draw: _only(1, 20.0 * (k / len(k) - 0.5)),
+    "slow drift of all": lambda k, draw: np.outer(5.0 * np.sin(np.pi * k / len(k)), [1.0, -1.0, 1.0]),
+    "step half way": lambda k, draw: _only(0, 10.0 * (k > len(k) / 2)),
+    "spikes": lambda k, draw: _only(1, 60.0 * (k % 97 == 5)),
+    "sinusoid": lambda k, draw: _only(2, 5.0 * np.sin(0.7 * k)),
+    "white in one": lambda k, draw: _only(0, 5.0 * draw.standard_normal(len(k))),
+    "white in all alike": lambda k, draw: np.outer(5.0 * draw.standard_normal(len(k)), np.ones(3)),
+    "louder noise": lambda k, draw: 5.0 * draw.standard_normal((len(k), 3)),
+    "every second sample": lambda k, draw: _only(1, 5.0 * (-1.0) ** k),
+}
+
+
+@pytest.mark.parametrize("means", [False, True], ids=["", "means removed"])
+@pytest.mark.parametrize("name", FAULTS)
+def test_no_fault_is_told_as_zero(name: str, means: bool) -> None:
+    draw = np.random.default_rng(list(name.encode()))
+    u = draw.standard_normal((N, 2)) + 3.0 * means
+    y = clean(u) + noise(draw, N)
+    y[START:] += FAULTS[name](np.arange(N - START), draw) * LEVELS
+    units = np.array([1e-6, 1.0, 1e6])
+    answer, document, told = answered(y * units + 100.0 * units * means, u, remove_means=means)
+    assert answer.count != 0 and answer.at_least >= 1, told
+    assert document["n_v_at_least"] >= 1 and "n_v: **0**" not in told
+
+
+def _plain(draw: np.random.Generator) -> tuple[Array, Array]:
+    u = draw.standard_normal((N, 2))
+    return clean(u) + noise(draw, N), u
+
+
+def _another_operating_point(draw: np.random.Generator) -> tuple[Array, Array]:
+    u = draw.standard_normal((N, 2))
+    u[START:] += [2.0, -1.0]
+    return clean(u) + noise(draw, N), u
+
+
+def _louder_inputs(draw: np.random.Generator) -> tuple[Array, Array]:
+    u = draw.standard_normal((N, 2))
+    u[START:] *= 3.0
+    return clean(u) + noise(draw, N), u
+
+
+def _coloured(draw: np.random.Generator) -> tuple[Array, Array]:
+    u = draw.standard_normal((N, 2))
+    return clean(u) + noise(draw, N, 0.9), u
+
+
+def _hum(draw: np.random.Generator) -> tuple[Array, Array]:
+    u = draw.standard_normal((N, 2))
+    return clean(u) + noise(draw, N) + np.outer(np.sin(0.9 * np.arange(N)), LEVELS), u
+
+
+def _integrating(draw: np.random.Generator) -> tuple[Array, Array]:
+    u = draw.standard_normal((N, 2))
+    A = made.A.copy()
+    A[2] = [0.0, 0.0, 1.0]
+    return clean(u, A) + noise(draw, N), u
+
+
+def _still_input_later(draw: np.random.Generator) -> tuple[Array, Array]:
+    u = draw.standard_normal((N, 2))
+    u[START:, 0] = 0.5
+    return clean(u) + noise(draw, N), u
+
+
+HEALTHY = {
+    f.__name__.strip("_").replace("_", " "): f
+    for f in (_plain, _another_operating_point, _louder_inputs, _coloured, _hum, _integrating, _still_input_later)
+}
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("name", HEALTHY)
+def test_no_healthy_record_is_told_as_faulty(name: str, seed: int) -> None:
+    y, u = HEALTHY[name](np.random.default_rng((seed, *name.encode())))
+    answer, document, told = answered(y * [1e6, 1.0, 1e-6], u)
+    assert answer.at_least == 0 and answer.count in (0, None), told
+    if answer.count == 0:
+        assert document["visible"]["constant"] is not None and "seen with a chance of 0.9" in told
+
+
+# Where the records end, and what is stated wrongly
+
+
+def biased(seed: int, first: int, samples: int = N) -> tuple[Array, Array]:
+    draw = np.random.default_rng(seed)
+    u = draw.standard_normal((samples, 2))
+    y = clean(u) + noise(draw, samples)
+    y[first:] += 20.0 * LEVELS
+    return y, u
+
+
+@pytest.mark.parametrize("until", [20, 30, 50, 64, 150, 255, N - 64, N - 5, N - 2, N - 1])
+def test_a_bias_beside_few_samples_is_seen_or_undecided(until: int) -> None:
+    y, u = biased(until, until)
+    answer, _, told = answered(y, u, until=until)
+    assert answer.count != 0, told
+    if 50 <= until <= N - 2:
+        assert answer.moved and answer.at_least == 1, told
+
+
+@pytest.mark.parametrize("first", [100, 400, 700])
+def test_a_fault_among_the_healthy_samples_gives_no_zero(first: int) -> None:
+    answer, _, told = answered(*biased(first, first))
+    assert answer.count != 0, told
+
+
+def test_a_drift_through_all_samples_gives_no_zero() -> None:
+    y, u = biased(5, N)
+    answer, _, told = answered(y + np.outer(np.linspace(0.0, 5.0, N), LEVELS), u)
+    assert answer.count != 0 and "mean" in answer.count_reason, told
+
+
+@pytest.mark.parametrize("value", ["stuck", "dead"])
+def test_an_output_that_is_still_after_the_healthy_samples_is_a_fault(value: str) -> None:
+    y, u = biased(6, N)
+    y[START:, 0] = y[START, 0] if value == "stuck" else 0.0
+    assert answered(y, u)[0].at_least == 1
+
+
+@pytest.mark.parametrize("channel", ["input", "output"])
+def test_a_channel_that_is_still_while_healthy_is_refused_with_the_reason(channel: str) -> None:
+    y, u = biased(6, N)
+    (u if channel == "input" else y)[:START, 0] = 1.0
+    with pytest.raises(InvalidData, match="--healthy-until: the model is from these samples alone"):
+        answered(y, u)
+
+
+@pytest.mark.parametrize("kind", ["none", "bias", "white"])
+def test_without_noise_what_the_healthy_samples_do_not_show_is_a_fault(kind: str) -> None:
+    draw = np.random.default_rng(7)
+    u = draw.standard_normal((N, 2))
+    y = clean(u)
+    if kind != "none":
+        y[START:, 0] += 1.0 if kind == "bias" else draw.standard_normal(N - START)
+    answer, _, told = answered(y, u)
+    assert (answer.count == 0) == (kind == "none"), told
+    assert answer.at_least == (0 if kind == "none" else 1), told
+
+
+def test_numbers_of_single_precision_are_answered() -> None:
+    y, u = biased(8, START)
+    assert answered(y.astype(np.float32), u.astype(np.float32))[0].at_least == 1
+
+
+def test_without_healthy_samples_a_mean_is_told_and_not_judged() -> None:
+    y, u = biased(9, 0)
+    answer = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
+    assert answer.count is None and any("an operating point, or a constant fault" in note for note in answer.notes)
+    assert valid("identify", report.document(answer, "record") | {"files": []})["mean_shift"]["against"] == "zero"
+    still = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3, remove_means=True)
+    assert still.mean is None and not still.moved

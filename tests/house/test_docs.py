@@ -1,0 +1,56 @@
+"""The pages of docs/ tell of the claims what the ledger expects and a run computes; every link of the pages leads somewhere."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+DOCS = Path(__file__).parents[2] / "docs"
+README_LINES = 120
+
+
+@pytest.fixture(scope="module")
+def make() -> ModuleType:
+    """docs/make.py, which is no module of the package."""
+    spec = importlib.util.spec_from_file_location("make_docs", DOCS / "make.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("page", ["claims.md", "hypotheses.md"])
+def test_the_tables_are_the_ledgers(make: ModuleType, page: str) -> None:
+    text = (DOCS / page).read_text("utf-8")
+    assert make.filled(text, make.TABLES[page]()) == text, "make it again: python docs/make.py"
+    assert make.filled(text, ["| another |"]) != text
+
+
+def test_the_picture_has_every_claim_and_every_reading(make: ModuleType) -> None:
+    picture = (DOCS / "claims.svg").read_text("utf-8")
+    claims = make.load()
+    texts = re.findall(r">([^<>\s][^<>]*)</text>", picture)
+    assert [claim.id for claim in claims] == [text for text in texts if text in {claim.id for claim in claims}]
+    letters = [text for text in texts if len(text) == 1]
+    readings = [one for claim in claims for repair in (False, True) for one in claim.readings if one.repair == repair]
+    assert letters == [one.proved[0] for one in readings], "make it again: python docs/make.py"
+
+
+def links(page: Path) -> list[str]:
+    """The relative links of a page, without what stands behind a #."""
+    found = re.findall(r"\]\(([^)#\s]+)[^)]*\)", page.read_text("utf-8"))
+    return [link for link in found if "://" not in link]
+
+
+@pytest.mark.parametrize("page", [*sorted(DOCS.glob("*.md")), DOCS.parent / "README.md"], ids=lambda page: page.name)
+def test_every_link_leads_somewhere(page: Path) -> None:
+    broken = [link for link in links(page) if not (page.parent / link).exists()]
+    assert broken == []
+
+
+def test_the_readme_is_short() -> None:
+    assert len((DOCS.parent / "README.md").read_text("utf-8").splitlines()) < README_LINES

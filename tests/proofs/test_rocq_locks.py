@@ -1,0 +1,180 @@
+"""The locks refuse each headline and each word that is changed, and name it; and nothing that is only written in another way."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from importlib import resources
+from pathlib import Path
+
+import pytest
+
+from faultspace.proofs import rocq_locks
+from faultspace.proofs.ledger import load
+from faultspace.proofs.machine_checked import parted
+from faultspace.proofs.rocq_build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq_locks import held, kept, made, page, written
+from faultspace.proofs.rocq_statements import Headline, read
+from tests.proofs.test_rocq_headlines import CHANGES
+
+FOLDER = resources.files("faultspace.proofs").joinpath("rocq")
+TEXTS = sources()
+STATEMENTS = read(TEXTS)
+WORDS = sorted({word.key: word for words in STATEMENTS.words.values() for word in words.values()}.items())
+
+
+def changed(file: str, old: str, new: str) -> dict[str, str]:
+    """Our sources with one text of one file changed."""
+    assert TEXTS[file].count(old) >= 1 and old != new, (file, old)
+    return {**TEXTS, file: TEXTS[file].replace(old, new, 1)}
+
+
+def source(headline: Headline) -> str:
+    """The statement as it stands in its file, with its line breaks."""
+    m = re.search(rf"^Theorem {headline.name}\b(.*?)\.\nProof\.", TEXTS[headline.file], re.MULTILINE | re.DOTALL)
+    assert m is not None
+    return m[0]
+
+
+def with_hypothesis(headline: Headline) -> str:
+    """The statement with one hypothesis more: that S is observable, where it speaks of one S, and a trivial one elsewhere."""
+    binders, stated = parted(headline.statement)
+    more = "observable S" if "(S : system" in binders else "(0 < 1)%N"
+    return f"Theorem {headline.name} {binders} : {more} -> ({stated}).\nProof."
+
+
+def test_the_statements_are_those_that_are_locked() -> None:
+    locks = held(TEXTS)
+    assert locks == kept() and set(locks.theorems) == set(STATEMENTS.headlines)
+    assert all(re.fullmatch("[0-9a-f]{64}", lock.sha256) for lock in locks.theorems.values())
+
+
+def test_the_files_of_the_locks_are_current() -> None:
+    """After a change that is wanted: python -m faultspace.proofs.rocq_locks."""
+    assert FOLDER.joinpath("locks.json").read_text("utf-8") == written(made(TEXTS))
+    assert FOLDER.joinpath("STATEMENTS.md").read_text("utf-8") == page(made(TEXTS), list(load()))
+
+
+def test_readings_theorems_and_locks_stand_side_by_side() -> None:
+    text, locks = FOLDER.joinpath("STATEMENTS.md").read_text("utf-8"), made(TEXTS)
+    rows = [line for line in text.splitlines() if line.startswith("| ") and re.search(r"`[0-9a-f]{64}` \|$", line)]
+    told = {name: row for row in rows if (name := row.split("`Theorem ")[1].split()[0])}
+    assert set(told) == set(locks.theorems) and all(lock.sha256 in told[name] for name, lock in locks.theorems.items())
+    for row in rows:
+        assert len(re.split(r"(?<!\\)\|", row)) == 6, row[:200]
+    for claim in load():
+        for reading in claim.readings:
+            if reading.theorems:
+                row = next(row for row in rows if row.startswith(f"| {claim.id}: {reading.id} |"))
+                assert " ".join(reading.statement.split())[:40] in row and f"Theorem {reading.theorems[0]} " in row
+
+
+@pytest.mark.parametrize("name", sorted(CHANGES))
+def test_a_changed_headline_is_not_as_locked(name: str) -> None:
+    headline = STATEMENTS.headlines[name]
+    new = f"Theorem {name}{headline.statement.replace(*CHANGES[name])}.\nProof."
+    with pytest.raises(NotProved, match=f"the headline {name} says"):
+        held(changed(headline.file, source(headline), new))
+
+
+@pytest.mark.parametrize("name", sorted(STATEMENTS.headlines))
+def test_a_headline_with_one_hypothesis_more_is_not_as_locked(name: str) -> None:
+    headline = STATEMENTS.headlines[name]
+    with pytest.raises(NotProved, match=rf"the headline {name} says .*(?:observable S|\(0 < 1\)%N) -> "):
+        held(changed(headline.file, source(headline), with_hypothesis(headline)))
+
+
+@pytest.mark.timeout(900)
+def test_the_hypothesis_is_one_that_proofs_alone_do_not_refuse() -> None:
+    """With the same lemma and one name more in the proof, Rocq accepts it, and closed: what refuses it is the lock."""
+    try:
+        theory = compiled_theory()
+    except NoRocq as reason:
+        pytest.skip(str(reason))
+    headline = STATEMENTS.headlines["proposition_3_normal_rank"]
+    opening = TEXTS[headline.file].split("(** ** ")[0]
+    weakened = with_hypothesis(headline).replace("Proof.", f"Proof. move=> _; {headline.tactics} Qed.")
+    said = compile_file(theory, "Weakened.v", f"{opening}\n{weakened}\nPrint Assumptions {headline.name}.\n")
+    assert said.strip() == "Closed under the global context"
+    with pytest.raises(BrokenTheory, match="does not compile"):
+        compile_file(theory, "Weakened.v", f"{opening}\n{with_hypothesis(headline)} {headline.tactics} Qed.\n")
+
+
+@pytest.mark.parametrize("key", [key for key, _ in WORDS])
+def test_a_changed_word_is_not_as_locked(key: str) -> None:
+    word = dict(WORDS)[key]
+    start = re.search(rf"^(?:Definition|Fixpoint|Record|Notation) {word.name.split('.')[-1]}\b", TEXTS[word.file], re.MULTILINE)
+    assert start is not None
+    begin, end = TEXTS[word.file][: start.start()], TEXTS[word.file][start.start() :]
+    with pytest.raises(NotProved, match=re.escape(f"the word {key} says")):
+        old, new = ("{", "{ extra : nat;") if end.startswith("Record") else (":=", ":= (*only a comment*) id")
+        held({**TEXTS, word.file: begin + end.replace(old, new, 1)})
+
+
+@pytest.mark.parametrize(
+    "file, old, new, told",
+    [
+        ("Vocabulary.v", "(K : fieldType) (n m p : nat).", "(K : realFieldType) (n m p : nat).", "the word Vocabulary."),
+        ("Vocabulary.v", "Implicit Types (S : system)", "Implicit Types (S : nat)", "the word Vocabulary."),
+        ("Vocabulary.v", "Local Open Scope ring_scope.", "Local Open Scope nat_scope.", "what Vocabulary.v opens with"),
+        ("Vocabulary.v", "Import GRing.Theory.", "Import GRing.Theory Num.Theory.", "what Vocabulary.v opens with"),
+        ("HeadlinesMore.v", "Local Open Scope ring_scope.", "Local Open Scope nat_scope.", "what HeadlinesMore.v opens with"),
+        ("Lists.v", "Canonical number_rmorphism", "Canonical number_morphism", "may change how statements are read"),
+        ("Basics.v", "Local Open Scope", "Coercion f : a >-> b.\nLocal Open Scope", "may change how statements are read"),
+        ("Basics.v", "Local Open Scope", 'Notation "a %| b" := True.\nLocal Open Scope', "may change how statements are read"),
+        ("Lag.v", "Set Implicit", "Axiom absurd : False.\nSet Implicit", "Lag.v has Axiom"),
+        ("Gap.v", "Qed.", "Admitted.", "Gap.v has Admitted"),
+        ("Gap.v", "Qed.", "Qed.\nUnset Guard Checking.", "Gap.v has Unset Guard"),
+    ],
+)
+def test_what_else_may_change_a_statement_is_noticed(file: str, old: str, new: str, told: str) -> None:
+    with pytest.raises(NotProved, match=re.escape(told)):
+        held(changed(file, old, new))
+
+
+def test_a_headline_or_word_that_comes_or_goes_is_noticed() -> None:
+    locks = kept()
+    fewer = replace(locks, theorems={name: lock for name, lock in locks.theorems.items() if name != "theorem_1"})
+    with pytest.raises(NotProved, match="the headline theorem_1 has no lock"):
+        held(TEXTS, fewer)
+    start = TEXTS["Headlines.v"].index("Theorem theorem_1 ")
+    end = TEXTS["Headlines.v"].index("Print Assumptions theorem_1.\n") + len("Print Assumptions theorem_1.\n")
+    with pytest.raises(NotProved, match="the headline theorem_1 is locked and is not there"):
+        held({**TEXTS, "Headlines.v": TEXTS["Headlines.v"][:start] + TEXTS["Headlines.v"][end:]})
+    with pytest.raises(NotProved, match=r"the lock of theorem_1 is not the SHA-256"):
+        held(TEXTS, replace(locks, theorems={**locks.theorems, "theorem_1": replace(locks.theorems["theorem_1"], sha256="0" * 64)}))
+    with pytest.raises(NotProved, match=r"the word Vocabulary\.gap is not locked"):
+        held(TEXTS, replace(locks, words={key: text for key, text in locks.words.items() if key != "Vocabulary.gap"}))
+
+
+def test_comments_and_line_breaks_change_nothing() -> None:
+    spread = {name: re.sub(r"(?<=[\w)]) (?=[:=(])", "  (* a. comment *)\n ", text) for name, text in TEXTS.items()}
+    texts = {**TEXTS, **{name: spread[name] for name in ("Vocabulary.v", "CertificatesVocabulary.v")}}
+    assert texts["Vocabulary.v"] != TEXTS["Vocabulary.v"] and held(texts) == held(TEXTS)
+    more = "Lemma a_new_lemma : True. Proof. by []. Qed.\nLemma gap_le_outputs"
+    assert held(changed("Gap.v", "Lemma gap_le_outputs", more)) == held(TEXTS)
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[]", '{"theorems": {"a": {}}}', '{"theorems": 1, "words": {}, "openings": {}, "far": []}'])
+def test_locks_that_cannot_be_read_are_no_locks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> None:
+    monkeypatch.setattr(rocq_locks, "_folder", lambda: tmp_path)
+    with pytest.raises(NotProved, match="cannot be read: FileNotFoundError"):
+        kept()
+    (tmp_path / "locks.json").write_text(text, "utf-8")
+    with pytest.raises(NotProved, match="cannot be read"):
+        held(TEXTS)
+
+
+def test_the_command_locks_a_wanted_change(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    wanted = changed("Headlines.v", "(lag S <= n)%N", "(lag S <= n.+1)%N")
+    monkeypatch.setattr(rocq_locks, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(rocq_locks, "sources", lambda: wanted)
+    (tmp_path / "locks.json").write_text(written(made(TEXTS)), "utf-8")
+    assert rocq_locks.main() == 0
+    assert "the headline lag_at_most_n says" in capsys.readouterr().out
+    told = json.loads((tmp_path / "locks.json").read_text("utf-8"))
+    assert held(wanted) == kept() and "n.+1" in told["theorems"]["lag_at_most_n"]["statement"]
+    assert rocq_locks.main() == 0 and capsys.readouterr().out == "nothing is different\n"
+    monkeypatch.setattr(rocq_locks, "sources", lambda: {**wanted, "Headlines.v": "Definition a := 1.\n"})
+    assert rocq_locks.main() == 1 and "theorems alone" in capsys.readouterr().err
