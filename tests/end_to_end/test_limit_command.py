@@ -10,6 +10,7 @@ from typing import Any
 import jsonschema
 import pytest
 
+import faultspace.proofs
 from faultspace.packaged_examples import DESCRIPTIONS, EXPERIMENTS
 from tests.end_to_end.commands import Run, call, command, example, validator
 
@@ -52,6 +53,7 @@ def test_packaged_experiments_are_what_their_descriptions_say() -> None:
         assert leads[regression]["bias"] == {"B": [["5/8"], ["-1/12"]], "D": [["1"], ["1/2"]]}
         assert independent[regression]["bias"] == {"B": [["0"], ["0"]], "D": [["0"], ["0"]]}
     assert (follows["limit_rank"], follows["contains_observability_range"], follows["markov"]) == (3, True, None)
+    assert not follows["leading_vectors_span_observability_range"]
     assert independent["equals_observability_range"] and not independent["past_outputs"]["equals_observability_range"]
     truth = [[["0"], ["1/2"]], [["1"], ["-1"]], [["1/4"], ["-7/12"]]]
     assert independent["markov"][:3] == truth and len(independent["markov"]) == 5
@@ -158,6 +160,24 @@ def test_numbers_of_thousands_of_digits_are_answered(tmp_path: Path) -> None:
     for arguments in ((), ("--json",)):
         run = limit_of(tmp_path, change, *arguments)
         assert (run.code, run.err) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("name", "rank", "told", "leading"),
+    [
+        ("following-fault", 2, "its leading left singular vector spans that of O_s all the same", True),
+        ("following-fault-two-states", 3, "its 2 leading left singular vectors span that of O_s all the same", True),
+        ("seasonal-input", 1, "inside that of O_s, and smaller: states are missing", False),
+        ("observable-late", 2, "that of O_s, but s is too small to tell A", True),
+    ],
+)
+def test_what_the_rank_of_the_limit_does_not_tell(name: str, rank: int, told: str, leading: bool) -> None:
+    """A larger rank than n need not spoil A and C, a smaller one does though u and v are uncorrelated, and n may not be enough."""
+    path = str(Path(faultspace.proofs.__file__).parent / "counterexamples" / f"{name}.json")
+    assert told in call("limit", path).out
+    answer = call("limit", path, "--json").json
+    validator("limit").validate(answer)
+    assert answer["limit_rank"] == rank and answer["leading_vectors_span_observability_range"] == leading
 
 
 def test_ten_states_four_inputs_twelve_block_rows_in_ten_seconds(tmp_path: Path) -> None:
