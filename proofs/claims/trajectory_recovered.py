@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...exact import polynomials
 from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import rank
+from ...exact.matrices import Matrix, rank
+from ...exact.structure import structure
+from ...exact.systems import ResidualSystem
 from ...exact.windows import observability_matrix
 from ...exact.zero_feedthrough import zero_feedthrough
 from ..corpus import Dossier
@@ -48,6 +51,25 @@ def no_finite_zeros(bench: Workbench) -> Outcome:
         return (d.delay_unknown_state is not None) == (d.left_invertible and d.finite_zeros == hidden)
 
     return certify(bench, lambda d: d.finite_zeros is not None, holds, lambda s: [*zeros(s), *delays(s)])
+
+
+def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:
+    """x(0) unknown: v is determined iff left-invertible and every finite zero is an unobservable mode, multiplicities not counted."""
+
+    def holds(d: Dossier) -> bool:
+        return (d.delay_unknown_state is not None) == (d.left_invertible and _zeros_are_hidden_modes(d.system))
+
+    return certify(bench, lambda d: d.finite_zeros is not None and d.n <= 4, holds, lambda s: [*zeros(s), *delays(s)])
+
+
+def _zeros_are_hidden_modes(system: ResidualSystem) -> bool:
+    """Whether every finite zero is a root of the characteristic polynomial of the unobservable part, which is the zero polynomial without faults."""
+    field = system.field
+    faultless = system.with_faults(Matrix.zero(field, system.n, 0), Matrix.zero(field, system.p, 0))
+    hidden, rest = structure(faultless).invariant_zero_polynomial, structure(system).invariant_zero_polynomial
+    while len(common := polynomials.gcd(rest, hidden)) > 1:
+        rest, _ = polynomials.divide(rest, common)
+    return len(rest) == 1
 
 
 def zero_feedthrough_signal(bench: Workbench) -> Outcome:

@@ -113,16 +113,17 @@ def theorem_1() -> Experiment[Compared]:
 def theorem_3_i() -> Experiment[Compared]:
     """Equal output behaviours of two systems with as many states: where the columns of the second lie."""
     words = "the columns [T F'; G'] of an equivalent system lie in Z, for some change T of its state"
-    return _of_equivalent("columns-in-Z", words, _columns_in_space)
+    return _of_equivalent("columns-in-Z", words, _columns_in_space, Proof(("columns_after_change_of_state",)))
 
 
 def same_model() -> Experiment[Compared]:
     """The same, with (A, C) as well: the outputs alone do not tell them."""
     words = "an equivalent system is (A, Fhat P, C, Ghat P), after some change of its state"
-    return _of_equivalent("same-model", words, _same_model)
+    # The theorem is about the second system in the coordinates where it has the (A, C) of the first.
+    return _of_equivalent("same-model", words, _same_model, Proof(("theorem_3_part_i",), frozenset({SIMILAR})))
 
 
-def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool]) -> Experiment[Compared]:
+def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool], proof: Proof) -> Experiment[Compared]:
     return Experiment(
         name=name,
         claim="theorem-3-i",
@@ -132,8 +133,7 @@ def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool]) -> 
         subjects=_equivalent,
         over_q=partial(_smallest_outside, holds),
         show=_show_outside,
-        # Of the second in the coordinates where it has the (A, C) of the first.
-        proof=Proof(("theorem_3_part_i",), frozenset({SIMILAR})),
+        proof=proof,
     )
 
 

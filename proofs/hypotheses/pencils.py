@@ -93,7 +93,7 @@ def placement() -> Experiment[Windowed]:
     words = "every nonzero polynomial of degree at most zeta is the zero polynomial of some pair"
     conclusion = Condition(reached, lambda f, s: np.asarray(f.observable | (_zeta(f) == 0)))
     some_column = Condition(lambda w: w.dossier.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
-    proof = Proof(("zero_assignment", "one_determinant", "one_determinant_exists"), frozenset({"observable"}))
+    proof = Proof(("zero_assignment_observable",), frozenset({"observable"}))
     made = ("placement", "zero-assignment", words, MODEL, conclusion, _show, some_column, lambda n: NO_WINDOW, LONGER)
     return windowed(*made, proof=proof)
 

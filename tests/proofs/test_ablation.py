@@ -183,11 +183,7 @@ def test_the_proofs_name_theorems_that_are_there_and_use_no_more_than_what_is_ne
         entries = expected_without()[e.name]
         assert set(e.proof.theorems) <= there and e.proof.hypotheses <= set(e.hypotheses), e.name
         needed = {name for name, entry in entries.items() if entry == "REFUTED"}
-        assert needed <= e.proof.hypotheses <= needed | set(e.implied) | UNPROVED.get(e.name, set()), e.name
-
-
-# What the theorems use although no counterexample without it is known.
-UNPROVED = {"columns-in-Z": {"(A', C') similar to (A, C)"}}
+        assert needed <= e.proof.hypotheses <= needed | set(e.implied), e.name
 
 
 @pytest.mark.parametrize("make", [rank_formula, gap, range_of_f])
