@@ -3,6 +3,7 @@
     one function a kind      each takes a system or its kernel representation and returns the JSON-ready certificate
     sha256                   the name of a certificate
     Unprovable               raised when asked to certify what is not so
+    accept                   puts a certificate before the checker; nothing that a verdict rests on goes another way
 
 The functions here are untrusted: a wrong certificate is one that the checker rejects.
 """
@@ -33,6 +34,7 @@ from ..exact.stability import is_stable
 from ..exact.systems import ResidualSystem
 from ..exact.windows import observability_matrix, reachability_matrix, toeplitz_matrix, window_matrix
 from ..exact.zero_output import zero_output_chain
+from . import checker
 
 Certificate = dict[str, Any]
 
@@ -45,6 +47,13 @@ def sha256(certificate: Certificate) -> str:
     """The SHA-256 over sorted keys without white space, in UTF-8."""
     text = json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def accept(certificate: Certificate) -> None:
+    """The checker verifies the certificate, without assuming anything. Raises checker.Rejected or checker.Malformed."""
+    verified = checker.verify(certificate)
+    if verified.assumes:
+        raise checker.Rejected(f"verified only under an assumption: {'; '.join(verified.assumes)}")
 
 
 def window_ranks(kernel: KernelRepresentation) -> Certificate:

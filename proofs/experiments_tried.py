@@ -28,9 +28,8 @@ from ..exact.population_limits import PopulationLimits, population_limits
 from ..exact.stability import characteristic_polynomial, is_stable
 from ..exact.systems import ResidualSystem
 from ..exact.windows import observability_matrix, reachability_matrix
-from . import checker
 from . import limit_certificates as make
-from .certificate import Certificate, Unprovable
+from .certificate import Certificate, Unprovable, accept
 from .corpus import Progress
 from .seasonal_inputs import in_order, seasonal
 
@@ -119,7 +118,7 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
     found = population_limits(experiment)
     certificates = certificates_of(found)
     for certificate in certificates:
-        checker.verify(certificate)
+        accept(certificate)
     process, residual = found.known.process, experiment.system.residual
     largest = process.Phi.nrows + 1
     lags = found.known.sequence(process.v, process.u, -largest, largest)  # Cov(v(k + l), u(k))

@@ -25,7 +25,7 @@ from ..exact.polynomials import monic, multiply, written
 from ..exact.systems import ResidualSystem
 from ..exact.zero_assignment import assign_zeros
 from . import certificate as make
-from . import checker
+from .certificate import accept
 from .corpus import Progress
 from .exhaustive import orbits
 from .families import adversarial, random_systems
@@ -81,7 +81,7 @@ def examine_judged(origin: str, purpose: str, system: ResidualSystem, P: Matrix,
         make.fault_space(pencil.kernel, fault_space(pencil.kernel)),
     ]
     for certificate in certificates:
-        checker.verify(certificate)
+        accept(certificate)
     says = [certificate["statement"] for certificate in certificates]
 
     return JudgedPair(

@@ -23,8 +23,7 @@ from ..exact.kernel_representation import KernelRepresentation, kernel_represent
 from ..exact.matrices import Matrix, beside, rank, solve_left, stacked
 from ..exact.systems import ResidualSystem
 from . import certificate as make
-from . import checker
-from .certificate import Certificate
+from .certificate import Certificate, accept
 from .corpus import Progress
 from .exhaustive import all_systems, orbits
 from .families import adversarial, random_systems, shift_registers
@@ -80,7 +79,7 @@ def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, wei
     if window is not None:
         certificates.append(make.window_equality(*kernels, window - 1))
     for certificate in certificates:
-        checker.verify(certificate)
+        accept(certificate)
     etas = [certificate["statement"]["left_minimal_indices"] for certificate in certificates[1:3]]
     ranks = [certificate["statement"]["normal_rank"] for certificate in certificates[1:3]]
     lags = (max(etas[0], default=0), max(etas[1], default=0))
@@ -93,7 +92,7 @@ def examine_rival(origin: str, system: ResidualSystem, rival: ResidualSystem, we
     space = make.fault_space(kernels[0], fault_space(kernels[0]))
     certificates = [comparison_certificate(*kernels), space, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
     for certificate in certificates:
-        checker.verify(certificate)
+        accept(certificate)
     basis = Matrix.of(space["statement"]["basis"], system.field, shape=(len(space["statement"]["basis"]), system.n + system.p))
     columns = stacked(rival.F, rival.G)
     return RivalDossier(

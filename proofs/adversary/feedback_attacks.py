@@ -27,7 +27,7 @@ from ...exact.lyapunov import solve
 from ...exact.matrices import Matrix
 from ...exact.population_limits import PopulationLimits, population_limits
 from ...exact.windows import observability_matrix
-from .. import checker
+from ..certificate import accept
 from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
 from .attacks import Aim, Attack, Block, Family, Floats, Point, Witness
 from .float_limits import Drawn, exact_experiment, float_limits, outside
@@ -181,7 +181,7 @@ def _decide(family: Family, point: Point, fails: Fails, note: str) -> Witness | 
         return None
     certificates = tuple(certificates_of(found))
     for certificate in certificates:
-        checker.verify(certificate)
+        accept(certificate)
     return Witness(f"{describe(family.at(point), dossier)}, {note}", point, certificates)
 
 

@@ -17,7 +17,7 @@ from ...exact.limits import past_input_limit
 from ...exact.lyapunov import solve
 from ...exact.population_limits import population_limits
 from ...exact.windows import observability_matrix
-from .. import checker
+from ..certificate import accept
 from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
 from .attacks import Family, Point, Witness
 from .float_limits import Drawn, exact_experiment
@@ -40,7 +40,7 @@ def decided_by(at: At, fails: Fails) -> Callable[[Point], Witness | None]:
             return None
         certificates = tuple(certificates_of(population_limits(experiment)))
         for certificate in certificates:
-            checker.verify(certificate)
+            accept(certificate)
         return Witness(describe(at(point), dossier), point, certificates)
 
     return decide

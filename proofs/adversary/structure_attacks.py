@@ -29,8 +29,7 @@ from ...exact.windows import observability_matrix, reachability_matrix
 from ...exact.zero_assignment import assign_zeros, recoverable_pair
 from ...exact.zero_feedthrough import zero_feedthrough
 from .. import certificate as make
-from .. import checker
-from ..certificate import Certificate
+from ..certificate import Certificate, accept
 from ..claims.common import delays, ranks_and_inversion, spaces, zeros
 from ..corpus import Dossier, examine
 from ..judged_pairs import examine_judged, pencil_of
@@ -111,7 +110,7 @@ def _at_points(family: Family, decide: Decide) -> Callable[[Point], Witness | No
         if found is None:
             return None
         for certificate in found[1]:
-            checker.verify(certificate)
+            accept(certificate)
         return Witness(found[0], point, tuple(found[1]))
 
     return at

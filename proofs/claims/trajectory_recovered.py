@@ -63,7 +63,7 @@ def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:
 
 
 def _zeros_are_hidden_modes(system: ResidualSystem) -> bool:
-    """Whether every finite zero is a root of the characteristic polynomial of the unobservable part, which is the zero polynomial without faults."""
+    """Whether every finite zero is one of the system without faults: those are the unobservable modes."""
     field = system.field
     faultless = system.with_faults(Matrix.zero(field, system.n, 0), Matrix.zero(field, system.p, 0))
     hidden, rest = structure(faultless).invariant_zero_polynomial, structure(system).invariant_zero_polynomial

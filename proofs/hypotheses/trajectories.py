@@ -18,9 +18,8 @@ from ...exact.matrices import Matrix
 from ...exact.signals import persistency
 from ...exact.systems import ResidualSystem
 from .. import certificate as make
-from .. import checker
 from ..ablation import Experiment, Found, Proof, first_found
-from ..certificate import Certificate
+from ..certificate import Certificate, accept
 from ..exhaustive import orbits
 from ..families import adversarial, random_systems
 from ..search import Box, systems_in_order
@@ -127,7 +126,7 @@ def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int 
     bare = Record(system, x0, v, s, 0, 0, persistency(v), weight, 0)
     ranks = []
     for certificate in _data_ranks(bare):
-        checker.verify(certificate)
+        accept(certificate)
         ranks.append(certificate["statement"]["rank"])
     return replace(bare, gap=ranks[1] - ranks[0], excitation=ranks[2], accepted=len(ranks))
 

@@ -10,6 +10,7 @@ import pytest
 from faultspace.exact.fields import PrimeField
 from faultspace.exact.systems import ResidualSystem
 from faultspace.proofs import checker
+from faultspace.proofs.certificate import accept
 from tests.proofs.examples import (
     CUBED,
     FIELDS,
@@ -79,6 +80,12 @@ def test_without_a_proof_of_irreducibility_the_statement_says_so() -> None:
     proven, unproven = CUBED, spoiled(CUBED, ("witness.irreducible", GONE))
     assert checker.verify(unproven).statement == f"assuming f irreducible: {checker.verify(proven).statement}"
     assert checker.verify(unproven).assumes == ["f is irreducible, with the coefficients [1,-3,-1,4] (ascending)"]
+
+
+def test_no_verdict_rests_on_an_assumption() -> None:
+    accept(CUBED)
+    with pytest.raises(checker.Rejected, match="irreducible"):
+        accept(spoiled(CUBED, ("witness.irreducible", GONE)))
 
 
 def test_what_only_a_zero_divisor_proves_is_an_assumption() -> None:
