@@ -119,7 +119,7 @@ def _at_points(family: Family, decide: Decide) -> Callable[[Point], Witness | No
 def _refuted() -> Iterator[Attack]:
     tall, square, scalar = free_family(2, 2, 1), free_family(1, 2, 2), free_family(1, 1, 1)
     yield from on_strata("theorem-2.finite-zeros-only", "one state", scalar, [feedthrough], unlike(_finite_only, zeros))
-    yield from on_strata("theorem-2.transfer-function-zeros", "an idle state", idle_family(2, 2, 1), [at_zero], _transfer_zeros)
+    yield from on_strata("theorem-2.transfer-function-zeros", "an idle state", idle_family(2, 1, 1), [at_zero], _transfer_zeros)
     yield from on_strata("theorem-2.every-window", "one fault", tall, [feedthrough], unlike(_every_window, zeros))
     for target, known in (
         ("assumption-4.n-minus-1-known", True),
