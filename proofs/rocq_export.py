@@ -31,21 +31,9 @@ Json = Any
 MAX_TEXT = 2**20
 Integers = list[list[int]]
 MODULES = (
-    "Vocabulary",
-    "CertificatesVocabulary",
-    "Lists",
-    "ListedSystems",
-    "CheckRows",
-    "CheckRanks",
-    "CheckBehaviors",
-    "Solutions",
-    "CheckSolutions",
-    "CheckInversion",
-    "Stacks",
-    "Excitation",
-    "TableRank",
-    "CheckMatrices",
-)
+    "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
+    "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices",
+)  # fmt: skip
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import {" ".join(MODULES)}.
