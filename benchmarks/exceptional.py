@@ -17,11 +17,11 @@ from math import comb
 
 import sympy
 
-from faultspace.exact.exceptional import Exceptional, exceptional, judge
-from faultspace.exact.exceptional_minors import forms_of_determinant, value
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.pairs.pluecker import forms_of_determinant, value
+from faultspace.exact.pairs.polynomial import Exceptional, exceptional, judge
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
 
 SIZES = ((10, 2, 4), (20, 2, 6), (20, 3, 6), (40, 3, 6), (40, 3, 9), (40, 3, 12), (60, 3, 12))
 

@@ -24,11 +24,11 @@ import numpy as np
 import scipy.signal
 from numpy.typing import NDArray
 
-from faultspace.numeric.fault_against_healthy import fault_dimension_against_healthy
-from faultspace.numeric.fault_dimension import fault_dimension
-from faultspace.numeric.healthy_reference import healthy_reference
-from faultspace.numeric.pi_moesp import pi_moesp
-from faultspace.numeric.residuals import residual
+from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy
+from faultspace.numeric.count.healthy_model import healthy_reference
+from faultspace.numeric.count.rank_gap import fault_dimension
+from faultspace.numeric.model.past_inputs import pi_moesp
+from faultspace.numeric.model.residuals import residual
 
 Array = NDArray[np.float64]
 

@@ -22,8 +22,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.identification_data import Setting, errors
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.models import StateSpaceModel
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.model.models import StateSpaceModel
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULT = "RESULT "

@@ -73,7 +73,7 @@ def study_here() -> dict[str, Any]:
     """Our side, in this process: the study once to warm up, then on one process and on all cores."""
     import numpy as np
 
-    from faultspace.numeric.monte_carlo import PUBLISHED, run_study
+    from faultspace.numeric.study.studies import PUBLISHED, run_study
 
     seconds: dict[int | None, float] = {}
     for jobs in (1, None):

@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from faultspace.identifying import identify
-from faultspace.numeric.models import StateSpaceModel
-from faultspace.records import recorded
+from faultspace.numeric.data.records import recorded
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.pipeline import identify
 
 Array = NDArray[np.float64]
 

@@ -89,10 +89,10 @@ METHODS = (
 
 def run_ours(system: System) -> None:
     """Produce the certificate as a file, then load and verify the file: what two people who do not trust each other would do."""
-    from faultspace.exact.kernel_representation import kernel_representation
-    from faultspace.exact.systems import read_system
-    from faultspace.proofs import checker
-    from faultspace.proofs.certificate import window_ranks
+    from faultspace.exact.structure.kernel_rows import kernel_representation
+    from faultspace.exact.system.systems import read_system
+    from faultspace.proofs.trust import checker
+    from faultspace.proofs.trust.structure_certificates import window_ranks
 
     handle, name = tempfile.mkstemp(suffix=".json")
     os.close(handle)
@@ -169,8 +169,8 @@ RUNNERS: dict[str, Callable[[System], None]] = {
 
 def largest_window(system: System) -> Rows:
     """[O_s T_s] for s = n + 1 as integers."""
-    from faultspace.exact.systems import read_system
-    from faultspace.exact.windows import window_matrix
+    from faultspace.exact.system.systems import read_system
+    from faultspace.exact.system.windows import window_matrix
 
     built = window_matrix(read_system(system).residual, len(system["A"]) + 1)
     return [[int(x) for x in row] for row in built.flint.numer_denom()[0].tolist()]

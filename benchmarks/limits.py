@@ -21,18 +21,18 @@ from typing import Any
 
 from flint import fmpq_mat
 
-from faultspace.exact.covariances import Covariances, window_covariances
-from faultspace.exact.experiments import Experiment, read_experiment
-from faultspace.exact.input_limits import by_moesp, by_output_error
-from faultspace.exact.joint_process import JointProcess, joint_process
-from faultspace.exact.limits import past_input_and_output_limit, past_input_limit
-from faultspace.exact.lyapunov import state_covariance
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.population_limits import population_limits
-from faultspace.exact.stability import is_stable
-from faultspace.exact.windows import observability_matrix
-from faultspace.proofs import checker
-from faultspace.proofs import limit_certificates as make
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.algebra.stability import is_stable
+from faultspace.exact.limits.column_space import past_input_and_output_limit, past_input_limit
+from faultspace.exact.limits.experiments import Experiment, read_experiment
+from faultspace.exact.limits.inputs import by_moesp, by_output_error
+from faultspace.exact.limits.lyapunov import state_covariance
+from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moments import Covariances, window_covariances
+from faultspace.exact.limits.process import JointProcess, joint_process
+from faultspace.exact.system.windows import observability_matrix
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import limit_certificates as make
 
 DENSE = 30
 STEPS = ("Lyapunov", "dense", "windows", "past inputs", "past outputs", "output error", "MOESP", "certified", "checked")

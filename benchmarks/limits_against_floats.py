@@ -33,12 +33,12 @@ from rich.console import Console
 from rich.progress import track
 
 from benchmarks.sheets import Sheet, markdown
-from faultspace.exact.experiments import Experiment
-from faultspace.exact.population_limits import PopulationLimits, population_limits
-from faultspace.numeric.displacement_gram import DisplacementGram
-from faultspace.numeric.pi_moesp import pi_moesp
-from faultspace.numeric.po_moesp import po_moesp
-from faultspace.proofs.experiments_tried import FAMILIES
+from faultspace.exact.limits.experiments import Experiment
+from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.numeric.model.displacement_gram import DisplacementGram
+from faultspace.numeric.model.past_inputs import pi_moesp
+from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.proofs.evidence.experiments import FAMILIES
 from tests.numeric.predicted_limits import floats, invariants, simulated
 
 ERRORS = 5.0

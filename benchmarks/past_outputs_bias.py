@@ -35,16 +35,16 @@ from rich.progress import track
 from benchmarks.identification_cells import Limits, measure, python_command
 from benchmarks.identification_data import FAULT_POLE, ORDER, Setting, errors, record, system, write
 from benchmarks.sheets import Sheet, markdown
-from faultspace.exact.covariances import covariances
-from faultspace.exact.experiments import Experiment, read_experiment
-from faultspace.exact.input_limits import by_output_error
-from faultspace.exact.limits import state_part
-from faultspace.exact.matrices import Matrix, beside, column_basis, stacked
-from faultspace.exact.population_limits import PopulationLimits, markov_parameters, population_limits
-from faultspace.exact.stability import characteristic_polynomial
-from faultspace.numeric.models import StateSpaceModel
-from faultspace.numeric.pi_moesp import pi_moesp
-from faultspace.numeric.po_moesp import po_moesp
+from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, stacked
+from faultspace.exact.algebra.stability import characteristic_polynomial
+from faultspace.exact.limits.column_space import state_part
+from faultspace.exact.limits.experiments import Experiment, read_experiment
+from faultspace.exact.limits.inputs import by_output_error
+from faultspace.exact.limits.moesp import PopulationLimits, markov_parameters, population_limits
+from faultspace.exact.limits.moments import covariances
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.model.past_inputs import pi_moesp
+from faultspace.numeric.model.past_outputs import po_moesp
 from tests.numeric.predicted_limits import floats
 
 # Inputs, outputs, block rows, sensor noise: the benchmark's four cells.

@@ -15,11 +15,11 @@ import io
 from collections.abc import Callable
 from pathlib import Path
 
-from faultspace.proofs.adversary.attacks import Aim
 from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
+from faultspace.proofs.evidence.attacks import Aim
 from faultspace.proofs.hypotheses import experiments
-from faultspace.proofs.ledger import Claim, expected_without, load
-from faultspace.proofs.verdicts import Verdict, of_readings
+from faultspace.proofs.verdict.ledger import Claim, expected_without, load
+from faultspace.proofs.verdict.verdicts import Verdict, of_readings
 
 HERE = Path(__file__).parent
 COLOURS = {

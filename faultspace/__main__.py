@@ -2,7 +2,7 @@
 
 import sys
 
-from faultspace.command_line import main
+from faultspace.cli.command_line import main
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from importlib import resources
 
-from .exact.input_rules import InvalidInput, shown
+from .base.errors import InvalidInput, shorten
 
 PREFIX = "example:"
 DESCRIPTIONS = {
@@ -35,5 +35,5 @@ def content(name: str) -> bytes:
     """The file behind `example:NAME`. Raises InvalidInput for a name that is none."""
     stem = name.removeprefix(PREFIX)
     if stem not in DESCRIPTIONS | EXPERIMENTS:
-        raise InvalidInput(f"got example {shown(stem)}, expected one of {', '.join(DESCRIPTIONS | EXPERIMENTS)}")
+        raise InvalidInput(f"got example {shorten(stem)}, expected one of {', '.join(DESCRIPTIONS | EXPERIMENTS)}")
     return resources.files(__package__).joinpath("examples", f"{stem}.json").read_bytes()

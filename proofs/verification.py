@@ -10,19 +10,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 
-from ..exact.input_rules import InvalidInput
-from .ablation import ablate
+from ..base.errors import InvalidInput
 from .adversary.attacking import attacking, of_reading, of_row
-from .checker import Malformed, Rejected
-from .corpus import Progress
+from .evidence.corpus import Progress
 from .hypotheses import experiments
-from .ledger import Claim, Reading, expected_without, load
-from .machine_checked import Theorems
-from .machine_checked import check as machine_checked
-from .rocq_build import BrokenTheory, NoRocq, NotProved, sources
-from .rocq_locks import held
-from .verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
-from .workbench import Workbench
+from .rocq.build import BrokenTheory, NoRocq, NotProved, sources
+from .rocq.locks import held
+from .rocq.theorems import Theorems
+from .rocq.theorems import check as machine_checked
+from .trust.checker import Malformed, Rejected
+from .verdict.ablation import ablate
+from .verdict.ledger import Claim, Reading, expected_without, load
+from .verdict.verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
+from .verdict.workbench import Workbench
 
 EFFORTS = ("quick", "full")
 TRUSTED = "this trusts Rocq's kernel, MathComp, and files compiled before in your cache, which --recheck compiles anew"
@@ -97,7 +97,7 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
     try:
         theorems = machine_checked(names, report)
     except NoRocq as error:
-        told = f"{error}. Without it, readings that have a proof in proofs/rocq rest on their certificates"
+        told = f"{error}. Without it, readings that have a proof in proofs/theory rest on their certificates"
         return _Machine(None, None, told, {name: lock.sha256 for name, lock in held(sources()).theorems.items()})
     except (BrokenTheory, NotProved) as error:
         return _Machine(None, f"Rocq: {error}", f"failed: {error}")

@@ -24,7 +24,7 @@ settings.load_profile("ci")
 def pytest_sessionstart(session: pytest.Session) -> None:
     """In the process that starts the others."""
     if getattr(session.config.option, "numprocesses", None):
-        from faultspace.proofs.rocq_build import BrokenTheory, NoRocq, compiled_theory
+        from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, compiled_theory
 
         with contextlib.suppress(BrokenTheory, NoRocq):  # the tests tell
             compiled_theory()

@@ -32,7 +32,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..input_checks import InvalidData
+from ...base.errors import InvalidData
 from .records import Broken, Function, Refused
 
 Array = NDArray[np.float64]

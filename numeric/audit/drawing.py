@@ -11,7 +11,7 @@ from random import Random
 
 import numpy as np
 
-from faultspace.exact.matrices import Matrix
+from faultspace.exact.algebra.matrices import Matrix
 
 from .rationals import matrix
 

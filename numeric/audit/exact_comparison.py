@@ -22,12 +22,12 @@ from flint import fmpq, fmpq_poly
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from faultspace.exact import stability
-from faultspace.exact.fields import QQ
-from faultspace.exact.lyapunov import solve
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.population_limits import markov_parameters
-from faultspace.exact.systems import from_float_exactly
+from faultspace.exact.algebra import stability
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.limits.lyapunov import solve
+from faultspace.exact.limits.moesp import markov_parameters
+from faultspace.exact.system.systems import from_float_exactly
 
 from .records import Broken
 

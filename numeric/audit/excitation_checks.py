@@ -13,9 +13,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.signals import simulate
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.system.systems import ResidualSystem
 
 from .fault_checks import as_number, ranks_off
 from .fault_vectors import UnexcitingVector

@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, beside
-from faultspace.exact.signals import hankel, simulate
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.matrices import Matrix, beside
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.signals import hankel, simulate
+from faultspace.exact.system.systems import ResidualSystem
 
-from ..distances import compare_subspaces
-from ..input_checks import InvalidData
+from ...base.errors import InvalidData
+from ..space.distances import compare_subspaces
 from .exact_comparison import lifted
 from .fault_vectors import FaultVector, channel_units
 from .rationals import floats, matrix, scaled

@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 import psutil
 
-from ..models import StateSpaceModel
+from ..model.models import StateSpaceModel
 from .programs import family, resident
 from .rationals import Array, floats, signs
 from .records import Check, Function, Measurement, Severity

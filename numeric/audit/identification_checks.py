@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from faultspace.exact.matrices import Matrix
+from faultspace.exact.algebra.matrices import Matrix
 
 from .exact_comparison import characteristic_polynomial, distances, lifted, markov, matched, poles, transfer
 from .rationals import floats, scaled

@@ -12,7 +12,7 @@ import time
 from types import TracebackType
 from typing import Any, Self
 
-from ..input_checks import InvalidData
+from ...base.errors import InvalidData
 from .programs import STANDARD, Limits, Program
 from .records import Broken, Check, Record, broken
 

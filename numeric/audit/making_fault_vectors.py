@@ -17,17 +17,17 @@ from random import Random
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from faultspace.exact.matrices import Matrix, left_null_space, rank
-from faultspace.exact.signals import excitation_matrix, hankel, simulate
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.windows import window_matrix
+from faultspace.exact.algebra.matrices import Matrix, left_null_space, rank
+from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.signals import excitation_matrix, hankel, simulate
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import window_matrix
 
-from ..fault_space import noise_free_fault_space
-from ..models import StateSpaceModel
-from ..reconstruction import reconstruct_fault
-from ..residual_conditioning import fault_signal_error, fitted_state_error
-from ..residuals import residual
+from ..model.models import StateSpaceModel
+from ..model.residuals import residual
+from ..rounding.residual_conditioning import fault_signal_error, fitted_state_error
+from ..signal.reconstruction import reconstruct_fault
+from ..space.by_ranks import noise_free_fault_space
 from .drawing import drawn, stable, upward
 from .excitation_checks import unexciting_inputs
 from .fault_checks import LONG_WINDOW, with_input

@@ -20,16 +20,16 @@ from typing import Any
 
 import numpy as np
 
-from faultspace.exact.experiments import Experiment
-from faultspace.exact.filters import Filter
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.population_limits import population_limits
-from faultspace.exact.structure import Structure, structure
-from faultspace.exact.systems import FaultySystem, ResidualSystem
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.limits.experiments import Experiment
+from faultspace.exact.limits.filters import Filter
+from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.structure.record import Structure, structure
+from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
-from ..compression import EPS, compress
-from ..conditioning import SMALL, ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
-from ..pi_moesp import pi_moesp, pi_moesp_from_compression
+from ..model.compression import EPS, compress
+from ..model.past_inputs import pi_moesp, pi_moesp_from_compression
+from ..rounding.conditioning import SMALL, ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
 from .drawing import drawn, stable, upward
 from .exact_comparison import matched, poles, roots
 from .fault_vectors import FaultView

@@ -24,7 +24,7 @@ from signal import Signals
 
 import psutil
 
-from ..input_checks import InvalidData
+from ...base.errors import InvalidData
 from .records import Broken
 
 LONGEST_ANSWER = 64 << 20

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from faultspace.exact.matrices import Matrix
+from faultspace.exact.algebra.matrices import Matrix
 
 Array = NDArray[np.float64]
 ROUNDING = "each rational to the nearest IEEE binary64, ties to even, once"

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 import scipy.signal
 
-from faultspace.exact.systems import FaultySystem, ResidualSystem
+from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
-from ..models import StateSpaceModel
+from ..model.models import StateSpaceModel
 from .exact_comparison import matched, poles
 from .rationals import Array, floats, matrix, signs
 

@@ -8,16 +8,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..fault_dimension import fault_dimension as count
-from ..fault_space import noise_free_fault_space
-from ..fault_zeros import fault_zeros
-from ..hankel_ranks import rounding_ranks
-from ..input_checks import InvalidData, enough_samples, signal
-from ..models import StateSpaceModel
-from ..pi_moesp import UNDETERMINED, pi_moesp
-from ..reconstruction import reconstruct_fault
-from ..residual_windows import EPS, channel_sizes
-from ..residuals import residual as subtract
+from ...base.errors import InvalidData
+from ..count.hankel_ranks import rounding_ranks
+from ..count.rank_gap import fault_dimension as count
+from ..count.windows import EPS, channel_sizes
+from ..data.validation import enough_samples, signal
+from ..model.models import StateSpaceModel
+from ..model.past_inputs import UNDETERMINED, pi_moesp
+from ..model.residuals import residual as subtract
+from ..signal.reconstruction import reconstruct_fault
+from ..signal.zeros import fault_zeros
+from ..space.by_ranks import noise_free_fault_space
 from .adapter import Structure
 
 Array = NDArray[np.float64]

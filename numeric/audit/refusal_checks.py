@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from faultspace.exact.signals import simulate
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.system.systems import ResidualSystem
 
 from .fault_checks import as_number, space_off
 from .fault_vectors import FaultVector

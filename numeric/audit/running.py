@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeVar
 
-from ..input_checks import InvalidData
+from ...base.errors import InvalidData
 from . import (
     consistency_checks,
     excitation_checks,

@@ -20,7 +20,7 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from ..input_checks import InvalidData
+from ...base.errors import InvalidData
 from .peers import PEERS, Peer, peer
 from .programs import STANDARD, Limits
 from .records import Record, Verdict, grouped

@@ -17,7 +17,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..input_checks import InvalidData
+from ...base.errors import InvalidData
 from .adapter import FUNCTIONS, Structure
 from .programs import STANDARD, Limits, Program
 from .records import Broken, Refused

@@ -24,9 +24,9 @@ from typing import Any
 
 import numpy as np
 
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.signals import simulate
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.system.systems import ResidualSystem
 
 from .fault_vectors import FaultVector, UnexcitingVector
 from .rationals import ROUNDING, Array, floats, fractions, matrix, scaled, signs

@@ -21,7 +21,7 @@ from typing import Any
 
 import psutil
 
-from ..input_checks import InvalidData
+from ...base.errors import InvalidData
 from .adapter import guarded, load, offered
 from .records import Function, perform
 from .running import all_checks

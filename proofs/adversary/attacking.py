@@ -13,13 +13,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from ..corpus import Progress
-from .attacks import Attacked
+from ..evidence.attacks import Attacked
+from ..evidence.corpus import Progress
 from .catalogue import WITHOUT, catalogue
 from .results import AttackRecord, run_attacks, shown
 
 if TYPE_CHECKING:
-    from ..verdicts import ReadingResult, Row
+    from ..verdict.verdicts import ReadingResult, Row
 
 SECONDS = 15.0
 
@@ -45,7 +45,7 @@ def attacking(claims: set[str], effort: str, jobs: int, progress: Progress) -> A
 
 def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> ReadingResult:
     """The result with its attacks; its verdict gives way to a counterexample."""
-    from ..verdicts import Verdict  # which needs the records of this folder
+    from ..verdict.verdicts import Verdict  # which needs the records of this folder
 
     found = shown(f"{claim}.{result.reading.id}", attacks.records)
     result = replace(result, attacks=found)
@@ -58,7 +58,7 @@ def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> Reading
 
 def of_row(row: Row, attacks: Attacking) -> Row:
     """The row with its attacks; one of a single hypothesis gives way to a counterexample."""
-    from ..verdicts import Verdict
+    from ..verdict.verdicts import Verdict
 
     if len(row.dropped) != 1:
         return row

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from ..ledger import expected_without, load
-from .attacks import Attack
+from ..evidence.attacks import Attack
+from ..verdict.ledger import expected_without, load
 from .limit_catalogue import limit_attacks
 from .pair_attacks import pair_attacks
 from .structure_attacks import structure_attacks

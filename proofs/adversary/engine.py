@@ -18,8 +18,8 @@ from itertools import islice
 
 import numpy as np
 
-from ...exact.input_rules import InvalidInput
-from .attacks import Aim, Attack, Floats, Point, Trial, Witness
+from ...base.errors import InvalidInput
+from ..evidence.attacks import Aim, Attack, Floats, Point, Trial, Witness
 from .following import Trace, crossings, descend, draw_starts, outward
 from .rounding import bracket, moved, rational_roots, simple, solve_affine
 

@@ -19,17 +19,17 @@ from typing import Any
 
 import numpy as np
 
-from ...exact.covariances import covariances, window_covariances
-from ...exact.input_limits import by_output_error
-from ...exact.kernel_representation import kernel_representation
-from ...exact.limits import past_input_limit
-from ...exact.lyapunov import solve
-from ...exact.matrices import Matrix
-from ...exact.population_limits import PopulationLimits, population_limits
-from ...exact.windows import observability_matrix
-from ..certificate import accept
-from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
-from .attacks import Aim, Attack, Block, Family, Floats, Point, Witness
+from ...exact.algebra.matrices import Matrix
+from ...exact.limits.column_space import past_input_limit
+from ...exact.limits.inputs import by_output_error
+from ...exact.limits.lyapunov import solve
+from ...exact.limits.moesp import PopulationLimits, population_limits
+from ...exact.limits.moments import covariances, window_covariances
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.windows import observability_matrix
+from ..evidence.attacks import Aim, Attack, Block, Family, Floats, Point, Witness
+from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
+from ..trust.structure_certificates import accept
 from .float_limits import Drawn, exact_experiment, float_limits, outside
 from .limit_attacks import POLE, chain, describe
 

@@ -21,8 +21,8 @@ from typing import Any
 
 import numpy as np
 
-from ...exact.experiments import Experiment, read_experiment
-from .attacks import Floats
+from ...exact.limits.experiments import Experiment, read_experiment
+from ..evidence.attacks import Floats
 
 Table = Sequence[Sequence[Any]]
 

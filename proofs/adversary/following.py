@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import brentq, least_squares, minimize
 
-from .attacks import Floats
+from ..evidence.attacks import Floats
 
 Quantity = Callable[[Floats], float | Floats]
 KEPT = 24

@@ -12,14 +12,14 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from ...exact.covariances import covariances, window_covariances
-from ...exact.limits import past_input_limit
-from ...exact.lyapunov import solve
-from ...exact.population_limits import population_limits
-from ...exact.windows import observability_matrix
-from ..certificate import accept
-from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
-from .attacks import Family, Point, Witness
+from ...exact.limits.column_space import past_input_limit
+from ...exact.limits.lyapunov import solve
+from ...exact.limits.moesp import population_limits
+from ...exact.limits.moments import covariances, window_covariances
+from ...exact.system.windows import observability_matrix
+from ..evidence.attacks import Family, Point, Witness
+from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
+from ..trust.structure_certificates import accept
 from .float_limits import Drawn, exact_experiment
 from .spectra import shaped_input
 

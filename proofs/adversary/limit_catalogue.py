@@ -17,10 +17,10 @@ from functools import partial
 
 import numpy as np
 
-from ...exact.covariances import covariances
-from ...exact.hidden_states import hides_a_state
-from ..experiments_tried import LimitDossier
-from .attacks import Aim, Attack, Family, Floats
+from ...exact.limits.hidden_states import hides_a_state
+from ...exact.limits.moments import covariances
+from ..evidence.attacks import Aim, Attack, Family, Floats
+from ..evidence.experiments import LimitDossier
 from .feedback_attacks import feedback_attacks
 from .float_limits import FloatLimits, determinant, float_limits, input_bias, least_ratio, outside, partial_covariance
 from .limit_attacks import (

@@ -14,18 +14,18 @@ from typing import Any
 
 import numpy as np
 
-from ...exact.behavior import compare
-from ...exact.canonical_form import with_feedback
-from ...exact.fault_space import fault_space, with_pair
-from ...exact.kernel_representation import KernelRepresentation, kernel_representation
-from ...exact.matrices import Matrix, rank
-from ...exact.signals import excitation_matrix, hankel, simulate
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate, accept
-from ..corpus import examine
-from ..pairs import comparison_certificate
-from .attacks import Aim, Attack, Block, Family, Floats, Point, Witness
+from ...exact.algebra.matrices import Matrix, rank
+from ...exact.pairs.canonical_form import with_feedback
+from ...exact.structure.behavior import compare
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from ...exact.structure.signals import excitation_matrix, hankel, simulate
+from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import comparison_certificate
+from ..evidence.attacks import Aim, Attack, Block, Family, Floats, Point, Witness
+from ..evidence.corpus import examine
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate, accept
 from .structure_attacks import on_strata
 from .structure_families import ENTRY, Tables, determinant, feedthrough, free_family, seen, system_of
 

@@ -26,8 +26,8 @@ from typing import Any
 
 from joblib import Parallel, delayed
 
-from ..certificate import Certificate, sha256
-from .attacks import Aim, Attack, Attacked, Trial
+from ..evidence.attacks import Aim, Attack, Attacked, Trial
+from ..trust.structure_certificates import Certificate, sha256
 from .catalogue import attacks_on, catalogue, statement_of
 from .engine import pursue, value_at
 from .following import NOTHING

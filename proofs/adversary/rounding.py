@@ -17,9 +17,9 @@ from math import ceil, floor
 
 from flint import fmpq, fmpq_poly
 
-from ...exact.fields import QQ
-from ...exact.matrices import Matrix, solve_left
-from .attacks import Floats, Point
+from ...exact.algebra.fields import QQ
+from ...exact.algebra.matrices import Matrix, solve_left
+from ..evidence.attacks import Floats, Point
 
 HALVINGS = 12
 DENOMINATORS = (1, 2, 3, 4, 6, 8, 12, 20, 32)

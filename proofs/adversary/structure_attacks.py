@@ -17,24 +17,24 @@ from random import Random
 import sympy
 from flint import fmpq, fmpq_poly
 
-from ...exact.bad_set import bad_equations
-from ...exact.canonical_form import behavior_name, with_feedback
-from ...exact.exceptional import Exceptional, polynomial_at
-from ...exact.fault_space import fault_space
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, beside, column_basis, left_null_space, rank, solve_left, stacked
-from ...exact.polynomials import Poly, multiply
-from ...exact.systems import ResidualSystem
-from ...exact.windows import observability_matrix, reachability_matrix
-from ...exact.zero_assignment import assign_zeros, recoverable_pair
-from ...exact.zero_feedthrough import zero_feedthrough
-from .. import certificate as make
-from ..certificate import Certificate, accept
+from ...exact.algebra.matrices import Matrix, beside, column_basis, left_null_space, rank, solve_left, stacked
+from ...exact.algebra.polynomials import Poly, multiply
+from ...exact.pairs.assignment import assign_zeros, recoverable_pair
+from ...exact.pairs.bad_variety import bad_equations
+from ...exact.pairs.canonical_form import behavior_name, with_feedback
+from ...exact.pairs.no_feedthrough import zero_feedthrough
+from ...exact.pairs.polynomial import Exceptional, polynomial_at
+from ...exact.structure.fault_columns import fault_space
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..claims.common import delays, ranks_and_inversion, spaces, zeros
-from ..corpus import Dossier, examine
-from ..judged_pairs import examine_judged, pencil_of
-from ..pairs import comparison_certificate
-from .attacks import Aim, Attack, Family, Point, Witness
+from ..evidence.alternatives import comparison_certificate
+from ..evidence.attacks import Aim, Attack, Family, Point, Witness
+from ..evidence.corpus import Dossier, examine
+from ..evidence.pairs_by_polynomial import examine_judged, pencil_of
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate, accept
 from .structure_families import (
     Square,
     crossed,

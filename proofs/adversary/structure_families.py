@@ -21,8 +21,8 @@ from typing import Any
 
 import numpy as np
 
-from ...exact.systems import ResidualSystem
-from .attacks import Family, Floats, Point
+from ...exact.system.systems import ResidualSystem
+from ..evidence.attacks import Family, Floats, Point
 
 ENTRY = (-2.0, 2.0)
 

@@ -17,14 +17,14 @@ from functools import partial
 from itertools import product
 from typing import Any
 
-from ...exact.behavior import compare
-from ...exact.generic_exceptional import generic_exceptional
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix
-from .. import certificate as make
-from ..certificate import Certificate, accept
+from ...exact.algebra.matrices import Matrix
+from ...exact.parametric.exceptional import generic_exceptional
+from ...exact.structure.behavior import compare
+from ...exact.structure.kernel_rows import kernel_representation
 from ..claims.common import delays, zeros
-from ..exhaustive import Orbit, orbits
+from ..evidence.exhaustive import Orbit, orbits
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate, accept
 from .structure_attacks import Decide, irrecoverable, misplaced, unlike, wrong_delay, wrong_signal
 
 BOXES = ((2, 3, 1, 1), (3, 2, 1, 2))

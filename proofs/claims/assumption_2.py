@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..verdicts import Outcome
-from ..workbench import Workbench
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench
 from .proposition_1 import WHITE, drives, smallest_limit
 from .proposition_1 import two_sided as consistent
 

@@ -10,18 +10,18 @@ import random
 from collections.abc import Iterable
 from itertools import islice, product
 
-from ...exact.fields import QQ
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, rank
-from ...exact.signals import excitation_matrix, hankel, persistency, simulate
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate
-from ..corpus import Dossier
-from ..families import adversarial, random_systems
-from ..search import Box, Facts, Flags, systems_in_order
-from ..verdicts import Outcome, Verdict
-from ..workbench import Test, Workbench, accepted, certify, counterexample, refute
+from ...exact.algebra.fields import QQ
+from ...exact.algebra.matrices import Matrix, rank
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.structure.signals import excitation_matrix, hankel, persistency, simulate
+from ...exact.system.systems import ResidualSystem
+from ..evidence.corpus import Dossier
+from ..evidence.families import adversarial, random_systems
+from ..evidence.search import Box, Facts, Flags, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Test, Workbench, accepted, certify, counterexample, refute
 from .common import GAP_BOX, delay_of, delays, gap_is_m_from, under_assumption_4, wrong_gap
 
 

@@ -12,22 +12,22 @@ from itertools import islice
 
 import numpy as np
 
-from ...exact.bad_set import bad_set
-from ...exact.exceptional import Exceptional, judge
-from ...exact.exceptional_witnesses import BadPair, bad_pair
-from ...exact.fault_space import with_pair
-from ...exact.fields import QQ, PrimeField
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, rank
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate, Unprovable, accept
-from ..families import adversarial, random_systems
-from ..judged_pairs import pencil_of
-from ..pairs import comparison_certificate
-from ..search import Box, systems_in_order
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, accepted, certify_records, counterexample
+from ...exact.algebra.fields import QQ, PrimeField
+from ...exact.algebra.matrices import Matrix, rank
+from ...exact.pairs.bad_variety import bad_set
+from ...exact.pairs.polynomial import Exceptional, judge
+from ...exact.pairs.witnesses import BadPair, bad_pair
+from ...exact.structure.fault_columns import with_pair
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import comparison_certificate
+from ..evidence.families import adversarial, random_systems
+from ..evidence.pairs_by_polynomial import pencil_of
+from ..evidence.search import Box, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate, Unprovable, accept
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, accepted, certify_records, counterexample
 from .one_determinant import show, words
 
 

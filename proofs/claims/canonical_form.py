@@ -6,16 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...exact.canonical_form import behavior_name, fault_class, with_feedback
-from ...exact.fault_space import fault_space
-from ...exact.kernel_representation import kernel_representation
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate
-from ..pairs import PairDossier, RivalDossier, comparison_certificate
-from ..search import Box, systems_in_order
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, certify_records, counterexample
+from ...exact.pairs.canonical_form import behavior_name, fault_class, with_feedback
+from ...exact.structure.fault_columns import fault_space
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import PairDossier, RivalDossier, comparison_certificate
+from ..evidence.search import Box, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, certify_records, counterexample
 
 
 def same_a_c(bench: Workbench) -> Outcome:

@@ -15,16 +15,16 @@ from typing import Any
 
 import numpy as np
 
-from ...exact.fault_space import fault_space
-from ...exact.kernel_representation import kernel_representation
-from ...exact.stratification import Stratification, stratify
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate
-from ..corpus import Dossier
-from ..search import Box, Facts, Flags, Integers
-from ..verdicts import Outcome, Verdict
-from ..workbench import Show, Test, Workbench
+from ...exact.parametric.stratification import Stratification, stratify
+from ...exact.structure.fault_columns import fault_space
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.corpus import Dossier
+from ..evidence.search import Box, Facts, Flags, Integers
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Show, Test, Workbench
 
 
 def ranks_and_inversion(system: ResidualSystem) -> Iterator[Certificate]:

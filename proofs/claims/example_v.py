@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from functools import cache
 
-from ...exact.fault_space import fault_space
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix
-from .. import certificate as make
-from ..certificate import Certificate
-from ..families import paper_example
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, accepted
+from ...exact.algebra.matrices import Matrix
+from ...exact.structure.fault_columns import fault_space
+from ...exact.structure.kernel_rows import kernel_representation
+from ..evidence.families import paper_example
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, accepted
 
 SAMPLES = 24
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..verdicts import Outcome
-from ..workbench import Workbench, witnessed
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench, witnessed
 from . import proposition_1
 
 

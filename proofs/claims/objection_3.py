@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...exact.systems import ResidualSystem
-from ..corpus import Dossier, examine
-from ..families import paper_example
-from ..search import Box, smallest
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, certify, counterexample
+from ...exact.system.systems import ResidualSystem
+from ..evidence.corpus import Dossier, examine
+from ..evidence.families import paper_example
+from ..evidence.search import Box, smallest
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, certify, counterexample
 from .common import gap_is_m_from, zeros
 
 BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...exact.generic_exceptional import generic_exceptional, generic_exceptional_without_feedthrough
-from ...exact.kernel_representation import kernel_representation
-from .. import certificate as make
-from ..certificate import Certificate
-from ..judged_pairs import JudgedPair
-from ..pairs import comparison_certificate
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, certify_records
+from ...exact.parametric.exceptional import generic_exceptional, generic_exceptional_without_feedthrough
+from ...exact.structure.kernel_rows import kernel_representation
+from ..evidence.alternatives import comparison_certificate
+from ..evidence.pairs_by_polynomial import JudgedPair
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, certify_records
 
 
 def formula(bench: Workbench) -> Outcome:

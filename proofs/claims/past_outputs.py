@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...exact.experiments import Experiment
-from ..experiments_tried import experiment_of
-from ..kept_experiments import WITHOUT_RANK
-from ..verdicts import Outcome
-from ..workbench import Workbench
+from ...exact.limits.experiments import Experiment
+from ..evidence.experiments import experiment_of
+from ..evidence.kept_experiments import WITHOUT_RANK
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench
 from .proposition_1 import certify_limits, smallest_limit, smallest_seasonal
 
 

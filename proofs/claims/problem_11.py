@@ -7,15 +7,15 @@ from itertools import product
 
 import numpy as np
 
-from ...exact.kernel_representation import column_conditions, kernel_representation
-from ...exact.matrices import Matrix
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate
-from ..corpus import Dossier
-from ..search import Box, Facts, Flags, systems_in_order
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, certify, counterexample, refute
+from ...exact.algebra.matrices import Matrix
+from ...exact.structure.kernel_rows import column_conditions, kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.corpus import Dossier
+from ..evidence.search import Box, Facts, Flags, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, certify, counterexample, refute
 from .common import spaces, under_assumption_4, zeros
 
 BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)

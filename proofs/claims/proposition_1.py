@@ -13,27 +13,19 @@ from functools import partial
 from itertools import product
 from typing import Any
 
-from ...exact.covariances import covariances
-from ...exact.experiments import Experiment
-from ...exact.hidden_states import hides_a_state
-from ...exact.matrices import Matrix
-from ...exact.population_limits import population_limits
-from ...exact.symbolic_leads import lead_identities
-from ..certificate import Certificate
-from ..experiments_tried import (
-    Drive,
-    LimitDossier,
-    certificates_of,
-    examine_experiment,
-    experiments_in_order,
-    leading,
-    nilpotent_points,
-)
-from ..kept_experiments import WITHOUT_RANK, kept
-from ..seasonal_inputs import BOX as BOX_OF_PERIOD
-from ..seasonal_inputs import in_order, seasonal
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, certify_records, counterexample
+from ...exact.algebra.matrices import Matrix
+from ...exact.limits.experiments import Experiment
+from ...exact.limits.hidden_states import hides_a_state
+from ...exact.limits.moesp import population_limits
+from ...exact.limits.moments import covariances
+from ...exact.parametric.leads import lead_identities
+from ..evidence.experiments import Drive, LimitDossier, certificates_of, examine_experiment, experiments_in_order, leading, nilpotent_points
+from ..evidence.kept_experiments import WITHOUT_RANK, kept
+from ..evidence.seasonal_inputs import BOX as BOX_OF_PERIOD
+from ..evidence.seasonal_inputs import in_order, seasonal
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, certify_records, counterexample
 
 WHITE = (["1"], ["1"])
 MOVING_AVERAGE = (["1", "1/2"], ["1"])

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...exact.parametric_claims import gap_claim
-from ..corpus import Dossier
-from ..search import Box
-from ..verdicts import Outcome
-from ..workbench import Workbench, certify, refute
+from ..evidence.corpus import Dossier
+from ..evidence.parametric import gap_claim
+from ..evidence.search import Box
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench, certify, refute
 from .assumption_4 import n_minus_1_known
 from .common import gap_is_m_from, identity, ranks_and_inversion
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from functools import partial
 
-from ...exact.population_limits import PopulationLimits, population_limits
-from ..experiments_tried import LimitDossier, certificates_of, examine_experiment, following
-from ..kept_experiments import kept
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, accepted, witnessed
+from ...exact.limits.moesp import PopulationLimits, population_limits
+from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment, following
+from ..evidence.kept_experiments import kept
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, accepted, witnessed
 from .proposition_1 import certify_limits, show_words, smallest_limit
 
 NOT_ALL = ("following-fault", "following-fault-regression", "following-fault-two-states")

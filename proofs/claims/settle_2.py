@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..verdicts import Outcome
-from ..workbench import Workbench
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench
 from . import assumption_4
 
 

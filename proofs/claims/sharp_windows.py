@@ -6,19 +6,19 @@ import random
 from collections.abc import Iterator
 from itertools import islice
 
-from ...exact.behavior import compare
-from ...exact.fault_space import fault_space, with_pair
-from ...exact.fields import QQ
-from ...exact.kernel_representation import KernelRepresentation, kernel_representation
-from ...exact.matrices import Matrix
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate, accept
-from ..corpus import Dossier
-from ..families import adversarial, random_systems
-from ..pairs import comparison_certificate
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, accepted, certify
+from ...exact.algebra.fields import QQ
+from ...exact.algebra.matrices import Matrix
+from ...exact.structure.behavior import compare
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import comparison_certificate
+from ..evidence.corpus import Dossier
+from ..evidence.families import adversarial, random_systems
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate, accept
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, accepted, certify
 from .common import ranks_and_inversion
 from .problem_11 import lag_plus_1
 

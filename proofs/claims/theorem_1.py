@@ -8,18 +8,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import column_basis
-from ...exact.parametric_claims import inclusion_claim
-from ...exact.systems import ResidualSystem
-from ...exact.windows import window_matrix
-from .. import certificate as make
-from ..certificate import Certificate
-from ..families import shift_registers
-from ..pairs import PairDossier, comparison_certificate
-from ..search import Box, systems_in_order
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, accepted, certify_records, counterexample
+from ...exact.algebra.matrices import column_basis
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ...exact.system.windows import window_matrix
+from ..evidence.alternatives import PairDossier, comparison_certificate
+from ..evidence.families import shift_registers
+from ..evidence.parametric import inclusion_claim
+from ..evidence.search import Box, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, accepted, certify_records, counterexample
 from .common import identity
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)

@@ -6,16 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...exact.matrices import column_basis, solve_left
-from ...exact.parametric_claims import zero_count_claim
-from ...exact.systems import ResidualSystem
-from ...exact.windows import reachability_matrix
-from .. import certificate as make
-from ..certificate import Certificate
-from ..corpus import Dossier
-from ..search import Box, Facts, Flags, smallest
-from ..verdicts import Outcome
-from ..workbench import Workbench, certify, counterexample, refute
+from ...exact.algebra.matrices import column_basis, solve_left
+from ...exact.system.systems import ResidualSystem
+from ...exact.system.windows import reachability_matrix
+from ..evidence.corpus import Dossier
+from ..evidence.parametric import zero_count_claim
+from ..evidence.search import Box, Facts, Flags, smallest
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench, certify, counterexample, refute
 from .common import identity, zeros
 
 BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..verdicts import Outcome
-from ..workbench import Workbench, certify_records
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench, certify_records
 from .theorem_3_ii import show, words
 
 

@@ -7,15 +7,15 @@ from itertools import product
 
 import numpy as np
 
-from ...exact.fault_space import fault_space, with_pair
-from ...exact.kernel_representation import KernelRepresentation, kernel_representation
-from ...exact.matrices import Matrix, rank
-from .. import certificate as make
-from ..certificate import Certificate
-from ..pairs import RivalDossier, comparison_certificate
-from ..search import Box, systems_in_order
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, certify_records, counterexample
+from ...exact.algebra.matrices import Matrix, rank
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from ..evidence.alternatives import RivalDossier, comparison_certificate
+from ..evidence.search import Box, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, certify_records, counterexample
 from .one_determinant import show as show_judged
 from .one_determinant import words as judged_words
 

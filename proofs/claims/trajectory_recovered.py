@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...exact import polynomials
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, rank
-from ...exact.structure import structure
-from ...exact.systems import ResidualSystem
-from ...exact.windows import observability_matrix
-from ...exact.zero_feedthrough import zero_feedthrough
-from ..corpus import Dossier
-from ..search import Box
-from ..verdicts import Outcome
-from ..workbench import Workbench, certify, refute
+from ...exact.algebra import polynomials
+from ...exact.algebra.matrices import Matrix, rank
+from ...exact.pairs.no_feedthrough import zero_feedthrough
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.structure.record import structure
+from ...exact.system.systems import ResidualSystem
+from ...exact.system.windows import observability_matrix
+from ..evidence.corpus import Dossier
+from ..evidence.search import Box
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench, certify, refute
 from .common import delays, zeros
 
 BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)

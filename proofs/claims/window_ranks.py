@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...exact.kernel_representation import kernel_representation
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate
-from ..corpus import Dossier
-from ..verdicts import Outcome
-from ..workbench import Workbench, certify
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.corpus import Dossier
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench, certify
 from .common import spaces, zeros
 
 

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
-from ...exact.exceptional import Exceptional
-from ...exact.fields import QQ
-from ...exact.kernel_representation import kernel_representation
-from ...exact.systems import ResidualSystem
-from ...exact.zero_assignment import recoverable_pair
-from .. import certificate as make
-from ..certificate import Certificate, accept
-from ..families import adversarial, random_systems
-from ..judged_pairs import JudgedPair, pencil_of
-from ..pairs import comparison_certificate
-from ..search import Box, systems_in_order
-from ..verdicts import Outcome, Verdict
-from ..workbench import Workbench, accepted, certify_records, counterexample
+from ...exact.algebra.fields import QQ
+from ...exact.pairs.assignment import recoverable_pair
+from ...exact.pairs.polynomial import Exceptional
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import comparison_certificate
+from ..evidence.families import adversarial, random_systems
+from ..evidence.pairs_by_polynomial import JudgedPair, pencil_of
+from ..evidence.search import Box, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate, accept
+from ..verdict.verdicts import Outcome, Verdict
+from ..verdict.workbench import Workbench, accepted, certify_records, counterexample
 from .one_determinant import show, words
 
 

@@ -6,16 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...exact.fault_space import fault_space
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import rank
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..certificate import Certificate
-from ..corpus import Dossier
-from ..search import Box
-from ..verdicts import Outcome
-from ..workbench import Workbench, certify, refute
+from ...exact.algebra.matrices import rank
+from ...exact.structure.fault_columns import fault_space
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.corpus import Dossier
+from ..evidence.search import Box
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench, certify, refute
 from .common import zeros
 
 BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 
-from ...exact.systems import ResidualSystem
-from ..judged_pairs import JudgedPair
-from ..verdicts import Outcome
-from ..workbench import Workbench, certify_records, counterexample
+from ...exact.system.systems import ResidualSystem
+from ..evidence.pairs_by_polynomial import JudgedPair
+from ..verdict.verdicts import Outcome
+from ..verdict.workbench import Workbench, certify_records, counterexample
 from .one_determinant import show, words
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..ablation import Experiment
+from ..verdict.ablation import Experiment
 from .experiments import consistency, consistency_coloured
 from .fault_matrices import theorem_3_ii
 from .pairs import same_model, theorem_1, theorem_3_i

@@ -14,12 +14,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from random import Random
 
-from ...exact.fault_space import fault_space, with_pair
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, beside
-from ...exact.systems import ResidualSystem
-from ..corpus import Dossier, examine
-from ..workbench import Workbench
+from ...exact.algebra.matrices import Matrix, beside
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.corpus import Dossier, examine
+from ..verdict.workbench import Workbench
 from .facets import of_system
 
 

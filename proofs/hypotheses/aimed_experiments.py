@@ -17,12 +17,12 @@ from itertools import product
 from random import Random
 from typing import Any
 
-from ...exact.experiments import Experiment, read_experiment
-from ...exact.fields import QQ
-from ...exact.matrices import Matrix, rank
-from ...exact.stability import is_stable
-from ...exact.systems import ResidualSystem
-from ...exact.windows import observability_matrix, reachability_matrix
+from ...exact.algebra.fields import QQ
+from ...exact.algebra.matrices import Matrix, rank
+from ...exact.algebra.stability import is_stable
+from ...exact.limits.experiments import Experiment, read_experiment
+from ...exact.system.systems import ResidualSystem
+from ...exact.system.windows import observability_matrix, reachability_matrix
 
 Rows = list[list[str]]
 Filter = dict[str, Any]

@@ -18,11 +18,11 @@ from fractions import Fraction
 from itertools import product
 from random import Random
 
-from ...exact.fault_space import fault_space, with_pair
-from ...exact.fields import PrimeField
-from ...exact.kernel_representation import column_conditions, kernel_representation
-from ...exact.matrices import Matrix, beside, rank, right_null_space, solve_left, stacked
-from ...exact.systems import ResidualSystem
+from ...exact.algebra.fields import PrimeField
+from ...exact.algebra.matrices import Matrix, beside, rank, right_null_space, solve_left, stacked
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.kernel_rows import column_conditions, kernel_representation
+from ...exact.system.systems import ResidualSystem
 
 
 def similarity(first: ResidualSystem, second: ResidualSystem) -> Matrix | None:

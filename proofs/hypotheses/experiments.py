@@ -15,18 +15,18 @@ from functools import cached_property, partial
 
 from joblib import Parallel, delayed
 
-from ...exact.experiments import Experiment as Record
-from ...exact.fields import QQ
-from ...exact.lyapunov import solve
-from ...exact.matrices import Matrix
-from ...exact.population_limits import PopulationLimits, population_limits
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..ablation import Experiment, Found, first_found
-from ..certificate import Certificate
+from ...exact.algebra.fields import QQ
+from ...exact.algebra.matrices import Matrix
+from ...exact.limits.experiments import Experiment as Record
+from ...exact.limits.lyapunov import solve
+from ...exact.limits.moesp import PopulationLimits, population_limits
+from ...exact.system.systems import ResidualSystem
 from ..claims.proposition_1 import show_words
-from ..experiments_tried import LimitDossier, certificates_of, examine_experiment
-from ..workbench import Workbench
+from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.ablation import Experiment, Found, first_found
+from ..verdict.workbench import Workbench
 from .aimed_experiments import BOX, aimed_experiments, small_experiments
 from .changes_of_state import similarity
 from .facets import degenerate

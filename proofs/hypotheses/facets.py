@@ -16,13 +16,13 @@ from typing import TypeVar
 
 import numpy as np
 
-from ...exact.fields import PrimeField
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import rank, stacked
-from ...exact.stability import is_stable
-from ...exact.systems import ResidualSystem
-from ...exact.windows import observability_matrix, reachability_matrix
-from ..search import Facts, Flags
+from ...exact.algebra.fields import PrimeField
+from ...exact.algebra.matrices import rank, stacked
+from ...exact.algebra.stability import is_stable
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ...exact.system.windows import observability_matrix, reachability_matrix
+from ..evidence.search import Facts, Flags
 
 S = TypeVar("S")
 

@@ -12,17 +12,17 @@ from functools import partial
 from itertools import product
 from random import Random
 
-from ...exact.behavior import compare
-from ...exact.fault_space import fault_space, with_pair
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, rank, stacked
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..ablation import Experiment, Found, Proof, first_found
-from ..certificate import Certificate
-from ..pairs import RivalDossier, comparison_certificate, examine_rival
-from ..search import Box, systems_in_order
-from ..workbench import Workbench, size
+from ...exact.algebra.matrices import Matrix, rank, stacked
+from ...exact.structure.behavior import compare
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import RivalDossier, comparison_certificate, examine_rival
+from ..evidence.search import Box, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
 from .facets import degenerate, facets, flags, of_system
 

@@ -14,17 +14,17 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import chain
 
-from ...exact.fault_space import fault_space
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, column_basis, rank, stacked
-from ...exact.systems import ResidualSystem
-from ...exact.windows import window_matrix
-from .. import certificate as make
-from ..ablation import Experiment, Found, Proof, first_found
-from ..certificate import Certificate
-from ..pairs import PairDossier, comparison_certificate, examine_pair
-from ..search import Box, systems_in_order
-from ..workbench import Workbench
+from ...exact.algebra.matrices import Matrix, column_basis, rank, stacked
+from ...exact.structure.fault_columns import fault_space
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ...exact.system.windows import window_matrix
+from ..evidence.alternatives import PairDossier, comparison_certificate, examine_pair
+from ..evidence.search import Box, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.workbench import Workbench
 from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
 from .facets import degenerate, facets, flags

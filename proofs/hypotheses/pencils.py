@@ -13,23 +13,23 @@ from random import Random
 
 import numpy as np
 
-from ...exact.bad_set import bad_set
-from ...exact.exceptional import polynomial_at
-from ...exact.exceptional_witnesses import BadPair, bad_pair
-from ...exact.fault_space import with_pair
-from ...exact.kernel_representation import kernel_representation
-from ...exact.matrices import Matrix, rank
-from ...exact.pencil import infinite_zero_orders
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..ablation import Experiment, Found, Proof, first_found
-from ..certificate import Certificate
+from ...exact.algebra.matrices import Matrix, rank
+from ...exact.pairs.bad_variety import bad_set
+from ...exact.pairs.polynomial import polynomial_at
+from ...exact.pairs.witnesses import BadPair, bad_pair
+from ...exact.structure.fault_columns import with_pair
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.structure.pencil import infinite_zero_orders
+from ...exact.system.systems import ResidualSystem
 from ..claims.one_determinant import agrees
 from ..claims.one_determinant import show as show_pair
-from ..judged_pairs import JudgedPair, examine_judged, pencil_of
-from ..pairs import comparison_certificate
-from ..search import Box, Facts, Integers, systems_in_order
-from ..workbench import Workbench, size
+from ..evidence.alternatives import comparison_certificate
+from ..evidence.pairs_by_polynomial import JudgedPair, examine_judged, pencil_of
+from ..evidence.search import Box, Facts, Integers, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate
+from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
 from .facets import degenerate, flags, of_system
 from .placed import every_polynomial_is_reached

@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from random import Random
 from typing import Any
 
-from ...exact.exceptional import Exceptional, polynomial_at
-from ...exact.fields import PrimeField
-from ...exact.input_rules import InvalidInput
-from ...exact.kernel_representation import kernel_representation
-from ...exact.pencil import invariant_zero_polynomial
-from ...exact.polynomials import Poly, monic, multiply, trimmed
-from ...exact.zero_assignment import assign_zeros
+from ...base.errors import InvalidInput
+from ...exact.algebra.fields import PrimeField
+from ...exact.algebra.polynomials import Poly, monic, multiply, trimmed
+from ...exact.pairs.assignment import assign_zeros
+from ...exact.pairs.polynomial import Exceptional, polynomial_at
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.structure.pencil import invariant_zero_polynomial
 
 
 def every_polynomial_is_reached(pencil: Exceptional) -> bool:

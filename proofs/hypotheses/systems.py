@@ -6,10 +6,10 @@ from collections.abc import Collection
 
 import numpy as np
 
-from ...exact.matrices import rank
-from ..ablation import Experiment, Proof
+from ...exact.algebra.matrices import rank
 from ..claims.common import delays, spaces, zeros
-from ..search import Box, Facts, Flags
+from ..evidence.search import Box, Facts, Flags
+from ..verdict.ablation import Experiment, Proof
 from .facets import facets
 from .windowed import (
     CONTROLLABLE,

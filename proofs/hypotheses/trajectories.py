@@ -13,17 +13,17 @@ from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
 
-from ...exact.fields import QQ, Field
-from ...exact.matrices import Matrix
-from ...exact.signals import persistency
-from ...exact.systems import ResidualSystem
-from .. import certificate as make
-from ..ablation import Experiment, Found, Proof, first_found
-from ..certificate import Certificate, accept
-from ..exhaustive import orbits
-from ..families import adversarial, random_systems
-from ..search import Box, systems_in_order
-from ..workbench import Workbench, size
+from ...exact.algebra.fields import QQ, Field
+from ...exact.algebra.matrices import Matrix
+from ...exact.structure.signals import persistency
+from ...exact.system.systems import ResidualSystem
+from ..evidence.exhaustive import orbits
+from ..evidence.families import adversarial, random_systems
+from ..evidence.search import Box, systems_in_order
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate, accept
+from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
 from .facets import degenerate, facets, flags, of_system
 

@@ -16,11 +16,11 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ..ablation import Experiment, Found, Proof, first_found
-from ..certificate import Certificate
-from ..corpus import Dossier, examine
-from ..search import Box, Facts, Flags, chunks
-from ..workbench import Show, Workbench
+from ..evidence.corpus import Dossier, examine
+from ..evidence.search import Box, Facts, Flags, chunks
+from ..trust.structure_certificates import Certificate
+from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.workbench import Show, Workbench
 from .aimed import aimed_dossiers
 from .facets import degenerate, facets, nilpotent
 

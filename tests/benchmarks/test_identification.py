@@ -16,7 +16,7 @@ from benchmarks.identification_run import OURS, Run, aims
 from benchmarks.identification_study import Comparison, sections
 from benchmarks.identification_tables import MODELS, notes, sheets
 from benchmarks.sheets import markdown
-from faultspace.numeric.models import StateSpaceModel
+from faultspace.numeric.model.models import StateSpaceModel
 
 SETTING = Setting(2, 3, 5, 20_000)
 NOISY = replace(SETTING, noise=0.01)

@@ -13,11 +13,11 @@ from benchmarks.ladder_run import Record, Run, aims, disagreements, exponent, ra
 from benchmarks.ladder_systems import FAMILIES, Family
 from benchmarks.ladder_tables import notes, sheets
 from benchmarks.sheets import markdown
-from faultspace.exact.inversion import largest_output_nulling
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, beside, rank, stacked
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.windows import rank_of_every_window
+from faultspace.exact.algebra.matrices import Matrix, beside, rank, stacked
+from faultspace.exact.structure.inversion import largest_output_nulling
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import rank_of_every_window
 
 PLANTED = [family for family in FAMILIES if family.kind != "dense"]
 QUICK = Limits(seconds=20, setup=20, repeats=1)

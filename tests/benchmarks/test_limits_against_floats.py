@@ -15,9 +15,9 @@ from benchmarks import past_outputs_bias
 from benchmarks.identification_data import ORDER, Setting, errors, record
 from benchmarks.limits_against_floats import ERRORS, METHODS, chosen, compared, distance, drawn, expected, sample_limits, table
 from benchmarks.past_outputs_bias import benchmark_experiment, examined, free_order, predicted
-from faultspace.exact.population_limits import PopulationLimits, population_limits
-from faultspace.numeric.po_moesp import po_moesp
-from faultspace.proofs.experiments_tried import FAMILIES
+from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.proofs.evidence.experiments import FAMILIES
 from tests.numeric.predicted_limits import invariants, predicted_model
 
 LEADING = "u white, v leads it"

@@ -2,7 +2,7 @@
 
 Run             exit code, standard output and standard error
 command         `python -m faultspace` in a process of its own
-call            `faultspace.command_line.main` in this process
+call            `faultspace.cli.command_line.main` in this process
 validator       of the schema of that name
 EXAMPLES        the folder of the packaged systems
 """
@@ -22,7 +22,7 @@ from typing import Any
 
 import jsonschema
 
-from faultspace.command_line import main
+from faultspace.cli.command_line import main
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = resources.files("faultspace").joinpath("examples")

@@ -44,7 +44,7 @@ def refused(run: Run, *parts: str) -> None:
 
 def valid(name: str, document: Any) -> Any:
     """The document, which the schema NAME.schema.json accepts."""
-    schema = json.loads(resources.files("faultspace").joinpath("schemas", f"{name}.schema.json").read_text("utf-8"))
+    schema = json.loads(resources.files("faultspace.numeric").joinpath("schemas", f"{name}.schema.json").read_text("utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)
     jsonschema.Draft202012Validator(schema).validate(document)
     return document

@@ -16,7 +16,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from faultspace import reading_files
+from faultspace.cli import reading_files
 from tests.end_to_end.commands import Run, call, command, example
 from tests.oracle.strategies import systems
 
@@ -224,7 +224,7 @@ def test_what_does_not_fit_into_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     def exhausted(_: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("faultspace.inspecting.structure", exhausted)
+    monkeypatch.setattr("faultspace.cli.inspecting.structure", exhausted)
     refused(call("inspect", "example:zeros"), "example:zeros", "memory")
 
 
@@ -323,9 +323,9 @@ def test_bytes(tmp_path: Path, content: bytes) -> None:
 @pytest.fixture(scope="module")
 def certificate() -> Any:
     """One with a kernel and a number field in it."""
-    from faultspace.exact.kernel_representation import kernel_representation
-    from faultspace.exact.systems import read_system
-    from faultspace.proofs.certificate import window_ranks
+    from faultspace.exact.structure.kernel_rows import kernel_representation
+    from faultspace.exact.system.systems import read_system
+    from faultspace.proofs.trust.structure_certificates import window_ranks
 
     return window_ranks(kernel_representation(read_system(example("paper")).residual))
 

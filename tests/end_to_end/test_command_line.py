@@ -20,13 +20,13 @@ from hypothesis import HealthCheck, given, settings
 from typer.testing import CliRunner
 
 import faultspace
-from faultspace import consoles, failures
-from faultspace.command_line import app
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.systems import read_system
+from faultspace.cli import consoles, failures
+from faultspace.cli.command_line import app
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import read_system
 from faultspace.example_data import FILE_NAME
 from faultspace.packaged_examples import DESCRIPTIONS, EXPERIMENTS
-from faultspace.proofs import certificate as certificates
+from faultspace.proofs.trust import structure_certificates as certificates
 from tests.end_to_end.commands import EXAMPLES, ROOT, Run, call, command, environment, example, validator
 from tests.oracle.strategies import system_pairs, systems
 
@@ -363,7 +363,7 @@ def test_a_reader_that_goes_away_is_no_error() -> None:
 
 
 def test_an_interrupt_is_one_line() -> None:
-    source = "import sys; from faultspace.command_line import main; print('ready', flush=True); sys.exit(main(['inspect', '-']))"
+    source = "import sys; from faultspace.cli.command_line import main; print('ready', flush=True); sys.exit(main(['inspect', '-']))"
     streams = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     run = subprocess.Popen([sys.executable, "-c", source], **streams, cwd=ROOT, env=environment())  # type: ignore[call-overload]
     assert run.stdout.readline() == b"ready\n"

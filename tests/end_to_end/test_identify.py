@@ -19,17 +19,18 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace import example_data as made
-from faultspace import identification_report as report
-from faultspace import identification_signal, identifying
-from faultspace.data_files import read_record
-from faultspace.identification_pictures import PICTURES
-from faultspace.identification_summary import advice
-from faultspace.numeric.distances import containment_distance, subspace_distance
-from faultspace.numeric.fault_dimension import fault_dimension
-from faultspace.numeric.fault_space import fault_space
-from faultspace.numeric.models import StateSpaceModel
-from faultspace.numeric.reconstruction import reconstruct_fault
-from faultspace.records import recorded
+from faultspace.numeric import pipeline as identifying
+from faultspace.numeric.count.rank_gap import fault_dimension
+from faultspace.numeric.data.files import read_record
+from faultspace.numeric.data.records import recorded
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.report import files as report
+from faultspace.numeric.report.pictures import PICTURES
+from faultspace.numeric.report.summary import advice
+from faultspace.numeric.signal import choice as identification_signal
+from faultspace.numeric.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.space.by_ranks import fault_space
+from faultspace.numeric.space.distances import containment_distance, subspace_distance
 from tests.end_to_end.commands import call, command, validator
 from tests.end_to_end.identify_runs import CHANNELS, identified, refused, small_csv, valid
 
@@ -115,7 +116,7 @@ def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Pat
     def without(name: str) -> Any:
         raise ImportError(name)
 
-    monkeypatch.setattr("faultspace.identification_pictures.import_module", without)
+    monkeypatch.setattr("faultspace.numeric.report.pictures.import_module", without)
     run = identified(csv_file, tmp_path / "out", "--json")
     assert run.code == 0 and "matplotlib is not installed" in run.err
     assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, report.SUMMARY]

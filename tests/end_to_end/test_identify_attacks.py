@@ -16,13 +16,14 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from faultspace import example_data as made
-from faultspace import identification_report as report
-from faultspace.identification_summary import summary
-from faultspace.identifying import Answer, identify
-from faultspace.numeric.fault_space_bound import largest_fault_space
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.models import StateSpaceModel
-from faultspace.records import recorded
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.data.records import recorded
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.pipeline import identify
+from faultspace.numeric.report import files as report
+from faultspace.numeric.report.summary import summary
+from faultspace.numeric.result import Answer
+from faultspace.numeric.space.largest import largest_fault_space
 from tests.end_to_end.identify_runs import valid
 
 Array = NDArray[np.float64]

@@ -18,12 +18,13 @@ import pytest
 from numpy.typing import NDArray
 from scipy.io import savemat
 
-from faultspace import data_files, identifying
 from faultspace import example_data as made
-from faultspace import identification_report as report
-from faultspace.data_files import read_record, split_names
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.numeric.models import StateSpaceModel
+from faultspace.base.errors import InvalidInput
+from faultspace.numeric import pipeline as identifying
+from faultspace.numeric.data import files as data_files
+from faultspace.numeric.data.files import read_record, split_names
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.report import files as report
 from tests.end_to_end.identify_runs import identified, refused, small_csv
 
 Array = NDArray[np.float64]
@@ -116,7 +117,7 @@ def test_parquet_without_pyarrow_says_what_to_install(tmp_path: Path, monkeypatc
     def without(name: str) -> Any:
         raise ImportError(name)
 
-    monkeypatch.setattr("faultspace.data_files.import_module", without)
+    monkeypatch.setattr("faultspace.numeric.data.files.import_module", without)
     path = tmp_path / "d.parquet"
     path.write_bytes(b"PAR1")
     refused(identified(path, tmp_path / "out"), "pyarrow", "faultspace[parquet]")
@@ -127,7 +128,7 @@ def test_commas_in_brackets_do_not_separate() -> None:
 
 
 def test_long_tables_are_read_in_pieces_and_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("faultspace.text_tables.PIECE", 64)
+    monkeypatch.setattr("faultspace.numeric.data.text_tables.PIECE", 64)
     path = small_csv(tmp_path, "u,y\n" + "".join(f"{k},{k * 0.5}\n" for k in range(1000)))
     told: list[tuple[int, int]] = []
     got = read_record(str(path), inputs=["u"], outputs=["y"], tell=lambda *pair: told.append(pair))
@@ -275,7 +276,7 @@ def test_bad_numbers(options: tuple[str, str], part: str, csv_file: Path, tmp_pa
 
 
 def test_a_wrong_sample_far_into_the_record_is_told_by_its_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("faultspace.text_tables.PIECE", 64)
+    monkeypatch.setattr("faultspace.numeric.data.text_tables.PIECE", 64)
     path = small_csv(tmp_path, "u,y\n" + "".join(f"{k},{'inf' if k == 777 else k}\n" for k in range(1000)))
     with pytest.raises(InvalidInput, match="'y' is infinite at sample 777 "):
         read_record(str(path), inputs=["u"], outputs=["y"])
@@ -351,7 +352,7 @@ def test_a_full_disk_is_told(csv_file: Path, tmp_path: Path, monkeypatch: pytest
         def write(self, _: object) -> None:
             raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("faultspace.records.tempfile.SpooledTemporaryFile", lambda **_: Full())
+    monkeypatch.setattr("faultspace.numeric.data.records.tempfile.SpooledTemporaryFile", lambda **_: Full())
     refused(identified(csv_file, tmp_path / "out"), "temporary files", "TMPDIR", "No space left")
 
 

@@ -19,18 +19,20 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace import example_data as made
-from faultspace import identifying, long_reconstruction, records
-from faultspace.long_reconstruction import reconstructed
-from faultspace.long_residuals import PART, loudest, residual_of
-from faultspace.numeric.compression import compress_chunks
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.models import StateSpaceModel
-from faultspace.numeric.pi_moesp import pi_moesp
-from faultspace.numeric.pi_moesp_chunks import pi_moesp_from_chunks
-from faultspace.numeric.reconstruction import reconstruct_fault
-from faultspace.numeric.residuals import residual
-from faultspace.pass_progress import passes
-from faultspace.records import Passes, Record, RecordWriter, SampleStore, recorded
+from faultspace.base.errors import InvalidData
+from faultspace.cli.pass_progress import passes
+from faultspace.numeric import pipeline as identifying
+from faultspace.numeric.data import records
+from faultspace.numeric.data.records import Passes, Record, RecordWriter, SampleStore, recorded
+from faultspace.numeric.model.chunks import pi_moesp_from_chunks
+from faultspace.numeric.model.compression import compress_chunks
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.model.past_inputs import pi_moesp
+from faultspace.numeric.model.residuals import residual
+from faultspace.numeric.signal import long_reconstruction
+from faultspace.numeric.signal.long_reconstruction import reconstructed
+from faultspace.numeric.signal.long_residuals import PART, loudest, residual_of
+from faultspace.numeric.signal.reconstruction import reconstruct_fault
 from tests.end_to_end.commands import ROOT, environment
 from tests.end_to_end.identify_runs import CHANNELS
 
@@ -148,8 +150,11 @@ def test_a_late_fault_is_counted_and_the_stretch_is_told(monkeypatch: pytest.Mon
 
 SCRIPT = """
 import sys
-from faultspace import command_line, identifying, long_reconstruction, records
-identifying.HELD, records.IN_MEMORY, long_reconstruction.LONGEST = 1 << 16, {in_memory}, 1 << 13
+from faultspace.cli import command_line
+from faultspace.numeric import pipeline
+from faultspace.numeric.data import records
+from faultspace.numeric.signal import long_reconstruction
+pipeline.HELD, records.IN_MEMORY, long_reconstruction.LONGEST = 1 << 16, {in_memory}, 1 << 13
 code = command_line.main(sys.argv[1:])
 with open("/proc/self/status") as status:
     print(code, *[line.split()[1] for line in status if line.startswith("VmHWM")], file=sys.stderr)

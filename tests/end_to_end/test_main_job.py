@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import faultspace.proofs
-from faultspace.proofs.ledger import load
+from faultspace.proofs.verdict.ledger import load
 
 from .commands import command
 
@@ -32,7 +32,7 @@ def test_verify_quick_is_as_expected_and_makes_the_certificates_of_the_tree(tmp_
 
 def test_the_certificates_of_the_tree_are_accepted_by_a_lone_checker(tmp_path: Path) -> None:
     lone = tmp_path / "checker.py"
-    shutil.copy(ROOM / "checker.py", lone)
+    shutil.copy(ROOM / "trust" / "checker.py", lone)
     files = sorted(map(str, HEADLINES.glob("*-*.json")))
     assert len(files) > 50
     run = subprocess.run([sys.executable, "-I", "-O", str(lone), *files], capture_output=True, text=True, cwd=tmp_path, check=False)

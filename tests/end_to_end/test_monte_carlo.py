@@ -12,7 +12,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from faultspace import study_report
+from faultspace.cli import study_report
 from tests.end_to_end.commands import call, command
 
 NAMES = ["published", "identified", "corrected", "corrected-identified"]
@@ -20,7 +20,7 @@ NAMES = ["published", "identified", "corrected", "corrected-identified"]
 
 def validator() -> Any:
     """Of the schema that comes with the package, itself checked."""
-    schema = json.loads((resources.files("faultspace") / "schemas" / "monte_carlo.schema.json").read_text("utf-8"))
+    schema = json.loads((resources.files("faultspace.numeric") / "schemas" / "monte_carlo.schema.json").read_text("utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
 

@@ -16,13 +16,13 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from faultspace import consoles, verifying
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.systems import read_system
-from faultspace.proofs.certificate import sha256, window_ranks
-from faultspace.proofs.ledger import Claim, Reading
-from faultspace.proofs.specimens import specimens
-from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
+from faultspace.cli import consoles, verifying
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import read_system
+from faultspace.proofs.evidence.specimens import specimens
+from faultspace.proofs.trust.structure_certificates import sha256, window_ranks
+from faultspace.proofs.verdict.ledger import Claim, Reading
+from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
 from tests.end_to_end.commands import call, command, example, validator
 
 ONE = Reading("as-printed", "rank [O_s T_s] = n + s m for every system and every s", ("left-invertible", "s >= n"), "REFUTED", False)

@@ -24,15 +24,15 @@ from itertools import pairwise
 from random import Random
 from typing import Any
 
-from faultspace.exact import polynomials
-from faultspace.exact.behavior import Separation, compare, included_on
-from faultspace.exact.fault_space import fault_space, fault_space_dimension
-from faultspace.exact.fields import PrimeField
-from faultspace.exact.inversion import ambiguous_word, delay_known_state, delay_unknown_state, left_inverse
-from faultspace.exact.kernel_representation import KernelRepresentation, annihilates, kernel_representation
-from faultspace.exact.matrices import Matrix, beside, left_null_space, rank, row_echelon, stacked
-from faultspace.exact.modular import image
-from faultspace.exact.pencil import (
+from faultspace.exact.algebra import polynomials
+from faultspace.exact.algebra.fields import PrimeField
+from faultspace.exact.algebra.matrices import Matrix, beside, left_null_space, rank, row_echelon, stacked
+from faultspace.exact.algebra.polynomials import Poly, PolyMatrix, SmithDiagonal
+from faultspace.exact.structure.behavior import Separation, compare, included_on
+from faultspace.exact.structure.fault_columns import fault_space, fault_space_dimension
+from faultspace.exact.structure.inversion import ambiguous_word, delay_known_state, delay_unknown_state, left_inverse
+from faultspace.exact.structure.kernel_rows import KernelRepresentation, annihilates, kernel_representation
+from faultspace.exact.structure.pencil import (
     finite_diagonal,
     infinite_diagonal,
     infinite_zero_orders,
@@ -43,13 +43,13 @@ from faultspace.exact.pencil import (
     right_null_polynomial,
     zero_dynamics_polynomial,
 )
-from faultspace.exact.polynomials import Poly, PolyMatrix, SmithDiagonal
-from faultspace.exact.relations import integer_relations, relations_over_prime_field
-from faultspace.exact.signals import simulate
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem, read_system
-from faultspace.exact.windows import rank_of_every_window, toeplitz_matrix, window_matrix
-from faultspace.exact.zero_output import chain_from_rest, zero_output_chain
+from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.relations import integer_relations, relations_over_prime_field
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.structure.zero_output import chain_from_rest, zero_output_chain
+from faultspace.exact.system.modular import image
+from faultspace.exact.system.systems import ResidualSystem, read_system
+from faultspace.exact.system.windows import rank_of_every_window, toeplitz_matrix, window_matrix
 from tests.oracle import first_difference, inspect_slowly, same_report
 from tests.oracle.fault_space import fault_space as slow_fault_space
 from tests.oracle.pencil import infinite_zero_orders_of_pencil, right_minimal_indices_of_pencil

@@ -12,9 +12,9 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from faultspace.exact.experiments import Experiment, read_experiment
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.stability import is_stable
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.algebra.stability import is_stable
+from faultspace.exact.limits.experiments import Experiment, read_experiment
 
 Rows = list[list[str]]
 

@@ -24,27 +24,27 @@ from typing import Any
 import sympy
 from sympy.polys.matrices import DomainMatrix
 
-from faultspace.exact import polynomials
-from faultspace.exact.bad_set import bad_equations, bad_set, dimension_of
-from faultspace.exact.behavior import compare
-from faultspace.exact.canonical_form import behavior_name, fault_class, feedback_class, with_feedback
-from faultspace.exact.exceptional import Exceptional, exceptional, judge, polynomial_at
-from faultspace.exact.exceptional_minors import coefficient_forms, forms_of_determinant, pluecker_forms, value
-from faultspace.exact.exceptional_witnesses import BadPair, bad_pair, good_columns
-from faultspace.exact.fault_space import fault_space
-from faultspace.exact.fields import Field, NumberField, PrimeField
-from faultspace.exact.inversion import largest_output_nulling
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.linear_determinants import by_deflation, by_values, linear_determinant
-from faultspace.exact.matrices import Matrix, beside, column_basis, rank, right_null_space, stacked
-from faultspace.exact.pencil import characteristic_polynomial, infinite_zero_orders
-from faultspace.exact.signals import simulate
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.windows import observability_matrix
-from faultspace.exact.zero_assignment import assign_zeros, recoverable_pair
-from faultspace.exact.zero_feedthrough import members_by_formula, zero_feedthrough
-from faultspace.exact.zero_output import chain_from_rest
+from faultspace.exact.algebra import polynomials
+from faultspace.exact.algebra.fields import Field, NumberField, PrimeField
+from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, stacked
+from faultspace.exact.pairs.assignment import assign_zeros, recoverable_pair
+from faultspace.exact.pairs.bad_variety import bad_equations, bad_set, dimension_of
+from faultspace.exact.pairs.canonical_form import behavior_name, fault_class, feedback_class, with_feedback
+from faultspace.exact.pairs.linear_determinants import by_deflation, by_values, linear_determinant
+from faultspace.exact.pairs.no_feedthrough import members_by_formula, zero_feedthrough
+from faultspace.exact.pairs.pluecker import coefficient_forms, forms_of_determinant, pluecker_forms, value
+from faultspace.exact.pairs.polynomial import Exceptional, exceptional, judge, polynomial_at
+from faultspace.exact.pairs.witnesses import BadPair, bad_pair, good_columns
+from faultspace.exact.structure.behavior import compare
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.structure.inversion import largest_output_nulling
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.pencil import characteristic_polynomial, infinite_zero_orders
+from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.structure.zero_output import chain_from_rest
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import observability_matrix
 from tests.exact.checks import random_matrix, read
 from tests.oracle.pencil import invariant_zero_polynomial, normal_rank
 from tests.oracle.systems import parse_system

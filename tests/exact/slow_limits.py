@@ -17,9 +17,9 @@ from typing import Any
 
 import sympy
 
-from faultspace.exact.experiments import Experiment
-from faultspace.exact.filters import Filter
-from faultspace.exact.joint_process import JointProcess
+from faultspace.exact.limits.experiments import Experiment
+from faultspace.exact.limits.filters import Filter
+from faultspace.exact.limits.process import JointProcess
 
 Table = sympy.Matrix
 

@@ -17,10 +17,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy.polys.matrices import DomainMatrix
 
-from faultspace.exact.fields import QQ, NumberField, PrimeField, field_from_json
-from faultspace.exact.input_rules import MAX_BITS, MAX_DIMENSION, InvalidInput, parse_rational, shown
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.systems import FaultySystem, ResidualSystem, from_float_exactly, read_system
+from faultspace.base.errors import InvalidInput, shorten
+from faultspace.exact.algebra.fields import QQ, NumberField, PrimeField, field_from_json
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.algebra.validation import MAX_BITS, MAX_DIMENSION, parse_rational
+from faultspace.exact.system.systems import FaultySystem, ResidualSystem, from_float_exactly, read_system
 
 Json = Any
 GOOD: Json = {"A": [["0"]], "F": [["1"]], "C": [["1"], ["0"]], "G": [["0"], ["1"]]}
@@ -270,10 +271,10 @@ def test_no_field_brings_it_down(value: Json) -> None:
 
 
 def test_what_is_shown_is_short() -> None:
-    assert shown("x" * 1000) == "'" + "x" * 56 + "..."
-    assert shown("a\nb") == "'a\\nb'" and shown([1, 2]) == "[1, 2]"
-    assert shown(10**25000) == "a int too large to print"
+    assert shorten("x" * 1000) == "'" + "x" * 56 + "..."
+    assert shorten("a\nb") == "'a\\nb'" and shorten([1, 2]) == "[1, 2]"
+    assert shorten(10**25000) == "a int too large to print"
     nested: list[Any] = []
     for _ in range(100000):
         nested = [nested]
-    assert shown(nested) == "a list too large to print"
+    assert shorten(nested) == "a list too large to print"

@@ -12,12 +12,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from faultspace.exact.behavior import compare, included_on
-from faultspace.exact.fault_space import fault_space, is_equivalent_pair
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, beside, stacked
-from faultspace.exact.systems import ResidualSystem
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.matrices import Matrix, beside, stacked
+from faultspace.exact.structure.behavior import compare, included_on
+from faultspace.exact.structure.fault_columns import fault_space, is_equivalent_pair
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
 from tests.oracle.families import FIELDS, system
 from tests.oracle.strategies import SEEDS, system_pairs, systems

@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from faultspace.exact.behavior import compare
-from faultspace.exact.canonical_form import behavior_name, fault_class, feedback_class, with_feedback
-from faultspace.exact.fields import QQ
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.kernel_representation import KernelRepresentation, kernel_representation
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.systems import ResidualSystem
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.pairs.canonical_form import behavior_name, fault_class, feedback_class, with_feedback
+from faultspace.exact.structure.behavior import compare
+from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import pair_checks
 from tests.exact.checks import read
 from tests.exact.test_broken_on_purpose import Broken, spoil

@@ -13,18 +13,18 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from faultspace.exact.bad_set import bad_equations, bad_set, dimension_of
-from faultspace.exact.exceptional import exceptional, judge, polynomial_at
-from faultspace.exact.exceptional_minors import coefficient_forms, forms_of_determinant, pluecker_forms
-from faultspace.exact.exceptional_witnesses import BadPair, NoBadPair, bad_pair, bad_share, good_columns
-from faultspace.exact.fault_space import fault_space
-from faultspace.exact.fields import QQ, PrimeField
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.linear_determinants import by_values, determinant, linear_determinant
-from faultspace.exact.matrices import Matrix, rank
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.zero_assignment import recoverable_pair
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.fields import QQ, PrimeField
+from faultspace.exact.algebra.matrices import Matrix, rank
+from faultspace.exact.pairs.assignment import recoverable_pair
+from faultspace.exact.pairs.bad_variety import bad_equations, bad_set, dimension_of
+from faultspace.exact.pairs.linear_determinants import by_values, determinant, linear_determinant
+from faultspace.exact.pairs.pluecker import coefficient_forms, forms_of_determinant, pluecker_forms
+from faultspace.exact.pairs.polynomial import exceptional, judge, polynomial_at
+from faultspace.exact.pairs.witnesses import BadPair, NoBadPair, bad_pair, bad_share, good_columns
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import pair_checks
 from tests.exact.checks import random_matrix, read
 from tests.exact.test_broken_on_purpose import Broken, spoil

@@ -12,21 +12,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from faultspace.exact.fault_space import (
-    fault_space,
-    fault_space_dimension,
-    from_kernel_rows,
-    is_equivalent_pair,
-    with_pair,
-)
-from faultspace.exact.fields import QQ, PrimeField
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.inversion import largest_output_nulling
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, beside, column_basis, rank, row_echelon, stacked
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem, read_system
-from faultspace.exact.zero_output import chain_from_rest
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.fields import QQ, PrimeField
+from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, rank, row_echelon, stacked
+from faultspace.exact.structure.fault_columns import fault_space, fault_space_dimension, from_kernel_rows, is_equivalent_pair, with_pair
+from faultspace.exact.structure.inversion import largest_output_nulling
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.zero_output import chain_from_rest
+from faultspace.exact.system.systems import ResidualSystem, read_system
 from tests.exact import checks
 from tests.oracle.families import FIELDS, adversarial, paper_example, shift_register
 from tests.oracle.strategies import SEEDS, systems

@@ -8,16 +8,16 @@ from typing import Any
 
 import pytest
 
-from faultspace.exact import generic_exceptional as room
-from faultspace.exact.branches import coefficients, evaluate
-from faultspace.exact.exceptional import exceptional
-from faultspace.exact.expansion import IdentityFailure
-from faultspace.exact.fields import QQ
-from faultspace.exact.generic_exceptional import GenericExceptional, generic_exceptional, generic_exceptional_without_feedthrough
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, row_echelon
-from faultspace.exact.polynomials import monic, trimmed
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.matrices import Matrix, row_echelon
+from faultspace.exact.algebra.polynomials import monic, trimmed
+from faultspace.exact.pairs.polynomial import exceptional
+from faultspace.exact.parametric import exceptional as room
+from faultspace.exact.parametric.case_tree import coefficients, evaluate
+from faultspace.exact.parametric.exceptional import GenericExceptional, generic_exceptional, generic_exceptional_without_feedthrough
+from faultspace.exact.parametric.identities import IdentityFailure
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
 from tests.exact.test_broken_on_purpose import Broken, spoil
 from tests.oracle.pencil import invariant_zero_polynomial
 from tests.oracle.systems import parse_system

@@ -8,10 +8,10 @@ from random import Random
 import numpy as np
 import pytest
 
-from faultspace.exact.covariances import covariances
-from faultspace.exact.experiments import Experiment, read_experiment
-from faultspace.exact.hidden_states import hides_a_state, reflections
-from faultspace.exact.population_limits import population_limits
+from faultspace.exact.limits.experiments import Experiment, read_experiment
+from faultspace.exact.limits.hidden_states import hides_a_state, reflections
+from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moments import covariances
 
 
 def experiment(A: list[list[str]], num: list[str], den: list[str], s: int = 2) -> Experiment:

@@ -8,18 +8,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from faultspace.exact.inversion import (
+from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, stacked
+from faultspace.exact.structure.inversion import (
     ambiguous_word,
     delay_known_state,
     delay_unknown_state,
     largest_output_nulling,
     left_inverse,
 )
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, beside, column_basis, rank, right_null_space, stacked
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.windows import observability_matrix, window_matrix
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.record import structure
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import observability_matrix, window_matrix
 from tests.exact import checks
 from tests.oracle.families import FIELDS, delay_line, shift_register
 from tests.oracle.strategies import SEEDS, systems

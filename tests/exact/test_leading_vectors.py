@@ -7,11 +7,11 @@ from random import Random
 import numpy as np
 import pytest
 
-from faultspace.exact.leading_vectors import leading_vectors_span
-from faultspace.exact.matrices import Matrix, column_basis, left_null_space, rank
-from faultspace.exact.population_limits import population_limits
-from faultspace.proofs.experiments_tried import examine_experiment
-from faultspace.proofs.kept_experiments import WITHOUT_RANK, kept
+from faultspace.exact.algebra.matrices import Matrix, column_basis, left_null_space, rank
+from faultspace.exact.limits.leading_vectors import leading_vectors_span
+from faultspace.exact.limits.moesp import population_limits
+from faultspace.proofs.evidence.experiments import examine_experiment
+from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
 
 
 def floats(matrix: Matrix) -> np.ndarray:

@@ -12,13 +12,13 @@ from typing import Any
 
 import pytest
 
-from faultspace.exact.experiments import Experiment
-from faultspace.exact.fields import QQ
-from faultspace.exact.limits import state_part
-from faultspace.exact.matrices import Matrix, beside, column_basis, rank, stacked
-from faultspace.exact.population_limits import PopulationLimits, population_limits
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.windows import observability_matrix, reachability_matrix
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, rank, stacked
+from faultspace.exact.limits.column_space import state_part
+from faultspace.exact.limits.experiments import Experiment
+from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import observability_matrix, reachability_matrix
 from tests.exact.experiment_families import Rows, driven, rows, system, white_with_leads
 
 SCALAR: dict[str, Any] = {

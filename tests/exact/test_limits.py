@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 import sympy
 
-from faultspace.exact.covariances import covariances, window_covariances
-from faultspace.exact.experiments import Experiment
-from faultspace.exact.fields import QQ
-from faultspace.exact.input_limits import by_moesp, by_output_error
-from faultspace.exact.joint_process import joint_process
-from faultspace.exact.limits import past_input_and_output_limit, past_input_limit, state_part
-from faultspace.exact.lyapunov import solve, state_covariance, stein
-from faultspace.exact.matrices import Matrix, beside, rank, stacked
-from faultspace.exact.population_limits import limit, population_limits
-from faultspace.exact.stability import characteristic_polynomial
-from faultspace.exact.windows import observability_matrix
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.matrices import Matrix, beside, rank, stacked
+from faultspace.exact.algebra.stability import characteristic_polynomial
+from faultspace.exact.limits.column_space import past_input_and_output_limit, past_input_limit, state_part
+from faultspace.exact.limits.experiments import Experiment
+from faultspace.exact.limits.inputs import by_moesp, by_output_error
+from faultspace.exact.limits.lyapunov import solve, state_covariance, stein
+from faultspace.exact.limits.moesp import limit, population_limits
+from faultspace.exact.limits.moments import covariances, window_covariances
+from faultspace.exact.limits.process import joint_process
+from faultspace.exact.system.windows import observability_matrix
 from tests.exact import slow_limits as slow
 from tests.exact.experiment_families import random_experiment
 
@@ -187,7 +187,7 @@ def test_stein_with_two_different_sides() -> None:
 
 
 def test_a_wrong_covariance_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from faultspace.exact import lyapunov
+    from faultspace.exact.limits import lyapunov
 
     process = joint_process(random_experiment(1, finite=False))
     monkeypatch.setattr(lyapunov, "characteristic_polynomial", lambda A: (*characteristic_polynomial(A)[:-1], 2))

@@ -20,10 +20,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy.polys.matrices import DomainMatrix
 
-from faultspace.exact import polynomials
-from faultspace.exact.fields import QQ, Field, NumberField, PrimeField, field_from_json
-from faultspace.exact.kernel_representation import KernelRow, annihilates
-from faultspace.exact.matrices import (
+from faultspace.exact.algebra import polynomials
+from faultspace.exact.algebra.fields import QQ, Field, NumberField, PrimeField, field_from_json
+from faultspace.exact.algebra.matrices import (
     Matrix,
     beside,
     column_basis,
@@ -35,10 +34,11 @@ from faultspace.exact.matrices import (
     solve_left,
     stacked,
 )
-from faultspace.exact.notation import sum_of_powers
-from faultspace.exact.pencil import characteristic_polynomial
-from faultspace.exact.relations import integer_relations, relations_over_prime_field
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.writing import sum_of_powers
+from faultspace.exact.structure.kernel_rows import KernelRow, annihilates
+from faultspace.exact.structure.pencil import characteristic_polynomial
+from faultspace.exact.structure.relations import integer_relations, relations_over_prime_field
+from faultspace.exact.system.systems import ResidualSystem
 from tests.oracle.families import FIELDS
 from tests.oracle.strategies import SEEDS
 

@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 
-from faultspace.exact.fault_space import fault_space
-from faultspace.exact.fields import PrimeField
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, beside, rank, row_echelon, solve_left, stacked
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.fields import PrimeField
+from faultspace.exact.algebra.matrices import Matrix, beside, rank, row_echelon, solve_left, stacked
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.record import structure
+from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
 from tests.oracle.families import paper_example
 from tests.oracle.strategies import SEEDS, systems

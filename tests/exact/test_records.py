@@ -18,18 +18,18 @@ import sympy
 from hypothesis import given, settings
 from sympy.polys.matrices import DomainMatrix
 
-from faultspace.exact.behavior import compare
-from faultspace.exact.fault_space import fault_space
-from faultspace.exact.fields import QQ, AlgebraicNumber, Field, NumberField, PrimeField, field_from_json
-from faultspace.exact.inversion import ambiguous_word
-from faultspace.exact.kernel_representation import horner, kernel_representation
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.modular import image
-from faultspace.exact.pencil import right_null_polynomial
-from faultspace.exact.signals import simulate
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import FaultySystem, ResidualSystem, from_float_exactly, read_system
-from faultspace.exact.zero_output import zero_output_chain
+from faultspace.exact.algebra.fields import QQ, AlgebraicNumber, Field, NumberField, PrimeField, field_from_json
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.behavior import compare
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.structure.inversion import ambiguous_word
+from faultspace.exact.structure.kernel_rows import horner, kernel_representation
+from faultspace.exact.structure.pencil import right_null_polynomial
+from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.structure.zero_output import zero_output_chain
+from faultspace.exact.system.modular import image
+from faultspace.exact.system.systems import FaultySystem, ResidualSystem, from_float_exactly, read_system
 from tests.exact import checks
 from tests.oracle.families import CUBIC, FIELDS, SQRT2
 from tests.oracle.strategies import systems

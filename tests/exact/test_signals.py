@@ -9,15 +9,15 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from faultspace.exact.fault_space import fault_space
-from faultspace.exact.fields import PrimeField
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, rank
-from faultspace.exact.signals import Trajectory, data_fault_space, excitation_matrix, hankel, persistency, simulate
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.windows import window_matrix
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.fields import PrimeField
+from faultspace.exact.algebra.matrices import Matrix, rank
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.signals import Trajectory, data_fault_space, excitation_matrix, hankel, persistency, simulate
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import window_matrix
 from tests.exact import checks
 from tests.oracle.behaviours import excitation, residual_hankel
 from tests.oracle.linear import Matrix as SlowMatrix

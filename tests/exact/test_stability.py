@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from faultspace.exact.fields import NumberField, PrimeField
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.stability import characteristic_polynomial, is_schur, is_stable
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.fields import NumberField, PrimeField
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.algebra.stability import characteristic_polynomial, is_schur, is_stable
 
 rationals = st.fractions(-2, 2, max_denominator=6)
 

@@ -17,20 +17,14 @@ from hypothesis import strategies as st
 from sympy import ZZ
 from sympy.polys.rings import ring as polynomial_ring
 
-from faultspace.exact import parametric_claims
-from faultspace.exact.branches import Branch, NonlinearCondition, UnitProduct, evaluate, explore, factors
-from faultspace.exact.expansion import FlintWindow, IdentityFailure, SecondRoute, verify_cases, verify_identities
-from faultspace.exact.generic_ranks import drops_agree, generic_window_ranks
-from faultspace.exact.parametric_claims import (
-    ClaimFailure,
-    gap_claim,
-    horner_identity,
-    inclusion_claim,
-    zero_count_claim,
-)
-from faultspace.exact.parametric_pencil import finite_zeros, normal_rank, toeplitz_echelon
-from faultspace.exact.pencil_expansion import verify_echelon_rows, verify_finite_zeros, verify_normal_rank
-from faultspace.exact.stratification import Stratification, indeterminates, stratify
+from faultspace.exact.parametric.case_tree import Branch, NonlinearCondition, UnitProduct, evaluate, explore, factors
+from faultspace.exact.parametric.generic_ranks import drops_agree, generic_window_ranks
+from faultspace.exact.parametric.identities import FlintWindow, IdentityFailure, SecondRoute, verify_cases, verify_identities
+from faultspace.exact.parametric.pencil import finite_zeros, normal_rank, toeplitz_echelon
+from faultspace.exact.parametric.pencil_identities import verify_echelon_rows, verify_finite_zeros, verify_normal_rank
+from faultspace.exact.parametric.stratification import Stratification, indeterminates, stratify
+from faultspace.proofs.evidence import parametric as parametric_claims
+from faultspace.proofs.evidence.parametric import ClaimFailure, gap_claim, horner_identity, inclusion_claim, zero_count_claim
 
 Values = tuple[Fraction, ...]
 Rows = list[list[Fraction]]

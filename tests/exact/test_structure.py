@@ -14,8 +14,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.structure import structure
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.record import structure
 from tests.exact import checks
 from tests.oracle.families import FIELDS, adversarial, paper_example, shift_register
 from tests.oracle.fields import parse_field

@@ -8,16 +8,16 @@ from typing import Any
 
 import pytest
 
-from faultspace.exact.branches import evaluate
-from faultspace.exact.expansion import IdentityFailure
-from faultspace.exact.experiments import read_experiment
-from faultspace.exact.fields import QQ
-from faultspace.exact.input_limits import by_output_error
-from faultspace.exact.matrices import Matrix, beside
-from faultspace.exact.population_limits import population_limits
-from faultspace.exact.stability import is_stable
-from faultspace.exact.symbolic_leads import lead_identities
-from faultspace.exact.windows import observability_matrix
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.matrices import Matrix, beside
+from faultspace.exact.algebra.stability import is_stable
+from faultspace.exact.limits.experiments import read_experiment
+from faultspace.exact.limits.inputs import by_output_error
+from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.parametric.case_tree import evaluate
+from faultspace.exact.parametric.identities import IdentityFailure
+from faultspace.exact.parametric.leads import lead_identities
+from faultspace.exact.system.windows import observability_matrix
 from tests.exact.test_broken_on_purpose import Broken, spoil
 
 ALL = list(product(range(3), (1, 2), range(3), (1, 2), range(3)))

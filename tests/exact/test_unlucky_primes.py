@@ -14,13 +14,13 @@ import pytest
 import sympy
 from hypothesis import given, settings
 
-from faultspace.exact import modular
-from faultspace.exact.fields import QQ, NumberField, PrimeField
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.modular import LARGEST_PRIME, image, primes_below, simple_root
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.fields import QQ, NumberField, PrimeField
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.record import structure
+from faultspace.exact.system import modular
+from faultspace.exact.system.modular import LARGEST_PRIME, image, primes_below, simple_root
+from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
 from tests.oracle.families import SQRT2
 from tests.oracle.strategies import SEEDS, systems

@@ -10,12 +10,12 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from faultspace.exact.exceptional import judge
-from faultspace.exact.fields import QQ
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.inversion import ambiguous_word
-from faultspace.exact.structure import structure
-from faultspace.exact.zero_assignment import assign_zeros, recoverable_pair
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.pairs.assignment import assign_zeros, recoverable_pair
+from faultspace.exact.pairs.polynomial import judge
+from faultspace.exact.structure.inversion import ambiguous_word
+from faultspace.exact.structure.record import structure
 from tests.exact import pair_checks
 from tests.exact.test_broken_on_purpose import Broken, spoil
 from tests.exact.test_exceptional import chains

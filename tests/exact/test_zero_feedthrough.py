@@ -7,14 +7,14 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 
-from faultspace.exact.behavior import compare
-from faultspace.exact.canonical_form import BehaviorName, behavior_name
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, rank
-from faultspace.exact.signals import simulate
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.zero_feedthrough import members_by_formula, zero_feedthrough
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.matrices import Matrix, rank
+from faultspace.exact.pairs.canonical_form import BehaviorName, behavior_name
+from faultspace.exact.pairs.no_feedthrough import members_by_formula, zero_feedthrough
+from faultspace.exact.structure.behavior import compare
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import pair_checks
 from tests.exact.checks import read
 from tests.exact.test_broken_on_purpose import Broken, spoil

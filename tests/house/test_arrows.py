@@ -16,14 +16,15 @@ from pathlib import Path
 import pytest
 
 ROOMS = {
-    "exact": set[str](),
-    "numeric": set[str](),
-    "audit": {"exact", "numeric"},
-    "proofs": {"exact"},
-    "front": {"exact", "numeric", "audit", "proofs"},
+    "base": set[str](),
+    "exact": {"base"},
+    "numeric": {"base"},
+    "audit": {"base", "exact", "numeric"},
+    "proofs": {"base", "exact"},
+    "front": {"base", "exact", "numeric", "audit", "proofs"},
 }
 FOLDERS = ("exact", "numeric", "proofs")
-CHECKER = "faultspace.proofs.checker"
+CHECKER = "faultspace.proofs.trust.checker"
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def room_of(name: str) -> str | None:
     match name.split("."):
         case ["faultspace", "numeric", "audit", *_]:
             return "audit"
-        case ["faultspace", ("exact" | "numeric" | "proofs") as room, *_]:
+        case ["faultspace", ("base" | "exact" | "numeric" | "proofs") as room, *_]:
             return room
         case ["faultspace", *_]:
             return "front"
@@ -108,7 +109,7 @@ def test_the_house_is_seen_once() -> None:
 
 
 BROKEN = [
-    ("exact.made_up", "import faultspace.proofs.checker"),
+    ("exact.made_up", "import faultspace.proofs.trust.checker"),
     ("exact.made_up", "from faultspace import numeric"),
     ("exact.made_up", "from faultspace import __version__"),
     ("exact.made_up", "from .. import proofs"),
@@ -116,21 +117,21 @@ BROKEN = [
     ("exact.made_up", "def late():\n    from faultspace.proofs import claims"),
     ("exact.made_up", "import importlib\nimportlib.import_module('faultspace.proofs')"),
     ("exact.made_up", "from exact import windows"),
-    ("numeric.made_up", "from faultspace.exact.windows import observability"),
+    ("numeric.made_up", "from faultspace.exact.system.windows import observability"),
     ("numeric.made_up", "from .audit import checks"),
     ("numeric.audit.made_up", "from ...proofs import ledger"),
     ("proofs.made_up", "import numpy, faultspace.numeric"),
     ("proofs.cross_floats", "import faultspace.numeric.audit"),
     ("proofs.claims.cross_floats", "from faultspace import command_line"),
-    ("proofs.checker", "import sympy"),
-    ("proofs.checker", "from faultspace.exact import fields"),
-    ("proofs.checker", "from .certificate import Certificate"),
+    ("proofs.trust.checker", "import sympy"),
+    ("proofs.trust.checker", "from faultspace.exact import fields"),
+    ("proofs.trust.checker", "from .structure_certificates import Certificate"),
 ]
 SOUND = [
-    ("exact.made_up", "import sympy\nfrom . import fields\nfrom .fields import QQ\nimport faultspace.exact.windows"),
+    ("exact.made_up", "import sympy\nfrom . import fields\nfrom .fields import QQ\nimport faultspace.exact.system.windows"),
     ("numeric.audit.made_up", "from ...exact import windows\nfrom ..pi_moesp import fit\nfrom faultspace import exact"),
     ("proofs.cross_floats", "from faultspace import numeric\nfrom ..exact import windows"),
-    ("proofs.checker", "from __future__ import annotations\nimport json\nfrom collections import abc"),
+    ("proofs.trust.checker", "from __future__ import annotations\nimport json\nfrom collections import abc"),
     ("command_line", "from faultspace import __version__, exact, numeric, proofs\nimport faultspace.numeric.audit"),
 ]
 
@@ -147,7 +148,4 @@ def test_a_sound_arrow_is_let_pass(name: str, source: str) -> None:
 
 def test_a_package_resolves_its_own_dots() -> None:
     source = "from . import windows\nfrom ..proofs import checker"
-    assert list(imports(Module("faultspace.exact", source, is_package=True))) == [
-        "faultspace.exact.windows",
-        "faultspace.proofs.checker",
-    ]
+    assert list(imports(Module("faultspace.exact", source, is_package=True))) == ["faultspace.exact.windows", "faultspace.proofs.checker"]

@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.signals import simulate
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.system.systems import ResidualSystem
 
 
 def floats(matrix: Matrix) -> Any:

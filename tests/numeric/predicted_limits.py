@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 from scipy.signal import lfilter
 
-from faultspace.exact.covariances import Covariances, WindowCovariances
-from faultspace.exact.experiments import Experiment
-from faultspace.exact.filters import Filter
-from faultspace.exact.input_limits import by_output_error
-from faultspace.exact.limits import Limit
-from faultspace.exact.matrices import Matrix, beside, stacked
-from faultspace.numeric.models import StateSpaceModel
+from faultspace.exact.algebra.matrices import Matrix, beside, stacked
+from faultspace.exact.limits.column_space import Limit
+from faultspace.exact.limits.experiments import Experiment
+from faultspace.exact.limits.filters import Filter
+from faultspace.exact.limits.inputs import by_output_error
+from faultspace.exact.limits.moments import Covariances, WindowCovariances
+from faultspace.numeric.model.models import StateSpaceModel
 
 SETTLING = 500
 

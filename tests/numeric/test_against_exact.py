@@ -13,18 +13,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from faultspace.exact.fault_space import fault_space as exact_fault_space
-from faultspace.exact.fault_space import with_pair
-from faultspace.exact.inversion import delay_known_state, delay_unknown_state
-from faultspace.exact.kernel_representation import KernelRepresentation, kernel_representation
-from faultspace.exact.matrices import Matrix, rank
-from faultspace.exact.signals import excitation_matrix, simulate
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem, read_system
-from faultspace.numeric.distances import containment_distance, subspace_distance
-from faultspace.numeric.fault_space import fault_space
-from faultspace.numeric.fault_zeros import fault_zeros
-from faultspace.numeric.reconstruction import reconstruct_fault
+from faultspace.exact.algebra.matrices import Matrix, rank
+from faultspace.exact.structure.fault_columns import fault_space as exact_fault_space
+from faultspace.exact.structure.fault_columns import with_pair
+from faultspace.exact.structure.inversion import delay_known_state, delay_unknown_state
+from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.signals import excitation_matrix, simulate
+from faultspace.exact.system.systems import ResidualSystem, read_system
+from faultspace.numeric.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.signal.zeros import fault_zeros
+from faultspace.numeric.space.by_ranks import fault_space
+from faultspace.numeric.space.distances import containment_distance, subspace_distance
 from tests.numeric.planted import paper_example
 from tests.oracle.structured import Structure, planted_system
 

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from faultspace.numeric.compression import HARMLESS, Compression, compress, compress_chunks, merge
-from faultspace.numeric.input_checks import InvalidData
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.model.compression import HARMLESS, Compression, compress, compress_chunks, merge
 
 Array = NDArray[np.float64]
 

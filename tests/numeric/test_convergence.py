@@ -18,16 +18,16 @@ import pytest
 import scipy.stats
 from scipy.optimize import linear_sum_assignment
 
-from faultspace.exact.fault_space import fault_space as exact_fault_space
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.systems import ResidualSystem
-from faultspace.numeric.distances import subspace_distance
-from faultspace.numeric.fault_space import fault_space_by_likelihood
-from faultspace.numeric.input_matrices import by_output_error
-from faultspace.numeric.models import StateSpaceModel
-from faultspace.numeric.pi_moesp import pi_moesp
-from faultspace.numeric.po_moesp import po_moesp
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.fault_columns import fault_space as exact_fault_space
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.numeric.model.input_matrices import by_output_error
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.model.past_inputs import pi_moesp
+from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.space.by_ranks import fault_space_by_likelihood
+from faultspace.numeric.space.distances import subspace_distance
 from tests.numeric.exact_cases import floats
 
 A = Matrix.of([["1/2", "1/4"], ["-1/4", "1/3"]])

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from faultspace.numeric.distances import (
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.space.distances import (
     author_error,
     compare_subspaces,
     containment_distance,
@@ -21,7 +22,6 @@ from faultspace.numeric.distances import (
     subspace_distance,
     two_sided_error,
 )
-from faultspace.numeric.input_checks import InvalidData
 
 EPS = np.finfo(float).eps
 

@@ -7,10 +7,10 @@ import scipy.signal
 import scipy.stats
 from numpy.typing import NDArray
 
-from faultspace.numeric.fault_against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
-from faultspace.numeric.healthy_reference import healthy_reference, spectra
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.largest_root import largest_root_probability, largest_root_quantile
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
+from faultspace.numeric.count.healthy_model import healthy_reference, spectra
+from faultspace.numeric.count.largest_root import largest_root_probability, largest_root_quantile
 
 Array = NDArray[np.float64]
 MIX = np.random.default_rng(99).standard_normal((4, 4))

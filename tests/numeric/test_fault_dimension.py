@@ -8,10 +8,10 @@ import pytest
 import scipy.signal
 from numpy.typing import NDArray
 
-from faultspace.numeric.fault_dimension import fault_dimension
-from faultspace.numeric.hankel_ranks import hankel_triangle, hankel_values
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.kernel_likelihood import kernel_row, window_moments
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.count.hankel_ranks import hankel_triangle, hankel_values
+from faultspace.numeric.count.rank_gap import fault_dimension
+from faultspace.numeric.space.one_row import kernel_row, window_moments
 
 Array = NDArray[np.float64]
 

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from faultspace.exact.fault_space import from_kernel_rows
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.systems import ResidualSystem
-from faultspace.numeric import noisy_fault_space
-from faultspace.numeric.fault_space import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
-from faultspace.numeric.fault_space_bound import largest_fault_space, observability_indices
-from faultspace.numeric.models import StateSpaceModel
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.fault_columns import from_kernel_rows
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.space import by_likelihood as noisy_fault_space
+from faultspace.numeric.space.by_ranks import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
+from faultspace.numeric.space.largest import largest_fault_space, observability_indices
 
 
 def drawn(random: np.random.Generator, n: int, m: int, p: int, entries: int) -> ResidualSystem:

@@ -17,12 +17,17 @@ import mpmath
 import numpy as np
 import pytest
 
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, rank
-from faultspace.exact.signals import hankel, simulate
-from faultspace.exact.systems import ResidualSystem
-from faultspace.numeric.compression import Blocks, Compression, compress
-from faultspace.numeric.conditioning import (
+from faultspace.exact.algebra.matrices import Matrix, rank
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.signals import hankel, simulate
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.numeric.count.hankel_ranks import hankel_values
+from faultspace.numeric.count.rank_gap import fault_dimension
+from faultspace.numeric.model.compression import Blocks, Compression, compress
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.model.past_inputs import pi_moesp, pi_moesp_from_compression
+from faultspace.numeric.model.residuals import residual
+from faultspace.numeric.rounding.conditioning import (
     BackwardError,
     Setting,
     by_gram,
@@ -36,18 +41,13 @@ from faultspace.numeric.conditioning import (
     reflections_error,
     setting,
 )
-from faultspace.numeric.fault_dimension import fault_dimension
-from faultspace.numeric.hankel_ranks import hankel_values
-from faultspace.numeric.models import StateSpaceModel
-from faultspace.numeric.pi_moesp import pi_moesp, pi_moesp_from_compression
-from faultspace.numeric.reconstruction import reconstruct_fault
-from faultspace.numeric.residual_conditioning import (
+from faultspace.numeric.rounding.residual_conditioning import (
     fault_signal_error,
     fitted_state_error,
     given_state_error,
     singular_value_error,
 )
-from faultspace.numeric.residuals import residual
+from faultspace.numeric.signal.reconstruction import reconstruct_fault
 from tests.numeric import high_precision as precise
 from tests.numeric.exact_cases import ExactCase, exact_case, floats
 

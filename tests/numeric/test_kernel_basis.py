@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from faultspace.numeric import kernel_basis_likelihood as likelihood
-from faultspace.numeric import noisy_fault_space
-from faultspace.numeric.distances import principal_angles
-from faultspace.numeric.fault_space import fault_space_by_least_squares, fault_space_by_likelihood
-from faultspace.numeric.fault_space_uncertainty import SpaceUncertainty
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.joint_kernel_basis import complement, rows_from, splits
-from faultspace.numeric.residual_windows import observed_coordinates
-from faultspace.numeric.tapered_moments import tapered_moments
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.count.windows import observed_coordinates
+from faultspace.numeric.space import basis as likelihood
+from faultspace.numeric.space import by_likelihood as noisy_fault_space
+from faultspace.numeric.space.by_ranks import fault_space_by_least_squares, fault_space_by_likelihood
+from faultspace.numeric.space.distances import principal_angles
+from faultspace.numeric.space.start import complement, rows_from, splits
+from faultspace.numeric.space.tapered_moments import tapered_moments
+from faultspace.numeric.space.uncertainty import SpaceUncertainty
 from tests.numeric.planted import Planted, coloured, faults, planted, simulate
 
 

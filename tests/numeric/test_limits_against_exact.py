@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from faultspace.exact.experiments import read_experiment
-from faultspace.exact.population_limits import PopulationLimits, population_limits
-from faultspace.numeric.compression import compress
-from faultspace.numeric.pi_moesp import pi_moesp
-from faultspace.numeric.po_moesp import po_moesp
+from faultspace.exact.limits.experiments import read_experiment
+from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.numeric.model.compression import compress
+from faultspace.numeric.model.past_inputs import pi_moesp
+from faultspace.numeric.model.past_outputs import po_moesp
 from tests.numeric.predicted_limits import floats, invariants, predicted_model, simulated
 
 SAMPLES, SEEDS, ERRORS = 100_000, 8, 5.0

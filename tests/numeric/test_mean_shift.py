@@ -9,12 +9,12 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from faultspace.numeric.detectable_fault import visible_white_faults
-from faultspace.numeric.explained_share import noise_share
-from faultspace.numeric.fault_against_healthy import fault_dimension_against_healthy
-from faultspace.numeric.healthy_reference import healthy_reference
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.mean_shift import mean_about_zero, mean_reference, mean_shift
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy
+from faultspace.numeric.count.detectable import visible_white_faults
+from faultspace.numeric.count.healthy_model import healthy_reference
+from faultspace.numeric.count.mean_shift import mean_about_zero, mean_reference, mean_shift
+from faultspace.numeric.signal.explained_share import noise_share
 
 Array = NDArray[np.float64]
 UNITS = np.array([1e-6, 1.0, 1e6])

@@ -13,10 +13,10 @@ import pytest
 import scipy.signal
 from numpy.typing import NDArray
 
-from faultspace.numeric.fault_against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
-from faultspace.numeric.healthy_reference import healthy_reference
-from faultspace.numeric.pi_moesp import Identification, pi_moesp
-from faultspace.numeric.residuals import residual
+from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
+from faultspace.numeric.count.healthy_model import healthy_reference
+from faultspace.numeric.model.past_inputs import Identification, pi_moesp
+from faultspace.numeric.model.residuals import residual
 
 Array = NDArray[np.float64]
 FOLDER = os.environ.get("FAULTSPACE_DATA")

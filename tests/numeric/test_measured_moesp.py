@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.models import StateSpaceModel, observability_matrix
-from faultspace.numeric.pi_moesp import pi_moesp
-from faultspace.numeric.po_moesp import po_moesp
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
+from faultspace.numeric.model.past_inputs import pi_moesp
+from faultspace.numeric.model.past_outputs import po_moesp
 
 Array = NDArray[np.float64]
 FOLDER = os.environ.get("FAULTSPACE_DATA")

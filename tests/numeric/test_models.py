@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.models import BLOCK, PIECE, Simulator, StateSpaceModel, observability_matrix
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.model.models import BLOCK, PIECE, Simulator, StateSpaceModel, observability_matrix
 
 Array = NDArray[np.float64]
 

@@ -16,9 +16,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from faultspace.numeric import plots
-from faultspace.numeric.fault_dimension import FaultDimension, fault_dimension
-from faultspace.numeric.input_checks import InvalidData
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.count.rank_gap import FaultDimension, fault_dimension
+from faultspace.numeric.signal import plots
 
 Figure: Any = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed").Figure
 Array = NDArray[np.float64]

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from faultspace.numeric.fault_space import fault_space
-from faultspace.numeric.fault_zeros import fault_zeros, output_nulling
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.reconstruction import Reconstruction, linear_recursion, reconstruct_fault
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.signal.reconstruction import Reconstruction, linear_recursion, reconstruct_fault
+from faultspace.numeric.signal.zeros import fault_zeros, output_nulling
+from faultspace.numeric.space.by_ranks import fault_space
 from tests.numeric.planted import Planted, coloured, faults, paper_example, planted, simulate
 
 ROUNDING = 1e-10

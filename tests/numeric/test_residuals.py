@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from faultspace.numeric.fault_dimension import fault_dimension
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.models import StateSpaceModel
-from faultspace.numeric.residuals import residual, split
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.count.rank_gap import fault_dimension
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.model.residuals import residual, split
 
 
 def state_space(A: ArrayLike, B: ArrayLike, C: ArrayLike, D: ArrayLike) -> StateSpaceModel:

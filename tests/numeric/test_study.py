@@ -8,23 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from faultspace.numeric import study_experiments
-from faultspace.numeric.distances import author_error, containment_distance, subspace_distance
-from faultspace.numeric.example_v import (
-    behaviour_ranks,
-    exact_fault_space,
-    example_v,
-    lines,
-    published_ranks,
-    recorded_errors,
-    tally,
-)
-from faultspace.numeric.example_v import system as example_system
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.monte_carlo import CORRECTED, PUBLISHED, STUDIES, by_phase, by_zeros, median_interval, run_study
-from faultspace.numeric.study_cases import LIKELIHOOD, PAPER, Case, Errors
-from faultspace.numeric.study_experiments import NOISE_GAIN, experiment, response
-from faultspace.numeric.study_systems import pencil_zeros, study_system
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.space.distances import author_error, containment_distance, subspace_distance
+from faultspace.numeric.study import experiments as study_experiments
+from faultspace.numeric.study.cases import LIKELIHOOD, PAPER, Case, Errors
+from faultspace.numeric.study.example_v import behaviour_ranks, exact_fault_space, example_v, lines, published_ranks, recorded_errors, tally
+from faultspace.numeric.study.example_v import system as example_system
+from faultspace.numeric.study.experiments import NOISE_GAIN, experiment, response
+from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, by_phase, by_zeros, median_interval, run_study
+from faultspace.numeric.study.systems import pencil_zeros, study_system
 
 # Medians of the author's own run, 25 systems for each number of zeros, in percent, read off the plot that his notebook keeps.
 RECORDED_MEDIANS = {1: 2.3, 2: 1.7, 3: 0.9}
@@ -181,7 +173,7 @@ def test_figures_are_drawn_on_the_axes_given(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     from matplotlib.figure import Figure
 
-    from faultspace.numeric import study_plots
+    from faultspace.numeric.study import plots as study_plots
 
     study = run_study(PUBLISHED, systems=8, jobs=1, samples=200)
     for draw in (study_plots.error_histogram, study_plots.errors_by_zeros, study_plots.errors_by_phase, study_plots.errors_against_circle):

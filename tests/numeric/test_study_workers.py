@@ -8,10 +8,10 @@ from dataclasses import asdict
 import numpy as np
 import pytest
 
-from faultspace.numeric import study_workers
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.monte_carlo import CORRECTED, PUBLISHED, Plan, Study, run_study
-from faultspace.numeric.study_workers import in_order
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.study import workers as study_workers
+from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Plan, Study, run_study
+from faultspace.numeric.study.workers import in_order
 
 
 def squared(number: int) -> int:

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from faultspace.numeric.distances import author_error, subspace_distance
-from faultspace.numeric.fault_space_estimate import kernel_conditions
-from faultspace.numeric.input_checks import InvalidData
-from faultspace.numeric.residual_windows import hankel_factor
-from faultspace.numeric.study_experiments import experiment
-from faultspace.numeric.study_systems import StudySystem, study_system
-from faultspace.numeric.toeplitz_factorisation import toeplitz_factorisation
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.count.windows import hankel_factor
+from faultspace.numeric.model.toeplitz_factorisation import toeplitz_factorisation
+from faultspace.numeric.space.distances import author_error, subspace_distance
+from faultspace.numeric.space.result import kernel_conditions
+from faultspace.numeric.study.experiments import experiment
+from faultspace.numeric.study.systems import StudySystem, study_system
 
 Array = NDArray[np.float64]
 

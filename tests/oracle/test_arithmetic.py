@@ -14,21 +14,7 @@ from hypothesis import strategies as st
 from . import polynomials
 from .families import FIELDS, SQRT2, Q, adversarial
 from .fields import NotAField, is_irreducible, is_prime, parse_field
-from .linear import (
-    Matrix,
-    above,
-    beside,
-    column_of,
-    identity,
-    left_null_space,
-    matrix,
-    null_space,
-    rank,
-    rref,
-    solve,
-    unit_vector,
-    zeros,
-)
+from .linear import Matrix, above, beside, column_of, identity, left_null_space, matrix, null_space, rank, rref, solve, unit_vector, zeros
 from .strategies import field_descriptions, systems
 from .structured import random_element
 from .systems import parse_system, trajectory, write_system

@@ -18,16 +18,16 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
-from faultspace.exact.experiments import Experiment, read_experiment
-from faultspace.exact.fault_space import fault_space
-from faultspace.exact.fields import QQ, Field, NumberField, PrimeField
-from faultspace.exact.input_limits import InputLimit
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.population_limits import population_limits
-from faultspace.exact.systems import ResidualSystem
-from faultspace.proofs import certificate as make
-from faultspace.proofs import limit_certificates as make_limit
+from faultspace.exact.algebra.fields import QQ, Field, NumberField, PrimeField
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.limits.experiments import Experiment, read_experiment
+from faultspace.exact.limits.inputs import InputLimit
+from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.trust import limit_certificates as make_limit
+from faultspace.proofs.trust import structure_certificates as make
 
 Certificate = dict[str, Any]
 CUBIC = NumberField(("1", "-3", "-1", "4"))  # type: ignore[arg-type]

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
-from faultspace.proofs import checker
+from faultspace.proofs.trust import checker
 from tests.oracle import premise_holds, truth
 from tests.proofs.examples import Certificate
 

@@ -10,16 +10,16 @@ from itertools import product
 
 import pytest
 
-from faultspace.proofs import corpus
-from faultspace.proofs.ablation import Experiment, Found, Proof, ablate, first_found
+from faultspace.proofs.evidence import corpus
+from faultspace.proofs.evidence.search import Box, chunks
 from faultspace.proofs.hypotheses import experiments
 from faultspace.proofs.hypotheses.facets import degenerate, flags
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
-from faultspace.proofs.ledger import expected_without, load
-from faultspace.proofs.search import Box, chunks
-from faultspace.proofs.verdicts import Row, Verdict
+from faultspace.proofs.verdict.ablation import Experiment, Found, Proof, ablate, first_found
+from faultspace.proofs.verdict.ledger import expected_without, load
+from faultspace.proofs.verdict.verdicts import Row, Verdict
+from faultspace.proofs.verdict.workbench import Workbench
 from faultspace.proofs.verification import _Machine, _row_with_theorems
-from faultspace.proofs.workbench import Workbench
 from tests.oracle import inspect_slowly
 
 
@@ -172,7 +172,7 @@ def test_the_ledger_and_the_experiments_name_the_same() -> None:
 
 
 def test_the_proofs_name_theorems_that_are_there_and_use_no_more_than_what_is_needed() -> None:
-    files = resources.files("faultspace.proofs") / "rocq"
+    files = resources.files("faultspace.proofs") / "theory"
     there = {
         name for path in files.iterdir() if path.name.startswith("Headlines") and path.name.endswith(".v")
         for name in re.findall(r"^Theorem (\w+)", path.read_text("utf-8"), re.MULTILINE)

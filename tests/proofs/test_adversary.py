@@ -14,12 +14,10 @@ import jsonschema
 import numpy as np
 import pytest
 
-from faultspace.exact.covariances import covariances
-from faultspace.exact.population_limits import population_limits
-from faultspace.proofs import checker
+from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moments import covariances
 from faultspace.proofs.adversary import engine, following
 from faultspace.proofs.adversary.attacking import Attacking, of_reading, of_row
-from faultspace.proofs.adversary.attacks import Attack, Floats
 from faultspace.proofs.adversary.catalogue import attacks_on, catalogue, expected_of, statement_of
 from faultspace.proofs.adversary.engine import pursue
 from faultspace.proofs.adversary.float_limits import exact_experiment, float_limits
@@ -29,8 +27,10 @@ from faultspace.proofs.adversary.results import AttackRecord, refuting, run_atta
 from faultspace.proofs.adversary.rounding import rational_roots, solve_affine
 from faultspace.proofs.adversary.spectra import shaped_input
 from faultspace.proofs.adversary.sweeps import Sweep
-from faultspace.proofs.ledger import load
-from faultspace.proofs.verdicts import Outcome, ReadingResult, Row, Verdict
+from faultspace.proofs.evidence.attacks import Attack, Floats
+from faultspace.proofs.trust import checker
+from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Row, Verdict
 
 FALSE_REPAIR = "proposition-1.two-sided-range by a double pole"
 

@@ -14,11 +14,11 @@ from typing import Any
 
 import pytest
 
-from faultspace.exact.fields import PrimeField
-from faultspace.exact.systems import ResidualSystem
-from faultspace.proofs import certificate as make
-from faultspace.proofs import checker
-from faultspace.proofs.specimens import specimens
+from faultspace.exact.algebra.fields import PrimeField
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.evidence.specimens import specimens
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import structure_certificates as make
 from tests.oracle import truth
 from tests.proofs.examples import (
     COLUMN,

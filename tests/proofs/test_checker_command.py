@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.exact.fields import QQ
-from faultspace.proofs import certificate as make
-from faultspace.proofs import checker
+from faultspace.exact.algebra.fields import QQ
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import structure_certificates as make
 from tests.proofs.examples import CUBED, GONE, HUGE, RANKS, ZERO, base, seen, spoiled, systems
 
 SOURCE = Path(checker.__file__)

@@ -16,7 +16,8 @@ from typing import NamedTuple
 
 import pytest
 
-from faultspace.proofs import checker, rocq_export
+from faultspace.proofs.rocq import export as rocq_export
+from faultspace.proofs.trust import checker
 from tests.proofs.examples import NORMAL, RANKS, K, S, spoiled
 from tests.proofs.floods import floods
 

@@ -7,23 +7,11 @@ from collections.abc import Iterator
 
 import pytest
 
-from faultspace.exact.fields import PrimeField
-from faultspace.exact.systems import ResidualSystem
-from faultspace.proofs import checker
-from faultspace.proofs.certificate import accept
-from tests.proofs.examples import (
-    CUBED,
-    FIELDS,
-    GONE,
-    RANKS,
-    ROOTED,
-    SQRT2,
-    S,
-    base,
-    certificates,
-    seen,
-    spoiled,
-)
+from faultspace.exact.algebra.fields import PrimeField
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust.structure_certificates import accept
+from tests.proofs.examples import CUBED, FIELDS, GONE, RANKS, ROOTED, SQRT2, S, base, certificates, seen, spoiled
 
 
 def test_primes_are_told_from_composites() -> None:

@@ -7,9 +7,9 @@ from itertools import product
 
 import pytest
 
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem
-from faultspace.proofs.exhaustive import all_systems, orbits
+from faultspace.exact.structure.record import structure
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.evidence.exhaustive import all_systems, orbits
 
 Table = list[list[int]]
 

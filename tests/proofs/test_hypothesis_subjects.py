@@ -9,23 +9,24 @@ from random import Random
 
 import pytest
 
-from faultspace.exact.bad_set import _codimension, _index_lists
-from faultspace.exact.behavior import compare
-from faultspace.exact.exceptional import Exceptional, polynomial_at
-from faultspace.exact.fault_space import fault_space, with_pair
-from faultspace.exact.fields import PrimeField
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix, column_basis, rank
-from faultspace.exact.pencil import zero_dynamics_polynomial
-from faultspace.exact.polynomials import divide, gcd, monic
-from faultspace.exact.population_limits import population_limits
-from faultspace.exact.systems import ResidualSystem
-from faultspace.exact.windows import observability_matrix, reachability_matrix, window_matrix
-from faultspace.exact.zero_assignment import ZeroAssignment, assign_zeros
-from faultspace.proofs.corpus import examine
-from faultspace.proofs.exhaustive import all_systems
-from faultspace.proofs.experiments_tried import examine_experiment
-from faultspace.proofs.families import adversarial
+from faultspace.exact.algebra.fields import PrimeField
+from faultspace.exact.algebra.matrices import Matrix, column_basis, rank
+from faultspace.exact.algebra.polynomials import divide, gcd, monic
+from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.pairs.assignment import ZeroAssignment, assign_zeros
+from faultspace.exact.pairs.bad_variety import _codimension, _index_lists
+from faultspace.exact.pairs.polynomial import Exceptional, polynomial_at
+from faultspace.exact.structure.behavior import compare
+from faultspace.exact.structure.fault_columns import fault_space, with_pair
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.pencil import zero_dynamics_polynomial
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import observability_matrix, reachability_matrix, window_matrix
+from faultspace.proofs.evidence.corpus import examine
+from faultspace.proofs.evidence.exhaustive import all_systems
+from faultspace.proofs.evidence.experiments import examine_experiment
+from faultspace.proofs.evidence.families import adversarial
+from faultspace.proofs.evidence.pairs_by_polynomial import pencil_of
 from faultspace.proofs.hypotheses import placed
 from faultspace.proofs.hypotheses.aimed import HIDDEN_ZEROS, HYPOTHESES, aimed_systems
 from faultspace.proofs.hypotheses.aimed_experiments import (
@@ -45,8 +46,7 @@ from faultspace.proofs.hypotheses.experiments import Driven, consistency, consis
 from faultspace.proofs.hypotheses.pairs import Compared, columns_in_space, same_model, theorem_3_i
 from faultspace.proofs.hypotheses.systems import signal_from_unknown_state
 from faultspace.proofs.hypotheses.windowed import Windowed
-from faultspace.proofs.judged_pairs import pencil_of
-from faultspace.proofs.workbench import Workbench
+from faultspace.proofs.verdict.workbench import Workbench
 
 
 def of(A: object, F: object, C: object, G: object, **more: object) -> ResidualSystem:

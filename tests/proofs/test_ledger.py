@@ -7,8 +7,8 @@ from importlib import import_module
 from pathlib import Path
 
 import faultspace.proofs.claims
-from faultspace.proofs.ledger import load
-from faultspace.proofs.verdicts import Verdict
+from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.verdicts import Verdict
 
 ROOM = Path(faultspace.proofs.claims.__file__).parent
 

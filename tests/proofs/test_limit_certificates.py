@@ -17,18 +17,18 @@ import jsonschema
 import pytest
 from flint import fmpq
 
-from faultspace.exact import experiments as reading
-from faultspace.exact.covariances import covariances
-from faultspace.exact.experiments import Experiment, read_experiment
-from faultspace.exact.fields import QQ
-from faultspace.exact.filters import Filter
-from faultspace.exact.input_limits import InputLimit
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.population_limits import PopulationLimits, population_limits
-from faultspace.proofs import checker
-from faultspace.proofs import limit_certificates as make
-from faultspace.proofs.certificate import Unprovable
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.limits import experiments as reading
+from faultspace.exact.limits.experiments import Experiment, read_experiment
+from faultspace.exact.limits.filters import Filter
+from faultspace.exact.limits.inputs import InputLimit
+from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.exact.limits.moments import covariances
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import limit_certificates as make
+from faultspace.proofs.trust.structure_certificates import Unprovable
 from tests.oracle import truth
 from tests.proofs.examples import (
     LEADING,

@@ -7,15 +7,15 @@ from random import Random
 
 import pytest
 
-from faultspace.exact.experiments import Experiment
-from faultspace.proofs import experiments_tried
-from faultspace.proofs.ablation import ablate
+from faultspace.exact.limits.experiments import Experiment
 from faultspace.proofs.claims import assumption_2, objection_1, past_outputs, proposition_1, settle_1
-from faultspace.proofs.experiments_tried import FAMILIES, LimitDossier, examine_experiment
+from faultspace.proofs.evidence import experiments as experiments_tried
+from faultspace.proofs.evidence.experiments import FAMILIES, LimitDossier, examine_experiment
 from faultspace.proofs.hypotheses.experiments import consistency
-from faultspace.proofs.ledger import expected_without
-from faultspace.proofs.verdicts import Verdict
-from faultspace.proofs.workbench import Workbench
+from faultspace.proofs.verdict.ablation import ablate
+from faultspace.proofs.verdict.ledger import expected_without
+from faultspace.proofs.verdict.verdicts import Verdict
+from faultspace.proofs.verdict.workbench import Workbench
 from tests.oracle import truth
 
 

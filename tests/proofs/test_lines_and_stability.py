@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from faultspace.exact.fields import Field, NumberField, PrimeField
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.modular import LARGEST_PRIME
-from faultspace.exact.systems import ResidualSystem
-from faultspace.proofs import certificate as make
-from faultspace.proofs import checker
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.fields import Field, NumberField, PrimeField
+from faultspace.exact.system.modular import LARGEST_PRIME
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import structure_certificates as make
 from tests.oracle import truth
 from tests.oracle.fields import PrimeField as SlowField
 from tests.oracle.lines import determinant

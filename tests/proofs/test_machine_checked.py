@@ -9,12 +9,13 @@ from importlib import resources
 
 import pytest
 
-from faultspace.proofs import machine_checked, verification
-from faultspace.proofs.ledger import Claim, Reading, load
-from faultspace.proofs.machine_checked import Theorems, answers
-from faultspace.proofs.rocq_build import BrokenTheory, NoRocq, NotProved, sources
-from faultspace.proofs.rocq_statements import read
-from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
+from faultspace.proofs import verification
+from faultspace.proofs.rocq import theorems as machine_checked
+from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, sources
+from faultspace.proofs.rocq.statements import read
+from faultspace.proofs.rocq.theorems import Theorems, answers
+from faultspace.proofs.verdict.ledger import Claim, Reading, load
+from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
 
 NAMED = Reading("r", "s", (), "CERTIFIED", False, ("one", "two"))
 
@@ -113,7 +114,7 @@ def test_the_ledger_names_theorems_of_readings_alone() -> None:
 
 
 def test_the_readme_of_the_theorems_counts_them() -> None:
-    room = resources.files("faultspace.proofs").joinpath("rocq")
+    room = resources.files("faultspace.proofs").joinpath("theory")
     texts = [one.read_text("utf-8") for one in room.iterdir() if one.name.startswith("Headlines") and one.name.endswith(".v")]
     headlines = sum(len(re.findall(r"^Print Assumptions ", text, re.M)) for text in texts)
     readings = [reading for claim in load() for reading in claim.readings]

@@ -18,15 +18,15 @@ from typing import Any
 
 import pytest
 
-from faultspace.exact.behavior import separation
-from faultspace.exact.fault_space import fault_space
-from faultspace.exact.fields import QQ, NumberField, PrimeField
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.systems import ResidualSystem
-from faultspace.proofs import certificate as make
-from faultspace.proofs import checker
-from faultspace.proofs.specimens import specimens
+from faultspace.exact.algebra.fields import QQ, NumberField, PrimeField
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.behavior import separation
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.evidence.specimens import specimens
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import structure_certificates as make
 from tests.oracle import premise_holds, truth
 from tests.proofs.examples import experiments, limit_certificates, lines, stable
 from tests.proofs.forgeries import false_ones

@@ -6,16 +6,16 @@ from dataclasses import replace
 
 import pytest
 
-from faultspace.exact.exceptional_witnesses import BadPair, bad_pair, good_columns
-from faultspace.exact.matrices import Matrix
-from faultspace.exact.systems import ResidualSystem
-from faultspace.proofs import judged_pairs
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.pairs.witnesses import BadPair, bad_pair, good_columns
+from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.claims import bad_set, canonical_form, one_determinant, sharp_windows, zero_assignment, zeros_of_pairs
-from faultspace.proofs.families import adversarial
-from faultspace.proofs.judged_pairs import JudgedPair, examine_judged, pencil_of
-from faultspace.proofs.pairs import rival_dossiers
-from faultspace.proofs.verdicts import Verdict
-from faultspace.proofs.workbench import Workbench
+from faultspace.proofs.evidence import pairs_by_polynomial as judged_pairs
+from faultspace.proofs.evidence.alternatives import rival_dossiers
+from faultspace.proofs.evidence.families import adversarial
+from faultspace.proofs.evidence.pairs_by_polynomial import JudgedPair, examine_judged, pencil_of
+from faultspace.proofs.verdict.verdicts import Verdict
+from faultspace.proofs.verdict.workbench import Workbench
 from tests.oracle import truth
 
 

@@ -9,22 +9,22 @@ from typing import Any
 
 import pytest
 
-from faultspace.exact.covariances import covariances
-from faultspace.exact.experiments import Experiment, read_experiment
-from faultspace.exact.hidden_states import hides_a_state
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.exact.inversion import delay_unknown_state
-from faultspace.exact.kernel_representation import kernel_representation
-from faultspace.exact.matrices import rank
-from faultspace.exact.windows import observability_matrix
+from faultspace.base.errors import InvalidInput
+from faultspace.exact.algebra.matrices import rank
+from faultspace.exact.limits.experiments import Experiment, read_experiment
+from faultspace.exact.limits.hidden_states import hides_a_state
+from faultspace.exact.limits.moments import covariances
+from faultspace.exact.structure.inversion import delay_unknown_state
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.windows import observability_matrix
 from faultspace.proofs.claims import trajectory_recovered
-from faultspace.proofs.corpus import Corpus, examine
-from faultspace.proofs.experiments_tried import LimitDossier, examine_experiment, nilpotent_points
-from faultspace.proofs.families import adversarial
-from faultspace.proofs.kept_experiments import WITHOUT_RANK, kept
-from faultspace.proofs.seasonal_inputs import in_order, seasonal
-from faultspace.proofs.verdicts import Verdict
-from faultspace.proofs.workbench import Workbench
+from faultspace.proofs.evidence.corpus import Corpus, examine
+from faultspace.proofs.evidence.experiments import LimitDossier, examine_experiment, nilpotent_points
+from faultspace.proofs.evidence.families import adversarial
+from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
+from faultspace.proofs.evidence.seasonal_inputs import in_order, seasonal
+from faultspace.proofs.verdict.verdicts import Verdict
+from faultspace.proofs.verdict.workbench import Workbench
 from tests.oracle import truth
 
 ROOTS = ("9/10", "-9/10", "99/100", "1/2", "0", "-1/2", "3/4")

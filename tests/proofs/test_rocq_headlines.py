@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs import rocq_build
-from faultspace.proofs.ledger import load
-from faultspace.proofs.machine_checked import asked, check
-from faultspace.proofs.rocq_build import NoRocq, NotProved, compile_file, compiled_theory, sources
-from faultspace.proofs.rocq_statements import Headline, read, refusals
+from faultspace.proofs.rocq import build as rocq_build
+from faultspace.proofs.rocq.build import NoRocq, NotProved, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq.statements import Headline, read, refusals
+from faultspace.proofs.rocq.theorems import asked, check
+from faultspace.proofs.verdict.ledger import load
 
-FOLDER = resources.files("faultspace.proofs").joinpath("rocq")
+FOLDER = resources.files("faultspace.proofs").joinpath("theory")
 LONGEST_FILE, LONGEST_LINE = 400, 140
 
 # For each headline one hypothesis, number or word of its statement and what it is changed to.
@@ -289,7 +289,7 @@ def test_a_closed_theorem_passes(theory: Path) -> None:
         ("Theorem bad : one = 2.\nAdmitted.\n", BAD, ["bad"], "rest on more"),
         ("Theorem bad : one = 2.\nAdmitted.\n", BAD, ["bad", "good"], "rest on more"),
         ("Axiom absurd : one = 2.\nTheorem bad : one = 2.\nProof. exact absurd. Qed.\n", BAD, ["bad"], "rest on more"),
-        ("", "", ["missing"], "missing, which is in no file rocq/Headlines"),
+        ("", "", ["missing"], "missing, which is in no file theory/Headlines"),
     ],
 )
 def test_machine_checked_refuses(theory: Path, proofs: str, headlines: str, names: list[str], reason: str) -> None:

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs import rocq_build
-from faultspace.proofs.rocq_recheck import recheck, second_check
+from faultspace.proofs.rocq import build as rocq_build
+from faultspace.proofs.rocq.recheck import recheck, second_check
 
 COQCHK = shutil.which("coqchk")
 TINY = {

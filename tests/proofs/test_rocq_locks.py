@@ -10,15 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs import rocq_locks
-from faultspace.proofs.ledger import load
-from faultspace.proofs.machine_checked import parted
-from faultspace.proofs.rocq_build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory, sources
-from faultspace.proofs.rocq_locks import held, kept, made, page, written
-from faultspace.proofs.rocq_statements import Headline, read
+from faultspace.proofs.rocq import locks as rocq_locks
+from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq.locks import held, kept, made, page, written
+from faultspace.proofs.rocq.statements import Headline, read
+from faultspace.proofs.rocq.theorems import parted
+from faultspace.proofs.verdict.ledger import load
 from tests.proofs.test_rocq_headlines import CHANGES
 
-FOLDER = resources.files("faultspace.proofs").joinpath("rocq")
+FOLDER = resources.files("faultspace.proofs").joinpath("theory")
 TEXTS = sources()
 STATEMENTS = read(TEXTS)
 WORDS = sorted({word.key: word for words in STATEMENTS.words.values() for word in words.values()}.items())
@@ -51,7 +51,7 @@ def test_the_statements_are_those_that_are_locked() -> None:
 
 
 def test_the_files_of_the_locks_are_current() -> None:
-    """After a change that is wanted: python -m faultspace.proofs.rocq_locks."""
+    """After a change that is wanted: python -m faultspace.proofs.rocq.locks."""
     assert FOLDER.joinpath("locks.json").read_text("utf-8") == written(made(TEXTS))
     assert FOLDER.joinpath("STATEMENTS.md").read_text("utf-8") == page(made(TEXTS), list(load()))
 

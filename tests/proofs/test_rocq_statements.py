@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs.rocq_build import NoRocq, NotProved, compiled_theory, sources
-from faultspace.proofs.rocq_statements import VOCABULARY, assumptions, read, sentences
+from faultspace.proofs.rocq.build import NoRocq, NotProved, compiled_theory, sources
+from faultspace.proofs.rocq.statements import VOCABULARY, assumptions, read, sentences
 
 TINY = {
     "Vocabulary.v": "Section A.\nVariable (a : nat).\nDefinition one := a.+1.\nEnd A.\nRecord pair := Pair { left : nat; right : nat }.\n"

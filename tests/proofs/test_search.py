@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from faultspace.exact.systems import ResidualSystem
-from faultspace.proofs import search
-from faultspace.proofs.search import Box, Facts, Flags, chunks, ranks, smallest, systems_in_order
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.evidence import search
+from faultspace.proofs.evidence.search import Box, Facts, Flags, chunks, ranks, smallest, systems_in_order
 from tests.oracle import inspect_slowly
 
 

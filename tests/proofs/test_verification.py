@@ -6,13 +6,16 @@ from collections.abc import Callable
 
 import pytest
 
-from faultspace.exact.input_rules import InvalidInput
-from faultspace.proofs import checker, corpus, verification, workbench
-from faultspace.proofs.certificate import sha256
-from faultspace.proofs.ledger import Claim, Reading
-from faultspace.proofs.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
+from faultspace.base.errors import InvalidInput
+from faultspace.proofs import verification
+from faultspace.proofs.evidence import corpus
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust.structure_certificates import sha256
+from faultspace.proofs.verdict import workbench
+from faultspace.proofs.verdict.ledger import Claim, Reading
+from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
+from faultspace.proofs.verdict.workbench import Workbench, accepted, certify
 from faultspace.proofs.verification import verify
-from faultspace.proofs.workbench import Workbench, accepted, certify
 from tests.oracle import truth
 
 
@@ -150,9 +153,10 @@ def test_assumption_4_on_the_small_corpus(bench: Workbench, reading: str) -> Non
 
 def test_a_broken_recursion_does_not_go_unnoticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """With the fault left out of W_(k+1), certificates of the example are no longer accepted: ERROR, not a wrong verdict."""
-    from faultspace.exact import kernel_representation, zero_output
-    from faultspace.exact.matrices import Matrix
-    from faultspace.exact.systems import ResidualSystem
+    from faultspace.exact.algebra.matrices import Matrix
+    from faultspace.exact.structure import kernel_rows as kernel_representation
+    from faultspace.exact.structure import zero_output
+    from faultspace.exact.system.systems import ResidualSystem
     from faultspace.proofs.claims import example_v
 
     def without_fault(system: ResidualSystem) -> zero_output.ZeroOutputChain:
@@ -168,7 +172,7 @@ def test_a_broken_recursion_does_not_go_unnoticed(monkeypatch: pytest.MonkeyPatc
 
 def _first_image(system: object, largest: int) -> object:
     """The image at the first prime only: where the shape is refuted there, the search for another prime ends in an error."""
-    from faultspace.exact.modular import LARGEST_PRIME, image
+    from faultspace.exact.system.modular import LARGEST_PRIME, image
 
     if largest:
         raise ArithmeticError("no prime agrees with the recursion")

@@ -10,13 +10,15 @@ from typing import Any
 
 import pytest
 
-from faultspace import verifying
-from faultspace.proofs import machine_checked, rocq_build, verification
-from faultspace.proofs.ledger import Claim, Reading, load
-from faultspace.proofs.rocq_build import DIGESTS, NoRocq, compile_file, compiled_theory, sources
-from faultspace.proofs.rocq_locks import held
-from faultspace.proofs.rocq_statements import read
-from faultspace.proofs.verdicts import Outcome, ReadingResult, Verdict
+from faultspace.cli import verifying
+from faultspace.proofs import verification
+from faultspace.proofs.rocq import build as rocq_build
+from faultspace.proofs.rocq import theorems as machine_checked
+from faultspace.proofs.rocq.build import DIGESTS, NoRocq, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq.locks import held
+from faultspace.proofs.rocq.statements import read
+from faultspace.proofs.verdict.ledger import Claim, Reading, load
+from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Verdict
 
 CLAIM = "proposition-3"
 TEXTS = sources()

@@ -23,7 +23,7 @@ from functools import cache, partial
 from importlib import metadata
 from pathlib import Path
 
-from ...input_checks import InvalidData
+from ....base.errors import InvalidData
 
 FAULT_ID = "FAULT_ID"
 OCTAVE = ("octave-cli", "--no-gui", "--quiet", "--norc")

@@ -15,14 +15,14 @@ from unittest.mock import patch
 
 import numpy as np
 
-from faultspace.numeric import compression, input_matrices, toeplitz_factorisation
 from faultspace.numeric.audit import reference
 from faultspace.numeric.audit.adapter import Structure
-from faultspace.numeric.compression import Blocks, Compression
-from faultspace.numeric.fault_space import noise_free_fault_space
-from faultspace.numeric.models import StateSpaceModel, observability_matrix
-from faultspace.numeric.po_moesp import po_moesp
-from faultspace.numeric.residual_windows import hankel_factor
+from faultspace.numeric.count.windows import hankel_factor
+from faultspace.numeric.model import compression, input_matrices, toeplitz_factorisation
+from faultspace.numeric.model.compression import Blocks, Compression
+from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
+from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.space.by_ranks import noise_free_fault_space
 
 
 @dataclass(frozen=True)

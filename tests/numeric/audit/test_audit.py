@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import adapter, reference
 from faultspace.numeric.audit.adapter import FUNCTIONS, load
 from faultspace.numeric.audit.records import Kind, Measurement, Record
 from faultspace.numeric.audit.running import ExpectedFailure, all_checks, audit, parametrize_with_checks, told
-from faultspace.numeric.input_checks import InvalidData
 
 # What mypy checks: the reference is what the protocols describe.
 _identifies: adapter.Identifies = reference
@@ -42,7 +42,7 @@ def test_every_function_has_checks_that_hold_and_that_refuse() -> None:
 
 
 def test_every_claim_is_in_the_ledger() -> None:
-    ledger = tomllib.loads((Path(__file__).resolve().parents[3] / "proofs" / "ledger.toml").read_text("utf-8"))
+    ledger = tomllib.loads((Path(__file__).resolve().parents[3] / "proofs" / "verdict" / "ledger.toml").read_text("utf-8"))
     known = set(ledger["claim"])
     named = {one.claim for one in all_checks()} - {None}
     assert len(named) >= 6 and named <= known

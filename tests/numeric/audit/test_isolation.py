@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
+from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit.isolation import Isolated
 from faultspace.numeric.audit.programs import Limits
 from faultspace.numeric.audit.running import audit, audit_named, parametrize_with_checks
-from faultspace.numeric.input_checks import InvalidData
 
 REFERENCE = "faultspace.numeric.audit.reference"
 ONE, TWO = "fault-dimension[one-fault]", "fault-dimension[two-faults]"

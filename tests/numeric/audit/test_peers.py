@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
+from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit.adapter import load, offered
 from faultspace.numeric.audit.peers import FAULT_ID, HERE, OCTAVE, PEERS, peer
 from faultspace.numeric.audit.records import Record, Verdict
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subprocess_adapter import Exec
-from faultspace.numeric.input_checks import InvalidData
 
 PACKAGES = ("sippy_unipi", "nfoursid", "ctrlsys", "control", "slycot")
 OFFERED = {

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit.peers import PEERS, Peer
 from faultspace.numeric.audit.programs import STANDARD
 from faultspace.numeric.audit.records import Kind
@@ -17,7 +18,6 @@ from faultspace.numeric.audit.running import all_checks, audit
 from faultspace.numeric.audit.scoreboard import Audited, Board, audit_peer, main, merged, tallies
 from faultspace.numeric.audit.scoreboard_pages import findings, table, write_pages
 from faultspace.numeric.audit.vectors import shipped
-from faultspace.numeric.input_checks import InvalidData
 from tests.numeric.audit.mutants import MUTANTS
 
 ROOM = Path(__file__).resolve().parents[3] / "numeric" / "audit"

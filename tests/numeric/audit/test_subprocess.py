@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 
+from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit.programs import Limits
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subprocess_adapter import Exec
-from faultspace.numeric.input_checks import InvalidData
 
 EXAMPLES = files("faultspace.numeric.audit").joinpath("examples")
 PREAMBLE = "import json, os, sys, time\nfor line in sys.stdin:\n    q = json.loads(line)\n    a = {}\n"

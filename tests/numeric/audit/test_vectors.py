@@ -13,17 +13,17 @@ import jsonschema
 import numpy as np
 import pytest
 
-from faultspace.exact.matrices import rank, stacked
-from faultspace.exact.signals import data_fault_space, hankel, simulate
-from faultspace.exact.structure import structure
-from faultspace.exact.systems import ResidualSystem
+from faultspace.exact.algebra.matrices import rank, stacked
+from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.signals import data_fault_space, hankel, simulate
+from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.audit.exact_comparison import characteristic_polynomial, markov
 from faultspace.numeric.audit.excitation_checks import unexciting_inputs
 from faultspace.numeric.audit.fault_vectors import VIEWS, in_channel_units
 from faultspace.numeric.audit.making_fault_vectors import singular_values
 from faultspace.numeric.audit.vectors import KINDS, documents, floats, fractions, main, matrix, scaled, shipped, signs
-from faultspace.numeric.fault_space import noise_free_fault_space
-from faultspace.numeric.models import StateSpaceModel
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.space.by_ranks import noise_free_fault_space
 
 DATA = files("faultspace.numeric.audit").joinpath("data")
 

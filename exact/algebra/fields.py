@@ -1,0 +1,290 @@
+"""The fields that exact linear algebra runs over: Q, GF(p) and Q(a), behind one interface.
+
+    Rationals()                     Q; elements are flint.fmpq
+    PrimeField(p)                   GF(p), p a prime below 2^64; elements are flint.nmod
+    NumberField((c0, c1, ..., cd))  Q(a), a a root of the irreducible c0 + c1 x + ... + cd x^d; elements are AlgebraicNumber
+    Field                           any of the three
+    degree                          d = [K : base field], 1 for Q and GF(p)
+    block(e)                        the d x d matrix of multiplication by e: row i holds the coordinates of a^i e
+
+A number field costs no algorithm of its own: replacing every entry by its block turns a matrix over Q(a) into a rational one with
+the same ranks (times d), products and reduced echelon form, and python-flint does the work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, ClassVar
+
+import flint
+import sympy
+from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod
+
+from ...base.errors import InvalidInput, shorten
+from . import pickling as pickling
+from .validation import MAX_FIELD_DEGREE, parse_rational
+from .writing import sum_of_powers
+
+
+def _as_rational(value: object, where: str) -> fmpq:
+    """fmpq of an int, rational string, Fraction, sympy rational, fmpz or fmpq; InvalidInput for the rest, floats included."""
+    if isinstance(value, fmpq):
+        return value
+    if isinstance(value, fmpz):
+        return fmpq(value)
+    if isinstance(value, (Fraction, sympy.Rational)):
+        return fmpq(int(value.numerator), int(value.denominator))
+    return parse_rational(value, where)
+
+
+@dataclass(frozen=True)
+class Rationals:
+    """The field Q."""
+
+    degree: ClassVar[int] = 1
+    characteristic: ClassVar[int] = 0
+
+    def element(self, value: object, where: str = "entry") -> Any:
+        """The element that `value` stands for (int, rational string, Fraction, sympy Rational, fmpq). Raises InvalidInput."""
+        return _as_rational(value, where)
+
+    def write(self, element: Any) -> str:
+        """The reduced rational string."""
+        return str(element)
+
+    def block(self, element: Any) -> list[list[Any]]:
+        """[[element]]."""
+        return [[element]]
+
+    def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
+        """The element with these coordinates: the only one."""
+        return coordinates[0]
+
+    def to_json(self) -> object:
+        """The `field` value of an exact file."""
+        return "Q"
+
+    def __str__(self) -> str:
+        return "Q"
+
+
+@dataclass(frozen=True)
+class PrimeField:
+    """The field with p elements. Raises InvalidInput unless p is a prime below 2^64 (flint aborts on composite moduli)."""
+
+    p: int
+    degree: ClassVar[int] = 1
+
+    def __post_init__(self) -> None:
+        if type(self.p) is not int or not 2 <= self.p < 2**64 or not fmpz(self.p).is_prime():
+            raise InvalidInput(f"field.prime: got {shorten(self.p)}, expected a prime below 2^64")
+
+    @property
+    def characteristic(self) -> int:
+        """p."""
+        return self.p
+
+    def element(self, value: object, where: str = "entry") -> Any:
+        """The residue of an int or integer string. Raises InvalidInput for anything else, fractions included."""
+        if isinstance(value, nmod):
+            if value.modulus() != self.p:
+                raise InvalidInput(f"{where}: got an element of GF({value.modulus()}), expected one of GF({self.p})")
+            return value
+        number = _as_rational(value, where)
+        if number.q != 1 or (isinstance(value, str) and "/" in value):
+            raise InvalidInput(f"{where}: got {shorten(value)}, expected an integer (the field is GF({self.p}))")
+        return nmod(int(number.p % self.p), self.p)
+
+    def write(self, element: Any) -> str:
+        """The residue in 0..p-1 as a string."""
+        return str(int(element))
+
+    def block(self, element: Any) -> list[list[Any]]:
+        """[[element]]."""
+        return [[element]]
+
+    def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
+        """The element with these coordinates: the only one."""
+        return coordinates[0]
+
+    def to_json(self) -> object:
+        """The `field` value of an exact file."""
+        return {"prime": self.p}
+
+    def __str__(self) -> str:
+        return f"GF({self.p})"
+
+
+@dataclass(frozen=True, eq=False)
+class NumberField:
+    """Q(a) for a root a of an irreducible polynomial, coefficients ascending, monic or not.
+
+    Raises InvalidInput when the degree is not in 1..16 or the polynomial is reducible over Q.
+    """
+
+    minimal_polynomial: tuple[Fraction, ...]
+    characteristic: ClassVar[int] = 0
+
+    def __post_init__(self) -> None:
+        where = "field.minimal_polynomial"
+        given = self.minimal_polynomial
+        if not 2 <= len(given) <= MAX_FIELD_DEGREE + 1:
+            raise InvalidInput(f"{where}: got degree {len(given) - 1}, expected a degree in 1..{MAX_FIELD_DEGREE}")
+        values = [_as_rational(c, where) for c in given]
+        if values[-1] == 0:
+            raise InvalidInput(f"{where}: the leading coefficient is 0, expected a nonzero one")
+        object.__setattr__(self, "minimal_polynomial", tuple(Fraction(int(c.p), int(c.q)) for c in values))
+        _, factors = self.integer_polynomial.factor()
+        if len(factors) != 1 or factors[0][1] != 1:
+            shown_poly = sum_of_powers([str(c) for c in self.modulus.coeffs()], "a")
+            raise InvalidInput(f"{where}: {shown_poly} is reducible over Q, expected an irreducible polynomial")
+
+    def __eq__(self, other: object) -> bool:
+        """A polynomial and its multiples name the same field."""
+        return isinstance(other, NumberField) and self._monic == other._monic
+
+    def __hash__(self) -> int:
+        return hash(self._monic)
+
+    @cached_property
+    def _monic(self) -> tuple[Fraction, ...]:
+        return tuple(c / self.minimal_polynomial[-1] for c in self.minimal_polynomial)
+
+    @property
+    def degree(self) -> int:
+        """d, the degree of the minimal polynomial."""
+        return len(self.minimal_polynomial) - 1
+
+    @cached_property
+    def modulus(self) -> fmpq_poly:
+        """The minimal polynomial as given."""
+        return fmpq_poly([fmpq(c.numerator, c.denominator) for c in self.minimal_polynomial])
+
+    @cached_property
+    def integer_polynomial(self) -> fmpz_poly:
+        """The minimal polynomial times the common denominator of its coefficients."""
+        scaled = self.modulus * self.modulus.denom()
+        return fmpz_poly([c.p for c in scaled.coeffs()])
+
+    @cached_property
+    def _powers(self) -> list[fmpq_poly]:
+        x = fmpq_poly([0, 1])
+        return [x**i for i in range(self.degree)]
+
+    def element(self, value: object, where: str = "entry") -> Any:
+        """The element that a rational or a list of d rationals (ascending in a) stands for. Raises InvalidInput."""
+        if isinstance(value, AlgebraicNumber) and value.field == self:
+            return value
+        if isinstance(value, (list, tuple)):
+            if len(value) != self.degree:
+                raise InvalidInput(f"{where}: got a list of {len(value)} coordinates, expected {self.degree}")
+            return AlgebraicNumber(self, fmpq_poly([_as_rational(c, where) for c in value]) % self.modulus)
+        try:
+            return AlgebraicNumber(self, fmpq_poly([_as_rational(value, where)]) % self.modulus)
+        except InvalidInput as error:
+            unit = ["0", "1", *["0"] * (self.degree - 2)][: self.degree]
+            raise InvalidInput(f"{error}, or a list of its {self.degree} coordinates, ascending in a: a itself is {unit}") from None
+
+    def write(self, element: Any) -> object:
+        """A rational string where the element is rational, else the list of its d coordinates."""
+        coordinates = self.coordinates(element)
+        if all(c == 0 for c in coordinates[1:]):
+            return str(coordinates[0])
+        return [str(c) for c in coordinates]
+
+    def coordinates(self, element: Any) -> list[fmpq]:
+        """The d rational coordinates of an element, ascending in a."""
+        return [element.poly[i] for i in range(self.degree)]
+
+    def block(self, element: Any) -> list[list[Any]]:
+        """The d x d matrix of multiplication by the element; row i: coordinates of a^i times it."""
+        if element.poly.degree() <= 0:
+            c = element.poly[0]
+            return [[c if i == j else fmpq(0) for j in range(self.degree)] for i in range(self.degree)]
+        rows = [(power * element.poly) % self.modulus for power in self._powers]
+        return [[row[j] for j in range(self.degree)] for row in rows]
+
+    def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
+        """The element with these d coordinates."""
+        return AlgebraicNumber(self, fmpq_poly(list(coordinates)))
+
+    def to_json(self) -> object:
+        """The `field` value of an exact file."""
+        return {"minimal_polynomial": [str(fmpq(c.numerator, c.denominator)) for c in self.minimal_polynomial]}
+
+    def __str__(self) -> str:
+        return f"Q(a) with {sum_of_powers([str(c) for c in self.modulus.coeffs()], 'a')} = 0"
+
+
+@dataclass(frozen=True, eq=False)
+class AlgebraicNumber:
+    """An element of a NumberField: a rational polynomial in a of degree below d. Field operations by operators."""
+
+    field: NumberField
+    poly: fmpq_poly
+
+    def _other(self, other: Any) -> fmpq_poly:
+        if not isinstance(other, AlgebraicNumber):
+            return fmpq_poly([other])
+        if other.field != self.field:
+            raise ValueError(f"elements of {self.field} and of {other.field} do not mix")
+        return other.poly
+
+    def __add__(self, other: object) -> AlgebraicNumber:
+        return AlgebraicNumber(self.field, self.poly + self._other(other))
+
+    def __sub__(self, other: object) -> AlgebraicNumber:
+        return AlgebraicNumber(self.field, self.poly - self._other(other))
+
+    def __mul__(self, other: object) -> AlgebraicNumber:
+        return AlgebraicNumber(self.field, (self.poly * self._other(other)) % self.field.modulus)
+
+    def __truediv__(self, other: object) -> AlgebraicNumber:
+        divisor = self._other(other)
+        if not divisor:
+            raise ZeroDivisionError("division by zero in a number field")
+        _, inverse, _ = divisor.xgcd(self.field.modulus)
+        return AlgebraicNumber(self.field, (self.poly * inverse) % self.field.modulus)
+
+    def __neg__(self) -> AlgebraicNumber:
+        return AlgebraicNumber(self.field, -self.poly)
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, AlgebraicNumber):
+            return self.field == other.field and bool(self.poly == other.poly)
+        if not isinstance(other, (int, fmpz, fmpq)):
+            return NotImplemented
+        return bool(self.poly == fmpq_poly([other]))
+
+    def __hash__(self) -> int:
+        if self.poly.degree() <= 0:  # equal to a rational number
+            return hash(Fraction(int(self.poly[0].p), int(self.poly[0].q)))
+        return hash((self.field, str(self.poly)))
+
+    def __str__(self) -> str:
+        return sum_of_powers([str(c) for c in self.poly.coeffs()], "a")
+
+
+Field = Rationals | PrimeField | NumberField
+QQ = Rationals()
+
+
+def field_from_json(value: object) -> Field:
+    """The field that the `field` value of an exact file names. Raises InvalidInput."""
+    if value == "Q":
+        return QQ
+    if isinstance(value, dict) and set(value) == {"prime"}:
+        return PrimeField(value["prime"])
+    if isinstance(value, dict) and set(value) == {"minimal_polynomial"} and isinstance(value["minimal_polynomial"], list):
+        return NumberField(tuple(value["minimal_polynomial"]))
+    raise InvalidInput(f'field: got {shorten(value)}, expected "Q", {{"minimal_polynomial": [...]}} or {{"prime": p}}')
+
+
+def base_matrix(field: Field, rows: int, cols: int, scalars: list[Any]) -> Any:
+    """The flint matrix of this shape over the base field (Q for number fields)."""
+    if isinstance(field, PrimeField):
+        return flint.nmod_mat(rows, cols, scalars, field.p)
+    return flint.fmpq_mat(rows, cols, scalars)

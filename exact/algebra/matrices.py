@@ -1,0 +1,392 @@
+"""Immutable exact matrices over any of the three fields, and the linear algebra that everything else is written in.
+
+    Matrix                  nrows x ncols over `field`; zero dimensions are ordinary
+    beside, stacked         [X Y], [X; Y]
+    rank, row_echelon       the reduced row echelon form with its pivot columns (RowEchelon)
+    column_basis            a basis of the column space: n x rank
+    right_null_space        columns spanning {x : M x = 0}
+    left_null_space         rows spanning {y : y M = 0}
+    row_profile             indices of the rows that do not depend on the rows above them
+    solve_left              X with X M = R, or None
+
+Inside, a matrix is the flint matrix of the blocks of its entries (`fields`), so that one code serves Q, GF(p) and Q(a).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import sympy
+from flint import fmpq_mat, fmpz, nmod_mat
+from sympy.polys.domains import AlgebraicField
+from sympy.polys.matrices import DomainMatrix
+
+from ...base.errors import InvalidInput, shorten
+from .fields import QQ, Field, NumberField, PrimeField, base_matrix
+
+PRIME = 2**61 - 1
+
+
+@dataclass(frozen=True, eq=False)
+class Matrix:
+    """An immutable nrows x ncols matrix over `field`. Build it with `Matrix.of`, `Matrix.zero` or `Matrix.identity`."""
+
+    field: Field
+    nrows: int
+    ncols: int
+    flint: Any
+
+    # -- building -------------------------------------------------------------------------------------------------
+
+    @staticmethod
+    def of(entries: object, field: Field = QQ, *, shape: tuple[int, int] | None = None, where: str = "matrix") -> Matrix:
+        """A matrix from nested sequences, a sympy Matrix or DomainMatrix; `shape` is needed only for empty ones.
+
+        Entries are what `field.element` takes: integers, rational strings, Fractions, sympy Rationals; never floats.
+        Raises InvalidInput for ragged rows, a shape that does not agree, entries outside the field.
+        """
+        if isinstance(entries, Matrix):
+            if entries.field != field:
+                raise InvalidInput(f"{where}: got entries over {entries.field}, expected {field}")
+            if shape is not None and entries.shape != shape:
+                raise InvalidInput(f"{where}: got shape {entries.nrows} x {entries.ncols}, expected {shape[0]} x {shape[1]}")
+            return entries
+        rows, shape = _rows_of(entries, field, shape, where)
+        nrows, ncols = shape
+        elements = [[field.element(x, f"{where}[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(rows)]
+        return Matrix.from_elements(field, nrows, ncols, elements)
+
+    @staticmethod
+    def from_elements(field: Field, nrows: int, ncols: int, rows: Sequence[Sequence[Any]]) -> Matrix:
+        """A matrix from rows of field elements, unchecked."""
+        d = field.degree
+        if d == 1 and not isinstance(field, NumberField):
+            return Matrix(field, nrows, ncols, base_matrix(field, nrows, ncols, [x for row in rows for x in row]))
+        scalars: list[Any] = []
+        for row in rows:
+            blocks = [field.block(x) for x in row]
+            for i in range(d):
+                for block in blocks:
+                    scalars.extend(block[i])
+        return Matrix(field, nrows, ncols, base_matrix(field, nrows * d, ncols * d, scalars))
+
+    @staticmethod
+    def zero(field: Field, nrows: int, ncols: int) -> Matrix:
+        """The zero matrix."""
+        d = field.degree
+        return Matrix(field, nrows, ncols, base_matrix(field, nrows * d, ncols * d, [0] * (nrows * ncols * d * d)))
+
+    @staticmethod
+    def identity(field: Field, size: int) -> Matrix:
+        """The identity matrix."""
+        k = size * field.degree
+        scalars = [0] * (k * k)
+        scalars[:: k + 1] = [1] * k
+        return Matrix(field, size, size, base_matrix(field, k, k, scalars))
+
+    # -- reading --------------------------------------------------------------------------------------------------
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(nrows, ncols)."""
+        return (self.nrows, self.ncols)
+
+    def __getitem__(self, index: tuple[int, int]) -> Any:
+        """The field element in row i, column j (non-negative indices)."""
+        i, j = index
+        d = self.field.degree
+        if not isinstance(self.field, NumberField):
+            return self.flint[i, j]
+        return self.field.from_coordinates([self.flint[i * d, j * d + c] for c in range(d)])
+
+    def elements(self) -> list[list[Any]]:
+        """All entries as rows of field elements."""
+        if not isinstance(self.field, NumberField):
+            table: list[list[Any]] = self.flint.tolist()
+            return table
+        d = self.field.degree
+        table = self.flint.tolist()
+        take = self.field.from_coordinates
+        return [[take(table[i * d][j * d : j * d + d]) for j in range(self.ncols)] for i in range(self.nrows)]
+
+    def to_json(self) -> list[list[object]]:
+        """Rows of entries as the exact file formats write them."""
+        return [[self.field.write(x) for x in row] for row in self.elements()]
+
+    def to_sympy(self) -> sympy.ImmutableMatrix:
+        """The sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
+        a = sympy.Symbol("a")
+
+        def one(x: Any) -> sympy.Expr:
+            if isinstance(self.field, PrimeField):
+                return sympy.Integer(int(x))
+            coordinates = self.field.coordinates(x) if isinstance(self.field, NumberField) else [x]
+            return sympy.Add(*(sympy.Rational(int(c.p), int(c.q)) * a**k for k, c in enumerate(coordinates)))
+
+        return sympy.ImmutableMatrix(self.nrows, self.ncols, [one(x) for row in self.elements() for x in row])
+
+    def is_zero(self) -> bool:
+        """Whether every entry is zero."""
+        return all(x == 0 for x in self.flint.entries())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Matrix):
+            return NotImplemented
+        return self.field == other.field and self.shape == other.shape and bool(self.flint == other.flint)
+
+    def __hash__(self) -> int:
+        return hash((self.field, self.shape, str(self.flint)))
+
+    def __str__(self) -> str:
+        rows = ["[" + ", ".join(str(x) for x in row) + "]" for row in self.elements()]
+        return "[" + ", ".join(rows) + "]" if rows else f"[{self.nrows} x {self.ncols}]"
+
+    __repr__ = __str__
+
+    # -- arithmetic -----------------------------------------------------------------------------------------------
+
+    def __matmul__(self, other: Matrix) -> Matrix:
+        self._mixes_with(other)
+        return Matrix(self.field, self.nrows, other.ncols, self.flint * other.flint)
+
+    def __add__(self, other: Matrix) -> Matrix:
+        self._mixes_with(other)
+        return Matrix(self.field, self.nrows, self.ncols, self.flint + other.flint)
+
+    def _mixes_with(self, other: Matrix) -> None:
+        if self.field is not other.field and self.field != other.field:
+            raise ValueError(f"matrices over {self.field} and over {other.field} do not mix")
+
+    def __sub__(self, other: Matrix) -> Matrix:
+        self._mixes_with(other)
+        return Matrix(self.field, self.nrows, self.ncols, self.flint - other.flint)
+
+    def __neg__(self) -> Matrix:
+        return Matrix(self.field, self.nrows, self.ncols, -self.flint)
+
+    def transposed(self) -> Matrix:
+        """The transpose, entry by entry (for number fields not the transpose of the block matrix)."""
+        if not isinstance(self.field, NumberField):
+            return Matrix(self.field, self.ncols, self.nrows, self.flint.transpose())
+        rows = self.elements()
+        return Matrix.from_elements(self.field, self.ncols, self.nrows, [[row[j] for row in rows] for j in range(self.ncols)])
+
+    def rows(self, indices: Iterable[int]) -> Matrix:
+        """The matrix of these rows, in this order."""
+        d = self.field.degree
+        table = self.flint.tolist()
+        chosen = [table[i * d + c] for i in indices for c in range(d)]
+        scalars = [x for row in chosen for x in row]
+        return Matrix(self.field, len(chosen) // d, self.ncols, base_matrix(self.field, len(chosen), self.ncols * d, scalars))
+
+    def columns(self, indices: Iterable[int]) -> Matrix:
+        """The matrix of these columns, in this order."""
+        d = self.field.degree
+        wanted = [j * d + c for j in indices for c in range(d)]
+        scalars = [row[j] for row in self.flint.tolist() for j in wanted]
+        return Matrix(self.field, self.nrows, len(wanted) // d, base_matrix(self.field, self.nrows * d, len(wanted), scalars))
+
+
+@dataclass(frozen=True)
+class RowEchelon:
+    """The nonzero rows of a reduced row echelon form, and the column of the leading 1 of each."""
+
+    matrix: Matrix
+    pivots: tuple[int, ...]
+
+
+def beside(*parts: Matrix) -> Matrix:
+    """[X Y ...]: matrices with the same number of rows, side by side."""
+    first = parts[0]
+    ncols = sum(part.ncols for part in parts)
+    tables = [part.flint.tolist() for part in parts]
+    scalars = [x for rows in zip(*tables, strict=True) for row in rows for x in row]
+    d = first.field.degree
+    return Matrix(first.field, first.nrows, ncols, base_matrix(first.field, first.nrows * d, ncols * d, scalars))
+
+
+def stacked(*parts: Matrix) -> Matrix:
+    """[X; Y; ...]: matrices with the same number of columns, one above the other."""
+    first = parts[0]
+    nrows = sum(part.nrows for part in parts)
+    scalars = [x for part in parts for x in part.flint.entries()]
+    d = first.field.degree
+    return Matrix(first.field, nrows, first.ncols, base_matrix(first.field, nrows * d, first.ncols * d, scalars))
+
+
+def rank(matrix: Matrix) -> int:
+    """The rank over the matrix's field."""
+    if _is_large(matrix):
+        reduced = _modulo(matrix.flint)
+        if reduced.rank() == min(reduced.nrows(), reduced.ncols()):  # a minor that is not zero modulo a prime is not zero
+            return min(matrix.nrows, matrix.ncols)
+        return len(row_echelon(matrix).pivots)
+    return int(matrix.flint.rank()) // matrix.field.degree
+
+
+def row_echelon(matrix: Matrix) -> RowEchelon:
+    """The reduced row echelon form without its zero rows. Over Q(a) it is the one of the block matrix, read in blocks."""
+    d = matrix.field.degree
+    echelon = _lifted_echelon(matrix.flint) if _is_large(matrix) else None
+    if echelon is None:
+        reduced, size = matrix.flint.rref()
+        scalars = reduced.entries()[: size * matrix.ncols * d]
+        echelon = base_matrix(matrix.field, size, matrix.ncols * d, scalars)
+    pivots = tuple(j // d for j in pivot_columns(echelon)[::d])
+    return RowEchelon(Matrix(matrix.field, len(pivots), matrix.ncols, echelon), pivots)
+
+
+def pivot_columns(echelon: Any) -> list[int]:
+    """The column of the leading entry of every row of a row echelon form, which may end in zero rows."""
+    pivots: list[int] = []
+    start = 0
+    for row in echelon.tolist():
+        while start < len(row) and not row[start]:
+            start += 1
+        if start < len(row):
+            pivots.append(start)
+    return pivots
+
+
+def _is_large(matrix: Matrix) -> bool:
+    """Whether a rational matrix is worth the detour over a prime."""
+    return not isinstance(matrix.field, PrimeField) and matrix.flint.nrows() * matrix.flint.ncols() > 150
+
+
+def _modulo(rational: Any) -> Any:
+    """The matrix modulo a prime after clearing denominators row by row: its rank is a lower bound."""
+    rows: list[int] = []
+    for row in rational.tolist():
+        bottom = fmpz(1)
+        for x in row:
+            bottom = bottom.lcm(x.q)
+        rows.extend(int((x * bottom).p % PRIME) for x in row)
+    return nmod_mat(rational.nrows(), rational.ncols(), rows, PRIME)
+
+
+def _lifted_echelon(rational: Any) -> Any:
+    """The reduced row echelon form, by p-adic lifting on the shape found modulo a prime; None where that prime misleads.
+
+    The rows and columns of a nonzero minor of greatest size modulo the prime make a square B; the form is B^-1 times those rows, if the
+    other rows are combinations of them: checked exactly.
+    """
+    reduced = _modulo(rational)
+    columns = pivot_columns(reduced.rref()[0])
+    rows = pivot_columns(reduced.transpose().rref()[0])
+    table = rational.tolist()
+    size, width = len(rows), rational.ncols()
+    if size == 0:
+        return fmpq_mat(0, width) if all(x == 0 for row in table for x in row) else None
+    chosen = fmpq_mat(size, width, [x for i in rows for x in table[i]])
+    square = fmpq_mat(size, size, [table[i][j] for i in rows for j in columns])
+    echelon = square.solve(chosen, "dixon")
+    others = [table[i] for i in range(len(table)) if i not in set(rows)]
+    rest = fmpq_mat(len(others), width, [x for row in others for x in row])
+    through = fmpq_mat(len(others), size, [row[j] for row in others for j in columns])
+    return echelon if rest == through * echelon else None
+
+
+def right_null_space(matrix: Matrix) -> Matrix:
+    """Columns (ncols x nullity) that are a basis of {x : M x = 0}."""
+    echelon = row_echelon(matrix)
+    field, d = matrix.field, matrix.field.degree
+    pivots = set(echelon.pivots)
+    free = [j for j in range(matrix.ncols) if j not in pivots]
+    negated = (-echelon.matrix).columns(free).flint.tolist()
+    width = len(free) * d
+    position = {j: i for i, j in enumerate(echelon.pivots)}
+    order = {j: i for i, j in enumerate(free)}
+    scalars: list[Any] = []
+    for j in range(matrix.ncols):
+        for c in range(d):
+            if j in pivots:
+                scalars.extend(negated[position[j] * d + c])
+            else:
+                unit = [0] * width
+                unit[order[j] * d + c] = 1
+                scalars.extend(unit)
+    return Matrix(field, matrix.ncols, len(free), base_matrix(field, matrix.ncols * d, width, scalars))
+
+
+def left_null_space(matrix: Matrix) -> Matrix:
+    """Rows (nullity x nrows) that are a basis of {y : y M = 0}."""
+    return right_null_space(matrix.transposed()).transposed()
+
+
+def column_basis(matrix: Matrix) -> Matrix:
+    """A basis of the column space as columns, in reduced column echelon form: equal spaces give equal matrices."""
+    return row_echelon(matrix.transposed()).matrix.transposed()
+
+
+def row_profile(matrix: Matrix) -> tuple[int, ...]:
+    """The rows that are not combinations of the rows above them (the row rank profile)."""
+    return row_echelon(matrix.transposed()).pivots
+
+
+def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
+    """Some X with X M = R, or None where R has a row outside the row space of M."""
+    profile = row_profile(matrix)
+    basis = matrix.rows(profile)
+    echelon = row_echelon(basis)
+    square = basis.columns(echelon.pivots)
+    target = right_side.columns(echelon.pivots)
+    if not profile:
+        return Matrix.zero(matrix.field, right_side.nrows, matrix.nrows) if right_side.is_zero() else None
+    coefficients = Matrix(matrix.field, right_side.nrows, len(profile), target.flint * square.flint.inv())
+    if not (coefficients @ basis - right_side).is_zero():
+        return None
+    spread = Matrix.zero(matrix.field, len(profile), matrix.nrows).elements()
+    one = matrix.field.element(1)
+    for i, row in enumerate(profile):
+        spread[i][row] = one
+    return coefficients @ Matrix.from_elements(matrix.field, len(profile), matrix.nrows, spread)
+
+
+def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:
+    """The rational coordinates, ascending, of an element of sympy's QQ<a>."""
+    descending = [Fraction(int(c.numerator), int(c.denominator)) for c in element.to_list()]
+    size = int(domain.mod.degree())
+    return descending[::-1] + [Fraction(0)] * (size - len(descending))
+
+
+def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where: str) -> tuple[list[list[object]], tuple[int, int]]:
+    """Nested lists of the entries and the shape they have, checked for ragged rows and against `shape`."""
+    if isinstance(entries, DomainMatrix):
+        found = (int(entries.shape[0]), int(entries.shape[1]))
+        rows = _rows_of_domain_matrix(entries, field, where)
+    elif isinstance(entries, sympy.MatrixBase):
+        found = (int(entries.rows), int(entries.cols))
+        rows = [list(entries.row(i)) for i in range(entries.rows)]
+    elif isinstance(entries, (list, tuple)):
+        rows = []
+        for i, row in enumerate(entries):
+            if not isinstance(row, (list, tuple)):
+                raise InvalidInput(f"{where}[{i}]: got {shorten(row)}, expected a row: a list of entries")
+            rows.append(list(row))
+        found = (len(rows), len(rows[0]) if rows else 0)
+        for i, row in enumerate(rows):
+            if len(row) != found[1]:
+                raise InvalidInput(f"{where}[{i}]: got {len(row)} entries, expected {found[1]} as in the first row")
+        if shape is not None and 0 in shape and found in ((0, 0), (shape[0], 0)):
+            found = shape  # [] and the right number of empty rows stand for every empty matrix
+    else:
+        raise InvalidInput(f"{where}: got {shorten(entries)}, expected a list of rows")
+    if shape is not None and found != shape:
+        raise InvalidInput(f"{where}: got shape {found[0]} x {found[1]}, expected {shape[0]} x {shape[1]}")
+    return rows if found[1] else [[] for _ in range(found[0])], found
+
+
+def _rows_of_domain_matrix(entries: DomainMatrix, field: Field, where: str) -> list[list[object]]:
+    if not isinstance(entries.domain, AlgebraicField):
+        table = entries.to_Matrix()
+        return [list(table.row(i)) for i in range(table.rows)]
+    if not isinstance(field, NumberField) or field != NumberField(_ascending(entries.domain.mod)):
+        raise InvalidInput(f"{where}: got entries over {entries.domain}, expected {field}")
+    return [[_coordinates(x, entries.domain) for x in row] for row in entries.to_list()]
+
+
+def _ascending(poly: Any) -> tuple[Fraction, ...]:
+    return tuple(Fraction(int(c.numerator), int(c.denominator)) for c in reversed(poly.to_list()))

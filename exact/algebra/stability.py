@@ -1,0 +1,57 @@
+"""Schur stability decided exactly: are all eigenvalues inside the unit circle? No eigenvalue is computed.
+
+    characteristic_polynomial   det(qI - A) over Q, coefficients ascending
+    is_schur                    all roots of a rational polynomial inside the unit circle, by the recursion of Schur and Cohn
+    is_stable                   the same for the eigenvalues of A; over Q(a) for every embedding of the field
+
+A polynomial f of degree d has all its roots inside the unit circle iff |f_d| > |f_0| and (f_d f - f_0 f*) / q has, f* being f with its
+coefficients reversed ([S17]; Schur and Cohn). The recursion runs on integers, content removed at each step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import gcd, lcm
+
+from flint import fmpq_mat
+
+from ...base.errors import InvalidInput
+from .fields import PrimeField
+from .matrices import Matrix
+
+
+def characteristic_polynomial(A: Matrix) -> tuple[Fraction, ...]:
+    """det(qI - A), ascending and monic, for A n x n over Q; over Q(a) its norm, of degree n d. Raises InvalidInput over GF(p)."""
+    if isinstance(A.field, PrimeField):
+        raise InvalidInput(f"got a matrix over {A.field}, expected one over Q or a number field: a finite field has no unit circle")
+    if A.nrows != A.ncols:
+        raise InvalidInput(f"got a matrix {A.nrows} x {A.ncols}, expected a square one")
+    blocks = [[A.field.block(x) for x in row] for row in A.elements()]
+    d = len(blocks[0][0]) if blocks else 1
+    entries = [block[i][j] for row in blocks for i in range(d) for block in row for j in range(d)]
+    size = A.nrows * d
+    return tuple(Fraction(int(c.p), int(c.q)) for c in fmpq_mat(size, size, entries).charpoly().coeffs()) if size else (Fraction(1),)
+
+
+def is_schur(coefficients: Sequence[Fraction | int]) -> bool:
+    """Whether every complex root of sum coefficients[k] q^k has modulus below 1; so for a constant. Raises InvalidInput for zero."""
+    values = [Fraction(c) for c in coefficients]
+    while values and values[-1] == 0:
+        values.pop()
+    if not values:
+        raise InvalidInput("got the zero polynomial, expected one that is not zero: every number is a root of it")
+    common = lcm(*(c.denominator for c in values))
+    f = [int(c * common) for c in values]
+    while len(f) > 1:
+        if abs(f[-1]) <= abs(f[0]):
+            return False
+        f = [f[-1] * x - f[0] * y for x, y in zip(f[1:], reversed(f[:-1]), strict=True)]
+        content = gcd(*f)
+        f = [c // content for c in f]
+    return True
+
+
+def is_stable(A: Matrix) -> bool:
+    """Whether all eigenvalues of A, n x n over Q or Q(a), lie inside the unit circle. Raises InvalidInput over GF(p)."""
+    return is_schur(characteristic_polynomial(A))

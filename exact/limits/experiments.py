@@ -1,0 +1,108 @@
+"""The experiments whose population limits are asked for: a system, its signals as filters of white noise, and two windows.
+
+    Experiment        system (with B, D), s, past, u_filter, v_filter, w_filter or None
+    read_experiment   from the dict of an exact file
+    MAX_WINDOW_ROWS, MAX_STATES   what is supported
+
+u(k) = sum_j U_j e(k-j) and v(k) = sum_j V_j e(k-j) of the same white e of unit covariance, w of its own, independent one. A fault that
+leads the input, v(k) = K u(k+1), is written by delaying u. Only Q: covariances over another field have no meaning as numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ...base.errors import InvalidInput, shorten
+from ..algebra.fields import QQ
+from ..algebra.stability import is_stable
+from ..system.systems import FaultySystem, read_system
+from .filters import Filter, read_filter
+
+MAX_WINDOW_ROWS = 2048
+MAX_STATES = 2048
+_SYSTEM_KEYS = (*"AFCGBD", "field", "n", "m", "p", "nu")
+_OWN_KEYS = ("s", "past", "u_filter", "v_filter", "w_filter")
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A system over Q with a stable A, and the stationary signals that drive it.
+
+    u_filter has nu rows, v_filter m, w_filter p; u and v share their noise. s >= 1 and past >= 1 are block rows of the future and
+    past windows, (s + past)(nu + p) <= MAX_WINDOW_ROWS, n and the filters' states together at most MAX_STATES. Raises InvalidInput
+    for anything else, and for u identically zero.
+    """
+
+    system: FaultySystem
+    s: int
+    past: int
+    u_filter: Filter
+    v_filter: Filter
+    w_filter: Filter | None = None
+
+    def __post_init__(self) -> None:
+        residual, nu = self.system.residual, self.system.nu
+        if residual.field != QQ:
+            raise InvalidInput(f"field: got {residual.field}, expected Q: covariances need numbers that can be compared")
+        if nu == 0:
+            raise InvalidInput("B: got no input, expected one at least: without inputs there are no instruments")
+        if residual.p == 0:
+            raise InvalidInput("C: got no output, expected one at least")
+        for name, value in (("s", self.s), ("past", self.past)):
+            if type(value) is not int or value < 1:
+                raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer >= 1, a number of block rows")
+        rows = (self.s + self.past) * (nu + residual.p)
+        if rows > MAX_WINDOW_ROWS:
+            raise InvalidInput(f"s, past: got windows of (s + past)(nu + p) = {rows} rows, at most {MAX_WINDOW_ROWS} are supported")
+        given = [("u_filter", self.u_filter, nu, "nu"), ("v_filter", self.v_filter, residual.m, "m")]
+        if self.w_filter is not None:
+            given.append(("w_filter", self.w_filter, residual.p, "p"))
+        for name, one, channels, symbol in given:
+            if one.channels != channels:
+                raise InvalidInput(f"{name}: got {one.channels} rows, expected {symbol} = {channels}")
+        states = residual.n + sum(one.memory * one.noise for _, one, _, _ in given)
+        if states > MAX_STATES:
+            raise InvalidInput(
+                f"filters: got {states} states of system and filters, at most {MAX_STATES} are supported: try fewer lags, or columns"
+            )
+        if residual.m and self.v_filter.noise != self.u_filter.noise:
+            raise InvalidInput(
+                f"v_filter: got matrices with {self.v_filter.noise} columns, expected {self.u_filter.noise} as in u_filter: u and v are "
+                "filters of the same white noise; for independent ones give each its own columns"
+            )
+        if self.u_filter.is_zero():
+            raise InvalidInput("u_filter: got an input that is identically zero, expected one that excites the system")
+        if not is_stable(residual.A):
+            raise InvalidInput(
+                "A: got eigenvalues on or outside the unit circle, expected all inside: else there is no stationary state; try a system "
+                "closed by its controller, or one with A scaled down"
+            )
+
+    def to_json(self) -> dict[str, Any]:
+        """The dict that exact files hold."""
+        result = self.system.to_json() | {"s": self.s, "past": self.past}
+        result |= {"u_filter": self.u_filter.to_json(), "v_filter": self.v_filter.to_json()}
+        return result if self.w_filter is None else result | {"w_filter": self.w_filter.to_json()}
+
+
+def read_experiment(data: object, *, where: str = "experiment") -> Experiment:
+    """The experiment that the dict of an exact file holds. Raises InvalidInput with one line naming the place."""
+    if not isinstance(data, Mapping):
+        raise InvalidInput(f"{where}: got {shorten(data)}, expected an object with A, B, C, D, F, G, s, past, u_filter, v_filter")
+    unknown = sorted(set(map(str, data)) - set(_SYSTEM_KEYS) - set(_OWN_KEYS))
+    if unknown:
+        raise InvalidInput(f"{where}: unknown key {shorten(unknown[0])}, expected {', '.join(_SYSTEM_KEYS + _OWN_KEYS)}")
+    missing = [key for key in (*_SYSTEM_KEYS[:6], *_OWN_KEYS[:4]) if key not in data]
+    if missing:
+        raise InvalidInput(f'{where}: key "{missing[0]}" is missing, expected A, B, C, D, F, G, s, past, u_filter, v_filter')
+    system = read_system({key: value for key, value in data.items() if key not in _OWN_KEYS}, where=where)
+    assert isinstance(system, FaultySystem)
+    try:
+        u = read_filter(data["u_filter"], channels=system.nu, where="u_filter")
+        v = read_filter(data["v_filter"], channels=system.residual.m, where="v_filter")
+        w = read_filter(data["w_filter"], channels=system.residual.p, where="w_filter") if "w_filter" in data else None
+        return Experiment(system, data["s"], data["past"], u, v, w)
+    except InvalidInput as error:
+        raise InvalidInput(f"{where}.{error}") from None

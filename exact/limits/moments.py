@@ -1,0 +1,103 @@
+"""Stationary covariances of an experiment's signals, and of windows of them.
+
+    Covariances        of a joint process: sequences and block Toeplitz matrices
+    covariances        from an Experiment; solves the Lyapunov equation
+    WindowCovariances  the blocks that the limits are made of, with Yf = (y(k); ...; y(k+s-1)), Up = (u(k-past); ...; u(k-1)) and so on
+    window_covariances from an Experiment and its Covariances; refuses inputs that do not excite s + past block rows
+
+Lags: sequence(a, b, l) is Cov(a(k+l), b(k)).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...base.errors import InvalidInput
+from ..algebra.matrices import Matrix, beside, rank, stacked
+from .experiments import Experiment
+from .lyapunov import state_covariance
+from .process import JointProcess, Signal, joint_process
+
+
+@dataclass(frozen=True)
+class Covariances:
+    """A joint process with the covariance P of its state, N x N."""
+
+    process: JointProcess
+    P: Matrix
+
+    def now(self, a: Signal, b: Signal) -> Matrix:
+        """Cov(a(k), b(k))."""
+        return a.H @ self.P @ b.H.transposed() + a.J @ b.J.transposed()
+
+    def with_next_state(self, b: Signal) -> Matrix:
+        """Cov(xi(k+1), b(k)), N x rows of b."""
+        return self.process.Phi @ (self.P @ b.H.transposed()) + self.process.Gamma @ b.J.transposed()
+
+    def forward(self, a: Signal, b: Signal, most: int) -> list[Matrix]:
+        """Cov(a(k+l), b(k)) for l = 0..most."""
+        result = [self.now(a, b)]
+        reached = self.with_next_state(b)
+        for lag in range(1, most + 1):
+            result.append(a.H @ reached)
+            if lag < most:
+                reached = self.process.Phi @ reached
+        return result
+
+    def sequence(self, a: Signal, b: Signal, least: int, most: int) -> dict[int, Matrix]:
+        """Cov(a(k+l), b(k)) for l = least..most, either sign."""
+        result = {}
+        if most >= 0:
+            result = {lag: block for lag, block in enumerate(self.forward(a, b, most)) if lag >= least}
+        if least < 0:
+            backward = self.forward(b, a, -least)
+            result |= {-lag: backward[lag].transposed() for lag in range(max(1, -most), -least + 1)}
+        return result
+
+    def windows(self, a: Signal, b: Signal, rows: range, columns: range) -> Matrix:
+        """The block matrix Cov(a(k+i), b(k+j)), i in `rows` and j in `columns`, both consecutive."""
+        blocks = self.sequence(a, b, rows[0] - columns[-1], rows[-1] - columns[0])
+        return stacked(*(beside(*(blocks[i - j] for j in columns)) for i in rows))
+
+
+@dataclass(frozen=True)
+class WindowCovariances:
+    """Sizes: f = s, q = past block rows. uf_uf (f nu)^2, uf_up f nu x q nu, uf_yp f nu x q p, yf_uf, yf_up, yf_yp with f p rows."""
+
+    uf_uf: Matrix
+    uf_up: Matrix
+    uf_yp: Matrix
+    yf_uf: Matrix
+    yf_up: Matrix
+    yf_yp: Matrix
+
+
+def covariances(experiment: Experiment) -> Covariances:
+    """The joint process with its exact state covariance."""
+    process = joint_process(experiment)
+    return Covariances(process, state_covariance(process))
+
+
+def window_covariances(experiment: Experiment, known: Covariances) -> WindowCovariances:
+    """The blocks for the windows of the experiment.
+
+    Raises InvalidInput where the covariance of s + past block rows of u is singular: u is then a combination of its own past.
+    """
+    s, past = experiment.s, experiment.past
+    u, y = known.process.u, known.process.y
+    future, before = range(s), range(-past, 0)
+    whole = known.windows(u, u, range(s + past), range(s + past))
+    excited = rank(whole)
+    if excited < whole.nrows:
+        raise InvalidInput(
+            f"u_filter: got an input whose covariance over s + past = {s + past} block rows has rank {excited}, expected "
+            f"{whole.nrows}: try an input with more independent noise, or fewer block rows"
+        )
+    return WindowCovariances(
+        uf_uf=known.windows(u, u, future, future),
+        uf_up=known.windows(u, u, future, before),
+        uf_yp=known.windows(u, y, future, before),
+        yf_uf=known.windows(y, u, future, future),
+        yf_up=known.windows(y, u, future, before),
+        yf_yp=known.windows(y, y, future, before),
+    )

@@ -1,0 +1,221 @@
+"""Which P give a pair (Fhat P, Ghat P) with the behaviour of the system, and with which zeros: the polynomial D(q; P).
+
+    Exceptional          Z = im [Fhat; Ghat], U = {u : [u; 0] in Z}, and the coordinates b of [U; 0] and a of [A U; C U] in Z
+    exceptional          of a kernel representation
+    PairVerdict          a P with D(q; P), its rank, and where it is bad a null vector of the pencil
+    judge                the verdict on a P of r columns, r the normal rank (m where the system is left-invertible)
+
+    D(q; P) = det [ P | q b - a ]            n_z x n_z, n_z = r + zeta, linear in the r x r minors of P
+
+Up to a unit it is the greatest common divisor of the maximal minors of the pencil of (A, Fhat P, C, Ghat P), for every system,
+observable, controllable, left-invertible or not: with W completing U to a basis of K^n, that pencil is, by column operations and a sign
+of rows,
+
+    [ [qI - A; -C] W | Fhat;Ghat ] diag(I, [ q b - a | P ]),
+
+and the left factor has full column rank at every q: a null vector would give w outside U with [(q - A) w; -C w] in Z, which the kernel
+rows N(q) allow only for w in U. So P is bad, the normal rank of its pair below r, iff D(q; P) = 0. U is V* + S* of the system.
+
+In coordinates of Z that begin with b the pencil q b - a is [qI - A_U; -C_U]: (A_U, C_U) has zeta states, its unobservable ones are those
+of (A, C), and with a minimal basis L(q) of its left kernel, of degrees k_1..k_r,
+
+    D(q; P) = unit * fixed(q) * det(L(q) P),      fixed = characteristic polynomial of A on the unobservable subspace,
+
+sum k_j = zeta - deg fixed. Source: [G25] Theorem 3, [M73] and [TSH01] for V* and S*, [F75] for L.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from ...base.errors import InvalidInput
+from ..algebra.matrices import Matrix, beside, left_null_space, rank, row_echelon, row_profile, solve_left, stacked
+from ..algebra.polynomials import Poly, written
+from ..structure.fault_columns import FaultSpace, fault_space, with_pair
+from ..structure.kernel_rows import KernelRepresentation, column_conditions, kernel_representation
+from ..structure.pencil import NullPolynomial, right_null_polynomial, zero_dynamics_polynomial
+from ..system.systems import ResidualSystem
+from .linear_determinants import linear_determinant
+
+
+@dataclass(frozen=True)
+class Exceptional:
+    """The pencil q b - a of a system's fault space Z.
+
+    `kernel` and `space` are those of the system; `states` is U (n x zeta, reduced column echelon form); `b` and `a` (n_z x zeta) satisfy
+    [Fhat; Ghat] b = [U; 0] and [Fhat; Ghat] a = [A U; C U].
+    """
+
+    kernel: KernelRepresentation
+    space: FaultSpace
+    states: Matrix
+    b: Matrix
+    a: Matrix
+
+    @property
+    def system(self) -> ResidualSystem:
+        """The system."""
+        return self.space.system
+
+    @property
+    def columns(self) -> int:
+        """r, the number of columns of every P: the normal rank, m where the system is left-invertible."""
+        return self.kernel.normal_rank
+
+    @property
+    def n_z(self) -> int:
+        """n_z = r + zeta, the number of rows of every P."""
+        return self.space.dimension
+
+    @property
+    def zeta(self) -> int:
+        """dim U: the number of zeros, finite and infinite, of every good pair; the bound on the degree of D."""
+        return self.states.ncols
+
+    @cached_property
+    def reduced(self) -> ResidualSystem:
+        """(A_U, C_U), zeta states and r outputs, no fault: q b - a in coordinates of Z that begin with b."""
+        zeta, field = self.zeta, self.system.field
+        inverse = _inverse(self.basis_change)
+        both = inverse @ self.a
+        none = Matrix.zero(field, zeta, 0), Matrix.zero(field, self.columns, 0)
+        return ResidualSystem(both.rows(range(zeta)), none[0], both.rows(range(zeta, self.n_z)), none[1])
+
+    @cached_property
+    def basis_change(self) -> Matrix:
+        """[b | unit columns], invertible, n_z x n_z."""
+        free = sorted(set(range(self.n_z)) - set(row_profile(self.b)))
+        return beside(self.b, Matrix.identity(self.system.field, self.n_z).columns(free))
+
+    @cached_property
+    def left_kernel(self) -> tuple[Matrix, ...]:
+        """The rows L_j(q) of a minimal basis of {l(q) : l(q) (q b - a) = 0}: (k_j + 1) x n_z coefficients each, ascending by degree."""
+        inverse = _inverse(self.basis_change)
+        reduced = self.reduced
+        rows = kernel_representation(reduced).rows
+        return tuple(column_conditions(row.coefficients, reduced.A, reduced.C) @ inverse for row in rows)
+
+    @property
+    def left_degrees(self) -> tuple[int, ...]:
+        """k_1 <= ... <= k_r."""
+        return tuple(row.nrows - 1 for row in self.left_kernel)
+
+    @cached_property
+    def fixed(self) -> Poly:
+        """The zeros that no P moves: the characteristic polynomial, monic, of A on the unobservable subspace of (A, C)."""
+        return zero_dynamics_polynomial(self.reduced)
+
+    @property
+    def observable(self) -> bool:
+        """Whether (A, C) is observable: then no zero is fixed."""
+        return len(self.fixed) == 1
+
+
+@dataclass(frozen=True)
+class PairVerdict:
+    """P with its `rank` and `polynomial` = det [P | q b - a], ascending coefficients, () where P is bad."""
+
+    exceptional: Exceptional
+    P: Matrix
+    rank: int
+    polynomial: Poly
+
+    @property
+    def good(self) -> bool:
+        """Whether (A, Fhat P, C, Ghat P) has the output behaviour of the system."""
+        return bool(self.polynomial)
+
+    @property
+    def system(self) -> ResidualSystem:
+        """(A, Fhat P, C, Ghat P)."""
+        return with_pair(self.exceptional.space, self.P)
+
+    @property
+    def finite_zeros(self) -> int | None:
+        """Number of finite zeros of the pair, those of the unobservable part included; None for a bad P."""
+        return len(self.polynomial) - 1 if self.good else None
+
+    @property
+    def infinite_zeros(self) -> int | None:
+        """Number of infinite zeros of the pair; None for a bad P."""
+        return self.exceptional.zeta - len(self.polynomial) + 1 if self.good else None
+
+    @cached_property
+    def null_vector(self) -> NullPolynomial | None:
+        """For a bad P, (x(q), v(q)) != 0 in the right kernel of the pair's pencil; None for a good one."""
+        return None if self.good else right_null_polynomial(self.system)
+
+    @property
+    def reason(self) -> str:
+        """One line for people."""
+        if self.good:
+            return f"D(q; P) is not zero: {self.finite_zeros} finite and {self.infinite_zeros} infinite zeros"
+        if self.rank < self.P.ncols:
+            return f"P has rank {self.rank}, below its {self.P.ncols} columns"
+        return f"P has full column rank, but D(q; P) = 0: the pair has normal rank below {self.P.ncols}"
+
+    def to_json(self) -> dict[str, Any]:
+        """What a certificate needs: P, the coefficients of D, b and a, and the null vector of a bad P."""
+        field = self.P.field
+        null = self.null_vector
+        return {
+            "P": self.P.to_json(),
+            "good": self.good,
+            "rank": self.rank,
+            "polynomial": written(self.polynomial, field),
+            "b": self.exceptional.b.to_json(),
+            "a": self.exceptional.a.to_json(),
+            "null_vector": None if null is None else {"x": null.state.to_json(), "v": null.fault.to_json()},
+        }
+
+
+def exceptional(kernel: KernelRepresentation) -> Exceptional:
+    """The pencil of the fault space of a system, given by its kernel representation; any system over any field."""
+    space = fault_space(kernel)
+    system = space.system
+    echelon = row_echelon(space.basis)
+    without_feedthrough = left_null_space(space.basis.columns(range(system.n, system.n + system.p)))
+    U = row_echelon(without_feedthrough @ space.basis.columns(range(system.n))).matrix.transposed()
+    at_once = stacked(U, Matrix.zero(system.field, system.p, U.ncols))
+    one_step = stacked(system.A @ U, system.C @ U)
+    # the basis of Z is in reduced echelon form, so the coordinates of a member are its entries at the pivots
+    b, a = at_once.rows(echelon.pivots), one_step.rows(echelon.pivots)
+    columns = space.basis.transposed()
+    if columns @ b != at_once or columns @ a != one_step or kernel.normal_rank + U.ncols != space.dimension:
+        raise ArithmeticError("the fault space does not contain [U; 0] and [A U; C U], or has a wrong dimension")
+    return Exceptional(kernel, space, U, b, a)
+
+
+def judge(pencil: Exceptional, P: object) -> PairVerdict:
+    """The verdict on P, what `Matrix.of` takes, n_z x r over the system's field. Raises InvalidInput for another shape."""
+    matrix = pair_matrix(pencil, P)
+    return PairVerdict(pencil, matrix, rank(matrix), polynomial_at(pencil, matrix))
+
+
+def polynomial_at(pencil: Exceptional, P: Matrix) -> Poly:
+    """D(q; P) = det [P | q b - a] for P of shape n_z x r."""
+    nothing = Matrix.zero(pencil.system.field, pencil.n_z, pencil.columns)
+    return linear_determinant(beside(P, -pencil.a), beside(nothing, pencil.b))
+
+
+def pair_matrix(pencil: Exceptional, P: object) -> Matrix:
+    """P as a Matrix of shape n_z x r. Raises InvalidInput for another shape or field."""
+    shape = (pencil.n_z, pencil.columns)
+    matrix = P if isinstance(P, Matrix) else Matrix.of(P, pencil.system.field, shape=shape if 0 in shape else None, where="P")
+    if matrix.field != pencil.system.field:
+        raise InvalidInput(f"P: got entries over {matrix.field}, expected {pencil.system.field} as for the system")
+    if matrix.shape != shape:
+        raise InvalidInput(
+            f"P: got {matrix.nrows} x {matrix.ncols}, expected {shape[0]} x {shape[1]}: a row for each basis column of the "
+            f"fault space, and as many columns as the normal rank of the system"
+        )
+    return matrix
+
+
+def _inverse(matrix: Matrix) -> Matrix:
+    inverse = solve_left(matrix, Matrix.identity(matrix.field, matrix.nrows))
+    if inverse is None:
+        raise ArithmeticError("an invertible matrix has no inverse")
+    return inverse

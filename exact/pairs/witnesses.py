@@ -1,0 +1,123 @@
+"""Pairs by construction: good ones with entries 0 and 1, and bad ones of full column rank wherever there are any.
+
+    good_columns         r basis columns of Z that are themselves a good pair: P has one 1 a column and D(point; P) != 0
+    GoodColumns          the columns, the point, the verdict
+    bad_pair             a bad P of full column rank, with the row L_j(q) or the unobservable direction that makes it bad
+    BadPair, NoBadPair   the construction, or why every P of full column rank is good
+    bad_share            an upper bound on the share of bad P among those with entries from a finite set (Schwartz-Zippel)
+
+Why 0 and 1 are enough: every coefficient of D is linear in each single entry of P, and a polynomial that is not zero and of degree at
+most one in each unknown is not zero somewhere on {0, 1}^N, over every field. More is true: D(q; P) = sum of det(P_J) h_J(q), so some h_J
+is not zero and the basis columns J of Z are a good pair. No search is needed: D(q; P) = unit * fixed(q) * det(L(q) P), and L(point) has
+full row rank at every point, a minimal basis being what it is; any r independent columns of L(point) will do. Source: [F75], [G25]
+Theorem 3.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from ...base.errors import InvalidInput
+from ..algebra.matrices import Matrix, beside, right_null_space, row_echelon, stacked
+from .polynomial import Exceptional, PairVerdict, judge
+
+
+@dataclass(frozen=True)
+class GoodColumns:
+    """P = the unit columns `chosen` (0-based, ascending): the basis columns `chosen` of Z are a good pair by themselves."""
+
+    chosen: tuple[int, ...]
+    verdict: PairVerdict
+
+    def to_json(self) -> dict[str, Any]:
+        """P, the coefficients of D and the columns chosen."""
+        return {"chosen": list(self.chosen), **self.verdict.to_json()}
+
+
+@dataclass(frozen=True)
+class BadPair:
+    """A bad P of full column rank. Every column of P is in the kernel of `conditions` (rows x n_z), or its first one is, as `kind` says.
+
+    `kind` "row": the coefficients of one row L_j(q), so that L_j(q) P = 0. `kind` "unobservable": the coefficients of all rows, which are
+    not independent of the unobservable part: L(q) P has a zero column.
+    """
+
+    kind: str
+    conditions: Matrix
+    verdict: PairVerdict
+
+    def to_json(self) -> dict[str, Any]:
+        """P, its null vector and the conditions."""
+        return {"kind": self.kind, "conditions": self.conditions.to_json(), **self.verdict.to_json()}
+
+
+@dataclass(frozen=True)
+class NoBadPair:
+    """Every P of full column rank is good; `reason` says why."""
+
+    exceptional: Exceptional
+    reason: str
+
+    def to_json(self) -> dict[str, Any]:
+        """The reason with zeta, r and the degrees k_j."""
+        left = self.exceptional
+        return {"reason": self.reason, "zeta": left.zeta, "columns": left.columns, "left_degrees": list(left.left_degrees)}
+
+
+def good_columns(pencil: Exceptional) -> GoodColumns:
+    """A good P with entries 0 and 1, one 1 a column, found without a search and decided exactly.
+
+    The columns are the first independent ones of L(0), so that D(0; P) is not 0 either unless 0 is a fixed zero.
+    """
+    field = pencil.system.field
+    at_zero = stacked(Matrix.zero(field, 0, pencil.n_z), *(row.rows([0]) for row in pencil.left_kernel))
+    chosen = row_echelon(at_zero).pivots
+    verdict = judge(pencil, Matrix.identity(field, pencil.n_z).columns(chosen))
+    if not verdict.good:
+        raise ArithmeticError("a minimal basis has no full row rank at 0")
+    return GoodColumns(chosen, verdict)
+
+
+def bad_pair(pencil: Exceptional) -> BadPair | NoBadPair:
+    """A bad P of full column rank by construction, or why there is none.
+
+    There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1.
+    """
+    field, r = pencil.system.field, pencil.columns
+    if r == 0:
+        return NoBadPair(pencil, "the normal rank is 0: P has no column, and the pair without faults is equivalent")
+    rows = pencil.left_kernel
+    if not pencil.observable:
+        conditions = stacked(*rows)
+        silent = right_null_space(conditions).columns([0])
+        place = next(i for i in range(pencil.n_z) if silent[i, 0] != 0)
+        others = [i for i in range(pencil.n_z) if i != place][: r - 1]
+        P = beside(silent, Matrix.identity(field, pencil.n_z).columns(others))
+        return BadPair("unobservable", conditions, _certainly_bad(pencil, P))
+    if pencil.zeta == 0:
+        return NoBadPair(pencil, "zeta = 0: P is square and D(q; P) = det P, so that P is bad only where its rank is deficient")
+    if r == 1:
+        return NoBadPair(pencil, "(A, C) is observable and r = 1: the coefficients of D are n_z independent linear forms in P")
+    # the shortest row: k_1 < zeta, so that the columns which it kills are at least r
+    conditions = rows[0]
+    P = right_null_space(conditions).columns(range(r))
+    return BadPair("row", conditions, _certainly_bad(pencil, P))
+
+
+def bad_share(columns: int, size: int) -> Fraction:
+    """At most this share of the P with independent uniform entries from a set of `size` field elements is bad: r / size, at most 1.
+
+    D has degree r in the entries of P. Raises InvalidInput unless columns >= 0 and size >= 1 are integers.
+    """
+    if type(columns) is not int or type(size) is not int or columns < 0 or size < 1:
+        raise InvalidInput(f"columns, size: got {columns!r} and {size!r}, expected integers, columns >= 0 and size >= 1")
+    return min(Fraction(1), Fraction(columns, size))
+
+
+def _certainly_bad(pencil: Exceptional, P: Matrix) -> PairVerdict:
+    verdict = judge(pencil, P)
+    if verdict.good or verdict.rank != pencil.columns:
+        raise ArithmeticError("the construction of a bad pair failed")
+    return verdict

@@ -1,0 +1,180 @@
+"""Ranks of [O_s T_s] over the field Q(entries of A, C, F, G), and the polynomials that say where they drop.
+
+The maximal minors of the indeterminate window are multiplied out by FLINT, without any elimination. They are reduced to a
+short list with the same common zeros: their common factor is pulled out, and of what is left
+the square-free parts are kept, each reduced modulo the ones before it. `stratification` finds the same places by
+elimination and cases; `drops_agree` lets the two meet.
+
+    generic_window_ranks    GenericRanks for the windows asked for
+    GenericWindow           rank, common factors and drop conditions of one window
+    GenericRanks            the windows of one triple of dimensions
+    drops_agree             compares the drop conditions with a Stratification, stratum by stratum
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+from .case_tree import Branch, Polynomial, explore
+from .identities import FlintPolynomial, FlintWindow, IdentityFailure, SecondRoute
+from .stratification import Indeterminates, Stratification, indeterminates
+
+
+@dataclass(frozen=True)
+class GenericWindow:
+    """The window of `samples` samples: a rows x columns matrix of rank `rank` over Q(entries).
+
+    At parameter values its rank is smaller if and only if one of the `factors` vanishes or all of the `remaining` do. The
+    rank drops nowhere if there is no factor and the one remaining condition is 1. Both are polynomials of sympy's ring over
+    ZZ; `common_factors` and `conditions` give expressions. `minors` is how many nonzero maximal minors they come from.
+    """
+
+    samples: int
+    rows: int
+    columns: int
+    rank: int
+    factors: tuple[Polynomial, ...]
+    remaining: tuple[Polynomial, ...]
+    minors: int
+
+    @property
+    def common_factors(self) -> tuple[Any, ...]:
+        """Irreducible polynomials that divide every maximal minor, as sympy expressions."""
+        return tuple(f.as_expr() for f in self.factors)
+
+    @property
+    def conditions(self) -> tuple[Any, ...]:
+        """What the maximal minors have besides the common factors, as sympy expressions."""
+        return tuple(f.as_expr() for f in self.remaining)
+
+    @property
+    def never_drops(self) -> bool:
+        """Whether the rank is the same for all parameter values."""
+        return not self.factors and any(f.is_ground for f in self.remaining)
+
+
+@dataclass(frozen=True)
+class GenericRanks:
+    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) indeterminate; windows in the order asked for."""
+
+    entries: Indeterminates
+    windows: tuple[GenericWindow, ...]
+
+    @property
+    def dimensions(self) -> tuple[int, int, int]:
+        """(n, p, m)."""
+        return self.entries.n, self.entries.p, self.entries.m
+
+
+def generic_window_ranks(n: int, p: int, m: int, windows: Iterable[int]) -> GenericRanks:
+    """Generic ranks and drop conditions; `windows` are numbers of samples s >= 1. Raises ValueError for anything else.
+
+    The number of minors grows as a binomial coefficient in s p and n + s m: meant for matrices up to about 10 x 8.
+    """
+    entries = indeterminates(n, p, m)
+    found = []
+    for s in windows:
+        if isinstance(s, bool) or not isinstance(s, int) or s < 1:
+            raise ValueError(f"a window has a positive number of samples (got {s!r})")
+        found.append(_generic_window(entries, s))
+    return GenericRanks(entries, tuple(found))
+
+
+def _generic_window(entries: Indeterminates, samples: int) -> GenericWindow:
+    route = SecondRoute(entries.ring)
+    window = FlintWindow(route, entries, samples)
+    matrix = [window.rows[k, i] for k in range(samples) for i in range(entries.p)]
+    rows, columns = len(matrix), entries.n + samples * entries.m
+    # Fewer lines than entries a line: minors are chosen along the longer side.
+    tall = matrix if rows >= columns else [[line[j] for line in matrix] for j in range(columns)]
+    width = min(rows, columns)
+    for rank in range(width, -1, -1):
+        minors = [
+            minor
+            for chosen in combinations(range(width), rank)
+            for minor in _maximal_minors(route, [[line[j] for j in chosen] for line in tall], rank)
+        ]
+        if minors:
+            factors, remaining = _reduced(route, entries, minors)
+            return GenericWindow(samples, rows, columns, rank, factors, remaining, len(minors))
+    raise ArithmeticError("the empty minor is 1")
+
+
+def _maximal_minors(route: SecondRoute, lines: list[list[FlintPolynomial]], width: int) -> list[FlintPolynomial]:
+    """The nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
+    minors: dict[tuple[int, ...], FlintPolynomial] = {(): route.context.constant(1)}
+    for column in range(width):
+        larger: dict[tuple[int, ...], FlintPolynomial] = {}
+        for chosen, minor in minors.items():
+            for i, line in enumerate(lines):
+                if i in chosen or not line[column]:
+                    continue
+                # Expansion along the last column: the sign is that of the rows below i.
+                sign = (-1) ** sum(c > i for c in chosen)
+                key = tuple(sorted((*chosen, i)))
+                larger[key] = larger.get(key, route.context.constant(0)) + sign * line[column] * minor
+        minors = {key: minor for key, minor in larger.items() if minor}
+    return list(minors.values())
+
+
+def _reduced(
+    route: SecondRoute, entries: Indeterminates, minors: list[FlintPolynomial]
+) -> tuple[tuple[Polynomial, ...], tuple[Polynomial, ...]]:
+    """The irreducible common factors, and conditions with the same common zeros as the minors without their gcd."""
+    common = minors[0]
+    for minor in minors[1:]:
+        common = common.gcd(minor)
+    square_free: dict[str, FlintPolynomial] = {}
+    for minor in minors:
+        radical = route.context.constant(1)
+        for factor, _ in (minor / common).factor()[1]:
+            radical *= factor
+        square_free[str(radical)] = radical
+    kept: list[Polynomial] = []
+    for f in sorted(square_free.values(), key=_size):
+        image = _back(entries, f)
+        # Where the ones before it vanish, f vanishes if and only if its remainder does.
+        rest = image.rem(kept) if kept else image
+        if rest:
+            rest = rest.primitive()[1]
+            kept.append(-rest if rest.LC < 0 else rest)
+    factors = sorted((factor for factor, _ in common.factor()[1]), key=_size)
+    return tuple(_back(entries, f) for f in factors), tuple(kept)
+
+
+def _size(f: FlintPolynomial) -> tuple[int, int, str]:
+    return f.total_degree(), len(f), str(f)
+
+
+def _back(entries: Indeterminates, f: FlintPolynomial) -> Polynomial:
+    ring = entries.ring
+    return ring.from_dict({tuple(map(int, e)): ring.domain(int(c)) for e, c in f.to_dict().items()})
+
+
+def drops_agree(generic: GenericRanks, stratification: Stratification) -> int:
+    """Whether, on every stratum, the drop conditions hold exactly where the window rank is below the generic one.
+
+    Strata are split further where a condition is neither zero nor a unit. Returns the number of cases compared; raises
+    ValueError for different dimensions, IdentityFailure where elimination and minors disagree.
+    """
+    if generic.dimensions != stratification.dimensions:
+        raise ValueError(f"dimensions {generic.dimensions} are compared with {stratification.dimensions}")
+    ring = stratification.entries.ring
+    compared = 0
+    for window in generic.windows:
+        factors = [ring.from_dict(dict(f)) for f in window.factors]
+        remaining = [ring.from_dict(dict(f)) for f in window.remaining]
+
+        def drops(branch: Branch, factors: list[Any] = factors, remaining: list[Any] = remaining) -> bool:
+            return any(branch.is_zero(f) for f in factors) or all(branch.is_zero(f) for f in remaining)
+
+        for stratum in stratification.strata:
+            expected = stratum.window_rank(window.samples) < window.rank
+            for branch, found in explore(stratum.branch, drops):
+                compared += 1
+                if found is not expected:
+                    raise IdentityFailure(f"window {window.samples}: minors and elimination disagree on {branch.decisions}")
+    return compared

@@ -1,0 +1,108 @@
+"""Left inversion: from how many samples r(0..l) is v(0) determined, with the initial state known or not.
+
+    delay_known_state     least l such that r(0..l) determines v(0) when x(0) = 0; None unless left-invertible
+    delay_unknown_state   least l in 0..n such that r(0..l) determines v(0) whatever x(0) is; None where there is none
+    left_inverse          M with M [O_(l+1) T_(l+1)] = [0 | I 0 ... 0] (known state: M T_(l+1) = [I 0 ... 0])
+    ambiguous_word        (x0, v) with v(0) != 0 and zero output on all of its samples: why fewer samples do not do
+    largest_output_nulling V*, the states from which zero output can be kept for ever
+
+Source: [SM69] (known state), [HP98], [MZ10], [K11] (unknown state); [TSH01] for V*.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, solve_left, stacked
+from ..system.systems import ResidualSystem
+from ..system.windows import toeplitz_matrix, window_matrix
+from .kernel_rows import KernelRepresentation
+
+
+@dataclass(frozen=True)
+class AmbiguousWord:
+    """x0 (n x 1) and v (samples x m) with v(0) != 0 and zero output throughout."""
+
+    x0: Matrix
+    v: Matrix
+
+
+def delay_known_state(kernel: KernelRepresentation) -> int | None:
+    """Least l with rank T_(l+1) - rank T_l = m; None unless left-invertible; 0 without faults."""
+    system = kernel.system
+    if kernel.normal_rank < system.m:
+        return None
+    delay, previous = 0, 0
+    while True:
+        current = rank(toeplitz_matrix(system, delay + 1))
+        if current - previous == system.m:
+            return delay
+        delay, previous = delay + 1, current
+
+
+def delay_unknown_state(kernel: KernelRepresentation) -> int | None:
+    """Least l in 0..n such that r(0..l) determines v(0) whatever x(0) is; None where there is none; 0 without faults.
+
+    The chain modulo a prime finds it, and shows that fewer samples do not do; that l samples do is decided exactly.
+    """
+    system = kernel.system
+    for delay in range(_first_determined(kernel.image.system), system.n + 1):
+        keep = [j for j in range(system.n + system.m * (delay + 1)) if not system.n <= j < system.n + system.m]
+        if rank(window_matrix(system, delay + 1).columns(keep)) == kernel.rank(delay + 1) - system.m:
+            return delay
+    return None
+
+
+def largest_output_nulling(system: ResidualSystem) -> Matrix:
+    """V* as a column basis (n x dim): the limit of the chain V_0 = K^n, V_(j+1) = {x : some v has C x + G v = 0, A x + F v in V_j}."""
+    subspace = Matrix.identity(system.field, system.n)
+    while True:
+        successor = column_basis(_zero_output_pairs(system, subspace).rows(range(system.n)))
+        if successor.ncols == subspace.ncols:
+            return subspace
+        subspace = successor
+
+
+def left_inverse(system: ResidualSystem, delay: int, *, known_state: bool) -> Matrix | None:
+    """m x p(delay + 1): what recovers v(0) from r(0..delay), or None where nothing does."""
+    built = toeplitz_matrix(system, delay + 1) if known_state else window_matrix(system, delay + 1)
+    skipped = Matrix.zero(system.field, system.m, 0 if known_state else system.n)
+    wanted = beside(skipped, Matrix.identity(system.field, system.m), Matrix.zero(system.field, system.m, system.m * delay))
+    return solve_left(built, wanted)
+
+
+def ambiguous_word(system: ResidualSystem, samples: int, *, known_state: bool) -> AmbiguousWord | None:
+    """A word of that many samples with v(0) != 0 and zero output, from x0 = 0 when the state is known; None where there is none."""
+    if samples == 0:
+        return None
+    built = toeplitz_matrix(system, samples) if known_state else window_matrix(system, samples)
+    offset = 0 if known_state else system.n
+    null = right_null_space(built)
+    for j in range(null.ncols):
+        column = null.columns([j])
+        if not column.rows(range(offset, offset + system.m)).is_zero():
+            x0 = Matrix.zero(system.field, system.n, 1) if known_state else column.rows(range(system.n))
+            faults = [column.rows(range(offset + k * system.m, offset + (k + 1) * system.m)).transposed() for k in range(samples)]
+            return AmbiguousWord(x0, stacked(Matrix.zero(system.field, 0, system.m), *faults))
+    return None
+
+
+def _zero_output_pairs(system: ResidualSystem, target: Matrix) -> Matrix:
+    """Columns [x; v] spanning {C x + G v = 0, A x + F v in the column space of `target`}."""
+    moves = beside(system.A, system.F, -target)
+    outputs = beside(system.C, system.G, Matrix.zero(system.field, system.p, target.ncols))
+    return right_null_space(stacked(moves, outputs)).rows(range(system.n + system.m))
+
+
+def _first_determined(system: ResidualSystem) -> int:
+    """Least l such that v(0) is determined by r(0..l), or n + 1; by the recursion V_j, meant for prime fields."""
+    subspace = Matrix.identity(system.field, system.n)
+    for delay in range(system.n + 1):
+        pairs = _zero_output_pairs(system, subspace)
+        if pairs.rows(range(system.n, system.n + system.m)).is_zero():
+            return delay
+        successor = column_basis(pairs.rows(range(system.n)))
+        if successor.ncols == subspace.ncols:
+            break
+        subspace = successor
+    return system.n + 1

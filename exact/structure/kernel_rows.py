@@ -1,0 +1,181 @@
+"""The kernel representation N(q) r = 0 of the output behaviour: one object that settles every window.
+
+    KernelRow              one row N(q) = sum c_k q^k of degree mu, with its pivot output
+    KernelRepresentation   the rows, ascending by degree; the image (prime, root) that proves them complete
+    left minimal indices   the degrees mu of the rows; lag = the largest; normal rank r = p - number of rows
+    horner                 X_k = N_k C + X_(k+1) A and N_k G + X_(k+1) F: all zero iff the row annihilates a system
+    column_conditions      the rows [X_(k+1), N_k]: what the row asks of a fault column [f; g]
+
+Rows whose leading coefficients are triangular by their pivots, and which annihilate the system, bound every gap from above: gap(k) <= p
+- #{mu <= k}. Ranks modulo a prime bound every window from below. Where the two meet, rank [O_s T_s] = s r + sum min(s, mu) for every s.
+
+Over Q and Q(a): the shape of the rows comes from the recursion modulo one prime, their coefficients from one exact solve by p-adic lifting
+(`relations`), and the exact Horner check has the last word. Source: [F75], [W91], [SB21].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import gcd, lcm
+from typing import Any
+
+from flint import fmpq
+
+from ..algebra.fields import NumberField, PrimeField
+from ..algebra.matrices import Matrix, beside, stacked
+from ..system.modular import Image, image
+from ..system.systems import FaultySystem, ResidualSystem
+from .relations import integer_relations, relations_over_prime_field
+from .zero_output import ZeroOutputChain, zero_output_chain
+
+
+@dataclass(frozen=True)
+class KernelRow:
+    """N(q) = c_0 + c_1 q + ... + c_mu q^mu: `coefficients` is (mu + 1) x p, row k holding c_k; integers over Q, coprime."""
+
+    pivot: int
+    coefficients: Matrix
+
+    @property
+    def degree(self) -> int:
+        """mu."""
+        return self.coefficients.nrows - 1
+
+
+@dataclass(frozen=True)
+class KernelRepresentation:
+    """A minimal kernel representation of the output behaviour of `system`, with the modular image that shows it complete."""
+
+    system: ResidualSystem
+    rows: tuple[KernelRow, ...]
+    image: Image
+    chain: ZeroOutputChain
+
+    @cached_property
+    def left_minimal_indices(self) -> tuple[int, ...]:
+        """The degrees of the rows, ascending."""
+        return tuple(row.degree for row in self.rows)
+
+    @property
+    def normal_rank(self) -> int:
+        """r, the normal rank of C (qI - A)^-1 F + G."""
+        return self.system.p - len(self.rows)
+
+    @property
+    def lag(self) -> int:
+        """The largest left minimal index, 0 where there is none."""
+        return max(self.left_minimal_indices, default=0)
+
+    def gap(self, k: int) -> int:
+        """rank [O_(k+1) T_(k+1)] - rank [O_k T_k] = p - #{mu <= k}."""
+        return self.system.p - sum(1 for mu in self.left_minimal_indices if mu <= k)
+
+    def rank(self, s: int) -> int:
+        """rank [O_s T_s] = s r + sum min(s, mu)."""
+        return s * self.normal_rank + sum(min(s, mu) for mu in self.left_minimal_indices)
+
+    def rows_within(self, window: int | None) -> tuple[KernelRow, ...]:
+        """The rows of degree below `window`: they and their shifts span the left null space of [O_s T_s]. None: all rows."""
+        return tuple(row for row in self.rows if window is None or row.degree < window)
+
+
+@dataclass(frozen=True)
+class Horner:
+    """What is left of a row at a system: `at_state` (1 x n) for x(0) and `at_fault[k]` (1 x m) for v(k); zero iff it annihilates."""
+
+    at_state: Matrix
+    at_fault: tuple[Matrix, ...]
+
+    def vanishes(self) -> bool:
+        """Whether the row annihilates the system."""
+        return self.at_state.is_zero() and all(part.is_zero() for part in self.at_fault)
+
+
+def horner(coefficients: Matrix, system: ResidualSystem) -> Horner:
+    """The row with these (mu + 1) x p coefficients applied to [O_(mu+1) T_(mu+1)] of a system, without building it."""
+    carried = Matrix.zero(system.field, 1, system.n)
+    at_fault: list[Matrix] = []
+    for k in reversed(range(coefficients.nrows)):
+        coefficient = coefficients.rows([k])
+        at_fault.append(coefficient @ system.G + carried @ system.F)
+        carried = coefficient @ system.C + carried @ system.A
+    return Horner(carried, tuple(reversed(at_fault)))
+
+
+def column_conditions(coefficients: Matrix, A: Matrix, C: Matrix) -> Matrix:
+    """(mu + 1) x (n + p), row k = [X_(k+1), N_k]: a fault column z = [f; g] is annihilated iff every row kills it."""
+    carried = Matrix.zero(A.field, 1, A.nrows)
+    conditions: list[Matrix] = []
+    for k in reversed(range(coefficients.nrows)):
+        coefficient = coefficients.rows([k])
+        conditions.append(beside(carried, coefficient))
+        carried = coefficient @ C + carried @ A
+    return stacked(Matrix.zero(A.field, 0, A.nrows + C.nrows), *reversed(conditions))
+
+
+def annihilates(row: KernelRow, system: ResidualSystem) -> bool:
+    """Whether every output of the system satisfies N(q) r = 0."""
+    return horner(row.coefficients, system).vanishes()
+
+
+def kernel_representation(system: ResidualSystem | FaultySystem) -> KernelRepresentation:
+    """The minimal kernel representation of the output behaviour (B and D play no part); exact for every system over every field."""
+    system = system.residual
+    picture = image(system)
+    most = _misleading_primes(system) + 1
+    for _ in range(most):
+        chain = zero_output_chain(picture.system)
+        rows = _rows(system, picture, chain)
+        if rows is not None:
+            return KernelRepresentation(system, rows, picture, chain)
+        picture = image(system, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
+    raise ArithmeticError(f"no kernel rows fit at any of {most} primes")
+
+
+def _misleading_primes(system: ResidualSystem) -> int:
+    """How many primes of 29 bits or more can mislead: each divides one of n + 1 minors of windows, whose bits are bounded generously."""
+    scalars = [x for name in "AFCG" for x in getattr(system, name).flint.entries()]
+    if isinstance(system.field, PrimeField):
+        return 0
+    entry = sum(int(x.p).bit_length() + int(x.q).bit_length() for x in scalars) + 32
+    size = system.field.degree * (system.n + (system.n + 1) * system.m) + 1
+    return (system.n + 1) * size * (system.n + 2) * entry // 29
+
+
+def _rows(system: ResidualSystem, picture: Image, chain: ZeroOutputChain) -> tuple[KernelRow, ...] | None:
+    """The rows whose shape the chain shows, or None when the exact check refutes that shape."""
+    leads = _leads(chain, system.p)
+    if isinstance(system.field, PrimeField):
+        tables = relations_over_prime_field(system, leads)
+        return tuple(KernelRow(pivot, Matrix.of(c, system.field)) for (_, pivot), c in zip(leads, tables, strict=True))
+    relations = integer_relations(system, leads, picture.prime)
+    if relations is None:
+        return None
+    rows = tuple(
+        KernelRow(pivot, Matrix.from_elements(system.field, mu + 1, system.p, _primitive(relation, system.field)))
+        for (mu, pivot), relation in zip(leads, relations, strict=True)
+    )
+    return rows if all(annihilates(row, system) for row in rows) else None
+
+
+def _leads(chain: ZeroOutputChain, p: int) -> list[tuple[int, int]]:
+    """(mu, output) for every output that depends, from sample mu on, on earlier ones; ascending."""
+    leads: list[tuple[int, int]] = []
+    seen: set[int] = set()
+    for k, profile in enumerate(chain.profiles):
+        fresh = sorted(set(range(p)) - set(profile) - seen)
+        seen.update(fresh)
+        leads.extend((k, output) for output in fresh)
+    return leads
+
+
+def _primitive(relation: list[list[list[Any]]], field: Any) -> list[list[Any]]:
+    """The relation scaled to coprime integers, as field elements."""
+    scalars = [x for row in relation for entry in row for x in entry]
+    bottom = lcm(*(int(x.q) for x in scalars)) if scalars else 1
+    top = gcd(*(int((x * bottom).p) for x in scalars)) or 1
+    scale = fmpq(bottom, top)
+    if isinstance(field, NumberField):
+        return [[field.from_coordinates([x * scale for x in entry]) for entry in row] for row in relation]
+    return [[entry[0] * scale for entry in row] for row in relation]

@@ -1,0 +1,78 @@
+"""Exact trajectories, their Hankel matrices, and rank and problem (11) read off data instead of a model.
+
+    Trajectory           x (N+1) x n, v N x m, r N x p, time-major
+    simulate             the trajectory from x0 under v
+    hankel               s block rows: block (i, k) = sample i + k; ps x (N - s + 1)
+    excitation_matrix    [X; V_s], (n + ms) x (N - s + 1)
+    persistency          the largest order of which a signal is persistently exciting
+    data_fault_space     problem (11) with N_s from the left null space of R_s
+
+R_s = [O_s T_s] [X; V_s], so where [X; V_s] has full row rank the data say all that the model does. Source: [G25] section IV, [WRMM05].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...base.errors import InvalidInput
+from ..algebra.matrices import Matrix, left_null_space, rank, stacked
+from ..system.systems import ResidualSystem
+from .fault_columns import from_kernel_rows
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """States x(0..N) as (N+1) x n, faults v(0..N-1) as N x m, residuals r(0..N-1) as N x p."""
+
+    states: Matrix
+    faults: Matrix
+    residuals: Matrix
+
+
+def simulate(system: ResidualSystem, x0: Matrix, v: Matrix) -> Trajectory:
+    """The trajectory from x0 (n x 1) under v (N x m). Raises InvalidInput when a shape does not fit."""
+    if x0.shape != (system.n, 1) or v.ncols != system.m:
+        raise InvalidInput(f"x0, v: got {x0.shape} and {v.shape}, expected ({system.n}, 1) and (N, {system.m})")
+    x = x0
+    states, residuals = [x.transposed()], [Matrix.zero(system.field, 0, system.p)]
+    for k in range(v.nrows):
+        fault = v.rows([k]).transposed()
+        residuals.append((system.C @ x + system.G @ fault).transposed())
+        x = system.A @ x + system.F @ fault
+        states.append(x.transposed())
+    return Trajectory(stacked(*states), v, stacked(*residuals))
+
+
+def hankel(signal: Matrix, s: int) -> Matrix:
+    """The block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N < s."""
+    if not 0 <= s <= signal.nrows:
+        raise InvalidInput(f"window: got {s} with {signal.nrows} samples, expected 0 <= window <= samples")
+    columns = signal.nrows - s + 1
+    blocks = [signal.rows(range(i, i + columns)).transposed() for i in range(s)]
+    return stacked(Matrix.zero(signal.field, 0, columns), *blocks)
+
+
+def excitation_matrix(trajectory: Trajectory, s: int) -> Matrix:
+    """[X; V_s], (n + ms) x (N - s + 1). Raises InvalidInput if there are fewer than s samples."""
+    faults = hankel(trajectory.faults, s)
+    return stacked(trajectory.states.rows(range(faults.ncols)).transposed(), faults)
+
+
+def persistency(signal: Matrix) -> int:
+    """The largest order s with a block Hankel matrix of full row rank (0 where there is none)."""
+    order = 0
+    while order < signal.nrows and rank(hankel(signal, order + 1)) == signal.ncols * (order + 1):
+        order += 1
+        if signal.ncols == 0:
+            return signal.nrows
+    return order
+
+
+def data_fault_space(residuals: Matrix, A: Matrix, C: Matrix, s: int) -> Matrix:
+    """Basis rows [f' g'] of problem (11) with N_s the left null space of R_s; residuals N x p. Raises InvalidInput if N < s."""
+    null = left_null_space(hankel(residuals, s))
+    p = residuals.ncols
+    rows = [
+        stacked(Matrix.zero(A.field, 0, p), *(null.rows([i]).columns(range(k * p, k * p + p)) for k in range(s))) for i in range(null.nrows)
+    ]
+    return from_kernel_rows(rows, A, C)

@@ -1,0 +1,297 @@
+"""The command `faultspace`: what can be said on the command line. Each command's work is in a module of its own, imported when asked for.
+
+main         runs it and returns the exit code
+app          the commands, for typer
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .. import __version__
+from .failures import BAD_INPUT, INTERRUPTED, guarded, say
+
+app = typer.Typer(
+    name="faultspace",
+    help="Exact verdicts on the claims of a paper about systems with additive faults, and exact answers about your own system.",
+    epilog="A SYSTEM is a JSON file, - for standard input, or example:NAME (see: faultspace examples). "
+    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+# Some releases of typer bring their own click and none of them names this base of BadParameter.
+_UsageError: type[Any] = typer.BadParameter.__bases__[0]
+
+
+class Effort(StrEnum):
+    """How long `verify` looks."""
+
+    quick = "quick"
+    full = "full"
+
+
+class Expected(StrEnum):
+    """What `compare` can be told to expect."""
+
+    equivalent = "equivalent"
+    different = "different"
+
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else on standard output.")]
+Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as the dyadic rationals that they are.")]
+OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", show_default=False, help="A system file, - or example:NAME.")]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command line (`sys.argv` when no arguments are given) and returns the exit code. Never raises for bad input."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by the caller; the replacement lives as long as the process
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+        elif hasattr(stream, "reconfigure"):  # what the terminal's encoding lacks is shown escaped
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        given = list(sys.argv[1:] if arguments is None else arguments)
+        code = app(args=given, prog_name="faultspace", standalone_mode=False)
+        return code if isinstance(code, int) else 0
+    except _UsageError as error:
+        context = getattr(error, "ctx", None)
+        say(f"{error.format_message()} (see: {context.command_path if context else 'faultspace'} --help)")
+        return BAD_INPUT
+    except (KeyboardInterrupt, typer.Abort):
+        say("interrupted")
+        return INTERRUPTED
+
+
+@app.callback(invoke_without_command=True)
+def _top(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Print the version and stop.")] = False,
+) -> None:
+    if version:
+        typer.echo(f"faultspace {__version__}")
+        raise typer.Exit(0)
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help(), err=True)
+        raise typer.Exit(BAD_INPUT)
+
+
+@app.command()
+def verify(
+    effort: Annotated[Effort, typer.Option(help="How much to try: within a minute, or as long as it takes.")] = Effort.quick,
+    claim: Annotated[
+        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, told in full; may be repeated.")
+    ] = None,
+    jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
+    recheck: Annotated[
+        bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
+    ] = False,
+    json: Json = False,
+) -> None:
+    """Decide every claim: the table of verdicts, with certificates. Exit 0 if every verdict is the expected one, else 1."""
+
+    def body() -> int:
+        from . import verifying
+
+        workers = jobs or os.cpu_count() or 1
+        return verifying.run(claim or [], effort=effort.value, jobs=workers, out=out, recheck=recheck, as_json=json)
+
+    _leave(body)
+
+
+@app.command()
+def check(
+    certificate: Annotated[list[str], typer.Argument(metavar="CERTIFICATE...", show_default=False, help="Certificate files.")],
+    system: Annotated[
+        list[str] | None,
+        typer.Option("--system", metavar="FILE", help="Accept only what is about this system; may be repeated."),
+    ] = None,
+    rocq: Annotated[bool, typer.Option("--rocq", help="Have Rocq's kernel recompute them, too; needs coqc with MathComp.")] = False,
+    json: Json = False,
+) -> None:
+    """Run the checker on certificates. Exit 0: all verified; 3: all verified, one or more under an assumption that is told; 1: one is
+    rejected, or not accepted by Rocq; 2: one does not parse.
+    """
+
+    def body() -> int:
+        from . import checking
+
+        return checking.run(certificate, systems=system or [], rocq=rocq, as_json=json)
+
+    _leave(body)
+
+
+@app.command()
+def inspect(
+    system: Annotated[list[str], typer.Argument(metavar="SYSTEM...", show_default=False, help="System files, - or example:NAME.")],
+    json: Json = False,
+    floats_exactly: Floats = False,
+) -> None:
+    """Everything about a system, exactly: indices, zeros, delays, window ranks, fault space.
+
+    With --json one system gives an object, several an array of objects that also name their "file".
+    """
+
+    def body() -> int:
+        from . import inspecting
+
+        return inspecting.run(system, as_json=json, floats_exactly=floats_exactly)
+
+    _leave(body)
+
+
+@app.command()
+def compare(
+    first: OneSystem,
+    second: OneSystem,
+    expect: Annotated[Expected | None, typer.Option(help="Exit 1 unless this is the answer.", show_default=False)] = None,
+    word: Annotated[bool, typer.Option("--word", help='The separating word in full; with --json as "word".')] = False,
+    json: Json = False,
+    floats_exactly: Floats = False,
+) -> None:
+    """Whether two systems make the same outputs.
+
+    If not: on how many samples they first differ, and a word that one makes and the other cannot. B and D play no part.
+    """
+
+    def body() -> int:
+        from . import comparing
+
+        expected = expect.value if expect else None
+        return comparing.run((first, second), as_json=json, expected=expected, word=word, floats_exactly=floats_exactly)
+
+    _leave(body)
+
+
+@app.command()
+def limit(
+    experiment: Annotated[
+        list[str], typer.Argument(metavar="EXPERIMENT...", show_default=False, help="Experiment files, - or example:NAME.")
+    ],
+    json: Json = False,
+    floats_exactly: Floats = False,
+) -> None:
+    """What subspace identification converges to, exactly: PI-MOESP and PO-MOESP, for filtered white noise as input and fault.
+
+    An experiment is a system with B and D, the block rows "s" and "past", and "u_filter", "v_filter", "w_filter": matrices over lag.
+    """
+
+    def body() -> int:
+        from . import limiting
+
+        return limiting.run(experiment, as_json=json, floats_exactly=floats_exactly)
+
+    _leave(body)
+
+
+@app.command()
+def identify(
+    data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ, NPY or MAT file of measurements.")],
+    inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
+    outputs: Annotated[list[str], typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")],
+    out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write model, fault space, fault signal, plots there.")],
+    order: Annotated[int | None, typer.Option(min=1, help="Number of states.", show_default="by the gap in the singular values")] = None,
+    block_rows: Annotated[int | None, typer.Option(min=2, help="Samples of a window.", show_default="20, or what is needed")] = None,
+    faults: Annotated[int | None, typer.Option(min=0, help="Number of independent faults.", show_default="estimated")] = None,
+    healthy_until: Annotated[
+        int | None, typer.Option(metavar="K", min=1, help="The first K samples are without fault: count beyond them.", show_default=False)
+    ] = None,
+    remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
+    json: Json = False,
+) -> None:
+    """Model, fault dimension, fault space and fault signal from measured data; "undecided" where the data cannot tell.
+
+    A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
+    the matrix is called data.
+    """
+
+    def body() -> int:
+        from . import identifying
+
+        settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
+        return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, as_json=json, **settings)
+
+    _leave(body)
+
+
+@app.command("monte-carlo")
+def monte_carlo(
+    out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write tables, figures and all cases there.")],
+    systems: Annotated[int, typer.Option(min=1, help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")] = 100,
+    samples: Annotated[int, typer.Option(min=1, help="Samples of each record.")] = 1001,
+    jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="as many cores as are worth it")] = None,
+    dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Equal seeds give equal results, whoever does the work.")] = 1907,
+    json: Json = False,
+) -> None:
+    """The paper's Monte Carlo study: as published with its vacuous cases marked, as corrected, each with true and identified model."""
+
+    def body() -> int:
+        from . import studying
+
+        return studying.run(systems=systems, samples=samples, jobs=jobs, cluster=dask, seed=seed, out=out, as_json=json)
+
+    _leave(body)
+
+
+@app.command()
+def audit(
+    adapter: Annotated[
+        str | None,
+        typer.Argument(metavar="[ADAPTER]", show_default=False, help="module:object, file.py:object, module or file; else our own code."),
+    ] = None,
+    command: Annotated[
+        str | None, typer.Option("--exec", metavar="CMD", help="A program that speaks JSON lines instead.", show_default=False)
+    ] = None,
+    peer: Annotated[str | None, typer.Option(metavar="NAME", help="A published package instead; see --peers.", show_default=False)] = None,
+    peers: Annotated[bool, typer.Option("--peers", help="List the packages that adapters come for, and what each needs.")] = False,
+    check: Annotated[
+        list[str] | None, typer.Option("--check", metavar="SLUG", help="Only these: SLUG, SLUG[VECTOR], SLUG[VECTOR]-FUNCTION; repeatable.")
+    ] = None,
+    timeout: Annotated[float, typer.Option(min=0.1, metavar="SECONDS", help="How long a check, with --exec an answer, may take.")] = 60.0,
+    memory: Annotated[float, typer.Option(min=0.5, metavar="GIB", help="How much memory a check may take.")] = 4.0,
+    json: Json = False,
+) -> None:
+    """Put a numeric implementation through checks whose answers are known exactly. Exit 1 if a must is not met.
+
+    The adapter has some of: identify, residual, window_ranks, fault_dimension, fault_space, reconstruct, structure. It runs in a process of
+    its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
+    """
+
+    def body() -> int:
+        from . import auditing
+
+        if peers:
+            return auditing.list_peers(as_json=json)
+        return auditing.run(adapter, command=command, peer=peer, only=check or [], seconds=timeout, gibibytes=memory, as_json=json)
+
+    _leave(body)
+
+
+@app.command()
+def examples(
+    folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", show_default=False, help="Copy them there.")] = None,
+    json: Json = False,
+) -> None:
+    """List the systems and experiments that come with the package, or copy them into a folder, with a small record of faulty data."""
+
+    def body() -> int:
+        from . import example_listing
+
+        return example_listing.run(folder, as_json=json)
+
+    _leave(body)
+
+
+def _leave(body: Callable[[], int]) -> None:
+    raise typer.Exit(guarded(body))

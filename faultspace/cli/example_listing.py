@@ -1,0 +1,37 @@
+"""`faultspace examples`: what comes with the package, listed or copied into a folder, with a record of faulty data.
+
+run          the command's body
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from rich.text import Text
+
+from ..base.errors import quote_path
+from ..example_data import FILE_NAME, INPUTS, OUTPUTS, csv_text, faulty_record
+from ..packaged_examples import DESCRIPTIONS, EXPERIMENTS, PREFIX, content
+from .consoles import answers, print_json
+from .failures import ANSWERED, say
+from .reading_files import prepare_folder, write_json, write_text
+
+
+def run(folder: Path | None, *, as_json: bool) -> int:
+    """Lists the examples; with a folder copies them there first, overwriting files of these names only."""
+    if folder is not None:
+        prepare_folder(folder)
+        for name in DESCRIPTIONS | EXPERIMENTS:
+            write_json(folder / f"{name}.json", json.loads(content(PREFIX + name)))
+        write_text(folder / FILE_NAME, csv_text(faulty_record()))
+        say(f"{len(DESCRIPTIONS)} systems and {len(EXPERIMENTS)} experiments are in {quote_path(str(folder))}")
+        say(f"and {FILE_NAME}, for: faultspace identify --inputs {','.join(INPUTS)} --outputs {','.join(OUTPUTS)}")
+    if as_json:
+        print_json({PREFIX + name: description for name, description in (DESCRIPTIONS | EXPERIMENTS).items()})
+        return ANSWERED
+    console = answers()
+    width = max(len(PREFIX + name) for name in DESCRIPTIONS | EXPERIMENTS) + 2
+    for name, description in (DESCRIPTIONS | EXPERIMENTS).items():
+        console.print(Text.assemble((f"{PREFIX + name:<{width}}", "bold"), description), soft_wrap=True)
+    return ANSWERED

@@ -1,0 +1,67 @@
+"""Commands that answer about one file after the other: a bad one is told and the rest is still done.
+
+Answer        what is known about a file: a heading, a sheet of (name, value) pairs, and the record behind it, with `to_json`
+answer_each   the command's body: answers, printed or as JSON; the largest exit code
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from rich.console import Console
+from rich.text import Text
+
+from ..base.errors import InvalidInput, in_file, quote_path
+from .consoles import answers, print_json
+from .failures import ANSWERED, BAD_INPUT, say
+
+NAME_WIDTH = 36
+
+
+class Found(Protocol):
+    """A record that can be written as JSON."""
+
+    def to_json(self) -> dict[str, Any]: ...
+
+
+@dataclass(frozen=True)
+class Answer:
+    """In `sheet` a pair without a value is a heading, one without a name goes on with the value above it."""
+
+    heading: str
+    sheet: Iterable[tuple[str, str]]
+    found: Found
+
+
+def answer_each(names: Sequence[str], answer: Callable[[str], Answer], *, as_json: bool) -> int:
+    """As JSON one file gives an object, several an array of objects that also say which "file" they are about."""
+    code = ANSWERED
+    console = answers()
+    documents = []
+    for name in names:
+        try:
+            given = answer(name)
+            with in_file(name):
+                if as_json:
+                    documents.append({"file": name, **given.found.to_json()})
+                else:
+                    _print(console, name, given)
+        except InvalidInput as error:
+            say(str(error))
+            code = BAD_INPUT
+    if as_json and len(names) > 1:
+        print_json(documents)
+    elif as_json and documents:
+        print_json({key: value for key, value in documents[0].items() if key != "file"})
+    return code
+
+
+def _print(console: Console, name: str, given: Answer) -> None:
+    """Lines without a frame: a terminal may wrap them, a pipe gets them whole."""
+    console.print(Text.assemble((quote_path(name), "bold"), f"   {given.heading}"), soft_wrap=True)
+    for label, value in given.sheet:
+        line = Text(f"    {label:<{NAME_WIDTH}}{value}") if value else Text(f"  {label}", style="bold cyan")
+        console.print(line, soft_wrap=True)
+    console.print()

@@ -1,0 +1,94 @@
+"""`faultspace identify`: a record is read, identified, written into a folder and told.
+
+run              the command's body
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from rich.text import Text
+
+from ..base.errors import InvalidData, InvalidInput, in_file, quote_path
+from ..numeric.data.files import read_record
+from ..numeric.pipeline import identify
+from ..numeric.report import files as report
+from ..numeric.report.summary import summary
+from .consoles import answers, print_json
+from .failures import ANSWERED, say
+from .pass_progress import passes
+from .reading_files import prepare_folder
+
+
+def run(
+    data: str,
+    *,
+    inputs: Sequence[str],
+    outputs: Sequence[str],
+    out: Path,
+    order: int | None,
+    block_rows: int | None,
+    faults: int | None,
+    healthy_until: int | None,
+    remove_means: bool,
+    as_json: bool,
+) -> int:
+    """Identifies and writes the files of `report.NAMES` into `out`; exit code 0 whenever there is an answer, "undecided" included.
+
+    Where there is none, folders that were made for it go again.
+    """
+    taken = [name for name in report.NAMES if (out / name).exists() and _same(out / name, data)]
+    if taken:
+        raise InvalidInput(f"{quote_path(data)}: would be overwritten by the answer of this name, expected another --out")
+    new = _missing(out)
+    try:
+        prepare_folder(out)
+        with passes() as tell:
+            record = read_record(data, inputs=inputs, outputs=outputs, tell=lambda *read: tell(f"reading {quote_path(data)}", *read))
+            with in_file(data):
+                try:
+                    answer = identify(
+                        record,
+                        order=order,
+                        block_rows=block_rows,
+                        faults=faults,
+                        healthy_until=healthy_until,
+                        remove_means=remove_means,
+                        tell=tell,
+                    )
+                except InvalidData as error:
+                    raise InvalidInput(str(error)) from None
+            tell("writing", 0, 0)
+            written, remarks = report.write(answer, out, data, tell)
+    except BaseException:
+        for folder in new:
+            with suppress(OSError):
+                folder.rmdir()
+        raise
+    for remark in remarks:
+        say(remark)
+    if as_json:
+        print_json(report.document(answer, data) | {"files": written})
+        return ANSWERED
+    console = answers()
+    for line in summary(answer, data):
+        console.print(Text(line, style="bold cyan" if line.startswith("#") else ""), soft_wrap=True)
+    console.print(Text(f"\nwritten into {quote_path(str(out))}: {', '.join(written)}"), soft_wrap=True)
+    return ANSWERED
+
+
+def _missing(folder: Path) -> list[Path]:
+    """The folders that would have to be made for this one, innermost first."""
+    try:
+        return [part for part in (folder, *folder.parents) if not part.exists()]
+    except OSError:
+        return []
+
+
+def _same(path: Path, other: str) -> bool:
+    try:
+        return path.samefile(other)
+    except OSError:
+        return False

@@ -1,0 +1,64 @@
+"""Exact objects in the notation of the field, as plain text for tables.
+
+entry              one field element; long ones are cut in the middle
+polynomial         coefficients by ascending power as a polynomial in q
+matrix_lines       a matrix as lines of aligned columns; large ones lose their middle
+several            a list of numbers on one line
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ..exact.algebra.fields import Field, NumberField
+from ..exact.algebra.matrices import Matrix
+from ..exact.algebra.writing import sum_of_powers
+
+LONGEST_ENTRY = 40
+MOST_ROWS, MOST_COLUMNS, MOST_NUMBERS = 24, 12, 24
+
+
+def entry(element: Any, field: Field) -> str:
+    """A field element: p/q, or a polynomial in a over Q(a)."""
+    if isinstance(field, NumberField):
+        return _cut(sum_of_powers([str(c) for c in field.coordinates(element)], "a"))
+    return _cut(str(field.write(element)))
+
+
+def polynomial(coefficients: Sequence[Any], field: Field, unknown: str = "q") -> str:
+    """The polynomial with these ascending coefficients, highest power first."""
+    return sum_of_powers([entry(c, field) for c in coefficients], unknown)
+
+
+def matrix_lines(matrix: Matrix) -> list[str]:
+    """The rows of the matrix, one a line; empty for a matrix without entries."""
+    if 0 in matrix.shape:
+        return []
+    across = _chosen(matrix.ncols, MOST_COLUMNS)
+    down = _chosen(matrix.nrows, MOST_ROWS)
+    table = [["..." if None in (i, j) else entry(matrix[i, j], matrix.field) for j in across] for i in down]  # type: ignore[index]
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    return ["[ " + "  ".join(x.rjust(w) for x, w in zip(row, widths, strict=True)) + " ]" for row in table]
+
+
+def several(numbers: Sequence[int], *, none: str = "none") -> str:
+    """The numbers with spaces between them; of many only the first."""
+    if not numbers:
+        return none
+    shown = " ".join(map(str, numbers[:MOST_NUMBERS]))
+    return shown if len(numbers) <= MOST_NUMBERS else f"{shown} ... ({len(numbers)} in all)"
+
+
+def _cut(text: str) -> str:
+    if len(text) <= LONGEST_ENTRY:
+        return text
+    half = LONGEST_ENTRY // 2 - 8
+    return f"{text[:half]}..({len(text)} long)..{text[-half:]}"
+
+
+def _chosen(size: int, most: int) -> list[int | None]:
+    """The indices to show; None stands for those left out."""
+    if size <= most:
+        return list(range(size))
+    return [*range(most - 2), None, size - 1]

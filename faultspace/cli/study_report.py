@@ -1,0 +1,184 @@
+"""What `faultspace monte-carlo` says and writes: tables, remarks, all cases, figures.
+
+document   what studies.json and --json hold; its schema is schemas/monte_carlo.schema.json
+remarks    what a reader of the published figures should know, with this run's counts
+table      a study's groups for the terminal
+lines      the summary that a person reads, in Markdown
+write      studies.json, cases.csv, summary.md and a figure for each study into a folder, each whole or not at all
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich import box
+from rich.table import Table
+
+from ..base.errors import InvalidInput, quote_path
+from ..numeric.study.cases import LIKELIHOOD
+from ..numeric.study.studies import QUANTILES, Group, Study, by_phase, by_zeros
+from .failures import say
+
+DOCUMENT, CASES, SUMMARY = "studies.json", "cases.csv", "summary.md"
+FORMAT = "faultspace-monte-carlo/1"
+ROUNDING = 1e-13
+OTHER_QUANTILES = tuple(q for q in QUANTILES if q != 0.5)
+HEADER = (
+    "estimator",
+    "systems",
+    "median",
+    "95 % interval",
+    *(f"{100 * q:.0f} %" for q in OTHER_QUANTILES),
+    "containment",
+    "random",
+    "right n_z",
+    "remark",
+)
+LEFT = ("estimator", "remark")
+METRICS = ("published", "containment", "two_sided")
+EXPLANATION = (
+    "median: with the interval that holds it with 95 % confidence; containment: median of the angles from [F; G] alone over their maximum; "
+    "random: median error of a random subspace of dimension n_z; right n_z: cases with the true dimension, "
+    "of which paper is told and likelihood is not"
+)
+
+
+def document(studies: Sequence[Study]) -> dict[str, Any]:
+    """What studies.json and --json hold."""
+    return {"format": FORMAT, "remarks": remarks(studies), "studies": [study.to_json() for study in studies]}
+
+
+def remarks(studies: Sequence[Study]) -> list[str]:
+    """What a reader of the published figures should know, with the counts of this run."""
+    told = []
+    for study in studies:
+        name = study.plan.name
+        vacuous = [case for case in study.cases if case.vacuous]
+        if vacuous:
+            first = vacuous[0]
+            told.append(
+                f"{name}: {len(vacuous)} of {len(study.cases)} cases are vacuous: rank R_{first.block_rows} = {first.rank} of "
+                f"{first.rows} rows leaves no null row, so the answer is all of R^{first.n_z} and the error zero by construction"
+            )
+        level = sum(case.decibels for case in study.cases) / len(study.cases)
+        told.append(f"{name}: the noise lies {level:.1f} dB below the outputs' standard deviation (40 dB are stated)")
+        if LIKELIHOOD in study.plan.estimators:
+            right = sum(case.estimates[LIKELIHOOD].n_z == case.n_z for case in study.cases)
+            told.append(f"{name}: likelihood counts the zeros itself and is right in {right} of {len(study.cases)} cases")
+        failures = [found.failure for case in study.cases for found in case.estimates.values() if found.failure is not None]
+        if failures:
+            told.append(f"{name}: {len(failures)} estimates were refused, the first because: {failures[0]}")
+    told.append("the published normaliser n_v pi/2 is sqrt(n_v) times too large: by it no error can exceed 71 %")
+    return told
+
+
+def table(study: Study) -> Table:
+    """The groups by zeros and by phase."""
+    title = f"{study.plan.title}\nerror in percent: {study.plan.metric_text}"
+    shown = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left", pad_edge=False, padding=(0, 1, 0, 0))
+    for heading in ("cases", *HEADER):
+        shown.add_column(heading, justify="left" if heading in ("cases", *LEFT) else "right", no_wrap=True)
+    for groups in (by_zeros(study), by_phase(study)):
+        for group in groups:
+            shown.add_row(group.label, *_cells(group))
+        shown.add_section()
+    return shown
+
+
+def lines(studies: Sequence[Study]) -> Iterator[str]:
+    """The summary, line by line."""
+    first = studies[0]
+    yield "# The Monte Carlo study"
+    yield ""
+    yield f"{len(first.cases)} systems, seed {first.seed}, {first.samples} samples; the same systems and faults in each study."
+    yield f"Errors in percent. {EXPLANATION[0].upper()}{EXPLANATION[1:]}."
+    for study in studies:
+        yield ""
+        yield f"## {study.plan.title}"
+        yield ""
+        yield f"Error: {study.plan.metric_text}. Took {study.seconds:.2f} s."
+        yield ""
+        yield f"| cases | {' | '.join(HEADER)} |"
+        yield "|---|" + "".join("---|" if heading in LEFT else "---:|" for heading in HEADER)
+        for group in (*by_zeros(study), *by_phase(study)):
+            yield f"| {group.label} | {' | '.join(_cells(group))} |"
+    yield ""
+    yield "## Remarks"
+    yield ""
+    for remark in remarks(studies):
+        yield f"- {remark}"
+
+
+def write(studies: Sequence[Study], out: Path) -> list[str]:
+    """The files into the folder `out`, written beside it first; their names. Raises InvalidInput where that fails."""
+    try:
+        with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
+            folder = Path(name)
+            (folder / DOCUMENT).write_text(json.dumps(document(studies), indent=1) + "\n", encoding="utf-8")
+            _write_cases(studies, folder / CASES)
+            (folder / SUMMARY).write_text("\n".join(lines(studies)) + "\n", encoding="utf-8")
+            _draw(studies, folder)
+            names = sorted(path.name for path in folder.iterdir())
+            for each in names:
+                os.replace(folder / each, out / each)
+    except OSError as error:
+        raise InvalidInput(f"{quote_path(str(out))}: cannot be written into ({error.strerror or error})") from None
+    return names
+
+
+def _cells(group: Group) -> list[str]:
+    """The row of a group under HEADER."""
+    quantiles = dict(zip(QUANTILES, group.quantiles, strict=True)) if group.quantiles else {}
+    interval = " .. ".join(_percent(end, digits=2) for end in group.interval) if group.interval else ""
+    remark = [f"{group.vacuous} vacuous" if group.vacuous else "", f"{group.failed} refused" if group.failed else ""]
+    return [
+        group.estimator,
+        str(group.cases),
+        _percent(quantiles.get(0.5)),
+        interval,
+        *(_percent(quantiles.get(q), digits=2) for q in OTHER_QUANTILES),
+        _percent(group.containment_median),
+        _percent(group.random_median),
+        str(group.right_dimension),
+        ", ".join(filter(None, remark)),
+    ]
+
+
+def _percent(value: float | None, digits: int = 3) -> str:
+    """Angles at rounding level are zero."""
+    return "" if value is None else f"{100 * value:.{digits}g}" if value > ROUNDING else "0"
+
+
+def _write_cases(studies: Sequence[Study], path: Path) -> None:
+    """A row for each estimate of each case of each study."""
+    plain = ("index", "n_zeros", "minimum_phase", "distance_to_unit_circle", "decibels", "block_rows", "rows", "rank", "n_z", "vacuous")
+    with open(path, "w", encoding="utf-8", newline="") as stream:
+        rows = csv.writer(stream, lineterminator="\n")
+        found = ("estimator", "estimated_n_z", *METRICS, *(f"random_{metric}" for metric in METRICS), "failure")
+        rows.writerow(("study", *plain, "zeros", *found))
+        for study in studies:
+            for case in study.cases:
+                system = (study.plan.name, *(getattr(case, name) for name in plain), " ".join(map(repr, case.zeros)))
+                random = [getattr(case.random, metric) for metric in METRICS]
+                for name, estimate in case.estimates.items():
+                    errors = [getattr(estimate.errors, metric) if estimate.errors else "" for metric in METRICS]
+                    rows.writerow((*system, name, estimate.n_z, *errors, *random, estimate.failure or ""))
+
+
+def _draw(studies: Sequence[Study], folder: Path) -> None:
+    """figure-NAME.png for each study, where matplotlib is there."""
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        say("no figures: matplotlib is missing (pip install faultspace[plots])")
+        return
+    from ..numeric.study.plots import study_figure
+
+    for study in studies:
+        study_figure(study).savefig(folder / f"figure-{study.plan.name}.png", dpi=130)

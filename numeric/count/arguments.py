@@ -1,0 +1,73 @@
+"""A residual with the A and C of its model, checked once for everything that estimates faults from them.
+
+Arguments    r (N, p), A (n, n), C (p, n), n_v or None, block_rows s, and the longest window that the record and the
+order suggest
+arguments    the check: InvalidData says what was got, what is needed, what to try
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...base.errors import InvalidData
+from ..data.validation import enough_samples, positive, signal
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Arguments after checking; `longest` is the number of samples of the longest window looked at."""
+
+    r: Array
+    A: Array
+    C: Array
+    n_v: int | None
+    block_rows: int
+    longest: int
+
+    @property
+    def n(self) -> int:
+        """Number of states."""
+        return int(self.A.shape[0])
+
+    @property
+    def p(self) -> int:
+        """Number of outputs."""
+        return int(self.C.shape[0])
+
+
+def fitting(r: ArrayLike, A: ArrayLike, C: ArrayLike) -> tuple[Array, Array, Array]:
+    """r (N, p), A (n, n), C (p, n) as float arrays. Raises InvalidData."""
+    residual = signal(r, "r")
+    A, C = (np.array(matrix, dtype=float, ndmin=2) for matrix in (A, C))
+    p, n = residual.shape[1], A.shape[0]
+    if A.shape != (n, n) or C.shape != (p, n):
+        raise InvalidData(
+            f"r, A, C: got shapes {residual.shape}, {A.shape}, {C.shape}; needed (N, p), (n, n), (p, n). "
+            "r is time-major: one row a sample, one column a channel"
+        )
+    if not (np.all(np.isfinite(A)) and np.all(np.isfinite(C))):
+        raise InvalidData("A, C: got entries that are NaN or infinite; identify the model again or check its file")
+    if not np.any(residual):
+        raise InvalidData("r is zero throughout: nothing is to be learnt from it; has the fault been recorded at all?")
+    return residual, A, C
+
+
+def arguments(r: ArrayLike, A: ArrayLike, C: ArrayLike, n_v: int | None, block_rows: int | None) -> Arguments:
+    """The arguments as arrays that fit. Raises InvalidData."""
+    residual, A, C = fitting(r, A, C)
+    N, p = residual.shape
+    n = A.shape[0]
+    if n_v is not None and positive(n_v, "n_v") > p:
+        raise InvalidData(
+            f"n_v: got {n_v} with {p} outputs; needed 1 <= n_v <= p (more faults than outputs cannot be told apart)"
+        )
+    window = n + 1 if block_rows is None else positive(block_rows, "block_rows")
+    # Fewer columns than rows would make null rows that are shortage of data, not behaviour.
+    enough_samples(N, (p + 1) * window - 1, f"a window of {window} block rows with {p} channels", residual.shape)
+    longest = max(window, min(n + 1, (N + 1) // (p + 1)))
+    return Arguments(residual, A, C, n_v, window, longest)

@@ -1,0 +1,295 @@
+"""What a residual looks like without a fault: measured on a healthy record, so that noise and model error become white.
+
+A residual of measured data is never zero: noise of unequal size and colour, and the error of the model. A healthy record
+of the same plant shows both. From it
+
+    predictor       e(k) = r(k) - sum_j A_j r(k-j) - sum_j B_j u(k-j), about means: least squares, the order by the corrected Akaike
+                    criterion [BT94]; e is nearly white. The filter I - sum A_j q^-j is invertible, so a fault keeps its rank in e at almost
+                    every frequency
+    forecast        in another record e also contains the error of the predictor's coefficients times its regressors: for T transforms
+                    of regressors, the rows of X, these have the covariance I + X (X0' X0)^-1 X* between them, X0 the regressors of the
+                    healthy record (the variance of a forecast by least squares [C60]). It is divided out, which changes no rank: else
+                    lightly damped modes that the healthy record hardly excited would look like faults
+    tapers          transforms X_t(f) of e with the sine tapers, orthonormal and of low leakage [RS95]: for white e the X_t, t = 1 .. T, are
+                    independent complex Gaussian vectors, and those of centres T / (N + 1) apart nearly so
+    covariances     at each centre, over as many centres around it as give `FREEDOM` degrees of freedom a channel: the colour that is left
+    strain          how far the healthy record itself departs from the law that a count of faults relies on: each half is held against
+                    the other, which knows nothing of it, by the exact law of the largest ratio of two covariances (`largest_root`); 1.5
+                    at a frequency says that the ratio came out at 1.5 times its quantile (drifts, mains hum, lightly damped modes that
+                    were hardly excited). Thresholds are raised by it, so an unsteady frequency needs a louder fault
+    freedom         complex degrees of freedom of a covariance, those spent on the predictor taken off
+
+The constants are set by hand: LEVEL, MOST_LAGS and MANY_TAPERS were revised after looking at a measured record of 28 outputs and at the
+simulated cells of `benchmarks/fault_dimension.py`; FREEDOM, SPENT, FEW_TAPERS and LEAST_SAMPLES are compromises that no theory demands.
+
+    healthy_reference   from a healthy residual (and its inputs)
+    HealthyReference    `innovations` and `spectra` of any record, `response` A(f) of the predictor, the `covariances`
+    Spectra, spectra    tapered transforms of a record at their centres
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import ArrayLike, NDArray
+
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.count.largest_root import largest_root_quantile
+from faultspace.numeric.count.windows import channel_sizes
+from faultspace.numeric.data.validation import signal
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+LEVEL = 0.001
+LEAST_SAMPLES = 64
+MANY_TAPERS = 16
+FEW_TAPERS = 4
+FREEDOM = 8
+"""Degrees of freedom of a covariance, in multiples of the number of channels: at eight the whitening costs an eighth of a fault."""
+MOST_LAGS = 32
+SPENT = 8
+"""At most the eighth part of the healthy samples is spent on coefficients of the predictor."""
+
+
+@dataclass(frozen=True)
+class Spectra:
+    """`transforms` (centres, T, p) of a record at `frequencies` (centres,), cycles a sample."""
+
+    frequencies: Array
+    transforms: Complex
+
+
+@dataclass(frozen=True, eq=False)
+class HealthyReference:
+    """A residual's behaviour without fault; see the head of the module.
+
+    `scales` (p,) units taken out of r, `input_scales` (n_u,); `lags`, `coefficients` (q, p) of the predictor, q = (p + n_u) lags + n_u, and
+    `root` (q, q) with root' root = (X0' X0)^-1; `samples` predicted; `covariances` (centres, p, p) complex at `centres` (centres,)
+    cycles a sample, of `freedom`; `strains`: frequencies and strains by number of tapers.
+    """
+
+    scales: Array
+    input_scales: Array
+    lags: int
+    coefficients: Array
+    root: Array
+    samples: int
+    centres: Array
+    covariances: Complex
+    freedom: int
+    strains: dict[int, tuple[Array, Array]]
+
+    @property
+    def p(self) -> int:
+        """Number of channels."""
+        return len(self.scales)
+
+    @property
+    def tapers(self) -> int:
+        """T: as many as channels, at least sixteen."""
+        return max(self.p, MANY_TAPERS)
+
+    @property
+    def taper_numbers(self) -> tuple[int, ...]:
+        """T, T / 2, T / 4 .. down to at least four: the widths at which a record may be looked at."""
+        return tuple(self.tapers >> k for k in range(int(np.log2(self.tapers / FEW_TAPERS)) + 1))
+
+    def innovations(self, r: ArrayLike, u: ArrayLike | None = None) -> tuple[Array, Array]:
+        """e (N - lags, p) of a residual r (N, p) with inputs u (N, n_u), and its regressors X root', (N - lags, q).
+
+        Raises InvalidData where the record does not fit the healthy one.
+        """
+        return self._innovations(*self._fitting(r, u))
+
+    def _fitting(self, r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
+        residual, inputs = residual_and_inputs(r, u)
+        if residual.shape[1] != self.p or inputs.shape[1] != len(self.input_scales):
+            raise InvalidData(
+                f"the record has {residual.shape[1]} channels and {inputs.shape[1]} inputs, the healthy one {self.p} and "
+                f"{len(self.input_scales)}; they must be of the same plant: give the same channels, and u for both or for neither"
+            )
+        if len(residual) < self.lags + 4 * self.tapers:
+            raise InvalidData(
+                f"r has {len(residual)} samples; at least {self.lags + 4 * self.tapers} are needed against this healthy record: record more"
+            )
+        return residual, inputs
+
+    def _innovations(self, residual: Array, inputs: Array) -> tuple[Array, Array]:
+        past, now = _about_means(*lagged(residual / self.scales, inputs / self.input_scales, self.lags))
+        return now - past @ self.coefficients, past @ self.root.T
+
+    def spectra(self, r: ArrayLike, u: ArrayLike | None = None, *, tapers: int | None = None) -> Spectra:
+        """Tapered transforms of e, the error of the forecast divided out; arguments as `innovations`."""
+        return self.unchecked_spectra(*self._fitting(r, u), tapers or self.tapers)
+
+    def unchecked_spectra(self, residual: Array, inputs: Array, tapers: int) -> Spectra:
+        """The same for arrays (N, p) and (N, n_u) known to fit."""
+        e, regressors = self._innovations(residual, inputs)
+        record = spectra(e, tapers)
+        told = spectra(regressors, tapers).transforms
+        between = np.eye(tapers) + told @ told.conj().transpose(0, 2, 1)
+        return Spectra(record.frequencies, np.asarray(np.linalg.solve(np.linalg.cholesky(between), record.transforms), dtype=complex))
+
+    def response(self, frequencies: Array) -> Complex:
+        """The filter from r to e at these frequencies, (len, p, p), units included."""
+        p, width = self.p, self.p + len(self.input_scales)
+        turns = np.exp(-2j * np.pi * np.outer(frequencies, np.arange(1, self.lags + 1)))
+        steps = self.coefficients[: width * self.lags].reshape(self.lags, width, p)[:, :p].transpose(0, 2, 1)
+        filters = np.eye(p) - np.tensordot(turns, steps, axes=1)
+        return np.asarray(filters / self.scales)
+
+    def remembered(self, frequencies: Array) -> Complex:
+        """What a unit signal at each output is in the regressors X root' of `innovations`, (len, q, p)."""
+        width, count = self.p + len(self.input_scales), len(self.root)
+        turns = np.exp(-2j * np.pi * np.outer(frequencies, np.arange(1, self.lags + 1)))
+        places = np.zeros((self.lags, count, self.p))
+        for j in range(self.lags):
+            places[j, j * width : j * width + self.p] = np.diag(1.0 / self.scales)
+        return np.asarray(self.root @ np.tensordot(turns, places, axes=1))
+
+    def nearest(self, frequencies: Array) -> NDArray[np.int_]:
+        """The number of the centre nearest to each frequency."""
+        return np.searchsorted((self.centres[1:] + self.centres[:-1]) / 2.0, frequencies)
+
+    def strain(self, record: Spectra) -> Array:
+        """What thresholds at the record's centres are multiplied by: the largest strain with as many tapers nearby, at least 1."""
+        known = self.strains.get(record.transforms.shape[1])
+        if known is None:
+            return np.ones(len(record.frequencies))
+        reach = 1.5 * float(np.max(np.diff(np.unique(known[0])), initial=0.0))
+        near = np.abs(record.frequencies[:, None] - known[0]) <= reach
+        return np.asarray(np.maximum(1.0, np.max(np.where(near, known[1], 1.0), axis=1)))
+
+    def roots(self, record: Spectra) -> Array:
+        """Ratios of a whitened record's covariance to the healthy one at each centre, (centres, p), falling."""
+        found = np.empty((len(record.frequencies), self.p))
+        for i, (rows, centre) in enumerate(zip(record.transforms, self.nearest(record.frequencies), strict=True)):
+            own = rows.T @ rows.conj() / len(rows)
+            found[i] = scipy.linalg.eigh(own, self.covariances[centre], eigvals_only=True, check_finite=False)[::-1]
+        return np.maximum(found, 0.0)
+
+    def thresholds(self, record: Spectra, level: float) -> Array:
+        """What the root j + 1 of `roots` exceeds, given j faults, with a chance of at most `level` over all centres: (centres, p)."""
+        return self.strain(record)[:, None] * self.chance_roots(record, level / len(record.frequencies))
+
+    def chance_roots(self, record: Spectra, chance: float) -> Array:
+        """What the root j + 1 exceeds, given j faults, with this chance at one centre: (p,)."""
+        tapers, p = record.transforms.shape[1:]
+        return np.array([largest_root_quantile(chance, p - j, tapers, self.freedom) for j in range(p)])
+
+
+def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: float = LEVEL) -> HealthyReference:
+    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u); `level`: of the quantiles that strain is told in.
+
+    Raises InvalidData for NaN, fewer than 64 samples a channel, or channels that are constant or exact combinations of others (there
+    is no noise to compare with; `fault_dimension` counts the faults of such residuals).
+    """
+    residual, inputs = residual_and_inputs(healthy, u)
+    samples, p = residual.shape
+    if samples < LEAST_SAMPLES * max(p, 4):
+        hint = "it looks transposed, pass healthy.T" if p > samples else "record more, or take fewer channels"
+        raise InvalidData(f"healthy has {samples} samples of {p} channels; at least {LEAST_SAMPLES * max(p, 4)} are needed: {hint}")
+    half = samples // 2
+    reference = _learnt(residual, inputs)
+    strains = {}
+    folds = [(_learnt(residual[:half], inputs[:half]), slice(half, None)), (_learnt(residual[half:], inputs[half:]), slice(None, half))]
+    for tapers in reference.taper_numbers:
+        records = [(fold, fold.unchecked_spectra(residual[other], inputs[other], tapers)) for fold, other in folds]
+        ratios = [fold.roots(record)[:, 0] / fold.thresholds(record, level)[:, 0] for fold, record in records]
+        strains[tapers] = np.concatenate([record.frequencies for _, record in records]), np.concatenate(ratios)
+    return replace(reference, strains=strains)
+
+
+def _learnt(residual: Array, inputs: Array) -> HealthyReference:
+    """The reference without its strains."""
+    p = residual.shape[1]
+    scales, input_scales = channel_sizes(residual), channel_sizes(inputs) if inputs.shape[1] else np.ones(0)
+    scaled, pushed = residual / scales, inputs / input_scales
+    lags = number_of_lags(scaled, pushed)
+    past, now = _about_means(*lagged(scaled, pushed, lags))
+    factor, triangle = np.linalg.qr(past)
+    e = now - factor @ (factor.T @ now)
+    root = np.linalg.inv(triangle).T
+    coefficients = root.T @ (factor.T @ now)
+    share = 1.0 - len(coefficients) / len(e)
+    centres, covariances, freedom = _covariances(spectra(e, max(p, MANY_TAPERS)), share)
+    return HealthyReference(scales, input_scales, lags, coefficients, root, len(e), centres, covariances, freedom, {})
+
+
+def spectra(e: Array, tapers: int) -> Spectra:
+    """Tapered transforms of e (N, p) at centres `tapers` / (N + 1) apart, the first half as far from zero, all below one half.
+
+    The t-th sine taper (2 / (N+1))^(1/2) sin(pi t k / (N+1)) shifts the plain transform by t / (2 (N+1)) to both sides [RS95].
+    """
+    samples, p = e.shape
+    plain = np.fft.fft(np.vstack([np.zeros((1, p)), e]), n=2 * (samples + 1), axis=0)
+    # On this grid, of spacing 1 / (2 (N+1)), centres are 2 T apart.
+    centres = np.arange(tapers, samples + 1 - tapers + 1, 2 * tapers)
+    shifts = np.arange(1, tapers + 1)
+    above, below = plain[centres[:, None] + shifts], plain[centres[:, None] - shifts]
+    return Spectra(centres / (2.0 * (samples + 1)), (below - above) / (2j * np.sqrt((samples + 1) / 2.0)))
+
+
+def residual_and_inputs(r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
+    """r and u as arrays of equal length; without u none of its channels."""
+    residual = signal(r, "r")
+    inputs = np.zeros((len(residual), 0)) if u is None else signal(u, "u")
+    if len(inputs) != len(residual):
+        raise InvalidData(f"u has {len(inputs)} samples and r has {len(residual)}; equal numbers are needed: cut both to those they share")
+    return residual, inputs
+
+
+def lagged(r: Array, u: Array, lags: int) -> tuple[Array, Array]:
+    """[r(k-1) u(k-1) .. r(k-lags) u(k-lags) u(k)] and r(k), for k = lags .. N - 1."""
+    joint, samples = np.hstack([r, u]), len(r)
+    past = [joint[lags - j : samples - j] for j in range(1, lags + 1)]
+    return np.hstack([*past, u[lags:]]), r[lags:]
+
+
+def _about_means(past: Array, now: Array) -> tuple[Array, Array]:
+    """Both without their means, which is a predictor with a constant: a mean that has moved is no fault that keeps exciting, and is
+    tested by `mean_shift`; left in, it would count as a fault at the lowest frequency."""
+    return past - past.mean(axis=0), now - now.mean(axis=0)
+
+
+def number_of_lags(r: Array, u: Array) -> int:
+    """Lags of the predictor; one triangle serves every number of them, over the same samples."""
+    samples, p = r.shape
+    width, n_u = p + u.shape[1], u.shape[1]
+    most = int(np.clip((samples // SPENT - n_u) // width, 0, MOST_LAGS))
+    past, now = lagged(r, u, most)
+    # u(k) first, then the lags, so that fewer lags are leading columns.
+    ordered = np.hstack([past[:, width * most :], past[:, : width * most], now])
+    triangle = np.asarray(scipy.linalg.qr(ordered, mode="r", overwrite_a=True, check_finite=False)[0])[: ordered.shape[1]]
+    sizes = np.abs(np.diag(triangle))
+    norms = np.linalg.norm(triangle, axis=0)
+    if np.any(sizes[-p:] <= 1e-12 * norms[-p:]):
+        raise InvalidData(
+            "healthy: channels are constant, or exact combinations of others and of their past: there is no noise to compare with; "
+            "count the faults of such residuals with fault_dimension"
+        )
+    count = len(past)
+    best, chosen = np.inf, 0
+    for lags in range(most + 1):
+        spent = n_u + width * lags
+        left = triangle[spent:, -p:]
+        logdet = np.linalg.slogdet(left.T @ left / count)[1]
+        # Corrected Akaike criterion for p regressions with a full covariance.
+        criterion = count * logdet + 2.0 * count * p * (spent + (p + 1) / 2.0) / (count - spent - p - 1)
+        if criterion < best:
+            best, chosen = criterion, lags
+    return chosen
+
+
+def _covariances(record: Spectra, share: float) -> tuple[Array, Complex, int]:
+    """Centres, the covariance around each, and its degrees of freedom; `share` of the freedom is left after the predictor."""
+    count, tapers, p = record.transforms.shape
+    width = min(int(np.ceil(FREEDOM * p / (tapers * share))) | 1, count)
+    sums = np.cumsum(np.einsum("ctp,ctq->cpq", record.transforms, record.transforms.conj()), axis=0)
+    sums = np.concatenate([np.zeros((1, p, p)), sums])
+    starts = np.clip(np.arange(count) - width // 2, 0, count - width)
+    freedom = share * tapers * width
+    return record.frequencies, np.asarray((sums[starts + width] - sums[starts]) / freedom), int(freedom)

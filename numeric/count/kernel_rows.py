@@ -1,0 +1,159 @@
+"""Counting faults in noisy residuals: how many outputs still obey a common law?
+
+Any k mixtures of the outputs obey at least one polynomial law N(q) r = 0 up to noise when the number of faults m is at most k - 1,
+and in general none when m >= k. So fit the likeliest law to k mixtures and watch the noise that it leaves: it stays at one floor, that of
+k = p, while k > m and jumps at k = m, a place found by bisection.
+
+    level           J(k) of `kernel_likelihood`: log noise power per sample left by the best row on k mixtures, in nats
+    drop            how far the level still falls from degree eta - 2 to eta: a law that fits has none left
+    LawLevel        one k: outputs, level, drop
+    KernelRowTest   the levels looked at, n_v or None, reason
+
+Rules, each of which yields an undecided answer when it fails:
+
+    floor           J(p) no longer drops with the degree: likelihood ratio against the lower degree [W38], with a slack for
+                    noise colours that an autoregression of order four does not reach. No floor: there is no law to be seen.
+    alarm           k mixtures more than ALARM nats above the floor are not at the floor (unequal noise levels raise it by less)
+    steep           what the floor rose before the jump is at most the share STEEP of the jump
+    size            the rise must be CLEAR nats; when it comes at once (n_v = p - 1) the floor is seen once only, a weak fault more would
+                    look the same, and CLEAR_LAST nats and the smaller slack SLACK_LAST are demanded; CLEAR_SINGLE of two
+                    outputs, since a single mixture has no quiet direction left to choose and starts higher anyway
+    settled         the level after the rise must not be falling with the degree by a share that would undo the rise
+    some rise       down to k = 1: otherwise r may be noise alone or as many faults as outputs, and data cannot tell
+
+n_v = p is never returned: an arbitrary coloured noise is a weak fault in every output.
+
+The likelihood ratios are derived; the capital constants are not: they were set by hand after looking at simulated data of the paper's kind,
+to trade right answers for undecided ones, wrong ones being the worst. `benchmarks/fault_dimension.py` measures the rates on fresh draws of
+that same kind; on other data expect less. How near to a jump an answer was can be read from `levels`, but is no probability of error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.stats
+from numpy.typing import NDArray
+
+from faultspace.numeric.space.one_row import WindowMoments, kernel_row, window_moments
+
+Array = NDArray[np.float64]
+
+ALARM = 1.0
+CLEAR = 2.5
+CLEAR_LAST = 4.0
+CLEAR_SINGLE = 6.0
+SLACK = 0.15
+SLACK_LAST = 0.04
+SETTLED = 0.25
+STEEP = 0.2
+MIXES = 2
+_SEED = 20250513
+
+
+@dataclass(frozen=True)
+class LawLevel:
+    """What the best law on `outputs` mixtures leaves: least and largest level over some random mixtures, in nats, and the largest drop."""
+
+    outputs: int
+    least: float
+    largest: float
+    drop: float
+
+    @property
+    def middle(self) -> float:
+        """Half way between the mixtures."""
+        return (self.least + self.largest) / 2
+
+
+@dataclass(frozen=True)
+class KernelRowTest:
+    """The levels looked at, by falling number of outputs, and what they say. `n_v` is None when undecided."""
+
+    n_v: int | None
+    levels: tuple[LawLevel, ...]
+    noise_power: float
+    reason: str
+
+
+def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelRowTest:
+    """Find the jump; r (N, p) scaled to unit mean square a channel, rows up to this degree (at least 3).
+
+    With u (N, n_u), what the inputs explain of a law's remainder is left out.
+    """
+    p = r.shape[1]
+    moments = window_moments(r, degree, u=u)
+    random = np.random.default_rng(_SEED)
+    rotations = [np.linalg.qr(random.standard_normal((p, p)))[0] for _ in range(MIXES)]
+    floor = law_level(moments, (np.eye(p),))
+    levels = {p: floor}
+    noise_power = float(np.exp(floor.least))
+    chance = float(scipy.stats.chi2.ppf(0.999, 2 * p)) / moments.samples
+    bound = SLACK + chance
+
+    def undecided(reason: str) -> KernelRowTest:
+        return KernelRowTest(None, _walk(levels), noise_power, reason)
+
+    if floor.drop > bound:
+        return undecided(
+            f"no noise floor: the best law on all {p} outputs still improves by {floor.drop:.2f} nats over the last two degrees "
+            f"(at most {bound:.2f} allowed); there may be {p} faults, or an order that needs larger block_rows"
+        )
+    # Invariant: `high` mixtures are at the floor, `low` are not (none at all, to begin with).
+    high, low = p, 0
+    while high - low > 1:
+        k = (high + low + 1) // 2
+        levels[k] = law_level(moments, tuple(rotation[:, :k] for rotation in rotations))
+        if levels[k].middle - floor.middle <= ALARM and levels[k].drop <= bound:
+            high = k
+        else:
+            low = k
+    if low == 0:
+        return undecided(
+            "every single mixture is at the same floor: r looks like noise alone, which cannot be told from as many faults as outputs"
+        )
+    above, below = levels[high], levels[low]
+    rise, before = below.least - above.largest, above.middle - floor.middle
+    needed = CLEAR if low < p - 1 else CLEAR_LAST if p > 2 else CLEAR_SINGLE
+    step = f"from {high} mixed outputs to {low} the noise left by the best law rises by {rise:.2f} nats"
+    if below.middle - floor.middle <= ALARM:
+        return undecided(
+            f"on {low} mixed outputs the best law still improves by {below.drop:.2f} nats over the last two degrees (at most {bound:.2f} "
+            f"allowed): an order that needs larger block_rows"
+        )
+    if rise < needed:
+        return undecided(f"{step}: too much for the same floor, too little for a missing law (at least {needed:g})")
+    if low == p - 1 and floor.drop > SLACK_LAST + chance:
+        return undecided(
+            f"only all {p} outputs together obey a law, and it still improves by {floor.drop:.2f} nats over the last two degrees "
+            f"(at most {SLACK_LAST + chance:.2f} allowed here): {p} faults of unequal strength look like this"
+        )
+    if before > STEEP * rise:
+        return undecided(f"{step}, but it had risen by {before:.2f} before: weak faults, or outputs of very unequal noise")
+    if below.drop > SETTLED * rise:
+        return undecided(f"{step}, of which the last two degrees took back {below.drop:.2f}: larger block_rows may settle it")
+    reason = f"{high} mixed outputs obey a common law up to the noise floor, {low} do not: {step} ({needed:g} needed)"
+    return KernelRowTest(low, _walk(levels), noise_power, reason)
+
+
+def _walk(levels: dict[int, LawLevel]) -> tuple[LawLevel, ...]:
+    """The levels by falling number of outputs."""
+    return tuple(levels[k] for k in sorted(levels, reverse=True))
+
+
+def law_level(moments: WindowMoments, mixes: tuple[Array, ...]) -> LawLevel:
+    """Fit rows of rising degree on each mixture, each degree starting from the row before."""
+    levels, drops = [], []
+    for mix in mixes:
+        mixed = moments.mixed(mix)
+        degree = moments.degree
+        course: list[float] = []
+        starts: tuple[Array, ...] = ()
+        for eta in sorted({*range(1, degree - 1, 2), degree - 2, degree}):
+            fit = kernel_row(mixed.of_degree(eta), starts=starts)
+            starts = (fit.coefficients,)
+            course.append(fit.level)
+        levels.append(min(course))
+        drops.append(max(0.0, course[-2] - course[-1]))
+    return LawLevel(mixes[0].shape[1], min(levels), max(levels), max(drops))

@@ -1,0 +1,249 @@
+"""Whether the mean of a residual has moved since a healthy record: the constant fault, which no rank can show.
+
+A constant signal is persistently exciting of order one only, so that a constant fault changes no rank gap. It moves the mean of r, and a
+healthy record says what means are worth: how much noise there is at frequency zero, and how much of a mean the model's error explains.
+
+    predictor     e(k) = r(k) - c - sum_j A_j r(k-j) - sum_j B_j u(k-j), least squares on the healthy record [lags: `healthy_reference`]
+    shift         d of the mean of r: the mean of e over the part tested is (I - sum A_j) d plus chance
+    chance        of covariance W h. W: long-run covariance of e, from the first B cosine transforms of the healthy e, each an independent
+                  vector of covariance W where the spectrum is flat so near to zero [LLSW18]; prewhitening by the predictor makes it flat
+                  [AM92], and B is theirs, .41 K^(2/3). h = 1/M + x' (X0' X0)^-1 x: M samples tested, the second term the error of the
+                  coefficients [C60], x the mean of the regressors that is expected without a shift, so that h does not grow with d
+    test          T^2 = mean(e)' W^-1 mean(e) / h, and T^2 (B - p + 1) / (B p) has Fisher's law with p and B - p + 1 degrees of freedom
+                  [H31]: exact for Gaussian e that is flat near zero, and given h; `benchmarks/identify_healthy.py` measures the level
+    power         the same with noncentrality d' V^-1 d: from it the shift of one output alone that is found with the stated chance
+    V             covariance of the estimated shift, (I - sum A_j)^-1 W h (I - sum A_j)^-T
+
+Undecided, with the reason, where the test has no ground: a predictor with a root at one within what a random walk of K samples shows
+[F76], for then a mean says nothing; a healthy record whose own halves differ by the same test; more outputs than B.
+
+    MeanReference, mean_reference    what the healthy record teaches
+    MeanShift, mean_shift            the test of another part
+    mean_about_zero                  whether a residual has a mean at all, by its own noise
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.fft
+import scipy.optimize
+import scipy.stats
+from numpy.typing import ArrayLike, NDArray
+
+from ...base.errors import InvalidData
+from .healthy_model import LEVEL, lagged, number_of_lags, residual_and_inputs
+from .windows import channel_sizes
+
+Array = NDArray[np.float64]
+
+POWER = 0.9
+"""The chance with which a fault of the size that is told is found."""
+COSINES = 0.41
+"""B = COSINES K^(2/3) cosine transforms [LLSW18]."""
+UNIT_ROOT = 20.7
+"""K (1 - root) of a random walk of K samples, its mean fitted, stays below this with probability .99 [F76, table 8.5.1]."""
+
+
+@dataclass(frozen=True, eq=False)
+class MeanReference:
+    """`coefficients` (1 + q, p), that of the constant first, of the predictor with so many `lags`, r in units of `scales` (p,), u in
+    those of `input_scales` (n_u,); `root` with root' root = (X0' X0)^-1; `still` (p, p) = I - sum A_j; `long_run` (p, p) covariance W of
+    `freedom` B; `nearest` least |1 - root| of the predictor; `samples` K."""
+
+    scales: Array
+    input_scales: Array
+    lags: int
+    coefficients: Array
+    root: Array
+    still: Array
+    long_run: Array
+    freedom: int
+    nearest: float
+    samples: int
+
+    @property
+    def p(self) -> int:
+        """Number of outputs."""
+        return len(self.scales)
+
+    @property
+    def law(self) -> tuple[int, int]:
+        """Degrees of freedom of Fisher's law."""
+        return self.p, self.freedom - self.p + 1
+
+    def threshold(self, level: float) -> float:
+        """What T^2 exceeds by chance with probability `level`."""
+        over, under = self.law
+        return float(scipy.stats.f.isf(level, over, under)) * self.freedom * self.p / under
+
+    def noncentrality(self, level: float, power: float) -> float:
+        """d' V^-1 d of a shift d that the test finds with chance `power`."""
+        over, under = self.law
+        bound = float(scipy.stats.f.isf(level, over, under))
+        most = 1.0
+        while scipy.stats.ncf.sf(bound, over, under, most) < power:
+            most *= 2.0
+        return float(scipy.optimize.brentq(lambda size: scipy.stats.ncf.sf(bound, over, under, size) - power, 1e-9, most))
+
+
+@dataclass(frozen=True, eq=False)
+class MeanShift:
+    """`shifted` (None: undecided) with its `reason`; `shift` (p,) estimated, in units of r, and its standard `deviations` (p,); `channels`
+    numbers of the outputs whose own shift is beyond chance; `statistic` T^2 against `threshold` at `level`; `visible` (p,): the shift of
+    one output alone that would be found with chance POWER. Arrays are None where nothing could be estimated."""
+
+    shifted: bool | None
+    reason: str
+    level: float
+    shift: Array | None = None
+    deviations: Array | None = None
+    visible: Array | None = None
+    channels: tuple[int, ...] = ()
+    statistic: float | None = None
+    threshold: float | None = None
+
+
+def mean_reference(healthy: ArrayLike, u: ArrayLike | None = None) -> MeanReference:
+    """Learn from a healthy residual (N, p) and its inputs (N, n_u).
+
+    Raises InvalidData for NaN, channels that are constant or exact combinations of others, and too few samples for the channels.
+    """
+    return _learnt(*residual_and_inputs(healthy, u))
+
+
+def _learnt(r: Array, inputs: Array) -> MeanReference:
+    scales, input_scales = channel_sizes(r - r.mean(axis=0)), _sizes(inputs)
+    r, inputs = r / scales, inputs / input_scales
+    K, p = r.shape
+    lags = number_of_lags(r - r.mean(axis=0), inputs - inputs.mean(axis=0))
+    X, now = _regressors(r, inputs, lags)
+    freedom = int(COSINES * len(now) ** (2 / 3))
+    if freedom < p + 2 or len(now) <= X.shape[1] + freedom:
+        raise InvalidData(f"{K} samples without fault are too few to say what the means of {p} outputs are worth: state more of them")
+    factor, triangle = np.linalg.qr(X)
+    root = np.asarray(np.linalg.inv(triangle)).T
+    coefficients = root.T @ (factor.T @ now)
+    e = now - X @ coefficients
+    # What the coefficients took out of e is put back on average.
+    waves = np.asarray(scipy.fft.dct(e, type=2, axis=0, norm="ortho"))[1 : freedom + 1] / np.sqrt(1.0 - X.shape[1] / len(now))
+    width = p + inputs.shape[1]
+    steps = [coefficients[1 + j * width : 1 + j * width + p].T for j in range(lags)]
+    return MeanReference(
+        scales=scales,
+        input_scales=input_scales,
+        lags=lags,
+        coefficients=coefficients,
+        root=root,
+        still=np.eye(p) - sum(steps, np.zeros((p, p))),
+        long_run=waves.T @ waves / freedom,
+        freedom=freedom,
+        nearest=_nearest_root(steps),
+        samples=len(now),
+    )
+
+
+def mean_shift(
+    r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u: ArrayLike | None, *, level: float = LEVEL
+) -> MeanShift:
+    """Whether the mean of r (M, p), with inputs u (M, n_u), has left that of the healthy residual (K, p) with its inputs.
+
+    `level` (0, 1): probability of finding a shift where there is none. What the healthy record cannot bear is an undecided answer, never an
+    error. Source: head of the module.
+    """
+    before, inputs_before = residual_and_inputs(healthy, healthy_u)
+    after, inputs = residual_and_inputs(r, u)
+    try:
+        reference = _learnt(before, inputs_before)
+    except InvalidData as error:
+        return MeanShift(None, str(error), level)
+    if len(after) < reference.lags + 1:
+        return MeanShift(None, f"{len(after)} samples are fewer than the {reference.lags + 1} that the healthy noise remembers", level)
+    found = _tested(reference, after, inputs, level)
+    if reference.nearest * reference.samples < UNIT_ROOT:
+        reason = "the healthy residual wanders: its mean says nothing (an integrating plant, a drift, a fault in it?)"
+        return MeanShift(None, reason, level, found.shift)
+    half = len(before) // 2
+    try:
+        itself = _tested(_learnt(before[:half], inputs_before[:half]), before[half:], inputs_before[half:], level)
+    except InvalidData:
+        return found  # halves too short to be held against each other
+    if itself.shifted:
+        reason = "the mean moves within the healthy samples themselves: a drift, or a fault among them; state fewer, or take the drift out"
+        return MeanShift(None, reason, level, found.shift, found.deviations)
+    return found
+
+
+def mean_about_zero(r: ArrayLike, *, level: float = LEVEL) -> MeanShift:
+    """Whether the mean of a residual r (N, p) differs from zero, by its own noise at frequency zero. Undecided as `mean_shift` is."""
+    residual, _ = residual_and_inputs(r, None)
+    try:
+        reference = mean_reference(residual)
+    except InvalidData as error:
+        return MeanShift(None, str(error), level)
+    if reference.nearest * reference.samples < UNIT_ROOT:
+        return MeanShift(None, "the residual wanders like a random walk: its mean says nothing", level)
+    e = np.asarray(reference.still @ (residual.mean(axis=0) / reference.scales))
+    return _judged(reference, e, 1.0 / reference.samples, level)
+
+
+def _tested(reference: MeanReference, r: Array, u: Array, level: float) -> MeanShift:
+    """The test itself."""
+    X, now = _regressors(r / reference.scales, u / reference.input_scales, reference.lags)
+    e = (now - X @ reference.coefficients).mean(axis=0)
+    h = 1.0 / len(now) + float(np.sum((reference.root @ _expected(reference, X.mean(axis=0))) ** 2))
+    return _judged(reference, e, h, level)
+
+
+def _judged(reference: MeanReference, e: Array, h: float, level: float) -> MeanShift:
+    """The verdict on the mean e (p,) of what the predictor leaves, of covariance W h where there is no shift."""
+    statistic = float(e @ np.linalg.solve(reference.long_run, e)) / h
+    threshold = reference.threshold(level)
+    back = np.linalg.inv(reference.still)
+    V = back @ reference.long_run @ back.T * h
+    shift = back @ e * reference.scales
+    deviations = np.sqrt(np.diag(V)) * reference.scales
+    single = float(scipy.stats.t.isf(level / (2 * reference.p), reference.freedom))
+    channels = tuple(int(i) for i in np.flatnonzero(np.abs(shift) > single * deviations))
+    # The mean of W^-1, a Wishart matrix of freedom B, is B / (B - p - 1) times the true one.
+    precisions = np.diag(np.linalg.inv(V)) * (reference.freedom - reference.p - 1) / reference.freedom
+    visible = np.sqrt(reference.noncentrality(level, POWER) / precisions) * reference.scales
+    shifted = statistic > threshold
+    compared = f"T^2 = {statistic:.4g} against {threshold:.4g}, which chance exceeds with probability {level:g}"
+    reason = f"the mean has moved: {compared}" if shifted else f"no shift of the mean: {compared}"
+    return MeanShift(shifted, reason, level, shift, deviations, visible, channels if shifted else (), statistic, threshold)
+
+
+def _regressors(r: Array, u: Array, lags: int) -> tuple[Array, Array]:
+    """[1, r(k-1) u(k-1) .. r(k-lags) u(k-lags) u(k)] and r(k)."""
+    past, now = lagged(r, u, lags)
+    return np.hstack([np.ones((len(now), 1)), past]), now
+
+
+def _expected(reference: MeanReference, means: Array) -> Array:
+    """The means of the regressors with those of r replaced by what the predictor expects without a shift."""
+    p, width = reference.p, reference.p + len(reference.input_scales)
+    expected = means.copy()
+    of_r = [slice(1 + j * width, 1 + j * width + p) for j in range(reference.lags)]
+    for place in of_r:
+        expected[place] = 0.0
+    level = np.linalg.solve(reference.still, expected @ reference.coefficients)
+    for place in of_r:
+        expected[place] = level
+    return expected
+
+
+def _nearest_root(steps: list[Array]) -> float:
+    """Least |1 - z| over the roots z of the predictor."""
+    if not steps:
+        return 1.0
+    p, lags = len(steps[0]), len(steps)
+    companion = np.eye(p * lags, k=-p)
+    companion[:p] = np.hstack(steps)
+    return float(np.abs(1.0 - np.linalg.eigvals(companion)).min())
+
+
+def _sizes(u: Array) -> Array:
+    """Units of the inputs, about their means; one for an input that is still."""
+    return channel_sizes(u - u.mean(axis=0)) if u.shape[1] else np.ones(0)

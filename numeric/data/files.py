@@ -1,0 +1,387 @@
+"""Measured data from files: named columns of CSV, Parquet, NPZ, NPY and MAT files as inputs and outputs.
+
+read_record     the chosen channels of a file, as a Record
+split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate
+FORMATS         suffix -> format
+
+A channel is chosen by its column's name. For matrices (NPZ, NPY, MAT, and text without a line of names; in NPY and text the matrix is
+called `data`): NAME is all columns, NAME[:,j] or NAME[j] column j, NAME[:,i:j] several, NAME[i,:] row i, NAME[i,j] channel (i, j) of an
+array whose first of three axes is time. Indices count from 0. The file is only read. Everything wrong raises InvalidInput: what was got,
+what is needed, what to try.
+
+No more of a file than a piece is held in memory: text goes by lines, Parquet by the pages of its columns, NPY by a memory map, large
+arrays of an NPZ by a memory map of what is unpacked among the temporary files. MAT is the exception: its variables are compressed as a
+whole, so that each one asked for is read as a whole.
+"""
+
+from __future__ import annotations
+
+import io
+import mmap
+import re
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.errors import InvalidInput, in_file, shorten
+from .records import Record, RecordWriter
+from .text_tables import TextTable
+
+Array = NDArray[np.float64]
+Tell = Callable[[int, int], None]
+
+FORMATS = {
+    ".csv": "text", ".tsv": "text", ".txt": "text", ".dat": "text",
+    ".parquet": "Parquet", ".pq": "Parquet", ".npz": "NPZ", ".npy": "NPY", ".mat": "MAT",
+}  # fmt: skip
+MOST_NAMED = 12
+MATRIX = "data"
+PIECE = 1 << 14  # samples converted at once
+BUFFER = 1 << 20  # bytes of a column that Parquet reads at once
+MAPPED = 1 << 20  # bytes of an array above which it is mapped, not read
+_SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
+
+
+@dataclass(frozen=True)
+class _Opened:
+    """What a reader found: channels of each selector, an output known to float32 only or not, rows (any, sum of widths) in time's order."""
+
+    widths: tuple[int, ...]
+    single: bool
+    rows: Iterator[Array]
+
+
+def split_names(given: Sequence[str]) -> list[str]:
+    """The names in options that may each hold several, separated by commas outside brackets."""
+    names = [name.strip() for text in given for name in re.split(r",(?![^\[\]]*\])", text)]
+    return [name for name in names if name]
+
+
+def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], tell: Tell | None = None) -> Record:
+    """The record in the file at `path`; `tell` hears how much of how much has been read. Raises InvalidInput."""
+    with in_file(path), ExitStack() as stack:
+        chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
+        for option, names in chosen.items():
+            if not names:
+                raise InvalidInput(f"got no {option}, expected at least one channel: try --{option} NAME,NAME")
+        names = [*chosen["inputs"], *chosen["outputs"]]
+        _once(chosen["inputs"], chosen["outputs"])
+        try:
+            with open(path, "rb"):
+                pass
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise InvalidInput(f"cannot be read ({reason[:1].lower()}{reason[1:]}), expected a data file: {', '.join(FORMATS)}") from None
+        read_as = FORMATS.get(Path(path).suffix.lower())
+        if read_as is None:
+            suffix = shorten(Path(path).suffix)
+            raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
+        try:
+            reader = {"text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat}[read_as]
+            found = reader(Path(path), names, tell or (lambda done, total: None), stack)
+            labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
+            u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
+            y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
+            _once(u_names, y_names)
+            writer = RecordWriter(len(u_names) + len(y_names))
+            for rows in found.rows:
+                _finite([*u_names, *y_names], rows, len(writer.store))
+                writer.append(rows)
+        except (OSError, EOFError) as error:
+            reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+            raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None
+        _some(len(writer.store))
+        return writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single)
+
+
+def _once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
+    """Refuses a channel named more than once."""
+    both = [name for name in inputs if name in outputs]
+    if both:
+        raise InvalidInput(f"got channel {shorten(both[0])} as input and as output, expected it to be one of them")
+    for names in (inputs, outputs):
+        twice = [name for i, name in enumerate(names) if name in names[:i]]
+        if twice:
+            raise InvalidInput(f"got channel {shorten(twice[0])} twice, expected every channel once")
+
+
+def _labels(selector: str, count: int) -> list[str]:
+    """The channels that a selector stands for: itself, or for several its last range replaced by each number."""
+    if count == 1:
+        return [selector]
+    match = _SELECTOR.match(selector)
+    name, indices = (match["name"], match["indices"].split(",")) if match else (selector, [":", ":"])
+    place = max(i for i, index in enumerate(indices) if ":" in index)
+    start = indices[place].partition(":")[0].strip()
+    first = int(start) if start else 0
+    return [f"{name}[{','.join([*indices[:place], str(first + j), *indices[place + 1:]])}]" for j in range(count)]
+
+
+def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
+    """Refuses what is no finite number; the rows begin with sample `first`."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        if np.isfinite(np.sum(rows)):
+            return
+    wrong = np.argwhere(~np.isfinite(rows))
+    if len(wrong):
+        k, j = (int(number) for number in wrong[0])
+        what = "no number (NaN or empty)" if np.isnan(rows[k, j]) else "infinite"
+        raise InvalidInput(
+            f"channel {shorten(labels[j])} is {what} at sample {first + k} (counted from 0), expected finite numbers: cut the record "
+            "before or after, or fill the samples in"
+        )
+
+
+def _missing(name: str, there: Sequence[str], what: str) -> InvalidInput:
+    if not there:
+        return InvalidInput(f"got no {what} at all, expected {shorten(name)}")
+    listed = ", ".join(there[:MOST_NAMED]) + (f", ... ({len(there)} in all)" if len(there) > MOST_NAMED else "")
+    near = [other for other in there if other.lower().strip() == name.lower().strip()]
+    advice = f"; did you mean {shorten(near[0])}?" if near else ""
+    return InvalidInput(f"there is no {what} {shorten(name)}, expected one of: {listed}{advice}")
+
+
+def _text(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+    table = TextTable.opened(path)
+    wanted: list[list[int]] = []
+    for name in names:
+        if table.names is not None:
+            if name not in table.names:
+                raise _missing(name, table.names, f"column (separated by {table.separator_name})")
+            wanted.append([table.names.index(name)])
+        else:
+            # The first line of values tells the width: a selector on it tells the columns.
+            stand_in = np.tile(np.arange(table.width), (2, 1))
+            picked = _picked({MATRIX: stand_in}, name, "matrix; the file has no line of names, so its columns are")
+            if not np.array_equal(picked[0], picked[-1]):
+                raise InvalidInput(f"got {shorten(name)}, expected columns {MATRIX}[:,j] of a file without a line of names")
+            wanted.append([int(j) for j in np.atleast_1d(picked[0])])
+    places = [place for group in wanted for place in group]
+    return _Opened(tuple(map(len, wanted)), False, table.pieces(places, tell))
+
+
+def _parquet(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+    try:
+        parquet: Any = import_module("pyarrow.parquet")
+        arrow: Any = import_module("pyarrow")
+    except ImportError:
+        advice = "pip install 'faultspace[parquet]', or write the data as CSV or NPZ"
+        raise InvalidInput(f"got a Parquet file, which needs pyarrow: {advice}") from None
+
+    def refused(error: Exception) -> InvalidInput:
+        return InvalidInput(f"cannot be read as Parquet data ({_first_line(error)}), expected a Parquet file")
+
+    try:
+        file = stack.enter_context(parquet.ParquetFile(path, pre_buffer=False, buffer_size=BUFFER))
+    except arrow.ArrowException as error:
+        raise refused(error) from None
+    there = list(file.schema_arrow.names)
+    twice = [name for name in names if there.count(name) > 1]
+    if twice:
+        raise InvalidInput(f"got two columns named {shorten(twice[0])}, expected every name once")
+    for name in names:
+        if name not in there:
+            raise _missing(name, there, "column")
+        kind = file.schema_arrow.field(name).type
+        if not (arrow.types.is_integer(kind) or arrow.types.is_floating(kind) or arrow.types.is_boolean(kind)):
+            raise InvalidInput(f"column {shorten(name)} holds values of type {kind}, expected numbers")
+
+    def rows() -> Iterator[Array]:
+        done = 0
+        try:
+            for batch in file.iter_batches(batch_size=PIECE, columns=list(names), use_threads=False):
+                columns = [batch.column(batch.schema.get_field_index(name)).cast(arrow.float64()) for name in names]
+                yield np.column_stack([np.asarray(column.to_numpy(zero_copy_only=False), dtype=np.float64) for column in columns])
+                done += batch.num_rows
+                tell(done, file.metadata.num_rows)
+        except arrow.ArrowException as error:
+            raise refused(error) from None
+
+    single = any(file.schema_arrow.field(name).type == arrow.float32() for name in names)
+    return _Opened((1,) * len(names), single, rows())
+
+
+def _npz(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+    try:
+        if not zipfile.is_zipfile(path):
+            np.load(path, allow_pickle=False)  # complains of what is no data at all
+            raise InvalidInput("got a single array under the name of an archive, expected an NPZ file: name it .npy, or use numpy.savez")
+        archive = stack.enter_context(zipfile.ZipFile(path))
+        members = {name.removesuffix(".npy"): name for name in archive.namelist()}
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="faultspace-")))
+        arrays = _Lazily(list(members), lambda name: _member(archive, members[name], folder))
+        return _side_by_side([_signal(_picked(arrays, name, "array"), name) for name in names], names, tell)
+    except ValueError as error:
+        if isinstance(error, InvalidInput):
+            raise
+        advice = "expected arrays of numbers as numpy.savez writes them"
+        raise InvalidInput(f"cannot be read as NPZ data ({_first_line(error)}), {advice}") from None
+    except Exception as error:  # zipfile.BadZipFile, zlib.error: damaged archives
+        if isinstance(error, (InvalidInput, OSError, EOFError, MemoryError)):
+            raise
+        raise InvalidInput(f"cannot be read as NPZ data ({_first_line(error)}), expected a file as numpy.savez writes it") from None
+
+
+def _member(archive: zipfile.ZipFile, name: str, folder: Path) -> Any:
+    """An array of the archive: read where it is small, else unpacked and mapped."""
+    with archive.open(name) as packed:
+        if archive.getinfo(name).file_size <= MAPPED:
+            return np.load(io.BytesIO(packed.read()), allow_pickle=False)
+        unpacked = folder / f"{len(list(folder.iterdir()))}.npy"
+        with open(unpacked, "wb") as stream:
+            shutil.copyfileobj(packed, stream, 1 << 20)
+    return np.load(unpacked, mmap_mode="r", allow_pickle=False)
+
+
+def _npy(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+    try:
+        small = path.stat().st_size <= MAPPED
+        array = np.load(path, mmap_mode=None if small else "r", allow_pickle=False)
+        if not isinstance(array, np.ndarray):
+            raise InvalidInput("got an archive under the name of a single array, expected an NPY file: name it .npz")
+        if array.ndim == 0:
+            raise InvalidInput("got a single number, expected a matrix with a row a sample")
+        what = f"array; the one of an NPY file is called {MATRIX}, it is not"
+        return _side_by_side([_signal(_picked({MATRIX: array}, name, what), name) for name in names], names, tell)
+    except ValueError as error:
+        if isinstance(error, InvalidInput):
+            raise
+        advice = "expected an array of numbers as numpy.save writes it"
+        raise InvalidInput(f"cannot be read as NPY data ({_first_line(error)}), {advice}") from None
+
+
+def _mat(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+    from scipy.io import loadmat, whosmat
+    from scipy.io.matlab import MatReadError
+
+    try:
+        there = [name for name, _, _ in whosmat(path)]
+        arrays = _Lazily(there, lambda name: loadmat(path, variable_names=[name])[name])
+        return _side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, tell)
+    except NotImplementedError:
+        raise InvalidInput("got a MAT file of version 7.3 (HDF5), expected version 7 or older: save it with the option '-v7'") from None
+    except (MatReadError, ValueError, TypeError, KeyError, IndexError) as error:
+        if isinstance(error, InvalidInput):
+            raise
+        raise InvalidInput(f"cannot be read as MAT data ({_first_line(error)}), expected a MAT file of version 7 or older") from None
+
+
+def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], tell: Tell) -> _Opened:
+    """Signals (N, k) of one length, joined piece by piece."""
+    samples = len(signals[0])
+    if any(len(values) != samples for values in signals):
+        sizes = ", ".join(f"{name} {len(values)}" for name, values in zip(names, signals, strict=True))
+        raise InvalidInput(f"got channels of unequal length ({sizes}), expected as many samples of each: cut them to those they share")
+
+    def rows() -> Iterator[Array]:
+        for first in range(0, samples, PIECE):
+            part = slice(first, first + PIECE)
+            yield np.hstack([np.asarray(values[part], dtype=np.float64) for values in signals])
+            for values in signals:
+                _forget(values)
+            tell(min(first + PIECE, samples), samples)
+
+    single = any(values.dtype in (np.float16, np.float32) for values in signals)
+    return _Opened(tuple(values.shape[1] for values in signals), single, rows())
+
+
+def _forget(values: Any) -> None:
+    """Gives the pages of a memory map back, which would else count as memory used as long as there is enough."""
+    while isinstance(values, np.ndarray):
+        values = values.base
+    if isinstance(values, mmap.mmap) and hasattr(mmap, "MADV_DONTNEED"):
+        values.madvise(mmap.MADV_DONTNEED)
+
+
+class _Lazily(Mapping[str, Any]):
+    """Arrays by name, each read when asked for and then kept."""
+
+    def __init__(self, names: Sequence[str], read: Callable[[str], Any]) -> None:
+        self._names, self._read = list(names), read
+        self._kept: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._kept:
+            self._kept[name] = self._read(name)
+        return self._kept[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+def _picked(arrays: Mapping[str, Any], selector: str, what: str) -> Any:
+    """What the selector stands for: an array itself, or NAME[...] of one."""
+    there = list(arrays)
+    if selector in there:
+        return arrays[selector]
+    match = _SELECTOR.match(selector)
+    if match is None or match["name"] not in there:
+        raise _missing(match["name"] if match else selector, there, what)
+    array = np.asarray(arrays[match["name"]])
+    parts = [part.strip() for part in match["indices"].split(",")]
+    try:
+        index = tuple(int(part) if ":" not in part else _range(part) for part in parts)
+    except (ValueError, TypeError):
+        raise InvalidInput(f"got {shorten(selector)}, expected NAME[:,j] with j an integer counted from 0 or a range i:j") from None
+    name, shape = match["name"], " x ".join(map(str, array.shape))
+    if len(index) == array.ndim - 1 and not (len(index) == 1 and isinstance(index[0], slice)):
+        index = (slice(None), *index)  # the axis not spoken of is time
+    if len(index) != array.ndim:
+        pattern = ",".join([":", *"j" * (array.ndim - 1)])
+        raise InvalidInput(f"got {shorten(selector)} of a {shape} array, expected {array.ndim} indices, as in {name}[{pattern}]")
+    try:
+        picked = array[index]
+    except IndexError:
+        raise InvalidInput(f"got {shorten(selector)}, but {name} is {shape}: indices count from 0") from None
+    if picked.ndim == 0:
+        advice = f"{name}[:,{parts[-1]}] is column {parts[-1]}"
+        raise InvalidInput(f"got {shorten(selector)}, one number of a {shape} array; expected a channel: {advice}")
+    return picked
+
+
+def _range(text: str) -> slice:
+    first, last = (int(number) if number.strip() else None for number in text.split(":"))
+    return slice(first, last)
+
+
+def _signal(values: Any, name: str) -> NDArray[Any]:
+    """Values as a view (N, k) of their own type: a vector is one channel, whichever way it lies."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        hint = "its real and imaginary part as two channels" if array.dtype.kind == "c" else "a plain array of numbers"
+        raise InvalidInput(f"{shorten(name)} holds values of type {array.dtype}, expected {hint}")
+    if array.ndim == 2 and 1 in array.shape:
+        array = array.reshape(-1)
+    if array.ndim == 1:
+        array = array[:, np.newaxis]
+    if array.ndim != 2:
+        shape = " x ".join(map(str, array.shape))
+        raise InvalidInput(f"{shorten(name)} is {shape}, expected one channel or (samples, channels): choose with NAME[:,j] or NAME[i,j]")
+    _some(len(array))
+    if array.shape[1] > len(array):
+        rows, columns = array.shape
+        advice = f"{name}[i,:] is row i" if "[" not in name else "write it transposed"
+        looks = f"{rows} samples of {columns} channels and looks transposed"
+        raise InvalidInput(f"{shorten(name)} has {looks}, expected a row a sample: {advice}")
+    return array
+
+
+def _some(samples: int) -> None:
+    if samples == 0:
+        raise InvalidInput("got no samples, expected a record of many")
+
+
+def _first_line(error: Exception) -> str:
+    return (str(error).strip().splitlines() or [type(error).__name__])[0]

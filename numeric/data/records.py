@@ -1,0 +1,221 @@
+"""A measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
+
+SampleStore     rows (N, k) of floats: in memory while they are few, beyond IN_MEMORY bytes in a temporary file
+Record          inputs and outputs in one store, their names, and what is known of every channel; iterating gives pieces (y, u)
+Moments         least and greatest values, means and deviations of rows that come in pieces
+RecordWriter    takes the rows [u, y] as they come and makes the Record
+recorded        a Record from arrays
+Passes          the pieces of a Record, telling how far each reading of them has come
+
+A text file is parsed once: what is read again and again are its numbers. They take 8 bytes each in the folder for temporary files
+(TMPDIR names another one), and the file vanishes with the store.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...base.errors import InvalidInput
+
+Array = NDArray[np.float64]
+Tell = Callable[[str, int, int], None]
+
+IN_MEMORY = 1 << 24
+PIECE = 1 << 14  # samples read at once
+NUMBER = 8  # bytes
+
+
+class SampleStore:
+    """Rows of `width` floats, appended and read by number; `len` is how many there are. What is read cannot be written to."""
+
+    def __init__(self, width: int) -> None:
+        self.width = width
+        self._count = 0
+        self._file = tempfile.SpooledTemporaryFile(max_size=IN_MEMORY)  # noqa: SIM115
+
+    def __len__(self) -> int:
+        return self._count
+
+    def append(self, rows: Array) -> None:
+        """Rows (any, width) behind the others. Raises InvalidInput where the disk is full."""
+        try:
+            self._file.seek(0, os.SEEK_END)
+            self._file.write(np.ascontiguousarray(rows, dtype=np.float64).data)
+        except OSError as error:
+            needed = NUMBER * self.width * (self._count + len(rows))
+            raise InvalidInput(
+                f"got more than {needed} bytes of numbers, which do not fit into the folder for temporary files {tempfile.gettempdir()} "
+                f"({error.strerror or error}): expected room there, or TMPDIR naming a folder that has it"
+            ) from None
+        self._count += len(rows)
+
+    def read(self, first: int, last: int) -> Array:
+        """Rows first .. last - 1."""
+        last = min(last, self._count)
+        self._file.seek(NUMBER * self.width * first)
+        content = self._file.read(NUMBER * self.width * max(last - first, 0))
+        return np.frombuffer(content, dtype=np.float64).reshape(-1, self.width)
+
+    def pieces(self, first: int = 0, last: int | None = None) -> Iterator[Array]:
+        """Rows first .. last - 1, PIECE at a time."""
+        end = self._count if last is None else min(last, self._count)
+        for start in range(first, end, PIECE):
+            yield self.read(start, min(start + PIECE, end))
+
+
+@dataclass(frozen=True)
+class Channels:
+    """Of every channel, inputs before outputs: least and greatest value, mean and standard deviation, each (k,)."""
+
+    least: Array
+    greatest: Array
+    mean: Array
+    deviation: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """`store` holds rows [u, y] of finite numbers, `offset` (k,) is taken off every row that is read; `format` is how they came.
+
+    `single`: whether an output was given in float32, so that it is known to float32 rounding only; `length`: samples of the store, from the
+    first on, that belong to it (None: all).
+    """
+
+    store: SampleStore
+    outputs: tuple[str, ...]
+    inputs: tuple[str, ...]
+    format: str
+    channels: Channels
+    offset: Array
+    single: bool = False
+    length: int | None = None
+
+    def __len__(self) -> int:
+        return len(self.store) if self.length is None else self.length
+
+    def __iter__(self) -> Iterator[tuple[Array, Array]]:
+        for rows in self.store.pieces(0, len(self)):
+            yield self._split(rows)
+
+    def stretch(self, first: int, last: int) -> tuple[Array, Array]:
+        """y and u of samples first .. last - 1."""
+        return self._split(self.store.read(first, min(last, len(self))))
+
+    @property
+    def y(self) -> Array:
+        """All outputs (N, p), in memory."""
+        return self.stretch(0, len(self))[0]
+
+    @property
+    def u(self) -> Array:
+        """All inputs (N, n_u), in memory."""
+        return self.stretch(0, len(self))[1]
+
+    @property
+    def p(self) -> int:
+        """Number of outputs."""
+        return len(self.outputs)
+
+    @property
+    def n_u(self) -> int:
+        """Number of inputs."""
+        return len(self.inputs)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All channels, inputs before outputs."""
+        return self.inputs + self.outputs
+
+    def about_means(self) -> Record:
+        """The same record with every channel about its mean."""
+        return self.about(self.channels.mean)
+
+    def about(self, means: Array) -> Record:
+        """The same record with `means` (k,), inputs before outputs, taken off."""
+        return replace(self, offset=means)
+
+    def beginning(self, length: int) -> Record:
+        """The first `length` samples as a record of their own, with what is known of their channels; nothing is copied."""
+        known = Moments(self.store.width)
+        for rows in self.store.pieces(0, length):
+            known.add(rows)
+        return replace(self, channels=known.channels(), length=length)
+
+    def _split(self, rows: Array) -> tuple[Array, Array]:
+        rows = rows - self.offset
+        return rows[:, self.n_u :], rows[:, : self.n_u]
+
+
+class Moments:
+    """What is known of channels whose rows come in pieces; the moments of pieces are merged, not summed up from zero."""
+
+    def __init__(self, width: int) -> None:
+        self._count = 0
+        self._least, self._greatest = np.full(width, np.inf), np.full(width, -np.inf)
+        self._mean, self._squares = np.zeros(width), np.zeros(width)
+
+    def add(self, rows: Array) -> None:
+        """Rows (1 or more, width)."""
+        before, count = self._count, len(rows)
+        self._count += count
+        self._least, self._greatest = np.minimum(self._least, rows.min(axis=0)), np.maximum(self._greatest, rows.max(axis=0))
+        with np.errstate(over="ignore", invalid="ignore"):  # numbers too large are refused by name later on
+            mean = rows.mean(axis=0)
+            step = mean - self._mean
+            self._mean = self._mean + step * count / (before + count)
+            self._squares = self._squares + ((rows - mean) ** 2).sum(axis=0) + step**2 * before * count / (before + count)
+
+    def channels(self) -> Channels:
+        """What has come."""
+        return Channels(self._least, self._greatest, self._mean, np.sqrt(self._squares / max(self._count, 1)))
+
+
+class RecordWriter:
+    """Takes rows [u, y] of finite numbers; `record` makes the Record of them."""
+
+    def __init__(self, width: int) -> None:
+        self.store = SampleStore(width)
+        self._known = Moments(width)
+
+    def append(self, rows: Array) -> None:
+        """Rows (any, width). Raises InvalidInput where there is no room."""
+        if len(rows):
+            self.store.append(rows)
+            self._known.add(rows)
+
+    def record(self, *, outputs: Sequence[str], inputs: Sequence[str], format: str, single: bool = False) -> Record:
+        """What has been taken."""
+        return Record(
+            self.store, tuple(outputs), tuple(inputs), format, self._known.channels(), np.zeros(self.store.width), single
+        )
+
+
+def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequence[str]) -> Record:
+    """The record of arrays y (N, p) and u (N, n_u) of finite numbers."""
+    rows = np.hstack([np.asarray(u, dtype=np.float64), np.asarray(y, dtype=np.float64)])
+    writer = RecordWriter(rows.shape[1])
+    writer.append(rows)
+    return writer.record(outputs=outputs, inputs=inputs, format="arrays", single=np.asarray(y).dtype == np.float32)
+
+
+class Passes:
+    """The pieces of a record, any number of times; each reading is told by its number, as `stage`, pass 1, 2, .."""
+
+    def __init__(self, record: Record, stage: str, tell: Tell) -> None:
+        self._record, self._stage, self._tell = record, stage, tell
+        self._begun = 0
+
+    def __iter__(self) -> Iterator[tuple[Array, Array]]:
+        self._begun += 1
+        stage, done = f"{self._stage}, pass {self._begun}", 0
+        self._tell(stage, 0, len(self._record))
+        for y, u in self._record:
+            yield y, u
+            done += len(y)
+            self._tell(stage, done, len(self._record))

@@ -1,0 +1,138 @@
+"""What the float methods accept as data, and what they say to the rest; what they refuse is InvalidData.
+
+Arrays are time-major: one row a sample, one column a channel; a 1-d array is one channel. Integers, booleans, float32 and strided arrays
+are read as float64; the caller's arrays are never written to. Data too long for memory come in pieces, converted and checked one by one.
+
+two_dimensional     an array as (N, channels) without a copy, whatever its real type
+signal, signals     checked float64 arrays (N, p), or the pair y, u of equal length
+pieces              the checked float64 pieces (y, u) of one experiment, for data that should not be copied whole
+checked_piece       one such piece that the caller hands over
+enough_samples      a refusal of too few samples, with a hint at transposed data
+positive            a positive integer argument
+constant_channels   numbers of the channels that never change, from their least and greatest values
+"""
+
+from collections.abc import Iterator
+from operator import index
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...base.errors import InvalidData
+
+FloatArray = NDArray[np.float64]
+PIECE = 1 << 15  # samples converted and checked at once
+
+
+def positive(value: Any, name: str) -> int:
+    """`value` as a positive int; InvalidData otherwise (booleans and floats are refused)."""
+    try:
+        number = index(value)
+    except TypeError:
+        number = 0
+    if isinstance(value, bool | np.bool_) or number < 1:
+        raise InvalidData(f"{name} must be a positive integer (got {value!r})")
+    return number
+
+
+def two_dimensional(values: ArrayLike, name: str) -> NDArray[Any]:
+    """`values` as an array (N, channels), a view where it already is an array; InvalidData for other shapes and for types without real
+    values.
+    """
+    if np.ma.is_masked(values):
+        raise InvalidData(
+            f"{name} has masked samples; every sample is needed: cut the record there, or identify from its parts as several experiments"
+        )
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise InvalidData(f"{name} must be an array with one row a sample and one column a channel: {error}") from None
+    if array.dtype.kind not in "fiub":
+        hint = "split it into real and imaginary channels" if array.dtype.kind == "c" else "convert it with numpy.asarray(..., dtype=float)"
+        raise InvalidData(f"{name} holds values of type {array.dtype}; real numbers are needed: {hint}")
+    if array.ndim == 1:
+        array = array[:, np.newaxis]
+    if array.ndim != 2:
+        raise InvalidData(f"{name} has {array.ndim} axes, shape {array.shape}; (samples, channels) is needed, or one axis for one channel")
+    if array.shape[0] == 0 or array.shape[1] == 0:
+        raise InvalidData(f"{name} is empty, shape {array.shape}: at least one sample and one channel are needed")
+    return array
+
+
+def _finite(array: NDArray[Any], name: str, first: int) -> FloatArray:
+    """`array` as float64; InvalidData that names the first sample (counted from `first`) and channel that is no finite number."""
+    piece = np.asarray(array, dtype=np.float64)
+    # A finite sum needs finite terms: the element-wise search runs only where the sum is not finite (or overflows).
+    with np.errstate(over="ignore", invalid="ignore"):
+        total = np.sum(piece)
+    if not np.isfinite(total):
+        wrong = np.argwhere(~np.isfinite(piece))
+        if len(wrong):
+            row, column = (int(number) for number in wrong[0])
+            value = "NaN" if np.isnan(piece[row, column]) else "infinite"
+            raise InvalidData(
+                f"{name} is {value} at sample {first + row}, channel {column} (counted from 0); every sample must be finite: cut the "
+                "record there, "
+                f"or identify from its parts as several experiments"
+            )
+    return piece
+
+
+def signal(values: ArrayLike, name: str = "y") -> FloatArray:
+    """A checked signal (N, channels) in float64: `values` themselves where they are float64, else a converted copy."""
+    array = two_dimensional(values, name)
+    converted = array.astype(np.float64, copy=False)
+    for first in range(0, len(array), PIECE):
+        _finite(converted[first : first + PIECE], name, first)
+    return converted
+
+
+def _same_length(y: NDArray[Any], u: NDArray[Any]) -> None:
+    if len(y) == len(u):
+        return
+    hint = "cut both to the samples they share"
+    if u.shape[1] == y.shape[1] > max(len(y), len(u)):
+        hint = "both look transposed: pass y.T and u.T"
+    elif u.shape[1] == len(y):
+        hint = "u looks transposed: pass u.T"
+    elif y.shape[1] == len(u):
+        hint = "y looks transposed: pass y.T"
+    raise InvalidData(f"y has {len(y)} samples (shape {y.shape}) and u has {len(u)} (shape {u.shape}); equal numbers are needed: {hint}")
+
+
+def signals(y: ArrayLike, u: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Checked y (N, p) and u (N, n_u) of equal length."""
+    outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
+    _same_length(outputs, inputs)
+    return signal(outputs, "y"), signal(inputs, "u")
+
+
+def enough_samples(samples: int, needed: int, why: str, shape: tuple[int, ...] = ()) -> None:
+    """InvalidData where `samples` < `needed`; `why` says what needs them, `shape` (of y) allows a hint at transposed data."""
+    if samples >= needed:
+        return
+    transposed = len(shape) == 2 and shape[1] > shape[0]
+    hint = f"y of shape {shape} looks transposed: pass y.T and u.T" if transposed else "record more, or take fewer block_rows or past_rows"
+    raise InvalidData(f"{samples} samples are too few: {why} needs at least {needed}; {hint}")
+
+
+def pieces(y: ArrayLike, u: ArrayLike, size: int = PIECE) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """The checked pieces of one experiment, `size` samples each but the last: float64 copies only as large as one piece."""
+    outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
+    _same_length(outputs, inputs)
+    for first in range(0, len(outputs), size):
+        part = slice(first, first + size)
+        yield _finite(outputs[part], "y", first), _finite(inputs[part], "u", first)
+
+
+def checked_piece(y: ArrayLike, u: ArrayLike, first: int) -> tuple[FloatArray, FloatArray]:
+    """One piece (y, u) handed over by the caller, whose first sample has the number `first`."""
+    outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
+    _same_length(outputs, inputs)
+    return _finite(outputs, "y", first), _finite(inputs, "u", first)
+
+
+def constant_channels(least: FloatArray, greatest: FloatArray) -> list[int]:
+    """Numbers (from 0) of the channels whose least and greatest values are equal."""
+    return [int(channel) for channel in np.flatnonzero(least == greatest)]

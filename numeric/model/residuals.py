@@ -1,0 +1,231 @@
+"""The residual r = y - (response of the model to u), with the initial state fitted or given.
+
+Whatever trajectory x+ = A x + B u is subtracted, r obeys the fault model x+ = A x + F v, r = C x + G v; the choice of initial
+state only decides how much free response stays in r. Fitting it by least squares takes out as much as can be.
+
+    residual        y, u, model -> ResidualSignal
+    ResidualSignal  r, x0 with their uncertainty
+    split           coordinates in which slow and decaying modes run forward and growing modes run backward
+    regressor       Phi (N p, n): the free response of unit states; the fit is y - T u ~ Phi theta
+
+Soundness. The fit goes by orthogonal triangles of chunks of Phi, its columns scaled to unit norm, and singular directions at rounding
+level are left at zero (they are not observable in the record), never by normal equations. A mode with |lambda|^N > GROWTH cannot be
+simulated forward: the rounding of the first samples would fill the record. It is split off by an ordered Schur form and a Sylvester
+equation [GVL13] and run backward from its fitted final state, where it decays; so unstable models need no refusal. With a
+given x0 nothing is left to choose, and they are refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import ArrayLike, NDArray
+
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.data.validation import signals
+from faultspace.numeric.model.models import Simulator, StateSpaceModel
+
+Array = NDArray[np.float64]
+
+GROWTH = 1e4
+"""Largest growth over the record with which a mode is still simulated forward: it costs four digits of sixteen."""
+CHUNK = 1024
+
+
+@dataclass(frozen=True)
+class ResidualSignal:
+    """`r` (N, p); `x0` (n,) the state at the first sample; `covariance` (p, p) of r about zero, fitted degrees of freedom taken off;
+    `x0_covariance` (n, n), zero when x0 was given; `observed` the number of state directions that the record determines;
+    `backward` the number of growing modes that were run backward; `notes` what a user should know."""
+
+    r: Array
+    x0: Array
+    covariance: Array
+    x0_covariance: Array
+    observed: int
+    backward: int
+    notes: tuple[str, ...]
+
+
+def residual(
+    y: ArrayLike, u: ArrayLike, model: StateSpaceModel, *, x0: ArrayLike | None = None
+) -> ResidualSignal:
+    """r = y - (model's response to u), y (N, p), u (N, n_u); the initial state is fitted unless `x0` (n,) is given.
+
+    The covariance of x0 holds for a stationary r, with autocovariances up to lag N^(1/3) under Bartlett weights [NW87]; the model is
+    taken as exact. Raises InvalidData for NaN, unequal lengths, channels that do not fit the model, fewer than n samples,
+    and for a given x0 with a model whose modes grow by more than 1e4 over the record.
+    """
+    outputs, inputs = signals(y, u)
+    _check(outputs, inputs, model)
+    if x0 is not None:
+        return _with_given_state(outputs, inputs, model, x0)
+    parts = split(model, len(outputs))
+    error = outputs - parts.forced(inputs)
+    theta, directions, observed = _fit(parts, error)
+    r = error
+    for start, stop, phi in parts.chunks():
+        r[start:stop] -= phi @ theta
+    to_x0 = parts.to_first_state()
+    notes = []
+    if parts.backward:
+        notes.append(f"{parts.backward} growing mode(s) of the model were run backward from their fitted final state")
+    if observed < model.n:
+        notes.append(f"the record determines {observed} of {model.n} state directions; x0 is zero along the others")
+    freedom = max(len(r) - observed / model.p, 1.0)
+    return ResidualSignal(
+        r=r,
+        x0=parts.first_state(theta, inputs),
+        covariance=r.T @ r / freedom,
+        x0_covariance=to_x0 @ _state_covariance(parts, r, directions) @ to_x0.T,
+        observed=observed,
+        backward=parts.backward,
+        notes=tuple(notes),
+    )
+
+
+def _check(y: Array, u: Array, model: StateSpaceModel) -> None:
+    """Refuse data that do not fit the model."""
+    if y.shape[1] != model.p or u.shape[1] != model.n_u:
+        turned = "; y looks transposed, pass y.T" if y.shape[0] == model.p else ""
+        raise InvalidData(
+            f"y has {y.shape[1]} columns and u has {u.shape[1]}, the model has {model.p} outputs and {model.n_u} inputs: "
+            f"one column a channel is needed{turned}"
+        )
+    if len(y) * model.p <= model.n:
+        raise InvalidData(
+            f"{len(y)} samples of {model.p} outputs cannot fix {model.n} initial states: more than {model.n / model.p:g} samples are "
+            f"needed; give more samples, or x0"
+        )
+
+
+def _with_given_state(y: Array, u: Array, model: StateSpaceModel, x0: ArrayLike) -> ResidualSignal:
+    """The residual from a known initial state."""
+    state = np.array(x0, dtype=np.float64).reshape(-1)
+    growing = int(np.sum(np.abs(model.poles) > _radius(len(y))))
+    if growing:
+        raise InvalidData(
+            f"the model has {growing} mode(s) that grow by more than {GROWTH:g} over {len(y)} samples: simulating from a given x0 would "
+            f"amplify rounding as much; leave x0 out (the growing modes are then run backward), or cut the record into shorter experiments"
+        )
+    r = y - model.simulate(u, state)
+    return ResidualSignal(r, state, r.T @ r / len(r), np.zeros((model.n, model.n)), model.n, 0, ())
+
+
+def _radius(samples: int) -> float:
+    """The modulus that grows by GROWTH over the record."""
+    return float(GROWTH ** (1.0 / samples))
+
+
+@dataclass(frozen=True)
+class SplitModel:
+    """x = basis [x_f; x_b]: x_f runs forward from its first state, x_b backward from the state after the last sample; theta stacks both."""
+
+    forward_model: StateSpaceModel
+    backward_model: StateSpaceModel
+    basis: Array
+    samples: int
+
+    @property
+    def backward(self) -> int:
+        """Number of states that run backward."""
+        return self.backward_model.n
+
+    def forced(self, u: Array) -> Array:
+        """The response to u with theta = 0."""
+        return self.forward_model.simulate(u) + self.backward_model.simulate(u[::-1])[::-1]
+
+    def rows(self, start: int, stop: int) -> Array:
+        """Rows start .. stop - 1 of the regressor, (stop - start, p, n)."""
+        ahead = _powers(self.forward_model, start, stop - start)
+        behind = _powers(self.backward_model, self.samples - stop, stop - start)[::-1]
+        return np.concatenate([ahead, behind], axis=2)
+
+    def chunks(self) -> Iterator[tuple[int, int, Array]]:
+        """The regressor in chunks (start, stop, rows)."""
+        for start in range(0, self.samples, CHUNK):
+            stop = min(start + CHUNK, self.samples)
+            yield start, stop, self.rows(start, stop)
+
+    def first_state(self, theta: Array, u: Array) -> Array:
+        """The state x at the first sample."""
+        ahead = self.forward_model.n
+        simulator = Simulator(self.backward_model, theta[ahead:])
+        simulator.respond(np.ascontiguousarray(u[::-1]))
+        return np.asarray(self.basis @ np.concatenate([theta[:ahead], simulator.state]))
+
+    def to_first_state(self) -> Array:
+        """d x(0) / d theta."""
+        back = np.linalg.matrix_power(self.backward_model.A, self.samples)
+        return np.asarray(self.basis @ scipy.linalg.block_diag(np.eye(self.forward_model.n), back))
+
+
+def split(model: StateSpaceModel, samples: int) -> SplitModel:
+    """Separate the modes that grow by more than GROWTH over the record from the others."""
+    radius = _radius(samples)
+    schur, turn, ahead = scipy.linalg.schur(
+        model.A, output="real", sort=lambda re, im: bool(np.hypot(re, im) <= radius)
+    )
+    coupling = scipy.linalg.solve_sylvester(schur[:ahead, :ahead], -schur[ahead:, ahead:], -schur[:ahead, ahead:])
+    basis = turn.copy()
+    basis[:, ahead:] += turn[:, :ahead] @ coupling
+    inputs = turn.T @ model.B
+    inputs[:ahead] -= coupling @ inputs[ahead:]
+    outputs = model.C @ basis
+    forward_model = StateSpaceModel(schur[:ahead, :ahead], inputs[:ahead], outputs[:, :ahead], model.D)
+    # x_b(k) = A^-1 (x_b(k+1) - B u(k)), y(k) = C x_b(k): a decaying model of the reversed record.
+    inverse = np.linalg.inv(schur[ahead:, ahead:])
+    push = -inverse @ inputs[ahead:]
+    backward_model = StateSpaceModel(inverse, push, outputs[:, ahead:] @ inverse, outputs[:, ahead:] @ push)
+    return SplitModel(forward_model, backward_model, basis, samples)
+
+
+def _powers(model: StateSpaceModel, first: int, count: int) -> Array:
+    """C A^k for k = first .. first + count - 1, (count, p, n), by doubling."""
+    block = (model.C @ np.linalg.matrix_power(model.A, first))[np.newaxis]
+    step = model.A
+    while len(block) < count:
+        block = np.concatenate([block, block @ step])
+        step = step @ step
+    return np.asarray(block[:count], dtype=np.float64)
+
+
+def _fit(parts: SplitModel, error: Array) -> tuple[Array, Array, int]:
+    """theta by least squares, a matrix D with D D' = (Phi' Phi)^+, and the number of directions determined."""
+    n = parts.basis.shape[0]
+    triangle = np.zeros((0, n + 1))
+    for start, stop, phi in parts.chunks():
+        rows = np.hstack([phi.reshape(phi.shape[0] * phi.shape[1], n), error[start:stop].reshape(-1, 1)])
+        triangle = np.asarray(np.linalg.qr(np.vstack([triangle, rows]), mode="r"))
+    norms = np.linalg.norm(triangle[:, :n], axis=0)
+    norms = np.where(norms > 0.0, norms, 1.0)
+    left, values, right = np.linalg.svd(triangle[:, :n] / norms, full_matrices=False)
+    least = np.finfo(float).eps * max(len(error), n) * (values[0] if n else 0.0)
+    observed = int(np.sum(values > least))
+    directions = (right[:observed].T / values[:observed]) / norms[:, np.newaxis]
+    return directions @ (left[:, :observed].T @ triangle[:, n]), directions, observed
+
+
+def _state_covariance(parts: SplitModel, r: Array, directions: Array) -> Array:
+    """Covariance of theta for a stationary r: D D' Phi' Cov(r) Phi D D', lags up to N^(1/3), Bartlett weights."""
+    reach = min(int(np.ceil(len(r) ** (1 / 3))), len(r) - 1)
+    middle = np.zeros((parts.basis.shape[0],) * 2)
+    lagged = [(1.0 - lag / (reach + 1)) * (r[lag:].T @ r[: len(r) - lag]) / len(r) for lag in range(reach + 1)]
+    largest = 0.0
+    for start, _, phi in parts.chunks():
+        size = float(np.max(np.abs(phi), initial=0.0))
+        largest = max(largest, size)
+        if size < 1e-9 * largest:  # a decayed response adds nothing to a covariance
+            continue
+        before = min(start, reach)
+        longer = np.concatenate([parts.rows(start - before, start), phi]) if before else phi
+        for lag, covariance in enumerate(lagged):
+            skip = max(lag - before, 0)
+            now, then = phi[skip:], longer[before + skip - lag : len(longer) - lag]
+            term = np.einsum("kpi,pq,kqj->ij", now, covariance, then, optimize=True)
+            middle += term if lag == 0 else term + term.T
+    inverse = directions @ directions.T
+    return np.asarray(inverse @ middle @ inverse)

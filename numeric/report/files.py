@@ -1,0 +1,206 @@
+"""What `faultspace identify` writes of an Answer: JSON and the files of its folder.
+
+document     the JSON-ready dict of --json (schemas/identify.schema.json)
+write        all files, written elsewhere first and then renamed into place; says which, and what is missing and why
+NAMES        the names of the files; those of an earlier answer that this one lacks are removed
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...base.errors import InvalidInput, quote_path
+from ..count.mean_shift import POWER
+from ..data.records import SampleStore, Tell
+from ..space.distances import containment_distance
+from .pictures import PICTURES, pictures
+from .summary import advice, fit, markdown, summary
+
+if TYPE_CHECKING:
+    from ..result import Answer
+
+Array = NDArray[np.float64]
+
+MODEL, SPACE, SIGNAL, SUMMARY = "model.json", "fault-space.json", "fault-signal.csv", "summary.md"
+NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, *PICTURES)
+
+
+def document(answer: Answer, data: str) -> dict[str, Any]:
+    """Everything in JSON: null where there is no answer, complex numbers as [real, imaginary]."""
+    record, model = answer.record, answer.identification
+    result: dict[str, Any] = {
+        "data": data,
+        "samples": len(record),
+        "inputs": list(record.inputs),
+        "outputs": list(record.outputs),
+        "means_removed": answer.means_removed,
+        "block_rows": answer.block_rows,
+        "order": model.order if model else None,
+        "order_given": answer.order_given,
+        "singular_values": _plain(answer.singular_values),
+        "n_v": answer.count,
+        "n_v_at_least": answer.at_least,
+        "n_v_given": answer.count_given,
+        "n_v_reason": answer.count_reason,
+        "n_v_from": answer.counted_by,
+        "healthy_until": answer.healthy_until,
+        "notes": list(answer.notes),
+        "next": advice(answer),
+    }
+    if model:
+        result |= {
+            "order_gap": _plain(model.gap.ratio),
+            "order_gap_clean": model.gap.clean,
+            "poles": _plain(model.model.poles),
+            "stable": model.model.is_stable,
+            "fit": _plain(fit(answer)),
+            "residual_covariance": _plain(answer.residual.covariance) if answer.residual else None,
+            "x0": _plain(answer.residual.x0) if answer.residual else None,
+            "condition_numbers": {name: _plain(value) for name, value in model.condition_numbers.items()},
+        }
+    if answer.dimension:
+        found = answer.dimension
+        result |= {
+            "residual_dimension": found.n_v,
+            "counted_on": list(answer.held),
+            "regime": found.regime,
+            "windows": list(found.windows),
+            "ranks": list(found.ranks),
+            "gaps": list(found.gaps),
+            "margins": _plain(found.margins),
+        }
+    if answer.against:
+        result["against_healthy"] = {
+            "n_v": answer.against.n_v,
+            "at_least": answer.against.at_least,
+            "reason": answer.against.reason,
+            "healthy": list(answer.healthy),
+            "visible": _plain(answer.against.visible),
+        }
+    mean = answer.mean
+    result["mean_shift"] = mean and {
+        "against": "zero" if answer.healthy_until is None else "healthy samples",
+        "shifted": mean.shifted,
+        "reason": mean.reason,
+        "level": mean.level,
+        "statistic": _plain(mean.statistic),
+        "threshold": _plain(mean.threshold),
+        "shift": _plain(mean.shift),
+        "deviations": _plain(mean.deviations),
+        "outputs": [answer.record.outputs[i] for i in mean.channels],
+    }
+    if answer.healthy_until is not None and mean:
+        result["visible"] = {"power": POWER, "level": mean.level, "constant": _plain(mean.visible), "white": _plain(answer.visible)}
+    result["fault_space"] = _space(answer)
+    result["explained"] = _plain(answer.explained)
+    result["explained_by_noise"] = _plain(answer.by_noise)
+    signal = answer.signal
+    result["fault_signal"] = signal and {
+        "delay": signal.delay,
+        "trusted": list(signal.trusted),
+        "zeros": _plain(signal.zeros),
+        "misfit": _plain(signal.misfit),
+        "mismatch": _plain(signal.mismatch),
+        "reason": signal.reason,
+    }
+    return result
+
+
+def write(answer: Answer, out: Path, data: str, tell: Tell) -> tuple[list[str], list[str]]:
+    """Writes the files into the folder `out`; their names, and remarks on what could not be had. Raises InvalidInput."""
+    remarks: list[str] = []
+    try:
+        with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
+            folder = Path(name)
+            _tables(answer, folder, tell)
+            remarks += pictures(answer, folder)
+            lines = [*summary(answer, data)]
+            if remarks:
+                lines += ["", "## Missing", *(f"- {remark}" for remark in remarks)]
+            (folder / SUMMARY).write_text(markdown(lines), encoding="utf-8")
+            written = [name for name in NAMES if (folder / name).exists()]
+            for name in NAMES:
+                if name in written:
+                    os.replace(folder / name, out / name)
+                else:
+                    (out / name).unlink(missing_ok=True)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise InvalidInput(f"{quote_path(str(out))}: cannot be written into ({reason[:1].lower()}{reason[1:]})") from None
+    return written, remarks
+
+
+def _tables(answer: Answer, folder: Path, tell: Tell) -> None:
+    if answer.identification is not None:
+        model = answer.identification.model.to_json()
+        model |= {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
+        if answer.pair is not None:
+            F, G = answer.pair
+            model |= {"n_v": F.shape[1], "F": F.tolist(), "G": G.tolist()}
+        _json(folder / MODEL, model)
+    if (space := _space(answer)) is not None:
+        _json(folder / SPACE, space)
+    if answer.signal is not None:
+        _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, tell)
+
+
+def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, tell: Tell) -> None:
+    """A line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back."""
+    first, last = trusted
+    with open(path, "w", encoding="utf-8", newline="\n") as stream:
+        stream.write(",".join(["sample", "determined", *(f"v{j + 1}" for j in range(v.width))]) + "\n")
+        k = 0
+        for piece in v.pieces():
+            lines = []
+            for row in piece.tolist():
+                lines.append(",".join([str(k), str(int(first <= k < last)), *map(repr, row)]))
+                k += 1
+            stream.write("\n".join(lines) + "\n")
+            tell("writing the fault signal", k, len(v))
+
+
+def _space(answer: Answer) -> dict[str, Any] | None:
+    space = answer.space
+    if space is None:
+        return None
+    return {
+        "n": space.n,
+        "p": len(space.basis) - space.n,
+        "n_v": space.n_v,
+        "n_z": space.n_z if space.meaningful else None,
+        "zeta": space.zeta,
+        "equations": space.equations,
+        "unknowns": space.unknowns,
+        "meaningful": space.meaningful,
+        "decided": space.decided,
+        "reason": space.reason,
+        "block_rows": space.block_rows,
+        "basis": _plain(space.basis) if space.meaningful else None,
+        "F": _plain(space.F) if space.meaningful else None,
+        "G": _plain(space.G) if space.meaningful else None,
+        "pair_in_space": _plain(containment_distance(np.vstack(answer.pair), space.basis)) if answer.pair else None,
+    }
+
+
+def _json(path: Path, content: object) -> None:
+    path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def _plain(values: ArrayLike | None) -> Any:
+    """Lists and numbers that JSON has: null for what is not finite."""
+    if values is None:
+        return None
+    array = np.asarray(values)
+    if array.ndim:
+        return [_plain(entry) for entry in array]
+    if np.iscomplexobj(array):
+        return [_plain(array.real), _plain(array.imag)]
+    number = float(array)
+    return number if np.isfinite(number) else None

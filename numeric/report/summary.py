@@ -1,0 +1,286 @@
+"""What `faultspace identify` says to people: an Answer as lines of Markdown, on the terminal and in summary.md.
+
+summary     the lines: model, faults, fault space, fault signal, notes, what to try next
+advice      what to try next, from what was found
+fit         how much of each output the model explains
+markdown    the lines as a file: blank lines around headings, code and lists
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...base.errors import quote_path
+from ..count.mean_shift import POWER
+
+if TYPE_CHECKING:
+    from ..result import Answer
+
+Array = NDArray[np.float64]
+
+MOST_ROWS = 12
+DIGITS = 4
+CANDIDATES = 3
+
+
+def fit(answer: Answer) -> Array | None:
+    """100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
+    if answer.residual is None:
+        return None
+    record = answer.record if answer.healthy_until is None else answer.record.beginning(answer.healthy_until)
+    spread = np.sqrt(len(record)) * record.channels.deviation[record.n_u :]
+    return np.asarray(100 * (1 - answer.residual.early_norm / np.where(spread > 0, spread, 1.0)))
+
+
+def summary(answer: Answer, data: str) -> Iterator[str]:
+    """The answer for people, as lines of Markdown."""
+    record, model = answer.record, answer.identification
+    yield f"# {quote_path(data)}"
+    yield f"{len(record)} samples, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
+    yield f"windows of {answer.block_rows} samples{', means removed' if answer.means_removed else ''}"
+    yield ""
+    yield "## Model"
+    if model is None:
+        yield "order: **undecided**, the singular values have no gap to trust"
+        yield f"singular values: {_listed(answer.singular_values)}"
+    else:
+        yield f"order **{model.order}**, {_why_the_order(answer)}"
+        moduli = np.abs(model.model.poles)
+        stability = "stable" if model.model.is_stable else "NOT stable"
+        yield f"poles: {_listed(model.model.poles)} ({stability}, largest modulus {moduli.max(initial=0.0):.{DIGITS}g})"
+        shown = fit(answer)
+        if shown is not None:
+            pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, shown, strict=True)]
+            left = "what is left is faults, noise and the model's error"
+            if answer.healthy_until is not None:
+                yield f"identified from the samples 0 to {answer.healthy_until - 1}, stated to be without fault"
+                left = "what is left is noise and the model's error"
+            yield f"fit, initial state included: {_several(pairs)}; {left}"
+        yield ""
+        yield "## Faults"
+        yield f"number of independent faults n_v: **{_count(answer)}**"
+        yield f"why: {answer.count_reason}"
+        yield from _healthy_lines(answer)
+        yield from _mean_lines(answer)
+        yield from _visible_lines(answer)
+        if answer.dimension and answer.dimension.regime == "rounding":
+            yield f"gaps rank R_(s+1) - rank R_s beyond the inputs, s = 1, 2, ...: {' '.join(map(str, answer.dimension.gaps))}"
+        yield from _space_lines(answer)
+        yield from _signal_lines(answer)
+    if answer.notes:
+        yield ""
+        yield "## Notes"
+        yield from (f"- {note}" for note in answer.notes)
+    yield ""
+    yield "## What to try next"
+    yield from (f"- {line}" for line in advice(answer))
+
+
+def _why_the_order(answer: Answer) -> str:
+    model = answer.identification
+    assert model is not None
+    gap = model.gap
+    how = "as given" if answer.order_given else "by the gap in the singular values"
+    if gap.order >= len(answer.singular_values):
+        return f"{how}: as many as there are singular values"
+    clean = "clean" if gap.clean else "NOT clean"
+    return (
+        f"{how}: singular value {gap.order} is {gap.ratio:.3g} times the next, against {gap.runner_up_ratio:.3g} times at {gap.runner_up} "
+        f"({clean})"
+    )
+
+
+def _healthy_lines(answer: Answer) -> Iterator[str]:
+    """Both counts, where there are two."""
+    against, alone = answer.against, answer.dimension
+    if against is None:
+        return
+    first, until = answer.healthy
+    taken = f"; taken: {answer.counted_by}" if answer.counted_by else ""
+    yield f"against the healthy samples {first} to {until - 1}: {_said(against.n_v)} ({against.reason})"
+    yield f"from the residual alone: {_said(alone.n_v)} ({alone.reason}){taken}" if alone else f"from the residual alone: none{taken}"
+
+
+def _count(answer: Answer) -> str:
+    if answer.count is not None:
+        return str(answer.count)
+    return f"undecided, at least {answer.at_least}" if answer.at_least else "undecided"
+
+
+def _mean_lines(answer: Answer) -> Iterator[str]:
+    """The mean beside the rank: what moved it, by how much."""
+    mean, rest, record = answer.mean, answer.residual, answer.record
+    if mean is None or rest is None:
+        return
+    against = "zero" if answer.healthy_until is None else "that of the healthy samples"
+    yield f"mean of the residual against {against}: {mean.reason}"
+    if not mean.shifted or mean.shift is None or mean.deviations is None:
+        return
+    noise = np.sqrt(answer.modelled) / np.where(rest.early_norm > 0, rest.early_norm, np.inf)
+    rows = zip(record.outputs, mean.shift, mean.deviations, mean.shift * noise, strict=True)
+    sigma = "" if answer.healthy_until is None else " ({:.3g} times the size of its healthy residual)"
+    yield "mean by output: " + _several([f"{name} {d:.4g} +- {e:.2g}{sigma.format(size)}" for name, d, e, size in rows])
+
+
+def _visible_lines(answer: Answer) -> Iterator[str]:
+    """What would have been seen, where little or nothing was."""
+    mean, outputs = answer.mean, answer.record.outputs
+    if answer.healthy_until is None or mean is None:
+        return
+    kinds = [("a constant at one output", mean.visible), ("a white signal at one output, deviation", answer.visible)]
+    for kind, sizes in kinds:
+        if sizes is not None:
+            told = _several([f"{name} {size:.3g}" for name, size in zip(outputs, sizes, strict=True)])
+            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {told}"
+
+
+def _said(number: int | None) -> str:
+    return "undecided" if number is None else str(number)
+
+
+def _space_lines(answer: Answer) -> Iterator[str]:
+    space = answer.space
+    if space is None:
+        return
+    yield ""
+    yield "## Fault space"
+    if not space.meaningful:
+        yield f"**none that means anything**: {space.reason}"
+        return
+    yield f"dimension n_z = **{space.n_z}**{'' if space.decided else ' (undecided)'}: {space.reason}"
+    yield f"equations: {space.equations} independent ones for the {space.unknowns} entries of a fault column [f; g]"
+    if space.zeta == 0:
+        up_to = "a factor" if space.n_v == 1 else "a mixture of the faults"
+        yield f"meaning: no zeros, neither finite nor infinite, so F and G are determined up to {up_to}"
+    elif space.zeta is not None:
+        zeros = f"{space.zeta} for {'its zero' if space.zeta == 1 else 'zeros'}, finite or infinite"
+        found = "" if answer.signal is None else f"; the F and G taken here have the finite zeros: {_listed(answer.signal.zeros) or 'none'}"
+        yield f"meaning: {space.n_v} for {'the fault' if space.n_v == 1 else 'the faults'} and {zeros}{found}"
+        columns = "any column" if space.n_v == 1 else f"any {space.n_v} columns"
+        yield f"F and G are not unique: {columns} out of the space, in general position, make the same outputs"
+    yield f"basis of [F; G], the first {space.n} rows are F:"
+    yield from (f"    {line}" for line in _matrix(space.basis))
+
+
+def _signal_lines(answer: Answer) -> Iterator[str]:
+    signal, space, record = answer.signal, answer.space, answer.record
+    if answer.explained is not None and answer.by_noise is not None:
+        yield ""
+        yield "## Fault signal"
+        on = " after the healthy samples" if answer.healthy_until is not None else ""
+        yield (
+            f"explained of the residual{on}: {100 * answer.explained:.4g} %, where mere noise of its spectra could give up to "
+            f"{100 * answer.by_noise:.3g} %{'' if signal is not None else ': **withheld**, with F and G'}"
+        )
+    if signal is None or space is None:
+        return
+    first, last = signal.trusted
+    N = len(record)
+    delay = "not determined by the outputs" if signal.delay is None else _counted(signal.delay, "sample")
+    yield f"delay until it is seen in the outputs, the state being unknown: {delay}"
+    if first >= last:
+        yield f"determined: **no sample** ({signal.reason})"
+    elif (first, last) == (0, N):
+        yield f"determined: all {N} samples"
+    else:
+        yield f"determined: samples {first} to {last - 1} of 0 to {N - 1} ({signal.reason})"
+    yield f"left unexplained of the residual: {100 * signal.misfit:.2g} % (noise, or what n_v or the order miss)"
+    if space.zeta:
+        yield "it belongs to one choice of F and G in the space; other choices have other signals and the same outputs"
+    yield "its scale, sign and mixture go with the columns of F and G in the model file"
+
+
+def advice(answer: Answer) -> list[str]:
+    """What to try next: about what is undecided first, and how to make sure of what is not."""
+    model, record = answer.identification, answer.record
+    if model is None:
+        return [
+            f"--order K: the largest ratios of neighbouring singular values are {_candidates(answer.singular_values)}",
+            f"--block-rows {2 * answer.block_rows} or {max(answer.block_rows // 2, 2)}: an order is right when it does not change",
+            "more samples, or an input that excites more: noise moves the singular values together",
+        ]
+    lines = []
+    if not model.model.is_stable:
+        lines.append("the model is not stable: a lower --order, --remove-means, or a record without drift, unless the plant is unstable")
+    if answer.count is None:
+        lines.append("--faults K, where the number of faults is known; the space and the signal then follow")
+        if answer.healthy_until is None:
+            lines.append("--healthy-until K, where the record begins with K samples without fault: what they show is not counted")
+        if record.p == 1:
+            lines.append("more outputs: with one, a fault cannot be told from noise")
+        else:
+            lines.append("more samples, larger --block-rows, or more outputs than faults; constant or sinusoidal faults count as fewer")
+        if answer.moved:
+            lines.append("for a constant fault: the outputs whose means moved, above, and by how much; record where it sets in or varies")
+    elif answer.count == 0:
+        lines.append("nothing about faults: record while one acts")
+    elif answer.space is None or not answer.space.meaningful:
+        lines.append("more outputs than independent faults: as many faults as outputs leave no relation to find F and G from")
+    else:
+        if not answer.space.decided:
+            lines.append("more samples: the dimension of the fault space is a near thing; F, G and the signal follow where it is decided")
+        if answer.explained is not None and answer.signal is None:
+            lines.append("another --order or --faults: the signal explains no more of the residual than it would of noise")
+        if answer.signal is not None and answer.signal.trusted[0] >= answer.signal.trusted[1]:
+            lines.append("an output that sees the fault sooner, or another one: no sample of the signal is determined by these")
+    other = answer.block_rows + max(answer.block_rows // 2, 2)
+    lines.append(f"--block-rows {other}: order, n_v and n_z should stay as they are")
+    if answer.pair is not None:
+        lines.append(
+            "faultspace inspect model.json --floats-exactly: indices and delays of these very floats; it can confirm no zeros, because "
+            "floats that were estimated have none exactly"
+        )
+    return lines
+
+
+def _candidates(values: Array) -> str:
+    held = np.maximum(values, np.finfo(np.float64).eps * values.max(initial=0.0))
+    ratios = held[:-1] / np.where(held[1:] > 0, held[1:], 1.0)
+    best = np.argsort(-ratios[:-1], kind="stable")[:CANDIDATES] if len(ratios) > 1 else np.arange(len(ratios))
+    return ", ".join(f"{ratios[k]:.3g} at {k + 1}" for k in best) or "none"
+
+
+def _counted(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"
+
+
+def _listed(values: ArrayLike, most: int = MOST_ROWS) -> str:
+    shown = [_number(value) for value in np.asarray(values).ravel()]
+    return ", ".join(shown[:most]) + (f", ... ({len(shown)} in all)" if len(shown) > most else "")
+
+
+def _number(value: Any) -> str:
+    if np.iscomplexobj(value) and abs(value.imag) > 0:
+        return f"{value.real:.{DIGITS}g} {'+' if value.imag >= 0 else '-'} {abs(value.imag):.{DIGITS}g}i"
+    return f"{value.real:.{DIGITS}g}"
+
+
+def _several(names: Sequence[str]) -> str:
+    return ", ".join(names[:MOST_ROWS]) + (f", ... ({len(names)} in all)" if len(names) > MOST_ROWS else "")
+
+
+def _matrix(matrix: Array) -> list[str]:
+    # No minus before a zero that rounding made.
+    rounded = np.round(matrix, DIGITS) + 0.0
+    rows = [[f"{entry: .{DIGITS}f}" for entry in row[:MOST_ROWS]] + ["..."] * (len(row) > MOST_ROWS) for row in rounded]
+    shown = rows if len(rows) <= 2 * MOST_ROWS else [*rows[: 2 * MOST_ROWS - 1], ["..."]]
+    return ["[ " + "  ".join(row) + " ]" for row in shown]
+
+
+def markdown(lines: Sequence[str]) -> str:
+    """The lines with blank ones around headings, code and lists; a plain line is a paragraph's own line."""
+    text: list[str] = []
+    for line in lines:
+        plain = bool(line) and not line.startswith(("#", "-", "    "))
+        last = text[-1] if text else ""
+        code, after_code = line.startswith("    "), last.startswith("    ")
+        if (last and (line.startswith("#") or (code and not after_code))) or (after_code and plain):
+            text.append("")
+        text.append(f"{line}  " if plain else line)
+        if line.startswith("#"):
+            text.append("")
+    return "\n".join(text) + "\n"

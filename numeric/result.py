@@ -1,0 +1,82 @@
+"""What `identify` returns: the model, the residual, the count of faults, their space and signal, and what a user must know.
+
+Answer        the record; None stands for what was not asked because of what came before
+COUNTED_BY    what a count can rest on
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .count.against_healthy import FaultsAgainstHealthy
+from .count.mean_shift import MeanShift
+from .count.rank_gap import FaultDimension
+from .data.records import Record
+from .model.past_inputs import Identification
+from .signal.long_reconstruction import FaultSignal
+from .signal.long_residuals import LongResidual
+from .space.by_ranks import FaultSpaceEstimate
+
+Array = NDArray[np.float64]
+COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
+"""What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What was found. None: not asked, because of what came before; `notes` says what a user must know, why an end was reached included.
+
+    singular_values of PI-MOESP; order_given: the order was stated by the user; held: the samples that faults were counted on; count: the
+    n_v taken (None: undecided), count_given: stated by the user, count_reason, counted_by: of COUNTED_BY what it rests on; healthy_until:
+    samples stated to be without fault, from the first on, `modelled` the part of the record that the model is from, healthy: the samples of
+    these that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
+    where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
+    visible (p,): standard deviation of a white fault at one output that would be seen; pair: F (n, n_v), G (p, n_v) of `signal`;
+    explained: share of the residual that the signal explains, by_noise: what it would of noise.
+    """
+
+    record: Record
+    block_rows: int
+    means_removed: bool
+    order_given: bool
+    singular_values: Array
+    identification: Identification | None
+    residual: LongResidual | None = None
+    held: tuple[int, int] = (0, 0)
+    dimension: FaultDimension | None = None
+    count: int | None = None
+    count_given: bool = False
+    count_reason: str = ""
+    counted_by: str | None = None
+    healthy_until: int | None = None
+    healthy: tuple[int, int] = (0, 0)
+    against: FaultsAgainstHealthy | None = None
+    mean: MeanShift | None = None
+    visible: Array | None = None
+    unexplained: bool = False
+    space: FaultSpaceEstimate | None = None
+    pair: tuple[Array, Array] | None = None
+    signal: FaultSignal | None = None
+    explained: float | None = None
+    by_noise: float | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def modelled(self) -> int:
+        """How many samples, from the first on, the model is from."""
+        return self.healthy_until or len(self.record)
+
+    @property
+    def at_least(self) -> int:
+        """Faults that act in any case: the count where there is one; else one where anything stands out, the mean included."""
+        if self.count is not None:
+            return self.count
+        return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
+
+    @property
+    def moved(self) -> bool:
+        """Whether the mean of the residual left that of the healthy samples."""
+        return self.healthy_until is not None and self.mean is not None and self.mean.shifted is True

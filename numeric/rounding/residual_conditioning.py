@@ -1,0 +1,107 @@
+"""How far rounding can carry the residual, the singular values of R_s and the fault signal from their exact values: to first order.
+
+The exact model may be given by rational matrices of which the floats are the correct roundings: entries wrong by u = 2^-53, like the data.
+
+    given_state_error       |r - exact r|, the initial state given: what simulation loses. An error d(k) of the state's recursion reaches
+                            the output by sum |C A^k| = gain, so that |dr| <= (|dC| + gain |dA|) |x| + (gain |dB| + |dD|) |u| + u |y|
+    fitted_state_error      the same with x0 fitted: r is e = y - T u less its projection on Phi = O_N, so that
+                            |dr| <= |de| + |dPhi| (|theta| + |r| / sigma_min(Phi))                        [GVL13, section 5.3]
+    singular_value_error    |sigma - exact sigma| <= |E|_F for every singular value of R_s                [GVL13, corollary 8.6.2]
+    fault_signal_error      |v - exact v| on the trusted samples <= |W| |r - exact r that v explains|, W their rows of [O_N T_N]^+: the
+                            float v explains its own simulated residual exactly, whatever the way it was found
+
+Norms are Frobenius norms over all samples and channels, in the units of the data. Backward errors as in `conditioning`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from faultspace.numeric.model.compression import EPS
+from faultspace.numeric.model.models import BLOCK, StateSpaceModel, observability_matrix
+from faultspace.numeric.rounding.conditioning import SMALL, UNIT, reflections_error
+from faultspace.numeric.signal.reconstruction import Reconstruction
+
+Array = NDArray[np.float64]
+DETERMINED = 1e-10  # of the largest singular value of [O_N T_N]: below it a direction is one that no sample shows
+
+
+def _norm(matrix: Any) -> float:
+    return float(np.linalg.norm(matrix))
+
+
+def _gain(model: StateSpaceModel, samples: int) -> float:
+    """sum |C A^k| over the record."""
+    blocks = observability_matrix(model.A, model.C, samples).reshape(samples, model.p, model.n)
+    return float(np.sum(np.linalg.norm(blocks, axis=(1, 2))))
+
+
+def _states(model: StateSpaceModel, u: Array, x0: Array) -> float:
+    """|x| over the record."""
+    return _norm(StateSpaceModel(model.A, model.B, np.eye(model.n), np.zeros((model.n, model.n_u))).simulate(u, x0))
+
+
+def _arithmetic(model: StateSpaceModel) -> float:
+    """Relative error of each matrix that stands for its rounding, a Schur form's, and sums over a block of samples."""
+    return (1 + BLOCK * (model.n_u + model.n)) * UNIT + SMALL * model.n * EPS
+
+
+def _simulation_error(model: StateSpaceModel, y: Array, u: Array, states: float) -> float:
+    unit, gain = _arithmetic(model), _gain(model, len(u))
+    of_states = unit * (_norm(model.C) + gain * _norm(model.A)) * states
+    of_inputs = unit * (gain * _norm(model.B) + _norm(model.D)) * _norm(u)
+    # y and u themselves are roundings, and so is the last difference.
+    return of_states + of_inputs + UNIT * (gain * _norm(model.B) + _norm(model.D)) * _norm(u) + 3 * UNIT * _norm(y)
+
+
+def given_state_error(y: Array, u: Array, model: StateSpaceModel, x0: Array) -> float:
+    """Bound on |r - exact r| for `residual(y, u, model, x0=x0)`, y (N, p), u (N, n_u), x0 (n,)."""
+    of_start = _norm(observability_matrix(model.A, np.eye(model.n), len(u))) * UNIT * _norm(x0) * _norm(model.C)
+    return _simulation_error(model, y, u, _states(model, u, x0)) + of_start
+
+
+def fitted_state_error(y: Array, u: Array, model: StateSpaceModel, r: Array) -> float:
+    """Bound on |r - exact r| for `residual(y, u, model)` with its result `r` (N, p); stable models, full observability."""
+    N = len(u)
+    zero = np.zeros(model.n)
+    error = y - model.simulate(u, zero)
+    Phi = observability_matrix(model.A, model.C, N)
+    theta = np.linalg.lstsq(Phi, (error - r).ravel(), rcond=None)[0]
+    free = _norm(observability_matrix(model.A, np.eye(model.n), N))
+    moved = _arithmetic(model) * (_norm(model.C) + _gain(model, N) * _norm(model.A)) * free
+    moved += reflections_error(model.n + 1, N * model.p) * _norm(Phi)
+    least = float(np.linalg.svd(Phi, compute_uv=False)[-1])
+    rounded = reflections_error(model.n + 1, N * model.p) * _norm(error)
+    return _simulation_error(model, y, u, _states(model, u, zero)) + rounded + moved * (_norm(theta) + _norm(r) / least)
+
+
+def singular_value_error(values: Array, columns: int) -> float:
+    """Bound on the error of every one of the singular values (s p,) of R_s with so many columns, samples correctly rounded."""
+    width = len(values)
+    return (UNIT + reflections_error(width, columns) + SMALL * width * EPS) * _norm(values)
+
+
+def fault_signal_error(
+    r: Array, A: Array, F: Array, C: Array, G: Array, found: Reconstruction, *, x0: Array | None = None
+) -> float:
+    """Bound on |v - exact v| over the trusted samples of `reconstruct_fault(r, A, F, C, G, x0=x0)`; builds [O_N T_N] in full."""
+    N, m, n = len(r), F.shape[1], len(A)
+    model = StateSpaceModel(A, F, C, G)
+    free = observability_matrix(A, C, N)
+    pulse = np.vstack([G, (free.reshape(N, -1, n)[: N - 1] @ F).reshape(-1, m)])
+    p = len(C)
+    T = np.zeros((N * p, N * m))
+    for k in range(N):
+        T[k * p :, k * m : (k + 1) * m] = pulse[: (N - k) * p]
+    known = x0 is not None
+    inverse = np.linalg.pinv(T if known else np.hstack([free, T]), rcond=DETERMINED)
+    first, last = found.trusted
+    rows = inverse[(0 if known else n) :][first * m : last * m]
+    amplified = float(np.linalg.norm(rows, 2)) if rows.size else 0.0
+    left = _norm(r - found.simulated)
+    if x0 is not None:
+        left += UNIT * _norm(free) * _norm(x0)
+    return amplified * (left + _simulation_error(model, r, found.v, _norm(found.x)))

@@ -1,0 +1,142 @@
+"""The last steps of `faultspace identify`: the fault space of what was counted, and one pair (F, G) out of it with its signal.
+
+with_space    an Answer with the fault space
+with_signal   an Answer with F, G and the signal, or a note why they are withheld: n_z undecided, or the signal explains no more than noise
+choose_pair   n_v columns (F, G) out of a fault space, whose signal is then reconstructed
+largest       the largest |y| of each output
+beyond_rounding   the residual that faults are counted on, outputs that the model explains to rounding set to zero
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.errors import InvalidData
+from ..data.records import Record, Tell
+from ..space.by_ranks import FaultSpaceEstimate, fault_space
+from .explained_share import noise_share
+from .long_reconstruction import FaultSignal, reconstructed
+from .long_residuals import loudest
+from .reconstruction import reconstruct_fault
+
+if TYPE_CHECKING:
+    from ..result import Answer
+
+Array = NDArray[np.float64]
+
+ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
+MEANS_FROM = 1 << 14  # samples that means and shares are judged on: the regressors of a test are many times as many numbers
+PAIRS_TRIED = 6
+TRIED_ON = 4000  # samples that a pair is tried on
+JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which it is told
+FROM_IDENTIFIED = (
+    "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
+    "shows how much on systems of the paper's kind)"
+)
+
+
+def with_space(answer: Answer, tell: Tell) -> Answer:
+    """The space of all fault columns, on the samples that faults were counted on."""
+    model, rest = answer.identification, answer.residual
+    if not answer.count or model is None or rest is None:
+        return answer
+    tell("fault space", 0, 0)
+    try:
+        space = fault_space(beyond_rounding(answer), model.A, model.C, n_v=answer.count)
+    except InvalidData as error:
+        return replace(answer, notes=(*answer.notes, f"no fault space: {error}"))
+    if space.method == "likelihood":
+        answer = replace(answer, notes=(*answer.notes, FROM_IDENTIFIED))
+    return replace(answer, space=space if answer.count_given else replace(space, reason=counted(space.reason)))
+
+
+def with_signal(answer: Answer, tell: Tell) -> Answer:
+    """The signal of one choice of columns out of the space, over all samples, where there is ground for one."""
+    model, rest, space, count = answer.identification, answer.residual, answer.space, answer.count
+    if model is None or rest is None or space is None or not count or not space.meaningful or space.n_z < count:
+        return answer
+    if not space.decided:
+        return replace(answer, notes=(*answer.notes, "F, G and the fault signal are withheld: n_z is undecided, see the fault space"))
+    tell("choosing F and G", 0, 0)
+    part = rest.store.read(*loudest(rest.energies, len(answer.record), TRIED_ON))
+    F, G = choose_pair(part, model.A, model.C, space, count)
+    try:
+        signal = reconstructed(rest.store, model.A, F, model.C, G, "fault signal", tell, judged=answer.held)
+    except InvalidData as error:
+        return replace(answer, notes=(*answer.notes, f"no fault signal: {error}"))
+    notes = answer.notes
+    explained, by_noise = _shares(answer, signal, count)
+    answer = replace(answer, explained=explained, by_noise=by_noise)
+    if explained <= by_noise:
+        told = (
+            f"F, G and the fault signal are withheld: they explain {100 * explained:.3g} % of the residual, and {count} "
+            f"signal{'' if count == 1 else 's'} could explain up to {100 * by_noise:.3g} % of mere noise of its spectra"
+        )
+        return replace(answer, notes=(*notes, told))
+    if signal.mismatch > JOINED:
+        notes += (f"the fault signal was found piece by piece, and neighbouring pieces differ by up to {signal.mismatch:.2g} of its size",)
+    return replace(answer, pair=(F, G), signal=signal, notes=notes)
+
+
+def _shares(answer: Answer, signal: FaultSignal, count: int) -> tuple[float, float]:
+    """What the signal explains of the residual that was counted on, and what so many signals could of noise; outputs in units of the
+    healthy residual where there is one, else each in units of its own size."""
+    rest, until = answer.residual, answer.healthy_until
+    assert rest is not None
+    healthy = until is not None and not np.all(rest.early_peak <= ROUNDING * largest(answer.record))
+    units = rest.early_norm if healthy else np.sqrt(signal.whole)
+    units = np.where(units > 0.0, units, 1.0)
+    start = max((until or 0) - MEANS_FROM, 0)
+    noise = rest.store.read(start, until or 0) if healthy else rest.store.read(*answer.held)
+    try:
+        return signal.explained(units), noise_share(noise, count, units, healthy=healthy)
+    except InvalidData:
+        return signal.explained(units), count / answer.record.p
+
+
+def counted(reason: str) -> str:
+    """The reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
+    return reason.replace("n_v as given", "n_v as counted").replace("was given but", "was counted but")
+
+
+def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: int) -> tuple[Array, Array]:
+    """F (n, n_v), G (p, n_v) out of the space: of a few choices the one whose signal explains the residual r best, then the one with
+    most samples that no zero disturbs.
+
+    Tried are the directions of largest G, which have the least delay, and general mixes: a special choice of columns may be inequivalent.
+    """
+    if space.n_z == n_v:
+        return space.F, space.G
+    right = np.linalg.svd(space.G, full_matrices=True)[2]
+    draw = np.random.default_rng(space.n_z)
+    mixes = [right[:n_v].T] + [np.linalg.qr(draw.standard_normal((space.n_z, n_v)))[0] for _ in range(PAIRS_TRIED - 1)]
+    best: tuple[float, float] | None = None
+    chosen = mixes[0]
+    for mix in mixes:
+        try:
+            tried = reconstruct_fault(r, A, space.F @ mix, C, space.G @ mix)
+        except InvalidData:  # a mix without any effect
+            continue
+        first, last = tried.trusted
+        score = (-round(float(np.log10(tried.misfit + 1e-12)), 1), float(max(last - first, 0)))
+        if best is None or score > best:
+            best, chosen = score, mix
+    return space.F @ chosen, space.G @ chosen
+
+
+def largest(record: Record) -> Array:
+    """The largest |y| of each output, as the record is read."""
+    low, high = record.channels.least - record.offset, record.channels.greatest - record.offset
+    return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
+
+
+def beyond_rounding(answer: Answer) -> Array:
+    """The residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their rounding
+    would be scaled up and counted as faults."""
+    rest = answer.residual
+    assert rest is not None
+    return np.asarray(rest.store.read(*answer.held) * (rest.peak > ROUNDING * largest(answer.record)))

@@ -1,0 +1,116 @@
+"""What every estimate of the fault space answers, and what a kernel row asks of a fault column.
+
+    FaultSpaceEstimate   basis of the columns [f; g], its dimension, how it was found, whether it means anything and why
+    everything           the answer where nothing can be said: the whole space, not meaningful
+    kernel_conditions    for rows N_0 .. N_(s-1) at once: the conditions [X_(k+1), N_k] z = 0, X_k = N_k C + X_(k+1) A
+    condition_maps       the same as linear maps of the row, for carrying the row's uncertainty over
+
+z = [f; g] solves N T_s(z) = 0 with all block columns iff it meets the s conditions of every row N; the Horner
+recursion gives them for q rows in time q s n (n + p), where building T_s(z) for every unit column costs q s^2 p (n +
+p). Source: [G25] problem (11).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from .uncertainty import SpaceUncertainty
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FaultSpaceEstimate:
+    """The columns [f; g] that explain no more than the residual shows.
+
+    basis            (n + p, n_z), orthonormal columns
+    n_z              its columns, n_v + zeta for a left-invertible fault system; where `decided` is False the likeliest
+                     number, not a finding
+    n                number of states: F are the first n rows, G the others
+    n_v              number of faults, given or found (None: undecided)
+    lag              largest degree of a kernel row, found or expected (None: unknown); the window must be longer
+    block_rows       s, samples of the window
+    singular_values  of the conditions, descending: the last n_z are the ones taken for zero
+    equations        number of independent conditions found
+    unknowns         n + p
+    margin           ratio at the weakest decision that n_z rests on; near 1 it was a toss-up
+    decided          whether that margin is convincing and independent counts of n_z agree
+    meaningful       False where the answer says nothing about the faults; `reason` says why
+    error_bound      bound on the sine of the angle to the true space from rounding and conditioning; None with noise
+    method           "noise-free", "least squares" or "likelihood" ("none" where no equation was found)
+    uncertainty      of the likelihood form: the angle to the true space with a confidence, n_z taken as right; else None
+    """
+
+    basis: Array
+    n_z: int
+    n: int
+    n_v: int | None
+    lag: int | None
+    block_rows: int
+    singular_values: Array
+    equations: int
+    unknowns: int
+    margin: float
+    decided: bool
+    meaningful: bool
+    reason: str
+    error_bound: float | None
+    method: str
+    uncertainty: SpaceUncertainty | None = None
+
+    @property
+    def F(self) -> Array:
+        """Fhat, n x n_z."""
+        return self.basis[: self.n]
+
+    @property
+    def G(self) -> Array:
+        """Ghat, p x n_z."""
+        return self.basis[self.n :]
+
+    @property
+    def zeta(self) -> int | None:
+        """Number of zeros, finite and infinite, of a left-invertible fault system; None where the data cannot tell:
+        n_v unknown, the answer without meaning, or n_z undecided.
+        """
+        return None if self.n_v is None or not self.meaningful or not self.decided else self.n_z - self.n_v
+
+
+def everything(
+    n: int, p: int, n_v: int | None, block_rows: int, reason: str, *, lag: int | None = None
+) -> FaultSpaceEstimate:
+    """The estimate without a single equation: every column is a solution, which means nothing."""
+    return FaultSpaceEstimate(
+        np.eye(n + p), n + p, n, n_v, lag, block_rows, np.zeros(0), 0, n + p, 1.0, False, False, reason, None, "none"
+    )
+
+
+def kernel_conditions(rows: Array, A: Array, C: Array) -> Array:
+    """Conditions (q, s, n + p) of the kernel rows (q, s, p), row k holding [X_(k+1), N_k], for A (n, n), C (p, n)."""
+    q, s, p = rows.shape
+    n = A.shape[0]
+    conditions = np.zeros((q, s, n + p))
+    conditions[:, :, n:] = rows
+    X = np.zeros((q, n))
+    for k in reversed(range(s)):
+        conditions[:, k, :n] = X
+        X = rows[:, k] @ C + X @ A
+    return conditions
+
+
+def condition_maps(A: Array, C: Array, s: int) -> Array:
+    """(s, p s, n + p): condition k of a row g (p s,) is g @ maps[k]. Column j of maps[k] is block column k of
+    T_s(e_j).
+    """
+    p = C.shape[0]
+    return kernel_conditions(np.eye(p * s).reshape(p * s, s, p), A, C).transpose(1, 0, 2)
+
+
+def orthonormal(columns: Array) -> Array:
+    """Orthonormal columns with the span of independent `columns`."""
+    return np.asarray(np.linalg.qr(columns)[0]) if columns.shape[1] else columns

@@ -1,0 +1,99 @@
+"""Cross-spectral moments of the windows of r, tapered so that a spectral null of the noise stays one.
+
+    psi             psi(k) = [r(k); ..; r(k+eta)], so that N(q) r (k) = N psi(k) for coefficients N = [N_0 .. N_eta]
+    CrossMoments    Hermitian second moments of psi in frequency bands: all that a kernel basis asks of the data
+    tapered_moments from r, in memory independent of its length
+    real_parts      what a single row asks of them
+    taper           cosine edges, the middle flat [T67]: an untapered record leaks about 1/N of its power to every
+                    frequency, more than noise through a low-pass leaves near its null, where the weights are largest
+    samples         independent samples that the tapered ones are worth
+
+Segments overlap by an edge, so that little is lost on long records.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.signal
+from numpy.typing import NDArray
+
+from ...base.errors import InvalidData
+from .one_row import WindowMoments
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+BANDS = 64
+SEGMENT = 8192
+# Share of a segment in its two edges together.
+EDGES = 0.1
+
+
+@dataclass(frozen=True)
+class CrossMoments:
+    """`moments` (bands, p (degree+1), p (degree+1)) of psi psi*, whose sum over bands has the mean square of psi as real
+    part; `weights` (bands,), the share of each band, summing to one; `angles` (bands,), its centre in radians a sample."""
+
+    moments: ComplexArray
+    weights: Array
+    angles: Array
+    channels: int
+    degree: int
+    samples: float
+
+    def of_degree(self, degree: int) -> CrossMoments:
+        """The moments of the shorter window: the same samples, so that levels of different degrees are comparable."""
+        size = self.channels * (degree + 1)
+        moments = self.moments[:, :size, :size]
+        return CrossMoments(moments, self.weights, self.angles, self.channels, degree, self.samples)
+
+    def mixed(self, mix: Array) -> CrossMoments:
+        """The moments of r @ mix, mix (p, k)."""
+        repeated = np.kron(np.eye(self.degree + 1), mix)
+        moments = repeated.T @ self.moments @ repeated
+        return CrossMoments(moments, self.weights, self.angles, mix.shape[1], self.degree, self.samples)
+
+    def real_parts(self) -> WindowMoments:
+        """What a single row asks of them."""
+        count = round(self.samples)
+        return WindowMoments(
+            self.moments.real * count, self.weights * count, self.angles, self.channels, self.degree, count
+        )
+
+
+def tapered_moments(r: Array, degree: int) -> CrossMoments:
+    """The moments of r (N, p). Raises InvalidData where the windows are fewer than twice their own size."""
+    N, p = r.shape
+    windows, size = N - degree, p * (degree + 1)
+    if windows < 2 * size:
+        raise InvalidData(
+            f"r has {N} samples of {p} channels: kernel rows of degree {degree} need at least {2 * size + degree}; "
+            "record more, or take a model of lower order"
+        )
+    bands = max(4, min(BANDS, windows // 8))
+    length = min(windows, SEGMENT)
+    pieces = 1 + int(np.ceil((windows - length) / (length * (1 - EDGES / 2))))
+    starts = np.linspace(0, windows - length, pieces).astype(int).tolist()
+    taper = scipy.signal.windows.tukey(length, EDGES)
+    frequencies = length // 2 + 1
+    # Both halves of the spectrum, told by one: twice, but for the frequencies that are their own mirror image.
+    doubled = np.full(frequencies, 2.0)
+    doubled[0] = 1.0
+    doubled[-1] = 2.0 - (length % 2 == 0)
+    band = np.minimum(np.arange(frequencies) * 2 * bands // length, bands - 1)
+    moments = np.zeros((bands, size, size), dtype=np.complex128)
+    for start in starts:
+        psi = np.hstack([r[start + j : start + j + length] for j in range(degree + 1)]) * taper[:, None]
+        spectrum = np.fft.rfft(psi, axis=0) * np.sqrt(doubled)[:, None]
+        for b in range(bands):
+            part = spectrum[band == b]
+            moments[b] += part.T @ part.conj()
+    moments /= pieces * length * float(np.sum(taper**2))
+    weights = np.bincount(band, weights=doubled, minlength=bands) / doubled.sum()
+    coverage = np.zeros(windows)
+    for start in starts:
+        coverage[start : start + length] += taper**2
+    worth = float(coverage.sum() ** 2 / np.sum(coverage**2))
+    return CrossMoments(moments, weights, (np.arange(bands) + 0.5) * np.pi / bands, p, degree, worth)

@@ -1,0 +1,181 @@
+"""One system of the Monte Carlo study: drawn, measured, estimated and judged.
+
+    published_case, corrected_case               with the true A, B, C, D
+    identified_case, corrected_identified_case   with A, B, C, D from PI-MOESP on the same data
+    Case                                         the system's zeros, the noise, an estimate for each estimator, a random subspace
+    Estimate                                     of one estimator: its dimension and errors
+    Errors                                       the same angles in three metrics
+    PAPER                                        the published factorisation, which is told the rank of R_s and n_z
+    LIKELIHOOD                                   `fault_space_by_likelihood`, which is told n_v and counts the zeros itself
+
+A case is a function of its index and seed alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.errors import InvalidData
+from ..model.models import StateSpaceModel, observability_matrix
+from ..model.past_inputs import pi_moesp
+from ..model.residuals import residual
+from ..model.toeplitz_factorisation import toeplitz_factorisation
+from ..space.by_likelihood import fault_space_by_likelihood
+from ..space.distances import containment_error, two_sided_error
+from ..space.result import orthonormal
+from .experiments import NOISE_GAIN, Experiment, experiment, response
+from .systems import MOST_ZEROS, N_V, N_X, P, StudySystem, study_system
+
+Array = NDArray[np.float64]
+Estimator = Callable[[Array, StateSpaceModel, int], Array]
+
+PUBLISHED_WINDOW, CORRECTED_WINDOW = 5, N_X + 1
+NOISE_LEVEL = 0.01
+IDENTIFICATION_WINDOW = 20
+# Samples over which the identified state basis is laid onto the true one.
+ALIGNMENT_WINDOW = 2 * N_X
+PAPER, LIKELIHOOD = "paper", "likelihood"
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Of one estimate, as fractions. `published`: angles from [F; G] over n_v pi/2; `containment`: the same over sqrt(n_v) pi/2;
+    `two_sided`: distance to the whole true fault space, dimensions included, over its maximum."""
+
+    published: float
+    containment: float
+    two_sided: float
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What one estimator made of a case: dimension and errors, or the reason why there are none."""
+
+    n_z: int | None
+    errors: Errors | None
+    failure: str | None = None
+
+
+@dataclass(frozen=True)
+class Case:
+    """One system: its zeros, the window and rank taken, an estimate by name of estimator, and a random subspace of dimension n_z.
+
+    `vacuous`: the rank leaves no null row, so the published estimate is the whole space and says nothing. `decibels`: of the noise, as
+    measured. `distance_to_unit_circle` of the nearest zero, None without zeros.
+    """
+
+    index: int
+    zeros: tuple[float, ...]
+    minimum_phase: bool
+    distance_to_unit_circle: float | None
+    decibels: float
+    block_rows: int
+    rows: int
+    rank: int
+    n_z: int
+    vacuous: bool
+    estimates: Mapping[str, Estimate]
+    random: Errors
+
+    @property
+    def n_zeros(self) -> int:
+        """Number of finite zeros."""
+        return len(self.zeros)
+
+
+def published_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
+    """As published: s = 5, the noise that is called 1 %, true matrices, the residual from a random initial state."""
+    return _with_true_model(index, seed, samples, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
+
+
+def corrected_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
+    """A window beyond the lag, noise of 1 %, true matrices, both estimators."""
+    return _with_true_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD))
+
+
+def identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
+    """As published, with the identified model; a refusal of the identification is recorded, not raised."""
+    return _with_identified_model(index, seed, samples, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
+
+
+def corrected_identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
+    """As corrected, with the identified model and both estimators."""
+    return _with_identified_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD))
+
+
+def _with_true_model(
+    index: int, seed: np.random.SeedSequence, samples: int, window: int, level: float, estimators: tuple[str, ...]
+) -> Case:
+    drawn = _Drawn(index, seed, samples, level, window)
+    r = drawn.run.y - response(drawn.system.model, drawn.run.u, drawn.start.standard_normal(N_X))
+    return drawn.case({name: drawn.estimate(name, r, drawn.system.model, np.eye(N_X)) for name in estimators})
+
+
+def _with_identified_model(
+    index: int, seed: np.random.SeedSequence, samples: int, window: int, level: float, estimators: tuple[str, ...]
+) -> Case:
+    drawn = _Drawn(index, seed, samples, level, window)
+    try:
+        model = pi_moesp(drawn.run.y, drawn.run.u, order=N_X, block_rows=IDENTIFICATION_WINDOW).model
+        r = residual(drawn.run.y, drawn.run.u, model).r
+    except InvalidData as error:
+        return drawn.case(dict.fromkeys(estimators, Estimate(None, None, str(error))))
+    # O_true T = O_identified: T takes the identified state to the true one.
+    true, found = (observability_matrix(each.A, each.C, ALIGNMENT_WINDOW) for each in (drawn.system.model, model))
+    to_true = np.asarray(np.linalg.lstsq(true, found, rcond=None)[0], dtype=np.float64)
+    return drawn.case({name: drawn.estimate(name, r, model, to_true) for name in estimators})
+
+
+class _Drawn:
+    """System, run and what is known of them before anything is estimated; one case after the other has a zero more."""
+
+    def __init__(self, index: int, seed: np.random.SeedSequence, samples: int, level: float, window: int) -> None:
+        # Not seed.spawn, which would count the children and so change with a second use.
+        parts = (np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, part)) for part in range(4))
+        of_system, of_run, of_start, of_subspace = parts
+        self.index, self.window = index, window
+        self.system: StudySystem = study_system(index % (MOST_ZEROS + 1), of_system)
+        self.run: Experiment = experiment(self.system, of_run, level=level, samples=samples)
+        self.start, self.subspace = np.random.default_rng(of_start), np.random.default_rng(of_subspace)
+        self.rank = N_X + window * N_V - self.system.n_zeros
+        self.vacuous = self.rank >= P * window
+        self.n_z = N_X + P if self.vacuous else N_V + self.system.n_zeros
+
+    def estimate(self, name: str, r: Array, model: StateSpaceModel, to_true: Array) -> Estimate:
+        """By the estimator of that name from r and the model's A, C; judged in the true state basis."""
+        try:
+            if name == PAPER:
+                found = toeplitz_factorisation(r, model.A, model.C, block_rows=self.window, rank=self.rank, n_z=self.n_z)
+            else:
+                found = fault_space_by_likelihood(r, model.A, model.C, n_v=N_V).basis
+        except InvalidData as error:
+            return Estimate(None, None, str(error))
+        return Estimate(found.shape[1], _errors(self.system, orthonormal(np.vstack([to_true @ found[:N_X], found[N_X:]]))))
+
+    def case(self, estimates: Mapping[str, Estimate]) -> Case:
+        """The record."""
+        system = self.system
+        return Case(
+            index=self.index,
+            zeros=tuple(float(z) for z in system.zeros),
+            minimum_phase=system.minimum_phase,
+            distance_to_unit_circle=system.distance_to_unit_circle if system.n_zeros else None,
+            decibels=self.run.decibels,
+            block_rows=self.window,
+            rows=P * self.window,
+            rank=self.rank,
+            n_z=self.n_z,
+            vacuous=self.vacuous,
+            estimates=estimates,
+            random=_errors(system, orthonormal(self.subspace.standard_normal((N_X + P, self.n_z)))),
+        )
+
+
+def _errors(system: StudySystem, estimate: Array) -> Errors:
+    containment = containment_error(system.fault_columns, estimate)
+    # No estimate has fewer columns than there are faults, so both metrics are the same angles over other maxima.
+    return Errors(float(containment / np.sqrt(N_V)), containment, two_sided_error(system.Z, estimate))

@@ -1,0 +1,205 @@
+"""Pairs of systems whose behaviours are compared, each with certificates that the checker has accepted.
+
+PairDossier     two systems: equal, or the first window on which they differ; their lags and normal ranks
+RivalDossier    a system and other fault matrices for the same (A, C): equal or not, inside the fault space or not
+pair_dossiers   exhaustive over GF(2), shift registers, perturbed and equivalent systems over Q
+rival_dossiers  every pair (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+from joblib import Parallel, delayed
+
+from ...exact.algebra.fields import QQ, PrimeField
+from ...exact.algebra.matrices import Matrix, beside, rank, solve_left, stacked
+from ...exact.structure.behavior import compare
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import Certificate, accept
+from .corpus import Progress
+from .exhaustive import all_systems, orbits
+from .families import adversarial, random_systems, shift_registers
+
+
+@dataclass(frozen=True)
+class PairDossier:
+    """What accepted certificates say of two systems; `first_difference` None: the behaviours are equal."""
+
+    origin: str
+    first: ResidualSystem
+    second: ResidualSystem
+    weight: int
+    first_difference: int | None
+    lags: tuple[int, int]
+    normal_ranks: tuple[int, int]
+    accepted: int
+
+
+@dataclass(frozen=True)
+class RivalDossier:
+    """A system, other fault matrices for its (A, C), and how they compare; `in_space`: every column solves problem (11) in the limit."""
+
+    origin: str
+    system: ResidualSystem
+    rival: ResidualSystem
+    weight: int
+    equal: bool
+    in_space: bool
+    rival_normal_rank: int
+    full_column_rank: bool
+    left_invertible: bool
+    accepted: int
+
+
+def comparison_certificate(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
+    """Equality, or the difference on the shortest window, whichever is so."""
+    found = compare(first, second)
+    if found.first_difference is None:
+        return make.behaviour_equality(first, second)
+    word = found.first_not_in_second
+    if word is not None and word.window == found.first_difference:
+        return make.behaviour_difference(first.system, second)
+    return make.behaviour_difference(second.system, first)
+
+
+def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, weight: int = 1) -> PairDossier:
+    """Certify equality or the first difference of two systems, and their lags."""
+    kernels = kernel_representation(first), kernel_representation(second)
+    verdict = comparison_certificate(*kernels)
+    certificates = [verdict, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
+    window: int | None = verdict["statement"].get("window")
+    if window is not None:
+        certificates.append(make.window_equality(*kernels, window - 1))
+    for certificate in certificates:
+        accept(certificate)
+    etas = [certificate["statement"]["left_minimal_indices"] for certificate in certificates[1:3]]
+    ranks = [certificate["statement"]["normal_rank"] for certificate in certificates[1:3]]
+    lags = (max(etas[0], default=0), max(etas[1], default=0))
+    return PairDossier(origin, first, second, weight, window, lags, (ranks[0], ranks[1]), len(certificates))
+
+
+def examine_rival(origin: str, system: ResidualSystem, rival: ResidualSystem, weight: int = 1) -> RivalDossier:
+    """Certify whether other fault matrices make the same outputs, and whether they lie in the fault space."""
+    kernels = kernel_representation(system), kernel_representation(rival)
+    space = make.fault_space(kernels[0], fault_space(kernels[0]))
+    certificates = [comparison_certificate(*kernels), space, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
+    for certificate in certificates:
+        accept(certificate)
+    basis = Matrix.of(space["statement"]["basis"], system.field, shape=(len(space["statement"]["basis"]), system.n + system.p))
+    columns = stacked(rival.F, rival.G)
+    return RivalDossier(
+        origin=origin,
+        system=system,
+        rival=rival,
+        weight=weight,
+        equal=certificates[0]["kind"] == "behaviour-equality",
+        in_space=rank(stacked(basis, columns.transposed())) == basis.nrows,
+        rival_normal_rank=certificates[3]["statement"]["normal_rank"],
+        full_column_rank=rank(columns) == rival.m,
+        left_invertible=certificates[2]["statement"]["normal_rank"] == system.m,
+        accepted=len(certificates),
+    )
+
+
+def pair_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[PairDossier, ...]:
+    """All pairs of the effort."""
+    return tuple(_in_parallel(examine_pair, list(_pairs(effort == "full")), jobs, progress, "comparing pairs"))
+
+
+def rival_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[RivalDossier, ...]:
+    """All systems with rival fault matrices of the effort."""
+    return tuple(_in_parallel(examine_rival, list(_rivals(effort == "full")), jobs, progress, "trying other fault matrices"))
+
+
+def _in_parallel(examine: Any, items: list[tuple[Any, ...]], jobs: int, progress: Progress, stage: str) -> Iterator[Any]:
+    batches = [items[i : i + 60] for i in range(0, len(items), 60)]
+    done = 0
+    for batch in Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(examine, batch) for batch in batches):
+        done += len(batch)
+        progress(stage, done, len(items))
+        yield from batch
+
+
+def _all(examine: Any, batch: list[tuple[Any, ...]]) -> list[Any]:
+    return [examine(*item) for item in batch]
+
+
+def _pairs(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
+    for n in range(1, 13 if full else 9):
+        idle, driven = shift_registers(n)
+        yield "shift registers", idle, driven, 1
+    named = [system for _, system in adversarial() if system.n <= 3]
+    for system in [*named, *random_systems(QQ, 600 if full else 90, seed=2)]:
+        for other in _relatives(system, random.Random(str(system))):
+            yield "named and random systems over Q against equivalent and perturbed ones", system, other, 1
+    largest = 2 if full else 1
+    for p in range(3):
+        others = [s for n in range(2) for m in range(largest + 1) for s in all_systems(2, n, p, m)]
+        for n, m in product(range(2), range(2)):
+            for orbit in orbits(2, n, p, m):
+                for other in others:
+                    yield (
+                        f"all pairs over GF(2) in the box n <= 1, p <= 2, m <= 1 (second: m <= {largest})",
+                        orbit.system,
+                        other,
+                        orbit.size,
+                    )
+
+
+def _relatives(system: ResidualSystem, rng: random.Random) -> Iterator[ResidualSystem]:
+    """Feedback of the state into the fault, another basis of the state (both with the same outputs), an entry changed, a state more."""
+    K = Matrix.of([[rng.choice([-1, 0, 1]) for _ in range(system.n)] for _ in range(system.m)], QQ, shape=(system.m, system.n))
+    yield ResidualSystem(system.A + system.F @ K, system.F, system.C + system.G @ K, system.G)
+    if system.n:
+        # 2 on the diagonal, ones in the first row: upper triangular, so invertible
+        T = Matrix.of([[2 if i == j else int(i == 0) for j in range(system.n)] for i in range(system.n)], QQ, shape=(system.n, system.n))
+        moved = solve_left(T, stacked(T @ system.A, system.C))
+        if moved is not None:
+            A, C = moved.rows(range(system.n)), moved.rows(range(system.n, system.n + system.p))
+            yield ResidualSystem(A, T @ system.F, C, system.G)
+    if system.n and system.m:
+        table = system.F.elements()
+        table[rng.randrange(system.n)][rng.randrange(system.m)] = QQ.element(rng.choice([-2, 0, 1, 3]))
+        yield system.with_faults(Matrix.from_elements(QQ, system.n, system.m, table), system.G)
+    edge = Matrix.of([[rng.choice([0, 1])] for _ in range(system.p)], QQ, shape=(system.p, 1))
+    A = stacked(beside(system.A, Matrix.zero(QQ, system.n, 1)), Matrix.of([[0] * system.n + [rng.choice([0, 2])]], QQ))
+    yield ResidualSystem(A, stacked(system.F, Matrix.zero(QQ, 1, system.m)), beside(system.C, edge), system.G)
+
+
+def _rivals(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
+    named = [system for _, system in adversarial() if system.n <= 4]
+    for system in [*named, *random_systems(QQ, 600 if full else 60, seed=3)]:
+        space = fault_space(kernel_representation(system))
+        rng = random.Random(str(system))
+        for P in _choices(space.dimension, system.m, rng):
+            yield "pairs (Fhat P, Ghat P) over Q, P generic, sparse and rank-deficient", system, with_pair(space, P), 1
+    for n, p, m in product(range(3 if full else 2), range(3), range(1, 3 if full else 2)):
+        columns = list(product(range(2), repeat=(n + p) * m))
+        for orbit in orbits(2, n, p, m):
+            for entries in columns:
+                table = [list(entries[i * m : (i + 1) * m]) for i in range(n + p)]
+                F, G = (Matrix.of(part, PrimeField(2), shape=(k, m)) for part, k in ((table[:n], n), (table[n:], p)))
+                yield (
+                    f"every (F', G') against every system over GF(2) with n <= {2 if full else 1}, p <= 2, m <= {2 if full else 1}",
+                    orbit.system,
+                    orbit.system.with_faults(F, G),
+                    orbit.size,
+                )
+
+
+def _choices(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
+    """Generic, sparse, unit and rank-deficient P."""
+    for density in (1.0, 0.5, 0.3):
+        yield Matrix.of(
+            [[rng.randint(-3, 3) if rng.random() < density else 0 for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)
+        )
+    order = rng.sample(range(rows), rows)
+    yield Matrix.of([[int(order.index(i) == j) for j in range(cols)] for i in range(rows)], shape=(rows, cols))

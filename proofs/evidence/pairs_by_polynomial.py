@@ -1,0 +1,162 @@
+"""Pairs (Fhat P, Ghat P) judged by the polynomial D(q; P) beforehand, and by accepted certificates afterwards: what both say.
+
+    JudgedPair       a system, a P, D(q; P) by its determinant; normal rank, zeros and equivalence of the pair by certificates
+    judged_pairs     for each system: a good P, a bad P of full column rank where there is one, a placed zero polynomial, random P
+    pencil_of        the exceptional pencil of a system, found once
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+
+from joblib import Parallel, delayed
+
+from ...exact.algebra.fields import QQ, PrimeField
+from ...exact.algebra.matrices import Matrix, rank
+from ...exact.algebra.polynomials import monic, multiply, written
+from ...exact.pairs.assignment import assign_zeros
+from ...exact.pairs.polynomial import Exceptional, exceptional, polynomial_at
+from ...exact.pairs.witnesses import BadPair, bad_pair, good_columns
+from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import ResidualSystem
+from ..trust import structure_certificates as make
+from ..trust.structure_certificates import accept
+from .alternatives import comparison_certificate
+from .corpus import Progress
+from .exhaustive import orbits
+from .families import adversarial, random_systems
+
+MOST_STATES = 3
+
+
+@dataclass(frozen=True)
+class JudgedPair:
+    """`polynomial`: D(q; P), monic, ascending, as written; () for a bad P. The rest is what accepted certificates say.
+
+    `purpose` is how P was chosen: good, bad, placed, random. `zeta` is n less the left minimal indices of the system.
+    """
+
+    origin: str
+    purpose: str
+    system: ResidualSystem
+    pair: ResidualSystem
+    weight: int
+    polynomial: tuple[object, ...]
+    wanted: tuple[object, ...] | None
+    full_column_rank: bool
+    observable: bool
+    normal_rank: int
+    zeta: int
+    pair_normal_rank: int
+    zero_polynomial: tuple[object, ...]
+    infinite_zeros: int
+    equal: bool
+    accepted: int
+
+
+@lru_cache(maxsize=1 << 16)
+def pencil_of(system: ResidualSystem) -> Exceptional:
+    """[P | q b - a] of the system's fault space."""
+    return exceptional(kernel_representation(system))
+
+
+def examine_judged(origin: str, purpose: str, system: ResidualSystem, P: Matrix, wanted: object, weight: int) -> JudgedPair:
+    """Judge a P (n_z x r) and certify what its pair is: zeros, normal rank, equivalence, beside the system's own zeros and fault space."""
+    pencil = pencil_of(system)
+    field = system.field
+    pair = with_pair(pencil.space, P)
+    kernels = pencil.kernel, kernel_representation(pair)
+    found = polynomial_at(pencil, P)
+    certificates = [
+        comparison_certificate(*kernels),
+        make.window_ranks(kernels[0]),
+        make.window_ranks(kernels[1]),
+        make.finite_zeros(pair),
+        make.infinite_zeros(pair),
+        make.fault_space(pencil.kernel, fault_space(pencil.kernel)),
+    ]
+    for certificate in certificates:
+        accept(certificate)
+    says = [certificate["statement"] for certificate in certificates]
+
+    return JudgedPair(
+        origin=origin,
+        purpose=purpose,
+        system=system,
+        pair=pair,
+        weight=weight,
+        polynomial=_hashable(written(monic(found), field)) if found else (),
+        wanted=None if wanted is None else _hashable(written(monic(wanted), field)),  # type: ignore[arg-type]
+        full_column_rank=rank(P) == P.ncols,
+        observable=pencil.observable,
+        normal_rank=says[1]["normal_rank"],
+        zeta=system.n - sum(says[1]["left_minimal_indices"]),
+        pair_normal_rank=says[2]["normal_rank"],
+        zero_polynomial=_hashable(says[3]["invariant_zero_polynomial"]),
+        infinite_zeros=sum(says[4]["infinite_zero_orders"]),
+        equal=certificates[0]["kind"] == "behaviour-equality",
+        accepted=len(certificates),
+    )
+
+
+def judged_pairs(effort: str, jobs: int, progress: Progress) -> tuple[JudgedPair, ...]:
+    """All judged pairs of the effort."""
+    sources = list(_systems(effort == "full"))
+    batches = [sources[i : i + 20] for i in range(0, len(sources), 20)]
+    found: list[JudgedPair] = []
+    done = 0
+    for batch, made in zip(batches, Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(b) for b in batches), strict=True):
+        found += made
+        done += len(batch)
+        progress("judging pairs", done, len(sources))
+    return tuple(found)
+
+
+def _all(batch: list[tuple[str, ResidualSystem, int]]) -> list[JudgedPair]:
+    found = []
+    for origin, system, weight in batch:
+        for purpose, P, wanted in _choices(system):
+            found.append(examine_judged(origin, purpose, system, P, wanted, weight))
+    return found
+
+
+def _choices(system: ResidualSystem) -> Iterator[tuple[str, Matrix, object]]:
+    """(purpose, P, wanted polynomial or None)."""
+    pencil, rng = pencil_of(system), random.Random(str(system))
+    field, shape = system.field, (pencil.n_z, pencil.columns)
+    yield "good", good_columns(pencil).verdict.P, None
+    bad = bad_pair(pencil)
+    if isinstance(bad, BadPair):
+        yield "bad", bad.verdict.P, None
+    for degree in sorted({0, rng.randint(0, pencil.zeta), pencil.zeta}):
+        # a multiple of the unobservable modes, which no P moves, of this degree or of the least there is
+        free = (*(field.element(rng.randint(-2, 2)) for _ in range(degree - len(pencil.fixed) + 1)), field.element(1))
+        if pencil.columns or len(free) == 1:
+            wanted = multiply(free, pencil.fixed)
+            yield "placed", assign_zeros(pencil, [field.write(x) for x in wanted]).P, wanted
+    for _ in range(2):
+        yield "random", Matrix.of([[rng.randint(-2, 2) for _ in range(shape[1])] for _ in range(shape[0])], field, shape=shape), None
+
+
+def _systems(full: bool) -> Iterator[tuple[str, ResidualSystem, int]]:
+    for _, system in adversarial():
+        if system.n <= MOST_STATES:
+            yield "named systems", system, 1
+    for system in random_systems(QQ, 400 if full else 60, seed=7, largest=MOST_STATES):
+        yield "random systems over Q", system, 1
+    for system in random_systems(PrimeField(5), 100 if full else 15, seed=8, largest=MOST_STATES):
+        yield "random systems over GF(5)", system, 1
+    boxes = product(range(3), range(3), range(3 if full else 2)) if full else [(1, 1, 1), (1, 2, 1), (1, 1, 2), (1, 2, 2)]
+    for n, p, m in boxes:
+        for orbit in orbits(2, n, p, m):
+            yield "systems over GF(2) of small dimensions", orbit.system, orbit.size
+
+
+def _hashable(coefficients: object) -> tuple[object, ...]:
+    """Written coefficients as a tuple: entries of Q(a) are lists, made tuples."""
+    return tuple(tuple(c) if isinstance(c, list) else c for c in coefficients)  # type: ignore[attr-defined]

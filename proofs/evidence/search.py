@@ -1,0 +1,196 @@
+"""The smallest counterexample in a box, found by going through every system of the box in order.
+
+    Box                bounds on n, p, m, their sum, and the entries
+    systems_in_order   by n + m + p, then n, m, p, then the largest numerator or denominator, then lexicographically (A, F, C, G by rows)
+    Facts              window ranks, rank of T_s, observability, controllability of many systems at once, by definition
+    smallest           the first system that a vectorised test on Facts lets through and an exact test confirms
+
+Ranks of many small systems at once come from division-free elimination of the built matrices modulo 2^31 - 1. No minor of theirs
+reaches that prime (Hadamard's bound, checked for each box), so these ranks are the true ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+from math import isqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...exact.system.systems import ResidualSystem
+
+Integers = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+PRIME = 2**31 - 1
+CHUNK = 20000
+
+
+@dataclass(frozen=True)
+class Box:
+    """All systems with least <= n, p, m, n <= largest_n, ..., n + m + p <= total and entries in {-1, 0, 1}."""
+
+    total: int
+    largest_n: int
+    largest_m: int
+    largest_p: int
+    least_m: int = 1
+
+    def __str__(self) -> str:
+        return (
+            f"1 <= n <= {self.largest_n}, {self.least_m} <= m <= {self.largest_m}, 1 <= p <= {self.largest_p}, "
+            f"n+m+p <= {self.total}, entries in {{-1, 0, 1}}"
+        )
+
+    def dimensions(self) -> list[tuple[int, int, int]]:
+        """(n, m, p) in the order of the search."""
+        ranges = (range(1, self.largest_n + 1), range(self.least_m, self.largest_m + 1), range(1, self.largest_p + 1))
+        found = [(n, m, p) for n, m, p in product(*ranges) if n + m + p <= self.total]
+        return sorted(found, key=lambda d: (sum(d), *d))
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Systems of the same dimensions, one a row: A (N, n, n), F (N, n, m), C (N, p, n), G (N, p, m), integer entries."""
+
+    A: Integers
+    F: Integers
+    C: Integers
+    G: Integers
+
+    @property
+    def n(self) -> int:
+        """States."""
+        return int(self.A.shape[1])
+
+    @property
+    def m(self) -> int:
+        """Faults."""
+        return int(self.F.shape[2])
+
+    def system(self, index: int) -> ResidualSystem:
+        """One of the systems, exact."""
+        return ResidualSystem.of(*(part[index].tolist() for part in (self.A, self.F, self.C, self.G)))
+
+    def window(self, s: int) -> Integers:
+        """[O_s T_s] of every system."""
+        count, p = len(self.A), self.C.shape[1]
+        built = np.zeros((count, p * s, self.n + self.m * s), dtype=np.int64)
+        row, markov = self.C, [self.G]
+        for i in range(s):
+            built[:, i * p : (i + 1) * p, : self.n] = row
+            for j in range(i + 1):
+                built[:, i * p : (i + 1) * p, self.n + j * self.m : self.n + (j + 1) * self.m] = markov[i - j]
+            markov.append(row @ self.F)
+            row = row @ self.A
+        return built
+
+    def rank(self, s: int) -> Integers:
+        """rank [O_s T_s] of every system."""
+        return ranks(self.window(s))
+
+    def rank_from_rest(self, s: int) -> Integers:
+        """rank T_s of every system."""
+        return ranks(self.window(s)[:, :, self.n :])
+
+    def gap(self, s: int) -> Integers:
+        """rank [O_(s+1) T_(s+1)] - rank [O_s T_s]."""
+        return self.rank(s + 1) - self.rank(s)
+
+    @cached_property
+    def observable(self) -> Flags:
+        """(A, C) observable."""
+        return np.asarray(ranks(self.window(self.n)[:, :, : self.n]) == self.n)
+
+    @cached_property
+    def controllable(self) -> Flags:
+        """(A, F) controllable."""
+        blocks, column = [], self.F
+        for _ in range(self.n):
+            blocks.append(column)
+            column = self.A @ column
+        return np.asarray(ranks(np.concatenate(blocks, axis=2)) == self.n)
+
+    @cached_property
+    def left_invertible(self) -> Flags:
+        """rank T_(n+1) - rank T_n = m."""
+        return np.asarray(self.rank_from_rest(self.n + 1) - self.rank_from_rest(self.n) == self.m)
+
+    @cached_property
+    def delay_known_state(self) -> Integers:
+        """Least l with rank T_(l+1) - rank T_l = m; n + 1 where there is none."""
+        return self._least(lambda s: np.asarray(self.rank_from_rest(s + 1) - self.rank_from_rest(s) == self.m))
+
+    @cached_property
+    def delay_unknown_state(self) -> Integers:
+        """Least l with rank [O_(l+1) T_(l+1)] = m + the rank without the columns of v(0); n + 1 where there is none."""
+
+        def determined(s: int) -> Flags:
+            built = self.window(s + 1)
+            rest = np.concatenate([built[:, :, : self.n], built[:, :, self.n + self.m :]], axis=2)
+            return np.asarray(ranks(built) == ranks(rest) + self.m)
+
+        return self._least(determined)
+
+    def _least(self, test: Callable[[int], Flags]) -> Integers:
+        found = np.full(len(self.A), self.n + 1, dtype=np.int64)
+        for delay in reversed(range(self.n + 1)):
+            found = np.where(test(delay), delay, found)
+        return found
+
+
+def ranks(matrices: Integers) -> Integers:
+    """The ranks of many small integer matrices (N, rows, cols). Raises ArithmeticError when a minor could reach the prime."""
+    if matrices.size and max(-int(matrices.min()), int(matrices.max())) >= 2**20:
+        raise ArithmeticError("entries beyond 2^20")
+    lengths = np.sort((matrices * matrices).sum(axis=2).max(axis=0)) if matrices.size else np.zeros(0)  # below 2^63: no row is that long
+    bound = 1
+    for length in lengths[::-1][: matrices.shape[2]]:
+        bound *= isqrt(int(length)) + 1
+    if bound >= PRIME:
+        raise ArithmeticError(f"a minor could be as large as {bound}")
+    work = matrices % PRIME
+    count, nrows, ncols = work.shape
+    rank = np.zeros(count, dtype=np.int64)
+    every = np.arange(count)
+    for column in range(ncols):
+        candidates = (work[:, :, column] != 0) & (np.arange(nrows)[None, :] >= rank[:, None])
+        found = candidates.any(axis=1)
+        if not found.any():
+            continue
+        chosen, here = np.argmax(candidates, axis=1), np.minimum(rank, nrows - 1)
+        at = np.where(found, chosen, here)
+        pivot_row, other = work[every, at].copy(), work[every, here].copy()
+        work[every, at], work[every, here] = other, pivot_row
+        below = (np.arange(nrows)[None, :] > here[:, None]) & found[:, None]
+        eliminated = (work * pivot_row[:, None, column, None] - work[:, :, column, None] * pivot_row[:, None, :]) % PRIME
+        work = np.where(below[:, :, None], eliminated, work)
+        rank += found
+    return rank
+
+
+def chunks(box: Box) -> Iterator[Facts]:
+    """The systems of a box in order, in batches of the same dimensions."""
+    for n, m, p in box.dimensions():
+        length = (n + p) * (n + m)
+        total = 3**length
+        for start in range(0, total, CHUNK):
+            numbers = np.arange(start, min(start + CHUNK, total), dtype=np.int64)
+            digits = np.stack([numbers // 3**k % 3 for k in reversed(range(length))], axis=1) - 1
+            cuts = np.cumsum([n * n, n * m, p * n])
+            A, F, C, G = np.split(digits, cuts, axis=1)
+            yield Facts(A.reshape(-1, n, n), F.reshape(-1, n, m), C.reshape(-1, p, n), G.reshape(-1, p, m))
+
+
+def systems_in_order(box: Box, test: Callable[[Facts], Flags]) -> Iterator[ResidualSystem]:
+    """The systems of the box that pass the vectorised test, in order."""
+    for facts in chunks(box):
+        for index in np.flatnonzero(test(facts)):
+            yield facts.system(int(index))
+
+
+def smallest(box: Box, test: Callable[[Facts], Flags], confirm: Callable[[ResidualSystem], bool]) -> ResidualSystem | None:
+    """The first system of the box that passes the vectorised test and the exact one; None where there is none."""
+    return next((system for system in systems_in_order(box, test) if confirm(system)), None)

@@ -1,2 +1,0 @@
-(** The earlier name of Vocabulary.v, for files that still import it. *)
-From faultspace Require Export Vocabulary.

@@ -1,0 +1,327 @@
+"""The theory in rocq/ compiled by Rocq (coqc), kept in the user's cache under the hash of its sources.
+
+    found             the coqc on the path and its version, or None
+    compiled_theory   the folder with the compiled files; compiles what is not in the cache
+    kept_theory       that folder if it is there already
+    forget            removes it, and what was said of it
+    installation      a digest of the Rocq and the MathComp that a compilation would use
+    compile_file      compiles one more file against them; its output
+    compiled_again    the compiled form of a few sources, made from them now and not taken from the cache
+    NoRocq            raised where there is no coqc, or MathComp is missing; says what to install
+    CLOSED, NotProved what Rocq says of a proof without axioms, and what is raised where it does not
+    BrokenTheory      raised where a file does not compile; the compiler's own words
+    Poisoned          a BrokenTheory: the cache holds something else than our sources compiled, or others can write into it
+
+A folder of the cache is complete or not there: files are compiled in a folder beside it that is renamed at the end, with a list of their
+digests. Its name tells sources, compiler and MathComp apart. Before each use its sources are compared with ours, the digests are
+computed again, and it must belong to the user, nobody else being able to write into it or to enter it. This notices what was damaged and
+what was exchanged by others, or without much care. Who can write as the user and takes the care to forge compiled files, digests and
+answers is not noticed here, but by compiling anew (`rocq_recheck`).
+
+coqc runs under limits of time, memory and output, and with a home of its own that is removed.
+"""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import json
+import os
+import re
+import shutil
+import stat
+import subprocess
+import tempfile
+from collections.abc import Callable, Mapping
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass
+from functools import cache
+from graphlib import TopologicalSorter
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import IO
+
+from filelock import FileLock
+from platformdirs import user_cache_path
+
+Progress = Callable[[str, int, int], None]
+INSTALL = "install Rocq with MathComp, on Debian or Ubuntu: apt install coq libcoq-mathcomp-algebra libcoq-mathcomp-zify"
+OPTIONS = ("-q", "-Q", ".", "faultspace", "-w", "-all")
+FILE_SECONDS = 600
+MOST_MEMORY, MOST_WRITTEN, MOST_SAID = 8 * 2**30, 256 * 2**20, 8 * 2**20
+# Words of Rocq that write, load or run something outside: in no file that is written here for it to compile.
+OUTSIDE = re.compile(r"\b(?:Redirect|Extraction|Load|Cd|Drop|Declare\s+ML|Add\s+(?:Rec\s+)?(?:LoadPath|ML))\b")
+LIMITED = 'ulimit -t "$1"; ulimit -v "$2" 2>/dev/null; ulimit -f "$3"; shift 3; exec "$@"'
+DIGESTS = "digests.json"
+CLOSED = "Closed under the global context"
+# The last line is the notation of MathComp 1, for which the theory is written.
+PROBE = """From mathcomp Require Import all_ssreflect all_algebra zify ssrZ.
+Locate Library mathcomp.ssreflect.all_ssreflect.
+Locate Library mathcomp.algebra.all_algebra.
+Check [fieldType of rat].
+"""
+
+
+class NoRocq(Exception):
+    """There is no coqc here, or it finds no MathComp."""
+
+
+class BrokenTheory(Exception):
+    """A file does not compile."""
+
+
+class Poisoned(BrokenTheory):
+    """The compiled theory in the cache is not believed; says why, and what to do."""
+
+
+class NotProved(Exception):
+    """A theorem is missing, not accepted by the kernel, or rests on more than it."""
+
+
+@dataclass(frozen=True)
+class Rocq:
+    """The compiler: its path and its version."""
+
+    path: str
+    version: str
+
+
+@cache
+def found() -> Rocq | None:
+    """The coqc on the path."""
+    path = shutil.which("coqc")
+    if path is None:
+        return None
+    told = subprocess.run([path, "--print-version"], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    return Rocq(path, told.stdout.split()[0]) if told.returncode == 0 and told.stdout.strip() else None
+
+
+def sources() -> dict[str, str]:
+    """File name -> text, of all files of the theory."""
+    folder: Traversable = resources.files("faultspace.proofs").joinpath("theory")
+    return {one.name: one.read_text("utf-8") for one in sorted(folder.iterdir(), key=lambda one: one.name) if one.name.endswith(".v")}
+
+
+def installation() -> str:
+    """Of the compiler's version and of MathComp's outermost files, which name those below them by their digests. Raises NoRocq."""
+    compiler = found()
+    if compiler is None:
+        raise NoRocq(f"coqc is not on the path; {INSTALL}")
+    return _probed(compiler, PROBE)
+
+
+@cache
+def _probed(compiler: Rocq, probe: str) -> str:
+    with tempfile.TemporaryDirectory() as scratch:
+        (Path(scratch) / "Probe.v").write_text(probe, "utf-8")
+        try:
+            said = _coqc(Path(scratch) / "Probe.v", OPTIONS, FILE_SECONDS)
+        except BrokenTheory as error:
+            raise NoRocq(f"Rocq {compiler.version} does not find MathComp 1 with its zify ({error}); {INSTALL}") from None
+    told = hashlib.sha256(compiler.version.encode())
+    for place in re.findall(r"has been loaded from file\s+(\S+\.vo)", said):
+        told.update(Path(place).read_bytes())
+    return told.hexdigest()
+
+
+def content_hash(texts: dict[str, str]) -> str:
+    """Of the sources and the installation. Raises NoRocq."""
+    told = hashlib.sha256(installation().encode())
+    for name, text in texts.items():
+        told.update(f"\0{name}\0{text}".encode())
+    return told.hexdigest()[:20]
+
+
+def compiled_theory(progress: Progress = lambda name, done, total: None, *, texts: dict[str, str] | None = None) -> Path:
+    """The folder that holds the sources and compiled files. Raises NoRocq, BrokenTheory.
+
+    `texts`: other sources than ours, file name -> text. `progress(file, done, total)` is told before each file.
+    """
+    texts = sources() if texts is None else texts
+    place = _place(texts)
+    if _whole(place, texts):
+        return place
+    try:
+        _made_private(place.parent)
+    except OSError as error:
+        where = f"the compiled proofs cannot be kept in {place.parent}: {error.strerror}"
+        raise NoRocq(f"{where}; set XDG_CACHE_HOME to a folder that can be written into") from None
+    with FileLock(place.with_suffix(".lock")):  # whoever comes second finds it done
+        if not _whole(place, texts):
+            shutil.rmtree(place, ignore_errors=True)
+            with tempfile.TemporaryDirectory(dir=place.parent) as scratch:
+                folder = Path(scratch) / "theory"
+                folder.mkdir(mode=0o700)
+                for name, text in texts.items():
+                    (folder / name).write_text(text, "utf-8")
+                _compile_all(folder, texts, progress)
+                (folder / DIGESTS).write_text(json.dumps(_digests(folder)), "utf-8")
+                folder.rename(place)
+    return place
+
+
+def _made_private(folder: Path) -> None:
+    """The folder of our cache and the one above it, made where they are not there, that nobody else can write into. Raises OSError."""
+    for one in (folder.parent, folder):
+        one.mkdir(parents=True, exist_ok=True, mode=0o700)
+        status = one.stat()
+        if hasattr(os, "getuid") and status.st_uid != os.getuid():
+            raise PermissionError(errno.EPERM, f"{one} belongs to another user")
+        if status.st_mode & 0o022:
+            one.chmod(stat.S_IMODE(status.st_mode) & ~0o022)
+
+
+def _digests(folder: Path) -> dict[str, str]:
+    """Of the sources and the compiled files."""
+    return {one.name: hashlib.sha256(one.read_bytes()).hexdigest() for one in sorted(folder.glob("*.v*")) if one.suffix in (".v", ".vo")}
+
+
+def _whole(folder: Path, texts: dict[str, str]) -> bool:
+    """Whether the folder is there as it was compiled, from these sources. Raises Poisoned where somebody else may have put it there."""
+    try:
+        same = bool(json.loads((folder / DIGESTS).read_text("utf-8")) == _digests(folder))
+    except (OSError, ValueError):
+        return False
+    if not _own(folder):
+        raise Poisoned(_not_believed(folder, "others than you can write into it or above it, or it holds a file or link that is not yours"))
+    if not same:
+        return False
+    held = {one.name: one.read_bytes() for one in folder.glob("*.v")}
+    if held != {name: text.encode() for name, text in texts.items()}:
+        names = [name for name in {*held, *texts} if held.get(name) != texts.get(name, "").encode() or name not in texts]
+        raise Poisoned(_not_believed(folder, f"its sources are not those of this package: {', '.join(sorted(names)[:4])}"))
+    if {one.stem for one in folder.glob("*.vo")} != {name.removesuffix(".v") for name in texts}:
+        raise Poisoned(_not_believed(folder, "it holds other compiled files than those of its sources"))
+    return True
+
+
+def _not_believed(folder: Path, why: str) -> str:
+    return f"the compiled theory in {folder} is not believed: {why}; faultspace verify --recheck removes it and compiles anew"
+
+
+def _own(folder: Path) -> bool:
+    """Whether folder and files belong to the user, no file is a link, and nobody else can enter the folder or exchange it."""
+    if not hasattr(os, "getuid"):
+        return True
+    me = os.getuid()
+    above = [one.lstat() for one in (folder.parent.parent, folder.parent)]
+    here, inside = folder.lstat(), [one.lstat() for one in folder.iterdir()]
+    return (
+        all(one.st_uid == me for one in (*above, here, *inside))
+        and not any(one.st_mode & 0o022 for one in above)
+        and not here.st_mode & 0o077
+        and stat.S_ISDIR(here.st_mode)
+        and not any(stat.S_ISLNK(one.st_mode) for one in inside)
+    )
+
+
+def forget() -> None:
+    """Removes the compiled theory of our sources from the cache, with all that was said of it. Raises NoRocq."""
+    place = _place(sources())
+    shutil.rmtree(place, ignore_errors=True)
+    for one in place.parent.glob(f"{place.name}.*"):
+        one.unlink(missing_ok=True)
+
+
+def kept_theory() -> Path | None:
+    """The folder with all of our theory, if it has been compiled before. Raises NoRocq."""
+    texts = sources()
+    place = _place(texts)
+    return place if _whole(place, texts) else None
+
+
+def _place(texts: dict[str, str]) -> Path:
+    return user_cache_path("faultspace") / "rocq" / content_hash(texts)
+
+
+def compile_file(theory: Path, name: str, text: str, *, seconds: float = FILE_SECONDS) -> str:
+    """What coqc prints for this file, compiled beside the theory and forgotten. Raises BrokenTheory.
+
+    It is refused where it has a word that would make Rocq write or load something outside.
+    """
+    if (outside := OUTSIDE.search(text)) is not None:
+        raise BrokenTheory(f"{name} is not given to Rocq: it says {outside[0]}")
+    with tempfile.TemporaryDirectory() as scratch:
+        (Path(scratch) / name).write_text(text, "utf-8")
+        return _coqc(Path(scratch) / name, ("-q", "-Q", str(theory), "faultspace", "-w", "-all"), seconds)
+
+
+def compiled_again(texts: Mapping[str, str]) -> dict[str, bytes]:
+    """File -> what coqc makes of it, for sources that need no others, compiled in a folder that is removed. Raises BrokenTheory.
+
+    The same version of Rocq makes the same bytes of the same sources.
+    """
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        for name, text in texts.items():
+            (folder / name).write_text(text, "utf-8")
+        _compile_all(folder, texts, lambda name, done, total: None)
+        return {name: (folder / name).with_suffix(".vo").read_bytes() for name in texts}
+
+
+def needs(texts: Mapping[str, str]) -> dict[str, set[str]]:
+    """File -> files of ours that it requires."""
+    known = {name.removesuffix(".v") for name in texts}
+    result = {}
+    for name, text in texts.items():
+        lines = re.findall(r"From\s+faultspace\s+Require\s+(?:Import|Export)?([\s\w]*)\.", text)
+        result[name] = {f"{module}.v" for line in lines for module in line.split() if module in known}
+    return result
+
+
+def _compile_all(place: Path, texts: Mapping[str, str], progress: Progress) -> None:
+    """Two at a time where one does not need the other: a compilation takes about a gigabyte."""
+    order = TopologicalSorter(needs(texts))
+    order.prepare()
+    running: dict[Future[str], str] = {}
+    done = 0
+    with ThreadPoolExecutor(max_workers=min(2, os.cpu_count() or 1)) as pool:
+        while order.is_active():
+            for name in order.get_ready():
+                running[pool.submit(_coqc, place / name, OPTIONS, FILE_SECONDS)] = name
+            progress("Rocq: compiling the theory", done, len(texts))
+            finished, _ = wait(running, return_when=FIRST_COMPLETED)
+            for one in finished:
+                try:
+                    one.result()
+                except Exception:
+                    pool.shutdown(cancel_futures=True)
+                    raise
+                order.done(running.pop(one))
+                done += 1
+
+
+def _coqc(file: Path, options: tuple[str, ...], seconds: float) -> str:
+    """What coqc prints for the file, in its folder. Raises BrokenTheory where it fails or goes beyond the limits."""
+    compiler = found()
+    assert compiler is not None
+    limits = (str(int(seconds) + 1), str(MOST_MEMORY // 1024), str(MOST_WRITTEN // 512))
+    with tempfile.TemporaryDirectory() as home, tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as complained:
+        try:
+            told = subprocess.run(
+                ["/bin/sh", "-c", LIMITED, "sh", *limits, compiler.path, *options, file.name],
+                cwd=file.parent,
+                env={**os.environ, "HOME": home, "TMPDIR": home, "XDG_CONFIG_HOME": home, "XDG_DATA_HOME": home},
+                stdout=said,
+                stderr=complained,
+                timeout=seconds,
+                check=False,
+                stdin=subprocess.DEVNULL,
+            )
+        except subprocess.TimeoutExpired:
+            raise BrokenTheory(f"{file.name}: Rocq took more than {seconds:g} s") from None
+        output, errors = (_beginning(one) for one in (said, complained))
+    if told.returncode == 0 and len(output) < MOST_SAID:
+        return output
+    if told.returncode < 0 or len(output) == MOST_SAID or "out of memory" in errors.lower():
+        raise BrokenTheory(
+            f"{file.name}: Rocq was stopped: it may take {seconds:g} s, {MOST_MEMORY >> 30} GB of memory, files of {MOST_WRITTEN >> 20} MB "
+            f"and print {MOST_SAID >> 20} MB"
+        )
+    raise BrokenTheory(f"{file.name} does not compile: {' '.join(errors.split())[-600:]}")
+
+
+def _beginning(stream: IO[bytes]) -> str:
+    stream.seek(0)
+    return stream.read(MOST_SAID).decode("utf-8", "replace")

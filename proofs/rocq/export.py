@@ -1,0 +1,500 @@
+"""A certificate as a file of Rocq: its system, statement and witness as terms, the checks of theory/Check*.v recomputed by the kernel.
+
+    COVERED      kind -> what writes it
+    exported     the terms of a certificate that the checker has verified just now; raises NotCovered, checker.Rejected, checker.Malformed
+    translated   the same of one that is well formed, whatever the checker would say of it: tests see that Rocq, too, finds it false
+    written      a file with the theorems about the concrete systems, proved by computation
+    Terms        definitions, check (a boolean), statement (a proposition), lemma (that the one implies the other)
+
+No string of a certificate reaches the file. Every number goes through the checker's own parser (`checker.rational`, `checker.index`) to an
+integer of Python, and what writes integers (rocq_text.py) takes nothing else. The checker's meter bounds the work.
+
+Systems are written with transposed matrices (signals are rows in the theory), as integers over one common denominator. Two things in the
+terms are not in the certificate: words whose outputs are independent modulo its prime, which show the lower bounds that `checker.py` finds
+by elimination, and combinations of demands likewise. What is computed here is believed by nobody: Rocq sees whether it serves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from operator import mul
+from typing import Any
+
+from flint import nmod_mat
+
+from ..trust import checker
+from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
+
+Json = Any
+MAX_TEXT = 2**20
+Integers = list[list[int]]
+MODULES = (
+    "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
+    "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices",
+)  # fmt: skip
+HEAD = f"""From Coq Require Import ZArith.
+From mathcomp Require Import all_ssreflect all_algebra.
+From faultspace Require Import {" ".join(MODULES)}.
+Import GRing.Theory.
+Local Open Scope ring_scope.
+"""
+
+
+class NotCovered(Exception):
+    """The checks in Rocq do not speak of this kind or this field."""
+
+
+@dataclass(frozen=True)
+class Terms:
+    """What a file of Rocq says about one certificate. `definitions`: (name, type, term), numbers in them are integers."""
+
+    definitions: tuple[tuple[str, str, str], ...]
+    check: str
+    statement: str
+    lemma: str
+
+    def opening(self) -> str:
+        """The definitions."""
+        lines = [f"Definition {name} : {kind} := {term}." for name, kind, term in self.definitions]
+        return "\n".join(["Local Open Scope Z_scope.", *lines, "Local Close Scope Z_scope."])
+
+    def theorem(self) -> str:
+        """All of it, proved by computation."""
+        return f"""{self.opening()}
+Lemma checked : {self.check} = true.
+Proof. vm_cast_no_check (erefl true). Qed.
+Theorem certified : {self.statement}.
+Proof. exact: ({self.lemma} checked). Qed.
+"""
+
+
+class Listed:
+    """A SYSTEM over Q with matrices transposed and multiplied by their common denominator."""
+
+    def __init__(self, data: Json) -> None:
+        system = checker.System(data)
+        if system.field.key != "Q":
+            raise NotCovered("the checks in Rocq are over the rational numbers only")
+        self.sizes = self.n, self.m, self.p = system.n, system.m, system.p
+        blocks = (system.A, system.F, system.C, system.G)
+        self.den = checker.common_denominator(block.den for block in blocks)
+        self.A, self.F, self.C, self.G = (
+            [[row[j] * (self.den // block.den) for row in block.rows] for j in range(block.nc)] for block in blocks
+        )
+
+    def bounded(self, samples: int) -> None:
+        """Charge for simulating all states and faults on so many samples, and for eliminating in the windows that they make."""
+        height, width = self.n + self.m * samples, self.p * samples
+        checker.charge((self.n + self.m) * samples * (self.n + self.p + 1) * (self.n + self.m + 1) * 60)
+        checker.charge(height * (width + height) * (100 + 2 * min(height, width)), 100 * height * (width + height))
+
+    @cached_property
+    def term(self) -> str:
+        """As a term of type listed."""
+        return f"Listed {whole(self.den)} {' '.join(map(table, (self.A, self.F, self.C, self.G)))}"
+
+    def named(self, name: str) -> str:
+        """The system in the theory that the list of that name means."""
+        return f"(meant {natural(self.n)} {natural(self.m)} {natural(self.p)} {name})"
+
+    def response(self, state: list[int], fault: list[int], samples: int, prime: int) -> list[int]:
+        """Outputs modulo the prime, one after the other, of a state and a fault at time 0."""
+        found = list[int]()
+        for _ in range(samples):
+            found += added(times(state, self.C, self.p), times(fault, self.G, self.p), prime)
+            state, fault = added(times(state, self.A, self.n), times(fault, self.F, self.n), prime), [0] * self.m
+        return found
+
+    def trajectory(self, state: list[int], faults: Integers, prime: int) -> tuple[Integers, Integers, Integers]:
+        """States, faults and outputs of the integer system modulo the prime, the k-th fault times the k-th power of the denominator."""
+        states, weighted, outputs = [state], Integers(), Integers()
+        for k, fault in enumerate(faults):
+            weighted.append([self.den**k * x for x in fault])
+            outputs.append(added(times(states[-1], self.C, self.p), times(weighted[-1], self.G, self.p), prime))
+            states.append(added(times(states[-1], self.A, self.n), times(weighted[-1], self.F, self.n), prime))
+        return states, weighted, outputs
+
+    def words(self, samples: int, prime: int) -> str:
+        """A basis of the words modulo the prime, reduced: initial state, faults, sample and output of the leading one."""
+        n, m, p = self.n, self.m, self.p
+        self.bounded(samples)
+        rows = [self.response(unit(n, i), [0] * m, samples, prime) for i in range(n)]
+        for i in range(m):
+            from_rest = self.response([0] * n, unit(m, i), samples, prime)
+            rows += [[0] * (p * j) + from_rest[: p * (samples - j)] for j in range(samples)]
+        found = []
+        for pivot, u in independent(rows, samples * p, prime):
+            faults = [[u[n + i * samples + j] for i in range(m)] for j in range(samples)]
+            found.append(f"(({vector(u[:n])}, {table(faults)}), ({pivot // p}%N, {pivot % p}%N))")
+        return sequence(found)
+
+    def demands(self, row: Integers) -> Integers:
+        """The condition rows [X_(k+1), c_k] of a kernel row, times powers of the denominator."""
+        state, found, weight = [0] * self.n, Integers(), 1
+        for c in reversed(row):
+            scaled = [weight * x for x in c]
+            found.append(state + scaled)
+            state = [sum(a * x for a, x in zip(rc + ra, scaled + state, strict=True)) for rc, ra in zip(self.C, self.A, strict=True)]
+            weight *= self.den
+        return found[::-1]
+
+
+def exported(certificate: Json) -> Terms:
+    """The terms of a certificate, once the checker has verified it. Raises what `verify` raises, and NotCovered."""
+    checker.verify(certificate)
+    try:
+        return translated(certificate)
+    except checker.Rejected as error:  # the certificate is right, and writing it out is more than its own meter allows
+        raise NotCovered(f"it is too large to be written for Rocq: {error}") from None
+
+
+def translated(certificate: Json) -> Terms:
+    """The terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
+    write = COVERED.get(certificate["kind"])
+    if write is None:
+        raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shown(certificate['kind'])}")
+    checker.begin()
+    try:
+        terms = write(certificate["statement"], certificate["witness"])
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+        raise checker.Malformed(f"the certificate does not parse: {ascii(str(error))[:80]}") from None
+    if sum(len(term) for _, _, term in terms.definitions) > MAX_TEXT:
+        raise NotCovered(f"the terms for Rocq are longer than {MAX_TEXT} characters")
+    return terms
+
+
+def written(terms: Sequence[Terms]) -> str:
+    """A file with all theorems, which ends by asking what they rest on."""
+    parts = [f"Module C{i}.\n{t.theorem()}End C{i}.\n" for i, t in enumerate(terms)]
+    names = ", ".join(f"C{i}.certified" for i in range(len(terms)))
+    return f"{HEAD}{''.join(parts)}Definition certified := ({names or 'I'}).\nPrint Assumptions certified.\n"
+
+
+# -- the kinds ---------------------------------------------------------------------------------------------------------
+
+
+def _window_ranks(s: Json, w: Json) -> Terms:
+    system, prime, rows = Listed(s["system"]), _prime(w), _rows(w["kernel"])
+    r, etas, ranks = _index(s["normal_rank"]), naturals(_indices(s["left_minimal_indices"])), naturals(_indices(s.get("window_ranks", [])))
+    name = system.named("system")
+    formula = f"(forall s, \\rank (window {name} s) = s * {natural(r)} + \\sum_(eta <- {etas}) minn s eta)%N"
+    return Terms(
+        (_named("system", system), _modulus(prime), ("rows", "seq kernel_row", rows), _words("ws", system, system.n + 1, prime)),
+        call("check_window_ranks", *system.sizes, r, etas, ranks, "l system rows ws"),
+        f"{formula} /\\ [seq \\rank (window {name} s) | s <- iota 1 {natural(len(s.get('window_ranks', [])))}] = {ranks}",
+        "window_ranks_sound",
+    )
+
+
+def _left_invertible(s: Json, w: Json) -> Terms:
+    system, prime = Listed(s["system"]), _prime(w)
+    return Terms(
+        (_named("system", system), _modulus(prime), _words("ws", system, system.n + 1, prime)),
+        call("check_left_invertible", *system.sizes, "l system ws"),
+        f"left_invertible {system.named('system')}",
+        "left_invertible_sound",
+    )
+
+
+def _not_left_invertible(s: Json, w: Json) -> Terms:
+    system = Listed(s["system"])
+    scale = checker.common_denominator(checker.rational(x, "witness")[1] for part in (w["state"], w["fault"]) for one in part for x in one)
+    xs, vs = ([_scaled(one, scale * system.den**k) for k, one in enumerate(reversed(w[key]))] for key in ("state", "fault"))
+    return Terms(
+        (_named("system", system), ("xs", "seq vector", table([*xs, [0] * system.n])), ("vs", "seq vector", table(vs))),
+        call("check_not_left_invertible", *system.sizes, "system xs vs"),
+        f"~ left_invertible {system.named('system')}",
+        "not_left_invertible_sound",
+    )
+
+
+def _inclusion(s: Json, w: Json) -> Terms:
+    inner, outer, prime = Listed(s["inner"]), Listed(s["outer"]), _prime(w)
+    a, b = inner.named("inner"), outer.named("outer")
+    return Terms(
+        (
+            _named("inner", inner),
+            _named("outer", outer),
+            _modulus(prime),
+            ("rows", "seq kernel_row", _rows(w["kernel"])),
+            _words("ws", outer, outer.n + 1, prime),
+        ),
+        call("check_inclusion", inner.n, inner.m, *outer.sizes, "l inner outer rows ws"),
+        f"(forall s r, word {a} s r -> word {b} s r) /\\ (forall r, behavior {a} r -> behavior {b} r)",
+        "inclusion_sound",
+    )
+
+
+def _equality(s: Json, w: Json) -> Terms:
+    first, second, prime = Listed(s["first"]), Listed(s["second"]), _prime(w)
+    a, b, window = first.named("first"), second.named("second"), _window(s["window"]) if "window" in s else None
+    shape = first.n, first.m, *second.sizes
+    definitions = (
+        _named("first", first),
+        _named("second", second),
+        _modulus(prime),
+        ("rows", "seq kernel_row", _rows(w["kernel"])),
+        _words("ws", first, first.n + 1 if window is None else window, prime),
+        _words("ws'", second, second.n + 1 if window is None else window, prime),
+    )
+    if window is None:
+        statement = f"(forall s r, word {a} s r <-> word {b} s r) /\\ (forall r, behavior {a} r <-> behavior {b} r)"
+        return Terms(definitions, call("check_equality", *shape, "l first second rows ws ws'"), statement, "equality_sound")
+    statement = f"forall r, word {a} {natural(window)} r <-> word {b} {natural(window)} r"
+    check = call("check_window_equality", *shape, window, "l first second rows ws ws'")
+    return Terms(definitions, check, statement, "window_equality_sound")
+
+
+def _difference(s: Json, w: Json) -> Terms:
+    first, second, window = Listed(s["first"]), Listed(s["second"]), _window(s["window"])
+    x0, v = _integral_word(first, w)
+    return Terms(
+        (
+            _named("first", first),
+            _named("second", second),
+            ("x", "vector", vector(x0)),
+            ("vs", "seq vector", table(v)),
+            ("c", "seq vector", table(_cleared(w["row"])[0])),
+        ),
+        call("check_difference", first.n, first.m, *second.sizes, window, "first second x vs c"),
+        f"exists2 r, word {first.named('first')} {natural(window)} r & ~ word {second.named('second')} {natural(window)} r",
+        "difference_sound",
+    )
+
+
+def _fault_space(s: Json, w: Json) -> Terms:
+    system, prime, window = Listed(s["system"]), _prime(w), None if s["window"] is None else _window(s["window"])
+    width = system.n + system.p
+    kernel = [[_integers(c) for c in row["coefficients"]] for row in w["kernel"]]
+    basis, d = _cleared(s["basis"])
+    pivots = [next((j for j, x in enumerate(row) if x), width) for row in basis]
+    beyond = max((len(row) - 1 for row in kernel), default=0) if window is None else window
+    checker.charge(200 * sum(map(len, kernel)) * (width + 1) ** 2 * (1 + beyond * system.den.bit_length() // 60))
+    demands = [demand for row in kernel for demand in system.demands(row)]
+    checker.charge(len(demands) * (width + len(demands)) * (100 + 2 * width), 100 * len(demands) * (width + len(demands)))
+    combinations = pivoted(independent(demands, width, prime))
+    check = "check_limit" if window is None else "check_solutions"
+    at, shape = "s" if window is None else natural(window), f"{natural(len(basis))} {natural(width)}"
+    space = f"spans_solutions {system.named('system')} {at} (fraction d {shape} basis)"
+    return Terms(
+        (
+            _named("system", system),
+            _modulus(prime),
+            ("rows", "seq kernel_row", _rows(w["kernel"])),
+            _words("ws", system, system.n + 1 if window is None else window, prime),
+            ("d", "Z", whole(d)),
+            ("basis", "table", table(basis)),
+            ("combinations", "seq (nat * vector)", combinations),
+        ),
+        call(check, *system.sizes, beyond, "l system rows ws d basis", naturals(pivots), "combinations"),
+        f"forall s, ({natural(beyond)} < s)%N -> {space}" if window is None else space,
+        "limit_sound" if window is None else "solutions_sound",
+    )
+
+
+def _first_column_only(s: Json, w: Json) -> Terms:
+    system, prime, window = Listed(s["system"]), _prime(w), _window(s["window"])
+    (z,), d = _cleared([s["column"]])
+    name, f, g = system.named("system"), f"(recorded d {natural(system.n)} f)", f"(recorded d {natural(system.p)} g)"
+    response = f"output (with_faults {name} {f} {g}) 0 (impulse _)"
+    return Terms(
+        (
+            _named("system", system),
+            _modulus(prime),
+            ("rows", "seq kernel_row", _rows(w["kernel"])),
+            _words("ws", system, window, prime),
+            ("d", "Z", whole(d)),
+            ("f", "vector", vector(z[: system.n])),
+            ("g", "vector", vector(z[system.n :])),
+        ),
+        call("check_first_column", *system.sizes, window, "l system rows ws d f g"),
+        f"word {name} {natural(window)} ({response}) /\\ ~ solves {name} {natural(window)} {f} {g}",
+        "first_column_sound",
+    )
+
+
+def _inversion_delay(s: Json, w: Json) -> Terms:
+    system, delay = Listed(s["system"]), None if s["delay"] is None else _index(s["delay"], checker.MAX_DIMENSION)
+    known = {"known": "true", "unknown": "false"}[s["initial_state"]]
+    name = system.named("system")
+    x0, v = _integral_word(system, w["word"]) if delay != 0 else ([], [])
+    definitions = _named("system", system), ("x", "vector", vector(x0)), ("vs", "seq vector", table(v))
+    if delay is None:
+        statement = f"forall j, (j <= {natural(system.n)})%N -> ~ determines {name} {known} j"
+        return Terms(definitions, call("check_no_delay", *system.sizes, known, "system x vs"), statement, "no_delay_sound")
+    rows, least = [], natural(delay)
+    for given in w["inverse"] or [[]] * system.m:
+        (row,), scale = _cleared([given])
+        rows.append(f"({whole(scale)}, {table(row[k * system.p : (k + 1) * system.p] for k in range(delay + 1))})")
+    return Terms(
+        (*definitions, ("rows", "seq (Z * seq vector)", sequence(rows))),
+        call("check_delay", *system.sizes, known, delay, "system rows x vs"),
+        f"[/\\ ({least} <= {natural(system.n)})%N, determines {name} {known} {least} & "
+        f"forall j, (j < {least})%N -> ~ determines {name} {known} j]",
+        "delay_sound",
+    )
+
+
+def _matrix_rank(s: Json, w: Json) -> Terms:
+    system, prime, r, name = Listed(s["system"]), _prime(w), _index(s["rank"]), s["matrix"]
+    checker.expect(type(name) is str and name in checker.MATRICES, "matrix: unknown name")
+    n, m, p = system.sizes
+    samples, e, given = _window(s["window"]) if "window" in s else n, system.den, list[tuple[str, str, str]]()
+    system.bounded(samples)
+    meant, data, sizes = system.named("system"), "", [n, m, p, samples, r]
+    if name in ("observability", "toeplitz", "window"):
+        rows = [] if name == "toeplitz" else [system.response(unit(n, i), [0] * m, samples, prime) for i in range(n)]
+        if name != "observability":
+            from_rest = [system.response([0] * n, unit(m, i), samples, prime) for i in range(m)]
+            rows += [[0] * (p * j) + response[: p * (samples - j)] for j in range(samples) for response in from_rest]
+        width, weights = samples * p, [e ** (samples - 1 - k) for k in range(samples) for _ in range(p)]
+        matrix = f"{ {'observability': 'O', 'toeplitz': 'T', 'window': 'window'}[name] } {meant} {natural(samples)}"
+    elif name == "reachability":
+        blocks = [system.F]
+        while len(blocks) < n:
+            blocks.append([added(times(row, system.A, n), [0] * n, prime) for row in blocks[-1]])
+        rows = [row for block in blocks[:n] for row in block]
+        width, weights, matrix = n, [1] * n, f"reachability {meant}"
+    else:
+        (x0, *v), d = _cleared([s["x0"], *s["v"]])
+        count = len(v) - samples + 1
+        checker.expect(count > 0, "window: more than there are samples")
+        checker.charge(len(v) * ((n + m + p + 1) ** 2 * 100 + len(v) * e.bit_length() ** 2 // 100))
+        checker.charge(count * (n + samples * (m + p) + count) * (200 + 2 * count), 100 * count * (n + samples * (m + p) + count))
+        states, faults, outputs = system.trajectory(x0, v, prime)
+        given += [("d", "Z", whole(d)), ("x", "vector", vector(x0)), ("vs", "seq vector", table(v))]
+        sizes, data = [n, m, p, count, samples, r], "d x vs"
+        trajectory = f"(recorded d {natural(n)} x) (fun k => recorded d {natural(m)} (nth [::] vs k))"
+        tail, wide = (outputs, p) if name == "residual-hankel" else (faults, m)
+        rows = [[x for one in tail[i : i + samples] for x in one] for i in range(count)]
+        width, weights = samples * wide, [e ** (samples - 1 - k) for k in range(samples) for _ in range(wide)]
+        matrix = f"hankel {natural(count)} {natural(samples)} (output {meant} {trajectory})"
+        if name == "excitation":
+            rows = [states[i] + row for i, row in enumerate(rows)]
+            width, weights = n + width, [e ** max(samples - 1, 0)] * n + weights
+            matrix = f"excitation {meant} {trajectory} {natural(count)} {natural(samples)}"
+    if name in ("observability", "reachability"):
+        sizes = [n, m, p, r]
+    lemma = {"residual-hankel": "hankel"}.get(name, name)
+    checker.charge(len(weights) * (samples * e.bit_length()) ** 2 // 1000, len(weights) * samples * e.bit_length() // 8)
+    nulls = [(_index(row["pivot"]), list(map(mul, _integers(row["row"]), weights))) for row in w["left_null"]]
+    return Terms(
+        (
+            _named("system", system),
+            _modulus(prime),
+            *given,
+            ("nulls", "seq (nat * vector)", pivoted(nulls)),
+            ("combinations", "seq (nat * vector)", pivoted(independent(rows, width, prime))),
+        ),
+        call(f"check_{lemma}", *sizes, "l system", data, "nulls combinations"),
+        f"\\rank ({matrix}) = {natural(r)}%N",
+        f"{lemma}_sound",
+    )
+
+
+COVERED: dict[str, Callable[[Json, Json], Terms]] = {
+    "window-ranks": _window_ranks,
+    "left-invertible": _left_invertible,
+    "not-left-invertible": _not_left_invertible,
+    "inversion-delay": _inversion_delay,
+    "behaviour-inclusion": _inclusion,
+    "behaviour-equality": _equality,
+    "window-equality": _equality,
+    "behaviour-difference": _difference,
+    "fault-space": _fault_space,
+    "first-column-only": _first_column_only,
+    "matrix-rank": _matrix_rank,
+}
+
+
+# -- parts -------------------------------------------------------------------------------------------------------------
+
+
+def _prime(w: Json) -> int:
+    prime = _index(w["prime"], checker.MAX_PRIME)
+    checker.require(checker.is_prime(prime), f"{prime} is not a prime")
+    return prime
+
+
+def _index(value: Json, largest: int = checker.MAX_DIMENSION * checker.MAX_WINDOW) -> int:
+    return checker.index(value, "an index", largest)
+
+
+def _indices(values: Json) -> list[int]:
+    return [_index(value) for value in checker.items(values, "indices")]
+
+
+def _window(value: Json) -> int:
+    return _index(value, checker.MAX_WINDOW)
+
+
+def _integers(values: Json) -> list[int]:
+    return [checker.rational(value, "a number", integral=True)[0] for value in values]
+
+
+def _rows(kernel: Json) -> str:
+    return sequence(f"({natural(_index(row['pivot']))}%N, {table(_integers(c) for c in row['coefficients'])})" for row in kernel)
+
+
+def _named(name: str, system: Listed) -> tuple[str, str, str]:
+    return name, "listed", system.term
+
+
+def _words(name: str, system: Listed, samples: int, prime: int) -> tuple[str, str, str]:
+    return name, "seq sampled_word", system.words(samples, prime)
+
+
+def _modulus(prime: int) -> tuple[str, str, str]:
+    return "l", "Z", whole(prime)
+
+
+def _scaled(values: Json, factor: int) -> list[int]:
+    """RATIONALs times a factor that all denominators divide."""
+    checker.charge(len(values) * (200 + factor.bit_length() ** 2 // 500), len(values) * factor.bit_length() // 4)
+    return [top * factor // bottom for top, bottom in (checker.rational(x, "a number") for x in values)]
+
+
+def _cleared(rows: Json) -> tuple[Integers, int]:
+    """Rows of RATIONALs as integers over their common denominator."""
+    den = checker.common_denominator(checker.rational(x, "a number")[1] for row in rows for x in row)
+    return [_scaled(row, den) for row in rows], den
+
+
+def _integral_word(system: Listed, word: Json) -> tuple[list[int], Integers]:
+    """A word of the integer system: v(k) times the k-th power of its denominator, all of it times what clears the fractions."""
+    _, scale = _cleared([word["x0"], *word["v"]])
+    checker.charge((len(word["v"]) ** 3 + 1) * system.den.bit_length() ** 2 // 2000)
+    return _scaled(word["x0"], scale), [_scaled(v, scale * system.den**k) for k, v in enumerate(word["v"])]
+
+
+def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[int]]]:
+    """Reduced row echelon form modulo a prime, first `width` columns: pivots, and the combinations of the rows that lead there."""
+    if not rows or not width:
+        return []
+    height = len(rows)
+    augmented = nmod_mat(height, width + height, [x % prime for i, row in enumerate(rows) for x in row + unit(height, i)], prime)
+    form, _ = augmented.rref()
+    found = []
+    for i in range(height):
+        line = [int(form[i, j]) for j in range(width + height)]
+        pivot = next((j for j in range(width) if line[j]), None)
+        if pivot is not None:
+            found.append((pivot, line[width:]))
+    return found
+
+
+def unit(size: int, i: int) -> list[int]:
+    """A row of the identity."""
+    return [int(i == j) for j in range(size)]
+
+
+def times(x: list[int], M: Integers, width: int) -> list[int]:
+    """A row times a matrix."""
+    return [sum(a * row[j] for a, row in zip(x, M, strict=True)) for j in range(width)]
+
+
+def added(u: Iterable[int], v: Iterable[int], prime: int) -> list[int]:
+    """The sum modulo the prime."""
+    return [(a + b) % prime for a, b in zip(u, v, strict=True)]

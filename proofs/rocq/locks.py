@@ -1,0 +1,243 @@
+"""The locks of the headlines: what each theorem says, down to every word of ours that it uses, so that no word changes unnoticed.
+
+    Lock          one theorem: its statement, the words that it reaches, the SHA-256 of all of it
+    Locks         the locks of all headlines, with the texts that they are made of
+    made          the locks that a set of sources has
+    kept          those of theory/locks.json, which were made when somebody last read the statements
+    held          the locks of the sources; raises NotProved where they are not those kept, and says which word changed
+    page          theory/STATEMENTS.md: the readings of the ledger, the theorems and their locks side by side
+
+A lock is computed from the text of our sources, without comments and line breaks, so it is the same for each version of Rocq. It is the
+SHA-256 of the lines: what the files concerned open with, what may change the reading of a text from afar (canonical structures,
+coercions, notations of the whole theory), the words in the order of their names, the statement. After a change that is wanted,
+
+    python -m faultspace.proofs.rocq.locks
+
+writes both files anew and says what is different.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+from ..verdict.ledger import Claim, load
+from .build import NotProved, sources
+from .statements import Headline, Statements, read, refusals
+
+LOCKS, STATEMENTS = "locks.json", "STATEMENTS.md"
+COMMAND = "python -m faultspace.proofs.rocq.locks"
+MOST_TOLD = 4
+
+
+@dataclass(frozen=True)
+class Lock:
+    """What one headline says. `words`: the keys of all words that it reaches; `sha256`: of the text that they make together."""
+
+    file: str
+    statement: str
+    words: tuple[str, ...]
+    sha256: str
+
+    def to_json(self) -> dict[str, Any]:
+        """The object of one theorem in the file."""
+        return {"file": self.file, "sha256": self.sha256, "statement": self.statement, "words": list(self.words)}
+
+
+@dataclass(frozen=True)
+class Locks:
+    """`theorems` by name; `words` by key, `openings` by file, `far`: the texts that the locks are made of."""
+
+    theorems: Mapping[str, Lock]
+    words: Mapping[str, str]
+    openings: Mapping[str, str]
+    far: tuple[str, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """The object that the file holds."""
+        return {
+            "about": f"The statements of the Rocq theory as they were last read. {COMMAND} writes this file.",
+            "theorems": {name: lock.to_json() for name, lock in self.theorems.items()},
+            "words": dict(self.words),
+            "openings": dict(self.openings),
+            "far": list(self.far),
+        }
+
+
+def made(texts: Mapping[str, str]) -> Locks:
+    """The locks of these sources, file name -> text. Raises NotProved where a file breaks the rules of `rocq_statements`."""
+    statements = read(texts)
+    theorems: dict[str, Lock] = {}
+    words: dict[str, str] = {}
+    for name in sorted(statements.headlines):
+        headline = statements.headlines[name]
+        reached = {word.key: word.text for word in statements.reached(headline)}
+        words.update(reached)
+        theorems[name] = Lock(headline.file, _stated(headline), tuple(reached), _digest(headline, reached, statements))
+    return Locks(theorems, {key: words[key] for key in sorted(words)}, dict(sorted(statements.openings.items())), statements.far)
+
+
+def _stated(headline: Headline) -> str:
+    return f"Theorem {headline.name}{headline.statement}."
+
+
+def _digest(headline: Headline, reached: Mapping[str, str], statements: Statements) -> str:
+    files = sorted({headline.file, *statements.imports[headline.file]})
+    lines = [f"{file} opens with: {statements.openings[file]}" for file in files]
+    lines += [f"from afar: {one}" for one in statements.far]
+    lines += [f"{key}: {text}" for key, text in reached.items()]
+    return hashlib.sha256("\n".join([*lines, _stated(headline)]).encode()).hexdigest()
+
+
+def kept() -> Locks:
+    """The locks in theory/locks.json. Raises NotProved where the file is not there or not what this module writes."""
+    try:
+        data = json.loads(_folder().joinpath(LOCKS).read_text("utf-8"))
+        theorems = {
+            str(name): Lock(str(one["file"]), str(one["statement"]), tuple(one["words"]), str(one["sha256"]))
+            for name, one in data["theorems"].items()
+        }
+        return Locks(theorems, dict(data["words"]), dict(data["openings"]), tuple(data["far"]))
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise NotProved(f"the locks of the statements, theory/{LOCKS}, cannot be read: {type(error).__name__}: {error}") from None
+
+
+def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
+    """The locks of these sources. Raises NotProved where they are not those kept, or where a source assumes something."""
+    if refused := refusals(texts):
+        told = "; ".join(f"{name} has {', '.join(found)}" for name, found in refused.items())
+        raise NotProved(f"the sources of the theory assume something or switch a check off: {told}")
+    now, before = made(texts), kept() if against is None else against
+    found = list(differences(before, now))
+    if found or before != now:
+        more = f"; and {len(found) - MOST_TOLD} more" if len(found) > MOST_TOLD else ""
+        told = f"{'; '.join(found[:MOST_TOLD]) or f'{LOCKS} has more than they need, or in another order'}{more}"
+        raise NotProved(f"the statements are not as locked: {told}. If that is wanted, {COMMAND} locks them anew")
+    return now
+
+
+def differences(before: Locks, now: Locks) -> Iterator[str]:
+    """What is different, one sentence for each headline, word or opening that is."""
+    for name in sorted({*before.theorems, *now.theorems}):
+        old, new = before.theorems.get(name), now.theorems.get(name)
+        if old is None:
+            yield f"the headline {name} has no lock"
+        elif new is None:
+            yield f"the headline {name} is locked and is not there"
+        elif old.statement != new.statement:
+            yield f"the headline {name} {_changed(new.statement, old.statement)}"
+    for key in sorted({*before.words, *now.words}):
+        said, was = now.words.get(key), before.words.get(key)
+        if said != was:
+            of = sorted(name for locks in (before, now) for name, lock in locks.theorems.items() if key in lock.words)
+            what = "is not locked" if was is None else "is locked and is not there" if said is None else _changed(said, was)
+            yield f"the word {key} {what}, which {len({*of})} headlines use{', ' + of[0] + ' for one' if of else ''}"
+    for file in sorted({*before.openings, *now.openings}):
+        said, was = now.openings.get(file, ""), before.openings.get(file, "")
+        if said != was:
+            yield f"what {file} opens with {_changed(said, was)}"
+    for one in sorted({*before.far} ^ {*now.far}):
+        yield f"{one} may change how statements are read, and is {'not locked' if one in now.far else 'gone'}"
+    if before.words == now.words and before.openings == now.openings and {*before.far} == {*now.far}:
+        for name in sorted({*before.theorems} & {*now.theorems}):
+            old, new = before.theorems[name], now.theorems[name]
+            if old != new and old.statement == new.statement:
+                yield f"the lock of {name} is not the SHA-256 of its own text, or tells other words or another file"
+
+
+def _changed(text: str, before: str) -> str:
+    return f"says {_around(text, before)} where its lock has {_around(before, text)}"
+
+
+def _around(text: str, other: str, width: int = 60) -> str:
+    """The part of the text where it differs from the other, with some words before it."""
+    first = next((k for k, (a, b) in enumerate(zip(text, other, strict=False)) if a != b), min(len(text), len(other)))
+    start = max(0, text.rfind(" ", 0, max(0, first - 15)) + 1)
+    return f"'{'...' if start else ''}{text[start : first + width]}{'...' if first + width < len(text) else ''}'"
+
+
+def page(locks: Locks, claims: list[Claim]) -> str:
+    """The table of readings, theorems and locks, and below it the words, in Markdown."""
+    lines = [
+        "# What is claimed, what is proved, and the locks of the statements",
+        "",
+        f"`{COMMAND}` writes this page from `ledger.toml` and the sources; a test says that it is current. To the left",
+        "stands what the ledger claims, in the middle the theorem that Rocq has checked (of a refuted reading, its counterexample), to the",
+        "right its lock: the SHA-256 of the statement and of every word of ours that it uses, which stand below and in `locks.json`.",
+        "`faultspace verify` compares them with the sources.",
+        "",
+        "| reading | in words | theorem | SHA-256 |",
+        "|---|---|---|---|",
+    ]
+    told = set[str]()
+    for claim in claims:
+        for reading in claim.readings:
+            first = f"{claim.id}: {reading.id}", f"{_cell(reading.statement)} ({reading.proved})"
+            for name in reading.theorems:
+                told.add(name)
+                if name in locks.theorems:
+                    lines.append(_row(*first, locks.theorems[name]))
+                    first = "", "and"
+    for name in sorted({*locks.theorems} - told):
+        lines.append(_row("", "what others rest on, or part of a reading", locks.theorems[name]))
+    lines += ["", "## The words", "", "Each as its vocabulary defines it, with the variables of its section.", ""]
+    lines += ["| word | definition |", "|---|---|"]
+    lines += [f"| `{key}` | {_code(text)} |" for key, text in locks.words.items()]
+    lines += ["", "## What else the locks hold", ""]
+    lines += [f"- `{file}` opens with {_code(text)}" for file, text in locks.openings.items()]
+    lines += [f"- {_code(one)}" for one in locks.far]
+    return "\n".join(lines) + "\n"
+
+
+def _row(reading: str, words: str, lock: Lock) -> str:
+    return f"| {reading} | {words} | {_code(lock.statement)} | `{lock.sha256}` |"
+
+
+def _code(text: str) -> str:
+    """As code in a cell of a table, where a bar would end it."""
+    mark = "``" if "`" in text else "`"
+    pad = " " if "`" in text else ""
+    return mark + pad + text.replace("|", "\\|") + pad + mark
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|")
+
+
+def _folder() -> Traversable:
+    return resources.files("faultspace.proofs").joinpath("theory")
+
+
+def written(locks: Locks) -> str:
+    """The text of theory/locks.json."""
+    return json.dumps(locks.to_json(), indent=1, ensure_ascii=False) + "\n"
+
+
+def main() -> int:
+    """Locks the statements of the sources as they are now; says what is different."""
+    try:
+        now = made(sources())
+    except NotProved as error:
+        print(error, file=sys.stderr)
+        return 1
+    try:
+        found = list(differences(kept(), now))
+    except NotProved as error:
+        found = [str(error)]
+    place = Path(str(_folder()))
+    (place / LOCKS).write_text(written(now), "utf-8")
+    (place / STATEMENTS).write_text(page(now, list(load())), "utf-8")
+    for one in found or ["nothing is different"]:
+        print(one)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,55 @@
+"""The theory compiled anew whatever the cache holds, and read once more by the second checker, coqchk.
+
+    recheck     removes the compiled theory from the cache, compiles it from our sources, has coqchk read it where coqchk is there
+    second_check   what coqchk says of all files of a compiled theory; raises NotProved where one rests on anything
+
+This is what `faultspace verify --recheck` does first: it believes nothing that was compiled before.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+from .build import NotProved, Progress, compiled_theory, forget
+
+SECONDS = 1800
+# What coqchk tells that a theory rests on; each must be nothing.
+HEADINGS = (
+    "Axioms",
+    "Constants/Inductives relying on type-in-type",
+    "Constants/Inductives relying on unsafe (co)fixpoints",
+    "Inductives whose positivity is assumed",
+)
+
+
+def recheck(progress: Progress = lambda name, done, total: None) -> str:
+    """What was done, in words. Raises NoRocq, BrokenTheory, NotProved."""
+    forget()
+    theory = compiled_theory(progress)
+    if shutil.which("coqchk") is None:
+        return "compiled anew; coqchk is not on the path, so that Rocq's kernel alone has read it"
+    progress("Rocq: coqchk reads the theory again", 0, 1)
+    second_check(theory)
+    return "compiled anew, and read again by coqchk, with MathComp below it"
+
+
+def second_check(theory: Path, seconds: float = SECONDS) -> None:
+    """Raises NotProved where coqchk does not accept all compiled files of this folder as resting on nothing."""
+    path = shutil.which("coqchk")
+    assert path is not None
+    names = [f"faultspace.{one.stem}" for one in sorted(theory.glob("*.vo"))]
+    command = [path, "-silent", "-o", "-Q", str(theory), "faultspace", *names]
+    try:
+        told = subprocess.run(command, capture_output=True, text=True, check=False, timeout=seconds, stdin=subprocess.DEVNULL)
+    except subprocess.TimeoutExpired:
+        raise NotProved(f"coqchk took more than {seconds:g} s") from None
+    said = told.stdout + told.stderr  # with -silent it tells its summary on standard error
+    if told.returncode != 0:
+        raise NotProved(f"coqchk does not accept the theory: {' '.join(said.split())[-600:]}")
+    for heading in HEADINGS:
+        if f"* {heading}: <none>" not in said:
+            rests = re.search(rf"\* {re.escape(heading)}:(.*?)(?:\n\s*\*|\Z)", said, re.DOTALL)
+            raise NotProved(f"coqchk: {heading}: {' '.join(rests[1].split())[:300] if rests else 'nothing was said'}")

@@ -1,0 +1,118 @@
+"""`faultspace check --rocq`: certificates recomputed by Rocq's kernel.
+
+    recomputed    one Recomputed for each certificate: accepted, rejected, not covered or undecided, and why
+    theory        the folder with the compiled files that the checks need
+    decided       what the boolean checks of several certificates compute to, in one file
+    proved        nothing, where the kernel accepts the theorems about the concrete systems and they rest on no axiom
+
+Accepted means that the theorem about this system went through the kernel, not that a boolean came out true.
+
+Covered, over the rational numbers (kind: theorem, in the file):
+    window-ranks: window_ranks_sound; left-invertible: left_invertible_sound                       CheckRanks.v
+    behaviour-inclusion: inclusion_sound; behaviour-equality: equality_sound;
+    window-equality: window_equality_sound; behaviour-difference: difference_sound                 CheckBehaviors.v
+    fault-space: solutions_sound, limit_sound; first-column-only: first_column_sound               CheckSolutions.v
+    not-left-invertible: not_left_invertible_sound; inversion-delay: delay_sound, no_delay_sound   CheckInversion.v
+    matrix-rank: observability_sound, reachability_sound, toeplitz_sound, window_sound, hankel_sound, excitation_sound   CheckMatrices.v
+Not covered: left-invertible-line, schur-stable, finite-zeros, infinite-zeros, moesp-limit, input-limit; and Q(a) and GF(p).
+
+Measured: window-ranks of a dense system with n = 20, m = 2, p = 3 takes Rocq five seconds of processor time, half of it for simulating
+words, a third for reading the file. What takes longer than SECONDS is left undecided.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from ..trust import checker
+from .build import CLOSED, BrokenTheory, NotProved, Progress, compile_file, compiled_theory, kept_theory, needs, sources
+from .export import HEAD, MODULES, NotCovered, Terms, exported, written
+
+AT_ONCE, SECONDS = 100, 120.0
+
+
+@dataclass(frozen=True)
+class Recomputed:
+    """What Rocq says of one certificate."""
+
+    result: Literal["accepted", "rejected", "not covered", "undecided"]
+    reason: str
+
+
+ACCEPTED = Recomputed("accepted", "the kernel has proved the statement by computation, from no axiom")
+REJECTED = Recomputed("rejected", "the check computes to false")
+
+
+def recomputed(
+    certificates: Sequence[Any], progress: Progress = lambda stage, done, total: None, *, seconds: float = SECONDS
+) -> list[Recomputed]:
+    """One for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected here.
+
+    Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself).
+    """
+    compiled = theory(progress)
+    results: dict[int, Recomputed] = {}
+    terms: dict[int, Terms] = {}
+    for i, certificate in enumerate(certificates):
+        progress("Rocq: writing certificates", i, len(certificates))
+        try:
+            terms[i] = exported(certificate)
+        except NotCovered as error:
+            results[i] = Recomputed("not covered", str(error))
+        except (checker.Rejected, checker.Malformed) as error:
+            results[i] = Recomputed("rejected", f"by the checker: {error}")
+    waiting = list(terms)
+    for start in range(0, len(waiting), AT_ONCE):
+        progress("Rocq: recomputing certificates", start, len(waiting))
+        some = waiting[start : start + AT_ONCE]
+        results |= zip(some, _judged([terms[i] for i in some], compiled, seconds), strict=True)
+    return [results[i] for i in range(len(certificates))]
+
+
+def theory(progress: Progress = lambda stage, done, total: None) -> Path:
+    """Raises NoRocq, BrokenTheory."""
+    if (whole := kept_theory()) is not None:
+        return whole
+    texts, wanted = sources(), set[str]()
+    required, waiting = needs(texts), [f"{module}.v" for module in MODULES]
+    while waiting:
+        if (name := waiting.pop()) not in wanted:
+            wanted.add(name)
+            waiting += required[name]
+    return compiled_theory(progress, texts={name: text for name, text in texts.items() if name in wanted})
+
+
+def decided(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) -> list[bool]:
+    """Raises BrokenTheory, also when it takes longer."""
+    parts = [f"Module C{i}.\n{t.opening()}\nEval vm_compute in {t.check}.\nEnd C{i}.\n" for i, t in enumerate(terms)]
+    said = compile_file(compiled, "Recomputed.v", HEAD + "".join(parts), seconds=seconds)
+    verdicts = [word == "true" for word in re.findall(r"= (true|false)\s+: bool", said)]
+    if len(verdicts) != len(terms):
+        raise BrokenTheory(f"Rocq gave {len(verdicts)} answers to {len(terms)} checks")
+    return verdicts
+
+
+def proved(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) -> None:
+    """Raises NotProved, also when it takes longer."""
+    try:
+        said = compile_file(compiled, "Certified.v", written(terms), seconds=seconds)
+    except BrokenTheory as error:
+        raise NotProved(str(error)) from None
+    if said.strip() != CLOSED:
+        raise NotProved(f"the theorem rests on more than the kernel: {' '.join(said.split())}")
+
+
+def _judged(terms: list[Terms], compiled: Path, seconds: float) -> list[Recomputed]:
+    """All at once, since starting Rocq takes seconds; one by one where that fails."""
+    try:
+        verdicts = decided(terms, compiled, seconds)
+        proved([t for t, true in zip(terms, verdicts, strict=True) if true], compiled, seconds)
+        return [ACCEPTED if true else REJECTED for true in verdicts]
+    except (BrokenTheory, NotProved) as error:
+        if len(terms) > 1:
+            return [one for t in terms for one in _judged([t], compiled, seconds)]
+        return [Recomputed("undecided", str(error))]

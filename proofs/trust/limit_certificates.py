@@ -1,0 +1,234 @@
+"""Certificates of population limits, kinds "moesp-limit" and "input-limit", as FORMAT.md has them.
+
+    past_input_limit, past_input_and_output_limit    the ranks of L, O_s and [O_s L], by PI-MOESP's and PO-MOESP's instruments
+    output_error_inputs, moesp_inputs                B and D of the two regressions with the true A and C
+
+Each takes the PopulationLimits of an experiment and returns a JSON-ready certificate, untrusted as all are. The covariances of the witness
+are in the coordinates of FORMAT.md, xi = (x; s_1; ...; s_L), s_i a block of the filters' own states, which need not be those in which
+the limits were computed; `Chain` is that realisation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from flint import fmpq, fmpq_poly, fmpz
+
+from ...exact.algebra.fields import QQ
+from ...exact.algebra.matrices import Matrix, beside, rank, row_profile, solve_left, stacked
+from ...exact.algebra.stability import characteristic_polynomial
+from ...exact.limits.experiments import Experiment
+from ...exact.limits.lyapunov import solve, stein
+from ...exact.limits.moesp import PopulationLimits
+from ...exact.system.modular import LARGEST_PRIME, primes_below, reduce_matrix
+from ...exact.system.windows import observability_matrix
+from .structure_certificates import Certificate, Unprovable
+
+
+@dataclass(frozen=True)
+class Chain:
+    """The filters as s(k+1) = a s(k) + b e(k), (u; v; w) = c s(k) + first e(k); `annihilator`, ascending, has a among its zeros."""
+
+    a: Matrix
+    b: Matrix
+    c: Matrix
+    first: Matrix
+    annihilator: tuple[Any, ...]
+
+    def covariance(self) -> Matrix:
+        """Of s."""
+        return stein(self.a, self.a, self.b @ self.b.transposed(), self.annihilator)
+
+    def with_states(self, A: Matrix, into: Matrix, own: Matrix) -> Matrix:
+        """Cov(x, s) for x(k+1) = A x(k) + into f(k), `own` the covariance of s."""
+        source = into @ (self.c @ own @ self.a.transposed() + self.first @ self.b.transposed())
+        return stein(A, self.a, source, self.annihilator)
+
+
+def past_input_limit(limits: PopulationLimits) -> Certificate:
+    """The ranks of the limit of PI-MOESP."""
+    experiment, blocks, found = limits.experiment, limits.blocks, limits.past_inputs
+    chain = _chain(experiment)
+    into, own = _into(experiment, experiment.system.B), chain.covariance()
+    covariance = stacked(chain.with_states(experiment.system.residual.A, into, own), own)
+    return _rank_certificate(limits, "past-inputs", covariance, blocks.uf_up, blocks.yf_up, found.matrix)
+
+
+def past_input_and_output_limit(limits: PopulationLimits) -> Certificate:
+    """The ranks of the limit of PO-MOESP."""
+    experiment, blocks, found = limits.experiment, limits.blocks, limits.past_outputs
+    A, chain = experiment.system.residual.A, _chain(experiment)
+    into, own = _into(experiment, experiment.system.B), chain.covariance()
+    across = chain.with_states(A, into, own)
+    driven, direct = into @ chain.c, into @ chain.first
+    crossed = A @ across @ driven.transposed()
+    source = crossed + crossed.transposed() + driven @ own @ driven.transposed() + direct @ direct.transposed()
+    states = stein(A, A, source, _ascending(A))
+    covariance = stacked(beside(states, across), beside(across.transposed(), own))
+    inputs, outputs = beside(blocks.uf_up, blocks.uf_yp), beside(blocks.yf_up, blocks.yf_yp)
+    return _rank_certificate(limits, "past-inputs-and-outputs", covariance, inputs, outputs, found.matrix)
+
+
+def output_error_inputs(limits: PopulationLimits) -> Certificate:
+    """B and D that minimise the stationary E|y - G(q)u|^2 with the true A and C.
+
+    Raises Unprovable when they are not unique, and where n + 1 block rows of u have a singular covariance.
+    """
+    if limits.true_AC is None:
+        raise Unprovable("the minimiser is not unique")
+    experiment, (B, D) = limits.experiment, (limits.true_AC.B, limits.true_AC.D)
+    residual, u = experiment.system.residual, limits.known.process.u
+    chain = _chain(experiment)
+    into, own = _into(experiment, experiment.system.B - B), chain.covariance()
+    plain = chain.with_states(residual.A, _into(experiment, experiment.system.B), own)
+    turned, C = residual.A.transposed(), residual.C
+    gramian = stein(turned, turned, C.transposed() @ C, _ascending(residual.A))
+    seen = beside(experiment.system.D - D, residual.G, Matrix.identity(QQ, residual.p))
+    source = (turned @ gramian @ into + C.transposed() @ seen) @ chain.c
+    series = beside(gramian, stein(turned, chain.a.transposed(), source, chain.annihilator))
+    window = range(residual.n + 1)
+    prime = _prime(limits.known.windows(u, u, window, window), observability_matrix(residual, residual.n))
+    witness = {
+        "prime": prime,
+        "covariance": stacked(plain, own).to_json(),
+        "errors": stacked(chain.with_states(residual.A, into, own), own).to_json(),
+        "series": series.to_json(),
+    }
+    return _input_certificate(experiment, "true-AC", B, D, witness)
+
+
+def moesp_inputs(limits: PopulationLimits) -> Certificate:
+    """B and D of MOESP's regression with the true A and C. Raises Unprovable when they are not unique."""
+    if limits.moesp is None:
+        raise Unprovable("the regression has more than one solution")
+    experiment, blocks, chain = limits.experiment, limits.blocks, _chain(limits.experiment)
+    residual, s, own = experiment.system.residual, experiment.s, chain.covariance()
+    covariance = stacked(chain.with_states(residual.A, _into(experiment, experiment.system.B), own), own)
+    seen = observability_matrix(residual, s)
+    witness = {
+        "prime": _prime(blocks.uf_uf, observability_matrix(residual, s - 1)),
+        "covariance": covariance.to_json(),
+        "response": solve(blocks.uf_uf, blocks.yf_uf.transposed()).transposed().to_json(),
+        "inverse": solve(seen.transposed() @ seen, seen.transposed()).to_json(),
+    }
+    return _input_certificate(experiment, "moesp", limits.moesp.B, limits.moesp.D, witness)
+
+
+# -- parts -------------------------------------------------------------------------------------------------------------
+
+
+def _certificate(kind: str, statement: dict[str, Any], witness: dict[str, Any]) -> Certificate:
+    return {"format": "faultspace-certificate/1", "kind": kind, "statement": statement, "witness": witness}
+
+
+def _input_certificate(experiment: Experiment, regression: str, B: Matrix, D: Matrix, witness: dict[str, Any]) -> Certificate:
+    statement = {"experiment": experiment.to_json(), "regression": regression, "B": B.to_json(), "D": D.to_json()}
+    return _certificate("input-limit", statement, witness)
+
+
+def _chain(experiment: Experiment) -> Chain:
+    filters = [experiment.u_filter, experiment.v_filter] + ([] if experiment.w_filter is None else [experiment.w_filter])
+    heights = [experiment.system.nu, experiment.system.residual.m, experiment.system.residual.p]
+    noises = [experiment.u_filter.noise, 0 if experiment.w_filter is None else experiment.w_filter.noise]
+    length = max(one.memory for one in filters)
+    forward, feedback = list[Matrix](), list[Matrix]()
+    for i in range(length + 1):
+        rows = list[list[Any]]()
+        for one, height, start in zip(filters, heights, (0, 0, noises[0]), strict=False):
+            entries = one.numerator[i].elements() if i < len(one.numerator) else [[fmpq(0)] * one.noise] * height
+            rows += [[fmpq(0)] * start + entry + [fmpq(0)] * (sum(noises) - start - one.noise) for entry in entries]
+        rows += [[fmpq(0)] * sum(noises) for _ in range(sum(heights) - len(rows))]
+        forward.append(Matrix.from_elements(QQ, sum(heights), sum(noises), rows))
+        taps = [one.denominator[i] if i < len(one.denominator) else fmpq(0) for one in filters] + [fmpq(0)]
+        feedback.append(_diagonal([tap for tap, height in zip(taps, heights, strict=False) for _ in range(height)]))
+    size, nothing, unit = sum(heights), Matrix.zero(QQ, sum(heights), sum(heights)), Matrix.identity(QQ, sum(heights))
+    steps = range(1, length + 1)
+    moves = [beside(-feedback[i], *(unit if j == i + 1 else nothing for j in steps[1:])) for i in steps]
+    enters = [forward[i] - feedback[i] @ forward[0] for i in steps]
+    a, b = stacked(Matrix.zero(QQ, 0, size * length), *moves), stacked(Matrix.zero(QQ, 0, sum(noises)), *enters)
+    c = beside(Matrix.zero(QQ, size, 0), *([unit] + [nothing] * (length - 1))[:length])
+    return Chain(a, b, c, forward[0], _annihilator([one.denominator for one in filters], length))
+
+
+def _annihilator(denominators: list[tuple[Any, ...]], length: int) -> tuple[Any, ...]:
+    """q^length times the product of the different q^k + d_1 q^(k-1) + ... + d_k, ascending."""
+    product = fmpq_poly([0] * length + [1])
+    for one in {*denominators}:
+        product *= fmpq_poly([*reversed(one)])
+    return tuple(product.coeffs())
+
+
+def _into(experiment: Experiment, B: Matrix) -> Matrix:
+    residual = experiment.system.residual
+    return beside(B, residual.F, Matrix.zero(QQ, residual.n, residual.p))
+
+
+def _diagonal(entries: list[Any]) -> Matrix:
+    rows = [[x if i == j else fmpq(0) for j in range(len(entries))] for i, x in enumerate(entries)]
+    return Matrix.from_elements(QQ, len(entries), len(entries), rows)
+
+
+def _ascending(A: Matrix) -> list[Any]:
+    return [fmpq(c.numerator, c.denominator) for c in characteristic_polynomial(A)]
+
+
+def _rank_certificate(
+    limits: PopulationLimits, instruments: str, covariance: Matrix, inputs: Matrix, outputs: Matrix, limit: Matrix
+) -> Certificate:
+    """The rows that vanish on L, O_s or both, continued to (Uf; Yf) so that they vanish on the covariances and no inverse is needed."""
+    experiment, blocks = limits.experiment, limits.blocks
+    seen = observability_matrix(experiment.system.residual, experiment.s)
+    response = solve(blocks.uf_uf, blocks.yf_uf.transposed()).transposed()
+    named = {"limit": limit, "observability": seen, "joint": beside(limit, seen)}
+    profiles = {name: row_profile(matrix) for name, matrix in named.items()}
+    statement: dict[str, Any] = {"experiment": experiment.to_json(), "instruments": instruments}
+    statement |= {f"{name}_rank": len(profile) for name, profile in profiles.items()}
+    first, behind = stacked(blocks.uf_uf, blocks.yf_uf), stacked(inputs, outputs)
+    below = stacked(Matrix.zero(QQ, first.ncols, seen.ncols), seen)
+    tables = {"limit": beside(first, behind), "observability": beside(first, below), "joint": beside(first, behind, below)}
+    bordered = [(tables[name], first.ncols + len(profile)) for name, profile in profiles.items()]
+    witness = {"prime": _prime_of_ranks([(blocks.uf_uf, first.ncols), *bordered]), "covariance": covariance.to_json()}
+    for name, profile in profiles.items():
+        if name == "joint" or len(profile) < len(profiles["joint"]):  # else the rows of both serve
+            witness[name] = _left_null(named[name], profile, response)
+    return _certificate("moesp-limit", statement, witness)
+
+
+def _left_null(matrix: Matrix, profile: tuple[int, ...], response: Matrix) -> list[dict[str, Any]]:
+    """Integer rows (-r response, r) for a basis of the r with r matrix = 0, each alone at its pivot."""
+    dependent = [i for i in range(matrix.nrows) if i not in set(profile)]
+    relations = solve_left(matrix.rows(profile), matrix.rows(dependent))
+    if relations is None:
+        raise ArithmeticError("the row profile does not span")
+    entries = [[fmpq(0)] * matrix.nrows for _ in dependent]
+    for row, pivot, found in zip(entries, dependent, relations.elements(), strict=True):
+        for i, x in zip(profile, found, strict=True):
+            row[i] = -x
+        row[pivot] = fmpq(1)
+    rows = Matrix.from_elements(QQ, len(dependent), matrix.nrows, entries)
+    continued = beside(-(rows @ response), rows).elements()
+    return [{"pivot": response.ncols + pivot, "row": _integral(row)} for pivot, row in zip(dependent, continued, strict=True)]
+
+
+def _integral(entries: list[Any]) -> list[object]:
+    bottom = fmpz(1)
+    for x in entries:
+        bottom = bottom.lcm(x.q)
+    return [QQ.write(x * bottom) for x in entries]
+
+
+def _prime(covariance: Matrix, seen: Matrix) -> int:
+    """A prime modulo which both have full column rank; Unprovable where they have not."""
+    if rank(covariance) < covariance.ncols:
+        raise Unprovable(f"the covariance of {covariance.nrows} rows of inputs is singular")
+    return _prime_of_ranks([(covariance, covariance.ncols), (seen, seen.ncols)])
+
+
+def _prime_of_ranks(matrices: list[tuple[Matrix, int]]) -> int:
+    """The largest prime of a usual size modulo which every matrix has the rank beside it."""
+    for prime in primes_below(LARGEST_PRIME):
+        images = ((reduce_matrix(matrix, prime, None), size) for matrix, size in matrices)
+        if all(image is not None and rank(image) >= size for image, size in images):
+            return prime
+    raise ArithmeticError("every prime up to the bound divides a denominator or a minor")

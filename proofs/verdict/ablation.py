@@ -1,0 +1,225 @@
+"""Which hypotheses does a claim need? Each is dropped in turn, and in pairs: a counterexample that meets all the others, or none anywhere.
+
+    Subject       what a claim is about, certified: a system with a window, a pair of systems, a trajectory
+    Proof         theorems of Rocq that prove the conclusion, and the hypotheses they prove it from
+    Experiment    a conclusion, the hypotheses it is said to rest on, the subjects tried, and the search over Q
+    ablate        all rows of an experiment: every hypothesis alone, and every two; REFUTED: needed, CERTIFIED: no counterexample found
+
+One pass over the subjects notes, for each, which hypotheses it violates and whether the conclusion holds. The claim without the set D is
+refuted by whatever violates nothing outside D and fails the conclusion. So a subject that violates nothing and fails refutes the claim
+itself: then the experiment is in error, and says so. The smallest over Q is sought where some subject failed, over whatever field; among
+the smallest, one that fails for a reason of its own comes before one that is `degenerate`.
+
+A hypothesis that no subject lacks which meets the others may follow from them. That is told where the experiment gives the reason, in
+`implied`; a reason that a subject contradicts is an error, and so is a counterexample to what a Proof says.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
+from typing import Generic, Protocol, TypeVar
+
+from ..trust.structure_certificates import Certificate
+from .verdicts import Row, Verdict
+from .workbench import Workbench, accepted
+
+
+class Subject(Protocol):
+    """What a claim is about. `size` orders, `weight` is how many this one stands for, `field` names K, `accepted` counts certificates.
+
+    `degenerate` says why it would be a poor witness: C = 0, repeated fault columns, an input that does nothing; "" where it would not.
+    """
+
+    @property
+    def size(self) -> tuple[int, ...]: ...
+    @property
+    def weight(self) -> int: ...
+    @property
+    def field(self) -> str: ...
+    @property
+    def accepted(self) -> int: ...
+    @property
+    def degenerate(self) -> str: ...
+    def __str__(self) -> str: ...
+
+
+S = TypeVar("S", bound=Subject)
+
+
+@dataclass(frozen=True)
+class Proof:
+    """`theorems` of theory/Headlines.v that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
+
+    theorems: tuple[str, ...]
+    hypotheses: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Experiment(Generic[S]):
+    """`claim` is the id in the ledger. `over_q(bench, dropped)`: the smallest subject over Q that meets the hypotheses not dropped and
+    fails, or None, and in words where it was sought. `show` gives certificates of a subject. `implied`: hypotheses that follow from the
+    others, and why.
+    """
+
+    name: str
+    claim: str
+    conclusion: str
+    hypotheses: Mapping[str, Callable[[S], bool]]
+    holds: Callable[[S], bool]
+    subjects: Callable[[Workbench], Iterable[S]]
+    over_q: Callable[[Workbench, Sequence[str]], Found[S]]
+    show: Callable[[S], Iterable[Certificate]]
+    proof: Proof | None = None
+    implied: Mapping[str, str] = field(default_factory=dict)
+
+    def violated(self, subject: S) -> frozenset[str]:
+        """The hypotheses that the subject does not meet."""
+        return frozenset(name for name, meets in self.hypotheses.items() if not meets(subject))
+
+    def theorems_without(self, dropped: Sequence[str]) -> tuple[str, ...]:
+        """The theorems that prove the conclusion without these hypotheses; none where the proof uses one of them."""
+        return self.proof.theorems if self.proof is not None and self.proof.hypotheses.isdisjoint(dropped) else ()
+
+
+@dataclass(frozen=True)
+class Found(Generic[S]):
+    """The end of a search: a subject or None, and the box in words."""
+
+    subject: S | None
+    box: str
+
+
+def first_found(counterexamples: Callable[[bool], Iterable[S]], box: str) -> Found[S]:
+    """The first that is not degenerate, or, where all are, the first. `counterexamples(poor)` has those that are, or those that are not."""
+    for poor in (False, True):
+        for subject in counterexamples(poor):
+            return Found(subject, box)
+    return Found(None, box)
+
+
+@dataclass
+class _Tally(Generic[S]):
+    """All subjects by the set of hypotheses they violate: how many, and the smallest of each field that fails the conclusion."""
+
+    tried: Counter[frozenset[str]]
+    accepted: Counter[frozenset[str]]
+    failing: dict[tuple[frozenset[str], str], S]
+
+    def smallest(self, dropped: frozenset[str]) -> dict[str, S]:
+        """The smallest failing subject of each field that violates nothing else."""
+        found: dict[str, S] = {}
+        for (violated, name), subject in self.failing.items():
+            if violated <= dropped and (name not in found or _order(subject) < _order(found[name])):
+                found[name] = subject
+        return found
+
+    def count(self, dropped: frozenset[str]) -> _Count:
+        kept = [violated for violated in self.tried if violated <= dropped]
+        return _Count(sum(self.tried[v] for v in kept), sum(self.tried[v] for v in kept if v), sum(self.accepted[v] for v in kept))
+
+
+@dataclass(frozen=True)
+class _Count:
+    """Subjects that meet the other hypotheses, those among them that violate one of the dropped, and accepted certificates."""
+
+    tried: int
+    lacking: int
+    accepted: int
+
+
+def ablate(bench: Workbench, experiment: Experiment[S], expected: Mapping[str, str]) -> tuple[Row, ...]:
+    """Rows for each hypothesis alone, in order, then for each two. `expected` has the ledger's entry for each alone."""
+    tally = _tally(bench, experiment)
+    flawed = tally.smallest(frozenset())
+    if flawed:
+        subject = min(flawed.values(), key=_order)
+        words = f"nothing is dropped, and the conclusion fails on {subject}"
+        shown = accepted(experiment.show(subject))
+        return (Row(experiment.name, experiment.claim, experiment.conclusion, (), Verdict.ERROR, words, None, shown, subject.accepted),)
+    names = list(experiment.hypotheses)
+    alone = [_without(bench, experiment, tally, (name,), expected.get(name)) for name in names]
+    refuted = {row.dropped[0]: row for row in alone if row.verdict == Verdict.REFUTED}
+    rows = list(alone)
+    for two in combinations(names, 2):
+        already = next((name for name in two if name in refuted), None)
+        if already is None:
+            rows.append(_without(bench, experiment, tally, two, None))
+        else:
+            row, count = refuted[already], tally.count(frozenset(two))
+            words = f"it falls without {already} alone"
+            made = (experiment.name, experiment.claim, experiment.conclusion, two, Verdict.REFUTED, words, already)
+            rows.append(Row(*made, row.certificates, row.accepted, tried=count.tried, lacking=count.lacking))
+    return tuple(rows)
+
+
+def _order(subject: Subject) -> tuple[bool, tuple[int, ...]]:
+    return bool(subject.degenerate), subject.size
+
+
+def _tally(bench: Workbench, experiment: Experiment[S]) -> _Tally[S]:
+    tally: _Tally[S] = _Tally(Counter(), Counter(), {})
+    for subject in experiment.subjects(bench):
+        violated = experiment.violated(subject)
+        tally.tried[violated] += subject.weight
+        tally.accepted[violated] += subject.accepted
+        if not experiment.holds(subject):
+            key = (violated, subject.field)
+            if key not in tally.failing or _order(subject) < _order(tally.failing[key]):
+                tally.failing[key] = subject
+    return tally
+
+
+def _without(bench: Workbench, experiment: Experiment[S], tally: _Tally[S], dropped: tuple[str, ...], expected: str | None) -> Row:
+    """One row: refuted over Q where that can be, else over the field where it was; certified where nothing fails."""
+    elsewhere = tally.smallest(frozenset(dropped))
+    count = tally.count(frozenset(dropped))
+    reason = experiment.implied.get(dropped[0]) if len(dropped) == 1 else None
+
+    def row(verdict: Verdict, words: str, certificates: tuple[Certificate, ...], number: int) -> Row:
+        return Row(
+            experiment.name, experiment.claim, experiment.conclusion, dropped, verdict, words, None, certificates, number,
+            ledger=expected, theorems=experiment.theorems_without(dropped), tried=count.tried, lacking=count.lacking, implied=reason,
+        )  # fmt: skip
+
+    if elsewhere:
+        subject, where = _witness(bench, experiment, dropped, elsewhere)
+        shown = accepted(experiment.show(subject))
+        poor = f"; every counterexample found is degenerate: {subject.degenerate}" if subject.degenerate else ""
+        words = f"{subject}; {where}{poor}"
+        if experiment.theorems_without(dropped):
+            words = f"{', '.join(experiment.theorems_without(dropped))} prove it without, and yet it fails on {words}"
+            return row(Verdict.ERROR, words, shown, len(shown))
+        return row(Verdict.REFUTED, words, shown, len(shown))
+    if not count.tried:
+        return row(Verdict.ERROR, "no subject that was tried meets the others", (), 0)
+    if reason is not None and count.lacking:
+        words = f"{count.lacking} of the {count.tried} subjects that meet the others lack it, although it is said to follow: {reason}"
+        return row(Verdict.ERROR, words, (), count.accepted)
+    return row(Verdict.CERTIFIED, _found_none(count, dropped, reason), (), count.accepted)
+
+
+def _found_none(count: _Count, dropped: Sequence[str], reason: str | None) -> str:
+    what = "it" if len(dropped) == 1 else "one of the two"
+    if reason is not None:
+        return f"it follows from the others: {reason}; of the {count.tried} subjects tried that meet the others none lacks it"
+    if not count.lacking:
+        return f"no counterexample among {count.tried} tried that meet the others, none of which lacks {what}; why, is not known"
+    return f"no counterexample among {count.tried} tried that meet the others, {count.lacking} of which lack {what}"
+
+
+def _witness(bench: Workbench, experiment: Experiment[S], dropped: tuple[str, ...], elsewhere: Mapping[str, S]) -> tuple[S, str]:
+    """The counterexample to show, and in words how small it is and where else there are some."""
+    found = experiment.over_q(bench, dropped)
+    tried = elsewhere.get("Q")
+    if found.subject is not None and (tried is None or _order(found.subject)[0] <= _order(tried)[0]):
+        others = sorted(name for name in elsewhere if name != "Q")
+        also = f"; also over {', '.join(others)}" if others else ""
+        kind = "" if found.subject.degenerate else ", degenerate ones left out,"
+        return found.subject, f"the smallest{kind} with {found.box}{also}"
+    if tried is not None:
+        return tried, "the smallest tried"
+    name, subject = min(elsewhere.items(), key=lambda item: _order(item[1]))
+    return subject, f"over {name}, and none over Q with {found.box}"

@@ -1,0 +1,277 @@
+"""What a run says of a claim: the closed list of verdicts and the records that carry them.
+
+Verdict          PROVED, IDENTITY, CERTIFIED, REFUTED, AMENDED, ERROR
+Outcome          what one check found: verdict, evidence in words, certificates
+ReadingResult    an outcome with the reading it belongs to, the verdict the ledger expects, and the seconds it took
+ClaimResult      the readings of one claim and the verdict on the claim as a whole
+Report           all claims of a run; `as_expected` decides the exit code
+"""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from ..evidence.attacks import Attacked
+from ..trust.structure_certificates import Certificate, sha256
+from .ledger import Claim, Reading
+
+
+class Verdict(StrEnum):
+    """The closed list, from the strongest to a check that did not finish.
+
+    PROVED: for all systems, by Rocq. IDENTITY: for all values of the entries at the dimensions named. CERTIFIED: of a statement on all
+    systems, no counterexample was found among those tried; of a statement that something exists, it is there; by certificates that the
+    checker accepted. REFUTED: by a counterexample. AMENDED: of a claim, refuted as printed, and a repair of it is not.
+    """
+
+    PROVED = "PROVED"
+    IDENTITY = "IDENTITY"
+    CERTIFIED = "CERTIFIED"
+    REFUTED = "REFUTED"
+    AMENDED = "AMENDED"
+    ERROR = "ERROR"
+
+
+IMPLIED = "IMPLIED"  # the ledger's word for a hypothesis that follows from the others
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the checker.
+
+    `accepted` counts every certificate that the checker accepted on the way, headline or not.
+    """
+
+    verdict: Verdict
+    evidence: str
+    certificates: tuple[Certificate, ...] = ()
+    accepted: int = 0
+
+
+@dataclass(frozen=True)
+class ReadingResult:
+    """One reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
+
+    reading: Reading
+    outcome: Outcome
+    seconds: float
+    machine_checked: bool = False
+    locks: Mapping[str, str] = field(default_factory=dict)
+    attacks: tuple[Attacked, ...] = ()
+
+    @property
+    def expected(self) -> str:
+        """The ledger's verdict, PROVED where Rocq has checked the theorems of the reading."""
+        return self.reading.proved if self.machine_checked else self.reading.expected
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether the computed verdict is the expected one."""
+        return self.outcome.verdict == self.expected
+
+    def to_json(self) -> dict[str, Any]:
+        """The object in `verify --json`."""
+        return {
+            "reading": self.reading.id,
+            "statement": self.reading.statement,
+            "hypotheses": list(self.reading.hypotheses),
+            "verdict": str(self.outcome.verdict),
+            "expected": self.expected,
+            "as_expected": self.as_expected,
+            "theorems": list(self.reading.theorems) if self.machine_checked else [],
+            "locks": dict(self.locks),
+            "missing_for_a_proof": self.reading.missing or None,
+            "evidence": self.outcome.evidence,
+            "certificates_accepted": self.outcome.accepted,
+            "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.outcome.certificates],
+            "attacks": [attack.to_json() for attack in self.attacks],
+            "seconds": round(self.seconds, 3),
+        }
+
+
+@dataclass(frozen=True)
+class ClaimResult:
+    """A claim with its readings checked. AMENDED: every reading as printed of the claim, or of one of its parts, is refuted, and a repair
+    is not."""
+
+    claim: Claim
+    readings: tuple[ReadingResult, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the claim, computed from those on its readings."""
+        return of_readings([(r.reading, r.outcome.verdict) for r in self.readings], in_parts=self.claim.in_parts)
+
+    @property
+    def expected(self) -> str:
+        """The ledger's verdict; where Rocq has checked theorems of it, what the verdicts expected of its readings make."""
+        if not any(r.machine_checked for r in self.readings):
+            return self.claim.expected
+        return of_readings([(r.reading, Verdict(r.expected)) for r in self.readings], in_parts=self.claim.in_parts)
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """The readings that hold, with their level: what the claim comes down to."""
+        return tuple(f"{r.reading.id}: {r.outcome.verdict}" for r in self.readings if r.outcome.verdict != Verdict.REFUTED)
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether every verdict, the claim's own included, is the expected one."""
+        return self.verdict == self.expected and all(r.as_expected for r in self.readings)
+
+    def to_json(self) -> dict[str, Any]:
+        """The object in `verify --json`."""
+        return {
+            "id": self.claim.id,
+            "reference": self.claim.reference,
+            "as_printed": self.claim.statement,
+            "verdict": str(self.verdict),
+            "expected": self.expected,
+            "as_expected": self.as_expected,
+            "rests_on": list(self.rests_on),
+            "readings": [r.to_json() for r in self.readings],
+        }
+
+
+def of_readings(readings: Sequence[tuple[Reading, Verdict]], *, in_parts: bool) -> Verdict:
+    """The verdict on a claim from those on its readings: a part is refuted when its readings all are, the claim when a part is."""
+    verdicts = [verdict for _, verdict in readings]
+    if not verdicts or Verdict.ERROR in verdicts:
+        return Verdict.ERROR
+    parts: dict[str | int, list[Verdict]] = {}
+    for place, (reading, verdict) in enumerate(readings):
+        if not reading.repair:
+            parts.setdefault(reading.part or (place if in_parts else ""), []).append(verdict)
+    holding = [verdict for reading, verdict in readings if reading.repair and verdict != Verdict.REFUTED]
+    if any(all(verdict == Verdict.REFUTED for verdict in part) for part in parts.values()):
+        return Verdict.AMENDED if holding else Verdict.REFUTED
+    standing = [verdict for part in parts.values() for verdict in part if verdict != Verdict.REFUTED] or holding
+    return max(standing, key=list(Verdict).index) if standing else Verdict.REFUTED
+
+
+@dataclass(frozen=True)
+class Row:
+    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
+
+    `theorems` prove it without them, and `machine_checked` says that Rocq has checked these in the run. Of the `tried` subjects that meet
+    the other hypotheses, `lacking` violate one of the dropped. `implied`: why a dropped one follows from the others; None where it does
+    not. `ledger` is the ledger's entry: REFUTED, CERTIFIED, or IMPLIED. A row that rests on no subject which lacks the dropped is not as
+    expected, unless it is told why there is none.
+    """
+
+    experiment: str
+    claim: str
+    conclusion: str
+    dropped: tuple[str, ...]
+    verdict: Verdict
+    evidence: str
+    already: str | None
+    certificates: tuple[Certificate, ...]
+    accepted: int
+    ledger: str | None = None
+    theorems: tuple[str, ...] = ()
+    machine_checked: bool = False
+    tried: int | None = None
+    lacking: int | None = None
+    implied: str | None = None
+    attacks: tuple[Attacked, ...] = ()
+
+    @property
+    def expected(self) -> str | None:
+        """The verdict expected: PROVED where Rocq has checked the theorems; rows of two follow from the subjects alone, and have none."""
+        if self.ledger is None or self.ledger == Verdict.REFUTED:
+            return self.ledger
+        return str(Verdict.PROVED if self.machine_checked else Verdict.CERTIFIED)
+
+    @property
+    def meaning(self) -> str:
+        """In the words of the table: needed, not needed, or not needed since it follows from the others."""
+        if self.verdict == Verdict.REFUTED:
+            return "needed"
+        if self.verdict == Verdict.ERROR:
+            return ""
+        if self.implied is not None:
+            return "follows from the others"
+        return "not needed" if self.verdict == Verdict.PROVED else "not seen to be needed"
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether verdict and meaning are the ledger's."""
+        if self.verdict == Verdict.ERROR or self.ledger is None:
+            return self.verdict != Verdict.ERROR
+        rests_on_something = self.lacking != 0 or self.implied is not None
+        return self.verdict == self.expected and (self.implied is not None) == (self.ledger == IMPLIED) and rests_on_something
+
+    def to_json(self) -> dict[str, Any]:
+        """The object in `verify --json`."""
+        return {
+            "experiment": self.experiment,
+            "claim": self.claim,
+            "conclusion": self.conclusion,
+            "dropped": list(self.dropped),
+            "verdict": str(self.verdict),
+            "needed": self.verdict == Verdict.REFUTED,
+            "follows_from_the_others": self.implied,
+            "expected": self.expected,
+            "as_expected": self.as_expected,
+            "already_without": self.already,
+            "theorems": list(self.theorems) if self.machine_checked else [],
+            "tried": self.tried,
+            "lacking": self.lacking,
+            "evidence": self.evidence,
+            "certificates_accepted": self.accepted,
+            "certificates": [{"kind": c["kind"], "sha256": sha256(c)} for c in self.certificates],
+            "attacks": [attack.to_json() for attack in self.attacks],
+        }
+
+
+@dataclass(frozen=True)
+class Report:
+    """The result of a run."""
+
+    effort: str
+    claims: tuple[ClaimResult, ...]
+    hypotheses: tuple[Row, ...]
+    corpus: str
+    seconds: float
+    machine: str = "not asked"
+    versions: dict[str, str] = field(default_factory=lambda: _versions(("faultspace", "python-flint", "sympy", "numpy")))
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether every verdict is the expected one."""
+        return all(claim.as_expected for claim in self.claims) and all(row.as_expected for row in self.hypotheses)
+
+    def certificates(self) -> list[Certificate]:
+        """Every headline certificate once, in the order of the claims."""
+        readings = (reading.outcome.certificates for claim in self.claims for reading in claim.readings)
+        rows = (row.certificates for row in self.hypotheses)
+        return list({sha256(certificate): certificate for shown in (*readings, *rows) for certificate in shown}.values())
+
+    def to_json(self) -> dict[str, Any]:
+        """The object that `verify --json` prints."""
+        return {
+            "effort": self.effort,
+            "as_expected": self.as_expected,
+            "corpus": self.corpus,
+            "rocq": self.machine,
+            "seconds": round(self.seconds, 1),
+            "versions": self.versions,
+            "claims": [claim.to_json() for claim in self.claims],
+            "hypotheses": [row.to_json() for row in self.hypotheses],
+        }
+
+
+def _versions(names: Sequence[str]) -> dict[str, str]:
+    found = {"python": platform.python_version()}
+    for name in names:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            found[name] = "not installed as a package"
+    return found

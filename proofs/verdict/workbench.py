@@ -1,0 +1,170 @@
+"""What a check of a claim has at hand, and the two ways it comes to a verdict.
+
+Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, rivals
+certify       the statement on every dossier that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
+refute        the smallest counterexample in a box, found by search: REFUTED, or what `certify` says when there is none
+witnessed     the opposite of a statement, by the counterexample to it
+accepted      certificates, each put before the checker once more: headline certificates are never shown unchecked
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, TypeVar
+
+from ...exact.system.systems import ResidualSystem
+from ..evidence.alternatives import PairDossier, RivalDossier, pair_dossiers, rival_dossiers
+from ..evidence.corpus import Corpus, Dossier, Progress, build, describe, examine
+from ..evidence.experiments import LimitDossier, limit_dossiers
+from ..evidence.pairs_by_polynomial import JudgedPair, judged_pairs
+from ..evidence.search import Box, Facts, Flags, smallest
+from ..trust.structure_certificates import Certificate, accept
+from .verdicts import Outcome, Verdict
+
+Show = Callable[[ResidualSystem], Iterable[Certificate]]
+Test = Callable[[Dossier], bool]
+Record = TypeVar("Record", PairDossier, RivalDossier, JudgedPair, LimitDossier)
+Made = TypeVar("Made")
+
+
+@dataclass
+class Workbench:
+    """The effort ("quick" or "full"), the number of processes, and where progress goes."""
+
+    effort: str
+    jobs: int
+    progress: Progress
+
+    @cached_property
+    def corpus(self) -> Corpus:
+        """Single systems with accepted certificates."""
+        return build(self.effort, self.jobs, self.progress)
+
+    @cached_property
+    def pairs(self) -> tuple[PairDossier, ...]:
+        """Pairs of systems with accepted certificates."""
+        return pair_dossiers(self.effort, self.jobs, self.progress)
+
+    @cached_property
+    def rivals(self) -> tuple[RivalDossier, ...]:
+        """Systems with other fault matrices for the same (A, C)."""
+        return rival_dossiers(self.effort, self.jobs, self.progress)
+
+    @cached_property
+    def judged(self) -> tuple[JudgedPair, ...]:
+        """Pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
+        return judged_pairs(self.effort, self.jobs, self.progress)
+
+    @cached_property
+    def limits(self) -> tuple[LimitDossier, ...]:
+        """Experiments with certified population limits."""
+        return limit_dossiers(self.effort, self.jobs, self.progress)
+
+    def once(self, name: str, find: Callable[[], Outcome]) -> Outcome:
+        """An outcome that several readings share, found the first time it is asked for."""
+        if name not in self._shared:
+            self._shared[name] = find()
+        return self._shared[name]
+
+    def records(self, name: str, make: Callable[[], list[Made]]) -> list[Made]:
+        """Certified material that several experiments share, made the first time it is asked for."""
+        if name not in self._made:
+            self._made[name] = make()
+        return self._made[name]
+
+    @cached_property
+    def _made(self) -> dict[str, list[Any]]:
+        return {}
+
+    @cached_property
+    def _shared(self) -> dict[str, Outcome]:
+        return {}
+
+    @property
+    def full(self) -> bool:
+        """Whether this is the run for the background."""
+        return self.effort == "full"
+
+
+def accepted(certificates: Iterable[Certificate]) -> tuple[Certificate, ...]:
+    """The certificates, each accepted by the checker now. Raises checker.Rejected."""
+    found = tuple(certificates)
+    for certificate in found:
+        accept(certificate)
+    return found
+
+
+def size(system: ResidualSystem) -> tuple[int, ...]:
+    """n + m + p, then n, m, p: the order in which the smallest is sought."""
+    return (system.n + system.m + system.p, system.n, system.m, system.p)
+
+
+def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome:
+    """`holds` on every dossier of the corpus to which the statement applies."""
+    tried = [d for d in bench.corpus.dossiers if applies(d)]
+    failing = sorted((d for d in tried if not holds(d)), key=lambda d: size(d.system))
+    if failing:
+        system = failing[0].system
+        return Outcome(Verdict.REFUTED, f"fails on {system}, the smallest of the corpus", accepted(show(system)), failing[0].accepted)
+    if not tried:
+        return Outcome(Verdict.ERROR, "no system of the corpus meets the hypotheses")
+    total = sum(d.weight for d in tried)
+    representative = next((d for d in tried if d.n), tried[0]).system
+    evidence = f"no counterexample found in {total} systems: {describe(tried)}"
+    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(d.accepted for d in tried))
+
+
+def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], applies: Test, holds: Test, show: Show) -> Outcome:
+    """The smallest system of the box to which the statement applies and on which it fails; else `certify`.
+
+    `candidate` is the vectorised first look; what it lets through is decided by the accepted certificates of the system.
+    """
+
+    def confirm(system: ResidualSystem) -> bool:
+        dossier = examine("search", system)
+        return applies(dossier) and not holds(dossier)
+
+    found = smallest(box, candidate, confirm)
+    if found is None:
+        return certify(bench, applies, holds, show)
+    return counterexample(str(found), box, show(found))
+
+
+def witnessed(found: Outcome) -> Outcome:
+    """The opposite of a statement, by the counterexample to it: CERTIFIED by one witness, REFUTED where there is none, ERROR as it is."""
+    match found.verdict:
+        case Verdict.ERROR:
+            return found
+        case Verdict.REFUTED:
+            return replace(found, verdict=Verdict.CERTIFIED, evidence=f"by one witness: {found.evidence}")
+        case _:
+            return replace(found, verdict=Verdict.REFUTED, evidence=f"no witness: {found.evidence}")
+
+
+def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:
+    """REFUTED by these certificates."""
+    shown = accepted(certificates)
+    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", shown, len(shown))
+
+
+def certify_records(
+    records: Sequence[Record],
+    failing: Sequence[Record],
+    words: Callable[[Record], str],
+    show: Callable[[Record], Iterable[Certificate]],
+    unit: str = "pairs",
+) -> Outcome:
+    """The same for pairs and rivals: `records` meet the hypotheses, `failing` are those among them that refute the statement."""
+    if failing:
+        shown = accepted(show(failing[0]))
+        return Outcome(Verdict.REFUTED, f"fails on {words(failing[0])}", shown, failing[0].accepted)
+    if not records:
+        return Outcome(Verdict.ERROR, f"none of the {unit} meets the hypotheses")
+    totals: dict[str, int] = {}
+    for record in records:
+        totals[record.origin] = totals.get(record.origin, 0) + record.weight
+    listed = "; ".join(f"{count} {origin}" for origin, count in totals.items())
+    evidence = f"no counterexample found in {sum(totals.values())} {unit}: {listed}"
+    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(records[0])), sum(r.accepted for r in records))
