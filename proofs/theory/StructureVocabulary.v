@@ -1,39 +1,40 @@
-(** Words for the statements of HeadlinesStructure.v, beside those of Vocabulary.v.
-    - shifted N r: N(q) r, the sequence r(t) N_0 + r(t+1) N_1 + ... for a polynomial matrix N = N_0 + N_1 q + ...; in rows, so a column of N
-      is one difference equation. sizem N: beyond this degree all coefficients vanish; coefm k N: the coefficient N_k (PolynomialKernel.v).
-    - output_nulling S X: from every state in X some fault gives zero output and leads into X. input_containing S X: all faults that give
-      zero output lead from X into X. largest_output_nulling, smallest_input_containing: V* and S*, as extremal subspaces.
-    - unobservable_mode S f z: z, in an extension of K by f, is an eigenvalue of A that the output does not show (Hautus' test).
-    - zero_of S f z: the pencil loses rank at z.
-    - unobservable_dynamics S N M: the rows of N are a basis of the states that give no output, moved by M. *)
+(** Words for the statements of HeadlinesStructure.v, beside those of Vocabulary.v. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
+(** N(q) r: the sequence r(t) N_0 + r(t+1) N_1 + ...; a column of N is one difference equation. *)
 Definition shifted (K : fieldType) p c (N : 'M[{poly K}]_(p, c)) (r : nat -> 'rV[K]_p) t : 'rV[K]_c :=
   \sum_(k < sizem N) r (t + k)%N *m map_mx (coefp k) N.
 
 Section Subspaces.
 Variables (K : fieldType) (n m p : nat) (S : system K n m p).
 
+(** From every state in X some fault gives zero output and leads into X. *)
 Definition output_nulling k (X : 'M[K]_(k, n)) := forall x, (x <= X)%MS ->
   exists v : 'rV_m, x *m sysC S + v *m sysG S = 0 /\ ((x *m sysA S + v *m sysF S)%R <= X)%MS.
+(** V*: output-nulling, and every other such subspace is inside. *)
 Definition largest_output_nulling k (V : 'M[K]_(k, n)) :=
   output_nulling V /\ forall j (X : 'M_(j, n)), output_nulling X -> (X <= V)%MS.
 
+(** Every fault that gives zero output leads from X into X. *)
 Definition input_containing k (X : 'M[K]_(k, n)) := forall x (v : 'rV_m), (x <= X)%MS ->
   x *m sysC S + v *m sysG S = 0 -> ((x *m sysA S + v *m sysF S)%R <= X)%MS.
+(** S*: input-containing, and inside every other such subspace. *)
 Definition smallest_input_containing k (W : 'M[K]_(k, n)) :=
   input_containing W /\ forall j (X : 'M_(j, n)), input_containing X -> (W <= X)%MS.
 
+(** The rows of N are a basis of the states that give no output; M moves them. *)
 Definition unobservable_dynamics d (N : 'M[K]_(d, n)) (M : 'M[K]_d) :=
   [/\ row_free N, (N :=: kermx (O S n))%MS & N *m sysA S = M *m N].
 
 Variables (L : fieldType) (f : {rmorphism K -> L}) (z : L).
 
+(** z, in an extension of K by f, is an eigenvalue of A that the output does not show: Hautus' test. *)
 Definition unobservable_mode := (\rank (row_mx (z%:M - map_mx f (sysA S)) (map_mx f (sysC S))) < n)%N.
+(** The pencil loses rank at z. *)
 Definition zero_of := (\rank (block_mx (z%:M - map_mx f (sysA S)) (map_mx f (sysC S)) (- map_mx f (sysF S)) (map_mx f (sysG S))) <
   n + \rank (transfer S))%N.
 
