@@ -39,7 +39,8 @@ def claims_table() -> list[str]:
         for i, reading in enumerate(claim.readings):
             first = f"| **{claim.id}** | {verdict(claim)} " if i == 0 else "| | "
             mark = "ours: " if reading.repair else ""
-            rows.append(f"{first}| {mark}{reading.statement} | {reading.proved} |")
+            met = f" *If: {'; '.join(reading.hypotheses)}.*" if reading.hypotheses else ""
+            rows.append(f"{first}| {mark}{reading.statement}{met} | {reading.proved} |")
     return rows
 
 

@@ -29,6 +29,7 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..claims.common import delays, ranks_and_inversion, spaces, zeros
+from ..claims.trajectory_recovered import zeros_are_hidden_modes
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.attacks import Aim, Attack, Family, Point, Witness
 from ..evidence.corpus import Dossier, examine
@@ -327,6 +328,12 @@ def wrong_delay(d: Dossier) -> bool:
     if not d.left_invertible:
         return d.delay_known_state is not None
     return d.delay_known_state != max(d.infinite_zero_orders, default=0)
+
+
+def zeros_as_a_set(d: Dossier) -> bool:
+    if d.finite_zeros is None:
+        return False
+    return (d.delay_unknown_state is not None) != (d.left_invertible and zeros_are_hidden_modes(d.system))
 
 
 def wrong_signal(d: Dossier) -> bool:

@@ -25,7 +25,7 @@ from ..claims.common import delays, zeros
 from ..evidence.exhaustive import Orbit, orbits
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
-from .structure_attacks import Decide, irrecoverable, misplaced, unlike, wrong_delay, wrong_signal
+from .structure_attacks import Decide, irrecoverable, misplaced, unlike, wrong_delay, wrong_signal, zeros_as_a_set
 
 BOXES = ((2, 3, 1, 1), (3, 2, 1, 2))
 
@@ -67,6 +67,7 @@ def sweeps() -> Iterator[Sweep]:
     """In the order of the ledger."""
     deciders: tuple[tuple[str, Decide], ...] = (
         ("trajectory-recovered.state-known", unlike(wrong_delay, delays)),
+        ("trajectory-recovered.no-finite-zeros-as-a-set", unlike(zeros_as_a_set, lambda system: [*zeros(system), *delays(system)])),
         ("trajectory-recovered.zero-feedthrough-signal", unlike(wrong_signal, zeros)),
         ("zero-assignment.unobservable", misplaced),
         ("zero-assignment.recoverable", irrecoverable),

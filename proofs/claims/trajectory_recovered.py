@@ -57,12 +57,12 @@ def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:
     """x(0) unknown: v is determined iff left-invertible and every finite zero is an unobservable mode, multiplicities not counted."""
 
     def holds(d: Dossier) -> bool:
-        return (d.delay_unknown_state is not None) == (d.left_invertible and _zeros_are_hidden_modes(d.system))
+        return (d.delay_unknown_state is not None) == (d.left_invertible and zeros_are_hidden_modes(d.system))
 
     return certify(bench, lambda d: d.finite_zeros is not None and d.n <= 4, holds, lambda s: [*zeros(s), *delays(s)])
 
 
-def _zeros_are_hidden_modes(system: ResidualSystem) -> bool:
+def zeros_are_hidden_modes(system: ResidualSystem) -> bool:
     """Whether every finite zero is one of the system without faults: those are the unobservable modes."""
     field = system.field
     faultless = system.with_faults(Matrix.zero(field, system.n, 0), Matrix.zero(field, system.p, 0))

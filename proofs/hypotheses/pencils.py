@@ -90,7 +90,7 @@ def placement() -> Experiment[Windowed]:
     def reached(subject: Windowed) -> bool:
         return every_polynomial_is_reached(pencil_of(subject.dossier.system))
 
-    words = "every nonzero polynomial of degree at most zeta is the zero polynomial of some pair"
+    words = "where r >= 1, every nonzero polynomial of degree at most zeta is the zero polynomial of some pair"
     conclusion = Condition(reached, lambda f, s: np.asarray(f.observable | (_zeta(f) == 0)))
     some_column = Condition(lambda w: w.dossier.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
     proof = Proof(("zero_assignment_observable",), frozenset({"observable"}))
@@ -182,7 +182,7 @@ def determinant() -> Experiment[Judged]:
         subjects=_judged,
         over_q=lambda bench, dropped: Found(None, "the pairs judged"),
         show=lambda subject: show_pair(subject.record),
-        proof=Proof(("one_determinant", "one_determinant_exists")),
+        proof=Proof(("one_determinant", "one_determinant_exists", "theorem_3_criterion")),
     )
 
 

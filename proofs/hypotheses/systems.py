@@ -121,7 +121,7 @@ def range_of_f() -> Experiment[Windowed]:
     )
     words = "the members of Z without feedthrough are im F"
     box = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
-    proof = _proof("zero_feedthrough", "zeros_exist", uses={INVERTIBLE, "rank CF = m", "no finite zeros"})
+    proof = _proof("zero_feedthrough", "theorem_3_part_i", "zeros_exist", uses={INVERTIBLE, "rank CF = m", "no finite zeros"})
     implied = {
         "observable": "each unobservable mode is a finite zero",
         INVERTIBLE: "as G = 0 and rank CF = m, the first v that is not 0 shows one step later, as CF v",

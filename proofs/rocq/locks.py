@@ -179,7 +179,8 @@ def page(locks: Locks, claims: list[Claim]) -> str:
     told = set[str]()
     for claim in claims:
         for reading in claim.readings:
-            first = f"{claim.id}: {reading.id}", f"{_cell(reading.statement)} ({reading.proved})"
+            met = f" If: {'; '.join(reading.hypotheses)}." if reading.hypotheses else ""
+            first = f"{claim.id}: {reading.id}", f"{_cell(reading.statement + met)} ({reading.proved})"
             for name in reading.theorems:
                 told.add(name)
                 if name in locks.theorems:

@@ -59,7 +59,7 @@ def test_the_files_of_the_locks_are_current() -> None:
 def test_readings_theorems_and_locks_stand_side_by_side() -> None:
     text, locks = FOLDER.joinpath("STATEMENTS.md").read_text("utf-8"), made(TEXTS)
     rows = [line for line in text.splitlines() if line.startswith("| ") and re.search(r"`[0-9a-f]{64}` \|$", line)]
-    told = {name: row for row in rows if (name := row.split("`Theorem ")[1].split()[0])}
+    told = {name: row for row in rows if (name := re.split(r"` ?Theorem ", row)[1].split()[0])}
     assert set(told) == set(locks.theorems) and all(lock.sha256 in told[name] for name, lock in locks.theorems.items())
     for row in rows:
         assert len(re.split(r"(?<!\\)\|", row)) == 6, row[:200]
