@@ -68,6 +68,7 @@ PEAK = 3.0  # a residual of more than so many times its healthy peak is no noise
 QUIET = 0.5  # nor is one of less than this share of its healthy size,
 STUCK = 20  # nor an output that keeps one value for so many samples, and LONGER times as many as while healthy
 LONGER = 4
+AS_MANY = "as many faults as outputs look like noise in every output"
 COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
 """What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
 
@@ -261,11 +262,20 @@ def _with_count(answer: Answer, faults: int | None, tell: Tell) -> Answer:
     r = beyond_rounding(answer)
     try:
         found = fault_dimension(r.astype(np.float32) if record.single else r, u=record.stretch(first, last)[1])
+        seen = int(np.sum(rest.peak > ROUNDING * largest(record)))
+        if found.n_v and found.n_v >= seen and seen < record.p:
+            found = replace(found, n_v=None, reason=f"{found.reason}; but so many outputs are not explained to rounding: {AS_MANY}")
         by = None if found.n_v is None else "residual alone"
         answer = replace(answer, dimension=found, count=found.n_v, count_reason=found.reason, counted_by=by)
     except InvalidData as error:
         answer = replace(answer, count_reason=str(error))
-    answer = _against_healthy(answer, r, tell) if healthy else _about_zero(answer, r)
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            # Not those set to zero: rounding is held against rounding.
+            answer = _against_healthy(answer, rest.store.read(first, last), tell) if healthy else _about_zero(answer, r)
+    except np.linalg.LinAlgError:
+        told = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
+        answer = replace(answer, count=None, counted_by=None, count_reason=told)
     if faults is None:
         return answer
     said = "undecided" if answer.count is None else answer.count

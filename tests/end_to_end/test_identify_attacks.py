@@ -188,6 +188,23 @@ def test_much_louder_inputs_make_no_fault_of_the_error_of_the_model(seed: int) -
     assert answer.at_least == 0 and "the error of the model can look like a fault" in told, told
 
 
+@pytest.mark.parametrize("sample", [300, 900])
+@pytest.mark.parametrize("size", [1e12, 1e150])
+def test_an_outlier_beyond_all_numbers_is_no_crash(sample: int, size: float) -> None:
+    y, u = biased(15, START)
+    y[sample, 1] = size
+    assert answered(y, u)[0].count != 0
+
+
+def test_an_output_without_noise_makes_no_faults_of_the_noise_of_others() -> None:
+    y, u = biased(16, N)
+    y = np.hstack([y, u[:, :1]])
+    names = (*made.OUTPUTS, "copy")
+    assert identify(recorded(y, u, outputs=names, inputs=made.INPUTS), order=3).count is None
+    y[START:, 2] += 20.0 * LEVELS[2] * np.random.default_rng(17).standard_normal(N - START)
+    assert answered(y, u, outputs=names)[0].count in (1, None)
+
+
 # Where the records end, and what is stated wrongly
 
 
