@@ -9,7 +9,8 @@ default_block_rows   the window taken where none is given
 the inputs in it as if they were faults. Where the first samples are stated to be without fault, model and means are from these alone, the
 faults of the others are counted once more against what the residual shows there, and its mean is held against theirs: a constant fault
 moves the mean and no rank. The count against them goes first where it is decided, the other where it is not; 0 is said only where nothing
-is counted and the mean is tested and has not moved, with the size of fault that would have been seen.
+is counted, no output has a spike or is stuck, and the mean is tested and has not moved, with the size of fault that would have been seen.
+Where the inputs leave what the healthy samples show, the model's error can look like a fault, and none is counted against them.
 4  The fault space, unless the dimension is undecided or 0.
 5  F, G and the fault signal for one pair out of the space: determined up to that choice, and given only where n_z is decided and the signal
 explains more of the residual than it would of noise.
@@ -22,6 +23,7 @@ and the notes say which. Models too unstable to be simulated forward, and signal
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -46,6 +48,14 @@ Array = NDArray[np.float64]
 DEFAULT_WINDOW = 20
 SPARE = 3  # windows for each row of the Hankel matrices, at least
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
+# Rules of thumb, for what no test of means and spectra looks at:
+LOUDER = 1.5  # an input of more than so many times its healthy deviation drives model error that the healthy samples do not show
+AWAY = 10.0  # and so does one that moved by more than so many
+PEAK = 3.0  # a residual of more than so many times its healthy peak is no noise like the healthy one,
+QUIET = 0.5  # nor is one of less than this share of its healthy size,
+STUCK = 20  # nor an output that keeps one value for so many samples, and LONGER times as many as while healthy
+LONGER = 4
+AS_MANY = "as many faults as outputs look like noise in every output"
 
 
 def identify(
@@ -123,11 +133,20 @@ def _with_count(answer: Answer, faults: int | None, tell: Tell) -> Answer:
     r = beyond_rounding(answer)
     try:
         found = fault_dimension(r.astype(np.float32) if record.single else r, u=record.stretch(first, last)[1])
+        seen = int(np.sum(rest.peak > ROUNDING * largest(record)))
+        if found.n_v and found.n_v >= seen and seen < record.p:
+            found = replace(found, n_v=None, reason=f"{found.reason}; but so many outputs are not explained to rounding: {AS_MANY}")
         by = None if found.n_v is None else "residual alone"
         answer = replace(answer, dimension=found, count=found.n_v, count_reason=found.reason, counted_by=by)
     except InvalidData as error:
         answer = replace(answer, count_reason=str(error))
-    answer = _against_healthy(answer, r, tell) if healthy else _about_zero(answer, r)
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            # Not those set to zero: rounding is held against rounding.
+            answer = _against_healthy(answer, rest.store.read(first, last), tell) if healthy else _about_zero(answer, r)
+    except np.linalg.LinAlgError:
+        told = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
+        answer = replace(answer, count=None, counted_by=None, count_reason=told)
     if faults is None:
         return answer
     said = "undecided" if answer.count is None else answer.count
@@ -166,15 +185,58 @@ def _against_healthy(answer: Answer, r: Array, tell: Tell) -> Answer:
     if not rest.foreseen:
         mean = replace(mean, shifted=None, reason="the model is too unstable to be run on from the healthy samples", visible=None)
     answer = replace(answer, mean=mean)
+    driven = _beyond_healthy_inputs(before, u, record.inputs)
+    if driven and mean.shifted:
+        answer = replace(answer, mean=replace(mean, shifted=None, reason=driven, visible=None))
     try:
         reference = healthy_reference(healthy, before)
         against = fault_dimension_against_healthy(r, reference, u=u)
     except InvalidData as error:
         return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}")))
+    if driven and against.n_v != 0:
+        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {driven}")))
+    strange = _unlike_healthy(r, healthy, record.stretch(*answer.held)[0], record.stretch(start, until)[0], record.outputs)
+    if strange and against.n_v == 0:
+        against = replace(against, n_v=None, reason=f"{against.reason}; but {strange}")
+        # Ranks of the residual alone would count the noise of the other outputs as faults beside a dead one.
+        answer = replace(answer, count=None, counted_by=None, count_reason=against.reason)
     answer = replace(answer, healthy=(start, until), against=against, visible=visible_white_faults(reference, against, POWER))
     if against.n_v is not None:
         answer = replace(answer, count=against.n_v, count_reason=against.reason, counted_by="healthy samples")
     return _zero_or_not(answer)
+
+
+def _beyond_healthy_inputs(before: Array, u: Array, names: Sequence[str]) -> str:
+    """Why the model's error need not be as the healthy samples show it, or nothing."""
+    sizes = np.where(before.std(axis=0) > 0.0, before.std(axis=0), 1.0)
+    louder, away = u.std(axis=0) / sizes, np.abs(u.mean(axis=0) - before.mean(axis=0)) / sizes
+    for i, name in enumerate(names):
+        if louder[i] > LOUDER or away[i] > AWAY:
+            how = f"{louder[i]:.3g} times as loud" if louder[i] > LOUDER else f"{away[i]:.3g} deviations away"
+            return f"input {shorten(name)} is {how} after the healthy samples, so that the error of the model can look like a fault"
+    return ""
+
+
+def _unlike_healthy(r: Array, healthy: Array, y: Array, healthy_y: Array, names: Sequence[str]) -> str:
+    """What a plot would show and no spectrum or mean: a spike, a sensor that is stuck or dead. Nothing where there is none."""
+    peaks, sizes = np.abs(healthy).max(axis=0), np.sqrt(np.mean(healthy**2, axis=0))
+    for i, name in enumerate(names):
+        where = int(np.argmax(np.abs(r[:, i])))
+        if abs(r[where, i]) > PEAK * peaks[i]:
+            times = abs(r[where, i]) / peaks[i]
+            return f"the residual of {shorten(name)} reaches {times:.3g} times its healthy peak: a short fault, or an outlier"
+        if np.sqrt(np.mean(r[:, i] ** 2)) < QUIET * sizes[i]:
+            return f"the residual of {shorten(name)} is much smaller than while healthy: a sensor that is stuck or dead, or less noise"
+        still = _longest_still(y[:, i])
+        if still >= max(STUCK, LONGER * _longest_still(healthy_y[:, i])):
+            return f"{shorten(name)} keeps one value for {still} samples: a sensor that is stuck or dead, or nothing that moves it"
+    return ""
+
+
+def _longest_still(values: Array) -> int:
+    """Samples of the longest run of equal values."""
+    edges = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1], [True]]))
+    return int(np.diff(edges).max())
 
 
 def _zero_or_not(answer: Answer) -> Answer:

@@ -144,4 +144,6 @@ def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:
         outcome = Outcome(Verdict.ERROR, f"the checker refused a certificate: {error}")
     except Exception as error:  # whatever it is, this check did not finish, and the others go on
         outcome = Outcome(Verdict.ERROR, f"{type(error).__name__}: {error}")
+    if outcome.verdict in (Verdict.CERTIFIED, Verdict.REFUTED) and not (outcome.certificates and outcome.accepted):
+        outcome = Outcome(Verdict.ERROR, f"{outcome.verdict}, and yet no certificate was accepted: {outcome.evidence}")
     return ReadingResult(reading, outcome, time.perf_counter() - started)

@@ -45,7 +45,7 @@ import scipy.optimize
 from numpy.typing import ArrayLike, NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.healthy_model import LEVEL, HealthyReference, Spectra, spectra
+from faultspace.numeric.count.healthy_model import LEVEL, HealthyReference, Spectra, covering_spectra
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -107,7 +107,7 @@ def fault_dimension_against_healthy(
         counts = np.cumprod(roots > thresholds, axis=1).sum(axis=1)
         found = int(counts.max())
         # The forecast's error is left in here: dividing it out shrinks a strong direction more than what its turn adds.
-        plain = spectra(e, tapers)
+        plain = covering_spectra(e, tapers)
         kept = _kept_at_half_width(healthy, plain, counts == found, found) if 1 < found < healthy.p else None
         needed = _enough_kept(found, tapers)
         if kept is None or kept >= needed:

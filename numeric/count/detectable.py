@@ -38,13 +38,15 @@ def visible_white_faults(healthy: HealthyReference, count: FaultsAgainstHealthy,
 
     `count` is that of a record against `healthy`: its length and thresholds are those that are asked about.
     """
-    missed = _chance_of_missing(healthy.p, healthy.tapers, healthy.freedom, count.thresholds[:, 0])
-    filters = healthy.response(count.frequencies)
-    precisions = np.linalg.inv(healthy.covariances[healthy.nearest(count.frequencies)])
+    # The last centre may share frequencies with the one before; left out, the chance stated is one that is reached at least.
+    frequencies, thresholds = count.frequencies[:-1], count.thresholds[:-1, 0]
+    missed = _chance_of_missing(healthy.p, healthy.tapers, healthy.freedom, thresholds)
+    filters = healthy.response(frequencies)
+    precisions = np.linalg.inv(healthy.covariances[healthy.nearest(frequencies)])
     unbiased = max(healthy.freedom - healthy.p, 1) / healthy.freedom
     gains = np.real(np.einsum("fij,fik,fkj->fj", filters.conj(), precisions, filters)) * unbiased
-    forecast = healthy.tapers * np.sum(np.abs(healthy.remembered(count.frequencies)) ** 2, axis=1)
-    apart = int(np.ceil(healthy.freedom / healthy.tapers) * np.ceil(len(count.frequencies) / len(healthy.centres)))
+    forecast = healthy.tapers * np.sum(np.abs(healthy.remembered(frequencies)) ** 2, axis=1)
+    apart = int(np.ceil(healthy.freedom / healthy.tapers) * np.ceil(len(frequencies) / len(healthy.centres)))
     return np.array([_least_size(gains[:, i], forecast[:, i], missed, apart, power) for i in range(healthy.p)])
 
 

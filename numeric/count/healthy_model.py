@@ -25,6 +25,7 @@ simulated cells of `benchmarks/fault_dimension.py`; FREEDOM, SPENT, FEW_TAPERS a
     healthy_reference   from a healthy residual (and its inputs)
     HealthyReference    `innovations` and `spectra` of any record, `response` A(f) of the predictor, the `covariances`
     Spectra, spectra    tapered transforms of a record at their centres
+    covering_spectra    the same, with no frequency left out
 """
 
 from __future__ import annotations
@@ -128,8 +129,8 @@ class HealthyReference:
     def unchecked_spectra(self, residual: Array, inputs: Array, tapers: int) -> Spectra:
         """The same for arrays (N, p) and (N, n_u) known to fit."""
         e, regressors = self._innovations(residual, inputs)
-        record = spectra(e, tapers)
-        told = spectra(regressors, tapers).transforms
+        record = covering_spectra(e, tapers)
+        told = covering_spectra(regressors, tapers).transforms
         between = np.eye(tapers) + told @ told.conj().transpose(0, 2, 1)
         return Spectra(record.frequencies, np.asarray(np.linalg.solve(np.linalg.cholesky(between), record.transforms), dtype=complex))
 
@@ -224,10 +225,23 @@ def spectra(e: Array, tapers: int) -> Spectra:
 
     The t-th sine taper (2 / (N+1))^(1/2) sin(pi t k / (N+1)) shifts the plain transform by t / (2 (N+1)) to both sides [RS95].
     """
+    return _around(e, tapers, _apart(len(e), tapers))
+
+
+def covering_spectra(e: Array, tapers: int) -> Spectra:
+    """As `spectra`, with one centre more, nearer than that to the last, where these would leave out frequencies next to one half."""
+    last = len(e) + 1 - tapers
+    return _around(e, tapers, np.union1d(_apart(len(e), tapers), last))
+
+
+def _apart(samples: int, tapers: int) -> NDArray[np.int_]:
+    """Centres that share no frequency, in units of 1 / (2 (N+1))."""
+    return np.arange(tapers, samples + 1 - tapers + 1, 2 * tapers)
+
+
+def _around(e: Array, tapers: int, centres: NDArray[np.int_]) -> Spectra:
     samples, p = e.shape
     plain = np.fft.fft(np.vstack([np.zeros((1, p)), e]), n=2 * (samples + 1), axis=0)
-    # On this grid, of spacing 1 / (2 (N+1)), centres are 2 T apart.
-    centres = np.arange(tapers, samples + 1 - tapers + 1, 2 * tapers)
     shifts = np.arange(1, tapers + 1)
     above, below = plain[centres[:, None] + shifts], plain[centres[:, None] - shifts]
     return Spectra(centres / (2.0 * (samples + 1)), (below - above) / (2j * np.sqrt((samples + 1) / 2.0)))

@@ -18,6 +18,8 @@ Rules, each of which yields an undecided answer when it fails:
     size            the rise must be CLEAR nats; when it comes at once (n_v = p - 1) the floor is seen once only, a weak fault more would
                     look the same, and CLEAR_LAST nats and the smaller slack SLACK_LAST are demanded; CLEAR_SINGLE of two
                     outputs, since a single mixture has no quiet direction left to choose and starts higher anyway
+    unmixed         mixtures mix the noise of a loud output into all: the outputs on which the best law has its weight, as many as there
+                    would be faults, must be off the floor too by the share SPARSE of the rise; else the noise is unequal, or the faults are
     settled         the level after the rise must not be falling with the degree by a share that would undo the rise
     some rise       down to k = 1: otherwise r may be noise alone or as many faults as outputs, and data cannot tell
 
@@ -48,6 +50,7 @@ SLACK = 0.15
 SLACK_LAST = 0.04
 SETTLED = 0.25
 STEEP = 0.2
+SPARSE = 0.5
 MIXES = 2
 _SEED = 20250513
 
@@ -133,8 +136,21 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
         return undecided(f"{step}, but it had risen by {before:.2f} before: weak faults, or outputs of very unequal noise")
     if below.drop > SETTLED * rise:
         return undecided(f"{step}, of which the last two degrees took back {below.drop:.2f}: larger block_rows may settle it")
+    chosen = _loaded(moments, low)
+    alone = law_level(moments, (np.eye(p)[:, chosen],)).least - floor.middle
+    if alone < SPARSE * rise:
+        return undecided(
+            f"{step}, but {low} outputs as they are, unmixed, obey a law nearly as good ({alone:.2f} nats above the floor): noise that is "
+            "louder, beside the faults, at other outputs looks like this"
+        )
     reason = f"{high} mixed outputs obey a common law up to the noise floor, {low} do not: {step} ({needed:g} needed)"
     return KernelRowTest(low, _walk(levels), noise_power, reason)
+
+
+def _loaded(moments: WindowMoments, count: int) -> NDArray[np.int_]:
+    """The outputs on which the best law on all of them has its largest coefficients."""
+    sizes = np.linalg.norm(kernel_row(moments).coefficients, axis=0)
+    return np.sort(np.argsort(-sizes, kind="stable")[:count])
 
 
 def _walk(levels: dict[int, LawLevel]) -> tuple[LawLevel, ...]:

@@ -66,7 +66,8 @@ def codimension_two(bench: Workbench) -> Outcome:
         bench.progress("lines without a bad P", done, len(tried))
         stated = bad_set(pencil).codimension
         if stated is not None and stated < 2:
-            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", tuple(_kernel(pencil)), 0)
+            shown = accepted(_kernel(pencil))
+            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", shown, len(shown))
         line = _line(pencil)
         if line is None:
             missed += 1

@@ -46,7 +46,8 @@ def n_plus_1_samples(bench: Workbench) -> Outcome:
     longer = [d for d in bench.corpus.dossiers if d.lag > d.n]
     if longer:
         words = f"{longer[0].system} has a kernel row of degree {longer[0].lag}"
-        return Outcome(Verdict.REFUTED, words, accepted(_of_one(longer[0].system)))
+        shown = accepted(_of_one(longer[0].system))
+        return Outcome(Verdict.REFUTED, words, shown, len(shown))
     total, count = sum(d.weight for d in bench.corpus.dossiers), sum(d.accepted for d in bench.corpus.dossiers)
     words = f"{outcome.evidence}; by kernel rows, none of degree above n, every pair of the {total} systems of the corpus"
     return replace(outcome, evidence=words, accepted=outcome.accepted + count)

@@ -148,6 +148,64 @@ def test_no_healthy_record_is_told_as_faulty(name: str, seed: int) -> None:
         assert document["visible"]["constant"] is not None and "seen with a chance of 0.9" in told
 
 
+# What neither spectra nor means show
+
+
+@pytest.mark.parametrize("noise_level", [2.0, 20.0])
+def test_a_dead_sensor_that_was_mostly_noise_is_no_zero(noise_level: float) -> None:
+    draw = np.random.default_rng(11)
+    u = draw.standard_normal((N, 2))
+    y = clean(u) + noise(draw, N) / LEVELS * [0.3, 0.1, noise_level]
+    y[START:, 2] = 0.0
+    answer, _, told = answered(y, u)
+    assert answer.count is None and "stuck or dead" in told, told
+
+
+def test_a_sensor_that_only_hums_since_it_died_is_no_zero() -> None:
+    draw = np.random.default_rng(12)
+    u = draw.standard_normal((N, 2))
+    y = clean(u) + noise(draw, N) / LEVELS * [0.3, 0.1, 20.0]
+    y[START:, 2] = 0.01 * draw.standard_normal(N - START)
+    answer, _, told = answered(y, u)
+    assert answer.count is None and "smaller than while healthy" in told, told
+
+
+@pytest.mark.parametrize("length", [1, 3])
+def test_a_short_spike_in_a_long_record_is_no_zero(length: int) -> None:
+    draw = np.random.default_rng(13)
+    u = draw.standard_normal((20000, 2))
+    y = clean(u) + noise(draw, 20000)
+    y[15000 : 15000 + length, 1] += 20.0 * LEVELS[1]
+    answer, _, told = answered(y, u, until=2000)
+    assert answer.count is None and "times its healthy peak" in told, told
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_much_louder_inputs_make_no_fault_of_the_error_of_the_model(seed: int) -> None:
+    draw = np.random.default_rng((14, seed))
+    u = draw.standard_normal((N, 2))
+    u[START:] *= 30.0
+    answer, _, told = answered(clean(u) + noise(draw, N), u)
+    assert answer.at_least == 0 and "the error of the model can look like a fault" in told, told
+
+
+@pytest.mark.parametrize("sample", [300, 900])
+@pytest.mark.parametrize("size", [1e12, 1e150])
+def test_an_outlier_beyond_all_numbers_is_no_crash(sample: int, size: float) -> None:
+    y, u = biased(15, START)
+    y[sample, 1] = size
+    assert answered(y, u)[0].count != 0
+
+
+def test_an_output_without_noise_makes_no_faults_of_the_noise_of_others() -> None:
+    y, u = biased(16, N)
+    y = np.hstack([y, u[:, :1]])
+    names = (*made.OUTPUTS, "copy")
+    assert identify(recorded(y, u, outputs=names, inputs=made.INPUTS), order=3).count is None
+    y[START:, 2] += 20.0 * LEVELS[2] * np.random.default_rng(17).standard_normal(N - START)
+    assert answered(y, u, outputs=names)[0].count in (1, None)
+
+
 # Where the records end, and what is stated wrongly
 
 

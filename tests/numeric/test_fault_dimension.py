@@ -269,3 +269,18 @@ def test_one_channel_cannot_tell_fault_from_noise() -> None:
 def test_bad_data_are_refused_with_a_reason(r, block_rows, says) -> None:  # type: ignore[no-untyped-def]
     with pytest.raises(InvalidData, match=says):
         fault_dimension(r, block_rows=block_rows)
+
+
+@pytest.mark.parametrize("strengths", [(100, 100, 1), (1e3, 1e3, 1), (1e3, 1e3, 1, 1), (1e3, 1e3, 1e3, 1, 1)])
+def test_one_fault_of_unequal_strengths_is_not_counted_as_more(strengths: tuple[float, ...]) -> None:
+    """Beside a fault that is strong at some outputs, the noise of the others looks like faults of its own."""
+    draw = np.random.default_rng(len(strengths))
+    r = np.outer(draw.standard_normal(2000), strengths) + draw.standard_normal((2000, len(strengths)))
+    assert fault_dimension(r).n_v in (1, None)
+
+
+def test_one_smooth_noise_among_white_ones_is_no_fault() -> None:
+    draw = np.random.default_rng(5)
+    r = draw.standard_normal((2000, 3))
+    r[:, 0] = scipy.signal.lfilter([1.0], np.poly([0.9, 0.9, 0.9]), r[:, 0])
+    assert fault_dimension(r).n_v is None

@@ -160,7 +160,8 @@ def test_no_states(method: Any) -> None:
     r = residual(system)
     for noise in (0.0, 1e-3):
         found = method(r + noise * coloured(0, r, 0), system.A, system.C, n_v=1)
-        assert found.n_z == 1 and found.meaningful and subspace_distance(G, found.basis) < 1e-10 + noise  # a maximum is found to about the root of rounding at best
+        # A maximum is found to about the root of rounding at best.
+        assert found.n_z == 1 and found.meaningful and subspace_distance(G, found.basis) < 1e-10 + noise
 
 
 def test_the_number_of_faults_is_found_in_noise() -> None:

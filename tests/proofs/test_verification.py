@@ -196,3 +196,12 @@ def test_workbench_makes_shared_outcomes_once() -> None:
 def test_a_counterexample_witnesses_the_opposite_and_an_error_stays_one(found: Verdict, opposite: Verdict) -> None:
     outcome = workbench.witnessed(Outcome(found, "evidence", (), 3))
     assert outcome.verdict == opposite and "evidence" in outcome.evidence and outcome.accepted == 3
+
+
+@pytest.mark.parametrize("verdict", [Verdict.CERTIFIED, Verdict.REFUTED])
+def test_a_verdict_without_an_accepted_certificate_is_an_error(verdict: Verdict, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("faultspace.proofs.claims.example_v.one_fault", lambda bench: Outcome(verdict, "on nothing"))
+    report = verify(["example-v"], jobs=1)
+    (found,) = (r.outcome for c in report.claims for r in c.readings if r.reading.id == "one-fault")
+    assert found.verdict == Verdict.ERROR and "no certificate was accepted" in found.evidence
+    assert not report.as_expected
