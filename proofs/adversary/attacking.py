@@ -5,7 +5,8 @@
     of_reading     a reading's result with its attacks
     of_row         a row of the hypothesis table with its attacks
 
-A reading that was CERTIFIED is REFUTED where a counterexample is confirmed; it is in ERROR where what the file tells is not found again.
+A reading that was CERTIFIED is REFUTED where a counterexample is confirmed; it is in ERROR where what the file tells is not found again, and
+where the file has nothing on a statement that the catalogue attacks.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from ..evidence.attacks import Attacked
 from ..evidence.corpus import Progress
-from .catalogue import WITHOUT, catalogue
+from .catalogue import WITHOUT, attacks_on, catalogue
 from .results import AttackRecord, run_attacks, shown
 
 if TYPE_CHECKING:
@@ -49,7 +50,8 @@ def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> Reading
 
     found = shown(f"{claim}.{result.reading.id}", attacks.records)
     result = replace(result, attacks=found)
-    words = _against(found)
+    unproved = result.outcome.verdict == Verdict.CERTIFIED
+    words = _against(found) or (_absent(f"{claim}.{result.reading.id}", found) if unproved else None)
     if words is None or result.outcome.verdict in (Verdict.REFUTED, Verdict.ERROR):
         return result
     verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
@@ -64,11 +66,17 @@ def of_row(row: Row, attacks: Attacking) -> Row:
         return row
     found = shown(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", attacks.records)
     row = replace(row, attacks=found)
-    words = _against(found)
+    words = _against(found) or (_absent(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", found) if row.verdict == Verdict.CERTIFIED else None)
     if words is None or row.verdict in (Verdict.REFUTED, Verdict.ERROR):
         return row
     verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
     return replace(row, verdict=verdict, evidence=f"{words}; {row.evidence}")
+
+
+def _absent(target: str, found: tuple[Attacked, ...]) -> str | None:
+    """That the file of results has nothing on a statement that we know how to attack: what was tried is then not known."""
+    known = len(tuple(attacks_on(target)))
+    return f"{known} attacks on this are known, and the file of results has none" if known and not found else None
 
 
 def _against(found: tuple[Attacked, ...]) -> str | None:

@@ -154,6 +154,13 @@ def reading_result(target: str, verdict: Verdict) -> tuple[ReadingResult, str]:
     return ReadingResult(next(one for one in claim.readings if one.id == reading), Outcome(verdict, "on systems"), 0.0), name
 
 
+def test_a_statement_without_its_stored_attacks_is_an_error() -> None:
+    result, claim = reading_result("past-outputs.white-fault", Verdict.CERTIFIED)
+    assert of_reading(result, claim, Attacking(None)).outcome.verdict == Verdict.CERTIFIED
+    emptied = of_reading(result, claim, Attacking(())).outcome
+    assert emptied.verdict == Verdict.ERROR and "has none" in emptied.evidence
+
+
 def test_a_confirmed_counterexample_decides_a_reading_and_one_that_is_not_found_again_is_an_error() -> None:
     record = record_of(FALSE_REPAIR)
     result, claim = reading_result(record["target"], Verdict.CERTIFIED)
