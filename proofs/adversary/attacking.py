@@ -5,8 +5,8 @@
     of_reading     a reading's result with its attacks
     of_row         a row of the hypothesis table with its attacks
 
-A reading that was CERTIFIED is REFUTED where a counterexample is confirmed; it is in ERROR where what the file tells is not found again, and
-where the file has nothing on a statement that the catalogue attacks.
+A reading that was CERTIFIED is REFUTED where a counterexample is confirmed. It is in ERROR where what the file tells is not found again, and where
+the file has nothing on a statement that the catalogue attacks.
 """
 
 from __future__ import annotations
@@ -66,7 +66,8 @@ def of_row(row: Row, attacks: Attacking) -> Row:
         return row
     found = shown(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", attacks.records)
     row = replace(row, attacks=found)
-    words = _against(found) or (_absent(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", found) if row.verdict == Verdict.CERTIFIED else None)
+    unproved = row.verdict == Verdict.CERTIFIED
+    words = _against(found) or (_absent(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", found) if unproved else None)
     if words is None or row.verdict in (Verdict.REFUTED, Verdict.ERROR):
         return row
     verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
