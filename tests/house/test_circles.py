@@ -3,7 +3,7 @@
 import pytest
 
 from . import drawing
-from .import_graph import Graph, Module, circle, counted, file_graph, house, place, place_graph
+from .import_graph import ROOT, Graph, Module, circle, counted, file_graph, house, place, place_graph
 
 
 def files(*more: Module) -> Graph:
@@ -69,7 +69,7 @@ def test_a_place_is_a_folder_or_a_file_at_the_top_of_a_room() -> None:
 
 @pytest.mark.parametrize("page", list(drawing.PAGES))
 def test_the_drawing_is_current(page: str) -> None:
-    text = (drawing.ROOT / page).read_text("utf-8")
+    text = (ROOT / page).read_text("utf-8")
     rows = drawing.PAGES[page](counted(files()))
     assert drawing.filled(text, rows) == text, "draw it again: python -m tests.house.drawing"
     assert drawing.filled(text, ["something else"]) != text
