@@ -51,7 +51,12 @@ def test_the_sample_limits_are_what_the_hankel_matrices_give() -> None:
 LONG = "u white, v(k) = K u(k-1), B and D right by output error"
 
 
-@pytest.mark.parametrize("family", [pytest.param(one, marks=[pytest.mark.slow, pytest.mark.timeout(1200)] if one == LONG else []) for one in FAMILIES])
+def marked(family: str) -> Any:
+    """The family, and whether it is looked at in every run."""
+    return pytest.param(family, marks=[pytest.mark.slow, pytest.mark.timeout(1200)] if family == LONG else [])
+
+
+@pytest.mark.parametrize("family", [marked(one) for one in FAMILIES])
 def test_every_family_has_an_experiment_and_an_exact_limit(family: str) -> None:
     found = chosen(family)
     assert found.experiment.system.residual.n == 2 and found.past_inputs.rank
