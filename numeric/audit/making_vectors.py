@@ -4,6 +4,8 @@
     identification_vectors  n_u, p = 1, 2, 3, with and without D and initial state; smooth inputs; a long window
     structure_vectors       the same questions for the system itself; not left-invertible, without zeros; other coordinates
     consistency_vectors     a coloured fault
+    documents               all files, name -> JSON document
+    main                    `python -m faultspace.numeric.audit.making_vectors --out DIR` writes the files
 
 The bounds are those of the problem, not of one program. A model: the largest over two ways to compress (QR, Gram) and two regressions for B
 and D, each a worst case to first order. A fault space: the kernel rows' conditioning. A zero: its condition number as an eigenvalue of the
@@ -12,9 +14,12 @@ pencil times the rounding of a backward stable algorithm [GVL13].
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import argparse
+import json
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -34,9 +39,9 @@ from .drawing import drawn, stable, upward
 from .exact_comparison import matched, poles, roots
 from .fault_vectors import FaultView
 from .making_fault_vectors import fault_vectors, noisy_vectors, unexciting_vectors
-from .rationals import Array, floats, matrix, scaled
+from .rationals import ROUNDING, Array, floats, matrix, scaled
 from .recipe_vectors import ConsistencyVector
-from .vectors import POINTS, IdentificationVector, StructureVector
+from .vectors import FORMAT, KINDS, POINTS, IdentificationVector, StructureVector
 
 
 def _upward(values: Any) -> Any:
@@ -222,3 +227,37 @@ MAKERS: dict[str, Callable[[], Sequence[Any]]] = {
     "structure": structure_vectors,
     "consistency": consistency_vectors,
 }
+
+
+# -- the files ----------------------------------------------------------------------------------------------------------------------
+
+
+def documents() -> dict[str, dict[str, Any]]:
+    """File name -> document, computed anew by the exact branch."""
+    return {
+        f"{kind}.json": {"format": FORMAT, "kind": kind, "rounding": ROUNDING, "vectors": [one.to_json() for one in MAKERS[kind]()]}
+        for kind in KINDS
+    }
+
+
+def written(document: Mapping[str, Any]) -> str:
+    """One vector a line."""
+    head = {name: value for name, value in document.items() if name != "vectors"}
+    lines = ",\n".join(json.dumps(one) for one in document["vectors"])
+    return f'{json.dumps(head)[:-1]}, "vectors": [\n{lines}\n]}}\n'
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Writes all files; returns 0."""
+    parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.making_vectors", description="Make the audit's vectors.")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files, made if it is not there")
+    out: Path = parser.parse_args(arguments).out
+    texts = {name: written(document) for name, document in documents().items()}
+    out.mkdir(parents=True, exist_ok=True)
+    for name, text in texts.items():
+        (out / name).write_text(text, "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,12 +1,11 @@
 """Implementation against check: the audit of our reference and of every published package that is here, written as one JSON file.
 
     audit_peer    the records of one package; needs it installed
-    Board         what was audited, when told by `python -m faultspace.numeric.audit.scoreboard --out DIR`
-    Audited       one implementation: name, version, seconds, a Tally for every slug of a function that it offers
-    Tally         of one slug and function: how many were asked and failed, the worst record
+    tallies       the records of one implementation, summed up by slug and function
+    merged        new entries in place of old ones
     main          audits and writes scoreboard.json; what is not installed here keeps the entry that it has there
 
-`scoreboard_pages` makes README's table and FINDINGS.md of it.
+The records of the file are in `scoreboard_records`; `scoreboard_pages` makes README's table and FINDINGS.md of it.
 """
 
 from __future__ import annotations
@@ -15,7 +14,6 @@ import argparse
 import json
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -25,62 +23,11 @@ from .peers import PEERS, Peer, peer
 from .programs import STANDARD, Limits
 from .records import Record, Verdict, grouped
 from .running import audit, audit_named
+from .scoreboard_pages import write_pages
+from .scoreboard_records import Audited, Board, Tally
 from .subprocess_adapter import Exec
 
-FORMAT = "faultspace-audit-scoreboard/1"
 REFERENCE = "faultspace.numeric.audit.reference"
-
-
-@dataclass(frozen=True)
-class Tally:
-    """Of the checks of one slug and function: how many were asked, how many failed, and the first that failed (else the worst).
-
-    Infinite numbers are strings.
-    """
-
-    slug: str
-    function: str
-    kind: str
-    claim: str | None
-    effect: str
-    asked: int
-    failed: int
-    vector: str
-    verdict: str
-    quantity: str | None
-    got: float | str | None
-    bound: float | str | None
-    detail: str
-
-
-@dataclass(frozen=True)
-class Audited:
-    """One implementation. `title`: what it is; `seconds`: what the audit took."""
-
-    name: str
-    title: str
-    version: str
-    needs: str
-    seconds: float
-    tallies: tuple[Tally, ...]
-
-
-@dataclass(frozen=True)
-class Board:
-    """All implementations, our own first."""
-
-    audited: tuple[Audited, ...]
-
-    def to_json(self) -> dict[str, Any]:
-        """JSON-ready."""
-        return {"format": FORMAT, "audited": [asdict(one) for one in self.audited]}
-
-    @staticmethod
-    def from_json(data: Any) -> Board:
-        """The board that `to_json` wrote. Raises InvalidData for another format."""
-        if not isinstance(data, dict) or data.get("format") != FORMAT:
-            raise InvalidData(f"a scoreboard has the format {FORMAT!r}")
-        return Board(tuple(Audited(**{**one, "tallies": tuple(Tally(**row) for row in one["tallies"])}) for one in data["audited"]))
 
 
 def audit_peer(
@@ -137,8 +84,6 @@ def merged(new: Board, old: Board) -> Board:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Audits, writes scoreboard.json; returns 0."""
     from rich.progress import Progress
-
-    from .scoreboard_pages import write_pages
 
     parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.scoreboard", description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where scoreboard.json, README.md and FINDINGS.md are")

@@ -12,7 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from .records import Kind
-from .scoreboard import Audited, Board, Tally
+from .scoreboard_records import Audited, Board, Tally
 
 BEGIN, END = "<!-- scoreboard -->", "<!-- end of scoreboard -->"
 HEAD = """# What the audit found

@@ -5,21 +5,18 @@
     FaultVector, UnexcitingVector        see `fault_vectors`
     ConsistencyVector, NoisyVector       see `recipe_vectors`
     shipped                the vectors of one kind that come with the package
-    documents              all files, name -> JSON document, made anew
-    main                   `python -m faultspace.numeric.audit.vectors --out DIR` writes the files; never edit them by hand
 
+`python -m faultspace.numeric.audit.making_vectors --out DIR` writes the files anew; they are never edited by hand.
 Rationals are strings "p/q" as in every exact file; bounds are floats.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,7 +26,7 @@ from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
 from .fault_vectors import FaultVector, UnexcitingVector
-from .rationals import ROUNDING, Array, floats, fractions, matrix, scaled, signs
+from .rationals import Array, floats, fractions, matrix, scaled, signs
 from .recipe_vectors import ConsistencyVector, NoisyVector
 
 FORMAT = "faultspace-audit-vectors/1"
@@ -44,15 +41,12 @@ __all__ = [
     "NoisyVector",
     "StructureVector",
     "UnexcitingVector",
-    "documents",
     "floats",
     "fractions",
-    "main",
     "matrix",
     "scaled",
     "shipped",
     "signs",
-    "written",
 ]
 
 
@@ -174,36 +168,3 @@ def shipped(kind: str) -> tuple[Any, ...]:
     if document["format"] != FORMAT:
         raise ValueError(f"{kind}.json has format {document['format']!r}, this program reads {FORMAT!r}")
     return tuple(_READERS[kind](one) for one in document["vectors"])
-
-
-def documents() -> dict[str, dict[str, Any]]:
-    """File name -> document, computed anew by the exact branch."""
-    from .making_vectors import MAKERS
-
-    return {
-        f"{kind}.json": {"format": FORMAT, "kind": kind, "rounding": ROUNDING, "vectors": [one.to_json() for one in MAKERS[kind]()]}
-        for kind in KINDS
-    }
-
-
-def written(document: Mapping[str, Any]) -> str:
-    """One vector a line."""
-    head = {name: value for name, value in document.items() if name != "vectors"}
-    lines = ",\n".join(json.dumps(one) for one in document["vectors"])
-    return f'{json.dumps(head)[:-1]}, "vectors": [\n{lines}\n]}}\n'
-
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Writes all files; returns 0."""
-    parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.vectors", description="Make the audit's vectors.")
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files, made if it is not there")
-    out: Path = parser.parse_args(arguments).out
-    texts = {name: written(document) for name, document in documents().items()}
-    out.mkdir(parents=True, exist_ok=True)
-    for name, text in texts.items():
-        (out / name).write_text(text, "utf-8")
-    return 0
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

@@ -38,7 +38,7 @@ import numpy as np
 import scipy.stats
 from numpy.typing import NDArray
 
-from faultspace.numeric.space.one_row import WindowMoments, kernel_row, window_moments
+from faultspace.numeric.count.one_row import WindowMoments, kernel_row, window_moments
 
 Array = NDArray[np.float64]
 

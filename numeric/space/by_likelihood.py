@@ -36,10 +36,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.errors import InvalidData
 from ..count.arguments import Arguments, arguments
+from ..count.one_row import kernel_row
 from ..count.rank_gap import fault_dimension
 from ..count.windows import EPS, ObservedCoordinates, gap_rank, hankel_factor, observed_coordinates
 from .largest import largest_fault_space
-from .one_row import kernel_row
 from .result import FaultSpaceEstimate, condition_maps, everything, kernel_conditions, orthonormal
 from .start import complement, joint_basis
 from .tapered_moments import CrossMoments, tapered_moments

@@ -1,6 +1,7 @@
 """What every estimate of the fault space answers, and what a kernel row asks of a fault column.
 
     FaultSpaceEstimate   basis of the columns [f; g], its dimension, how it was found, whether it means anything and why
+    SpaceUncertainty     the estimate's error to first order, a matrix that is linear in standard normal numbers, and its angle
     everything           the answer where nothing can be said: the whole space, not meaningful
     kernel_conditions    for rows N_0 .. N_(s-1) at once: the conditions [X_(k+1), N_k] z = 0, X_k = N_k C + X_(k+1) A
     condition_maps       the same as linear maps of the row, for carrying the row's uncertainty over
@@ -13,15 +14,39 @@ p). Source: [G25] problem (11).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from .uncertainty import SpaceUncertainty
+from ...base.errors import InvalidData
 
 Array = NDArray[np.float64]
+
+DRAWS = 4000
+_SEED = 20250519
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceUncertainty:
+    """`root` (q, n + p, n_z): the basis is off by the sum of root[i] times standard normal numbers, to first order."""
+
+    root: Array
+
+    def angle(self, confidence: float = 0.95) -> float:
+        """Radians that the largest principal angle to the true space stays below with this probability; the same at
+        every call.
+
+        To first order in the noise: honest while it is small (up to half a radian, say). Raises InvalidData for a
+        confidence outside (0, 1).
+        """
+        if not 0 < confidence < 1:
+            raise InvalidData(f"confidence: got {confidence}; a number between 0 and 1 is needed, for example 0.95")
+        if 0 in self.root.shape:
+            return 0.0
+        normal = np.random.default_rng(_SEED).standard_normal((DRAWS, len(self.root)))
+        errors = np.tensordot(normal, self.root, axes=1)
+        sizes = np.linalg.norm(errors, 2, axis=(1, 2))
+        return float(np.arctan(np.quantile(sizes, confidence)))
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ import scipy.signal
 from numpy.typing import NDArray
 
 from ...base.errors import InvalidData
-from .one_row import WindowMoments
+from ..count.one_row import WindowMoments
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

@@ -1,7 +1,5 @@
 """How far an estimated fault space may lie from the true one: an angle with a confidence.
 
-    SpaceUncertainty    the estimate's error to first order, a matrix that is linear in standard normal numbers
-    angle               the largest principal angle that the error stays below with a given confidence
     space_uncertainty   from a kernel basis of maximum likelihood, whose coefficients have a covariance
 
 A change dN of the kernel rows changes their conditions M by dM and the solutions W of M W = 0 by -M^+ dM W, off their
@@ -13,42 +11,14 @@ bias of other noise is not in the angle.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...base.errors import InvalidData
 from ..count.windows import ObservedCoordinates
-from .result import condition_maps, kernel_conditions
+from .result import SpaceUncertainty, condition_maps, kernel_conditions
 
 Array = NDArray[np.float64]
-
-DRAWS = 4000
-_SEED = 20250519
-
-
-@dataclass(frozen=True, eq=False)
-class SpaceUncertainty:
-    """`root` (q, n + p, n_z): the basis is off by the sum of root[i] times standard normal numbers, to first order."""
-
-    root: Array
-
-    def angle(self, confidence: float = 0.95) -> float:
-        """Radians that the largest principal angle to the true space stays below with this probability; the same at
-        every call.
-
-        To first order in the noise: honest while it is small (up to half a radian, say). Raises InvalidData for a
-        confidence outside (0, 1).
-        """
-        if not 0 < confidence < 1:
-            raise InvalidData(f"confidence: got {confidence}; a number between 0 and 1 is needed, for example 0.95")
-        if 0 in self.root.shape:
-            return 0.0
-        normal = np.random.default_rng(_SEED).standard_normal((DRAWS, len(self.root)))
-        errors = np.tensordot(normal, self.root, axes=1)
-        sizes = np.linalg.norm(errors, 2, axis=(1, 2))
-        return float(np.arctan(np.quantile(sizes, confidence)))
 
 
 def space_uncertainty(

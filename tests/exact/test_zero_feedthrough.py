@@ -129,7 +129,6 @@ def test_hypotheses_are_asked_for() -> None:
 
 BROKEN: dict[str, Broken] = {
     "the formula forgets U": Broken(
-        "zero_feedthrough",
         "members_by_formula",
         "beside(system.F, U, system.A @ silent)",
         "beside(system.F, system.A @ silent)",
@@ -137,7 +136,6 @@ BROKEN: dict[str, Broken] = {
         ({"A": [[0, 0], [0, 0]], "F": [[1], [0]], "C": [[1, 0]], "G": [[0]]},),
     ),
     "no alternative is looked for": Broken(
-        "zero_feedthrough",
         "_alternative",
         "system.m == 0 or pencil.zeta == system.m",
         "True",
@@ -145,7 +143,6 @@ BROKEN: dict[str, Broken] = {
         (delay_line("Q", 2),),
     ),
     "a hidden direction is taken": Broken(
-        "zero_feedthrough",
         "_alternative",
         "beside(system.F, hidden) if pencil.zeta > system.m + hidden.ncols else system.F",
         "system.F",

@@ -1,19 +1,15 @@
 """The import arrows between the rooms point one way.
 
 ROOMS           room -> rooms it may import (its own always)
-Module          a module's dotted name, whether it is a package, its source
-imports         every name a source imports, relative ones resolved, literal `import_module("...")` included
 room_of         the room of a dotted name; None for what is not ours
 violations      the sentences that say what a module may not do
 """
 
-import ast
 import sys
-from collections.abc import Iterator
-from dataclasses import dataclass
-from pathlib import Path
 
 import pytest
+
+from .import_graph import FOLDERS, Module, house, imports
 
 ROOMS = {
     "base": set[str](),
@@ -23,36 +19,7 @@ ROOMS = {
     "proofs": {"base", "exact"},
     "front": {"base", "exact", "numeric", "audit", "proofs"},
 }
-FOLDERS = ("exact", "numeric", "proofs")
 CHECKER = "faultspace.proofs.trust.checker"
-
-
-@dataclass(frozen=True)
-class Module:
-    """A module by its import name."""
-
-    name: str
-    source: str
-    is_package: bool = False
-
-
-def imports(module: Module) -> Iterator[str]:
-    """Dotted names imported anywhere in the module; `from a import b` gives `a.b`, as b may be a module."""
-    package = module.name if module.is_package else module.name.rpartition(".")[0]
-    for node in ast.walk(ast.parse(module.source)):
-        match node:
-            case ast.Import(names=names):
-                yield from (alias.name for alias in names)
-            case ast.ImportFrom(module=base, names=names, level=level):
-                if level:
-                    parts = package.split(".")
-                    base = ".".join([*parts[: len(parts) - level + 1], *filter(None, [base])])
-                yield from (f"{base}.{alias.name}" for alias in names)
-            case ast.Call(
-                func=ast.Name(id="__import__" | "import_module") | ast.Attribute(attr="import_module"),
-                args=[ast.Constant(value=str(name)), *_],
-            ):
-                yield name if not name.startswith(".") else f"{package}{name}"
 
 
 def room_of(name: str) -> str | None:
@@ -84,17 +51,6 @@ def violations(module: Module) -> list[str]:
         if module.name == CHECKER and name.partition(".")[0] not in sys.stdlib_module_names:
             found.append(f"{module.name} imports {name}, which is not in the standard library")
     return found
-
-
-def house() -> Iterator[Module]:
-    """Every module of the house, once: rglob does not enter the linked folders in faultspace/."""
-    root = Path(__file__).resolve().parents[2]
-    for folder in ("faultspace", *FOLDERS):
-        for path in sorted((root / folder).rglob("*.py")):
-            parts = path.relative_to(root).with_suffix("").parts
-            dotted = parts if folder == "faultspace" else ("faultspace", *parts)
-            is_package = dotted[-1] == "__init__"
-            yield Module(".".join(dotted[:-1] if is_package else dotted), path.read_text("utf-8"), is_package)
 
 
 @pytest.mark.parametrize("module", list(house()), ids=lambda module: module.name)

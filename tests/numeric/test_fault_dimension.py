@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.count.hankel_ranks import hankel_triangle, hankel_values
+from faultspace.numeric.count.one_row import kernel_row, window_moments
 from faultspace.numeric.count.rank_gap import fault_dimension
-from faultspace.numeric.space.one_row import kernel_row, window_moments
 
 Array = NDArray[np.float64]
 

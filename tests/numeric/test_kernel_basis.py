@@ -17,9 +17,9 @@ from faultspace.numeric.space import basis as likelihood
 from faultspace.numeric.space import by_likelihood as noisy_fault_space
 from faultspace.numeric.space.by_ranks import fault_space_by_least_squares, fault_space_by_likelihood
 from faultspace.numeric.space.distances import principal_angles
+from faultspace.numeric.space.result import SpaceUncertainty
 from faultspace.numeric.space.start import complement, rows_from, splits
 from faultspace.numeric.space.tapered_moments import tapered_moments
-from faultspace.numeric.space.uncertainty import SpaceUncertainty
 from tests.numeric.planted import Planted, coloured, faults, planted, simulate
 
 

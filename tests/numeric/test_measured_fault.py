@@ -63,7 +63,11 @@ def output_direction(seed: int, y: Array) -> Array:
 
 # Level of the fault below the outputs, and the largest sine of the angle and the least correlation that it must be found with: about twice
 # the error seen, far below those of a random direction (a sine of .98) and of no fault (a correlation of .06).
-LEVELS = [(0.1, 0.02, 0.99), (0.01, 0.03, 0.98), (0.003, 0.1, 0.85)]
+LEVELS = [
+    pytest.param(0.1, 0.02, 0.99, marks=pytest.mark.slow),
+    pytest.param(0.01, 0.03, 0.98, marks=pytest.mark.slow),
+    (0.003, 0.1, 0.85),  # the smallest is the hardest
+]
 
 
 @pytest.mark.parametrize(("level", "largest_sine", "least_correlation"), LEVELS)

@@ -41,6 +41,7 @@ def small_ones() -> list[dict[str, Any]]:
 
 
 @needs_rocq
+@pytest.mark.slow
 def test_the_kernel_proves_every_shipped_certificate_of_a_covered_kind() -> None:
     about = [c for c in SHIPPED if covered(c)]
     assert {c["kind"] for c in about} >= {*COVERED} - {"behaviour-inclusion"}

@@ -71,6 +71,7 @@ def test_a_mathcomp_that_is_not_there_is_no_broken_theory(monkeypatch: pytest.Mo
 
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
 @pytest.mark.timeout(1500)
+@pytest.mark.slow
 def test_the_second_checker_finds_no_axiom() -> None:
     theory = rocq_build.compiled_theory()
     assert (theory / "Headlines.vo").is_file()

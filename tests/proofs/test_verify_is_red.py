@@ -173,6 +173,7 @@ def test_a_poisoned_cache_is_told(place: Path, capsys: pytest.CaptureFixture[str
 
 
 @pytest.mark.timeout(900)
+@pytest.mark.slow
 def test_an_answer_is_kept_for_the_files_that_it_is_about(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert verify(capsys)[0] == 0
     (answer,) = place.parent.glob(f"{place.name}.*.json")

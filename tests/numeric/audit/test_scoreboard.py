@@ -15,8 +15,9 @@ from faultspace.numeric.audit.peers import PEERS, Peer
 from faultspace.numeric.audit.programs import STANDARD
 from faultspace.numeric.audit.records import Kind
 from faultspace.numeric.audit.running import all_checks, audit
-from faultspace.numeric.audit.scoreboard import Audited, Board, audit_peer, main, merged, tallies
+from faultspace.numeric.audit.scoreboard import audit_peer, main, merged, tallies
 from faultspace.numeric.audit.scoreboard_pages import findings, table, write_pages
+from faultspace.numeric.audit.scoreboard_records import Audited, Board
 from faultspace.numeric.audit.vectors import shipped
 from tests.numeric.audit.mutants import MUTANTS
 
