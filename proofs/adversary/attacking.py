@@ -5,8 +5,8 @@
     of_reading     a reading's result with its attacks
     of_row         a row of the hypothesis table with its attacks
 
-A reading that was CERTIFIED is REFUTED where a counterexample is confirmed. It is in ERROR where what the file tells is not found again, and
-where the file has nothing on a statement that the catalogue attacks.
+A reading that was CERTIFIED is REFUTED where a counterexample is confirmed. It is in ERROR where what the file tells is not found again,
+and where the file has nothing on a statement that the catalogue attacks.
 """
 
 from __future__ import annotations
