@@ -2,7 +2,8 @@
 
 run          the command's body
 list_peers   the published packages that adapters come for
-table        what a person reads
+by_function  a row for each function: checks, passed, failed, the largest ratio of what a check got to its bound
+table        a row for each check, as --verbose prints it
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Sequence
 
+from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
@@ -17,12 +19,15 @@ from ..base.errors import InvalidData, InvalidInput, quote_path
 from ..numeric.audit.peers import PEERS
 from ..numeric.audit.peers import peer as peer_named
 from ..numeric.audit.programs import Limits
-from ..numeric.audit.records import Kind, Record, grouped
+from ..numeric.audit.records import Kind, Record, Verdict, grouped
 from ..numeric.audit.running import audit, audit_named, told
 from ..numeric.audit.scoreboard import REFERENCE, audit_peer
 from ..numeric.audit.subprocess_adapter import Exec
-from .consoles import answers, print_json, stages
+from .consoles import answers, paragraph, print_json, print_table
 from .failures import ANSWERED, NOT_AS_EXPECTED
+from .progress import working
+
+HELP = "free: asked without a must, or not offered; ratio: what was got over its bound, at most 1 where all is well; -v prints every check."
 
 
 def run(
@@ -34,6 +39,7 @@ def run(
     seconds: float,
     gibibytes: float,
     as_json: bool,
+    verbose: bool = False,
 ) -> int:
     """Audits the adapter of that name, the program `command` or the package `peer`, each check within so many seconds and GiB.
 
@@ -49,32 +55,21 @@ def run(
     limits = Limits(seconds, int(gibibytes * 2**30))
     try:
         audited = peer_named(peer) if peer is not None else None
-        with stages() as tell:
-
-            def told_of(check: str, done: int, total: int) -> None:
-                tell("auditing", done, total)
-
+        with working("starting the adapter") as tell:
             if audited is not None:
-                records = audit_peer(audited, limits=limits, only=only, tell=told_of)
+                records = audit_peer(audited, limits=limits, only=only, tell=tell)
             elif command is not None:
                 with Exec(command, limits) as program:
-                    records = audit(program, only=only, tell=told_of)
+                    records = audit(program, only=only, tell=tell)
             else:
-                records = audit_named(adapter or REFERENCE, limits=limits, only=only, tell=told_of)
+                records = audit_named(adapter or REFERENCE, limits=limits, only=only, tell=tell)
     except InvalidData as error:
         raise InvalidInput(str(error)) from None
     failed = [record for record in records if record.failed]
     if as_json:
         print_json({"adapter": name, "failed": len(failed), "records": [record.to_json() for record in records]})
     else:
-        console = answers()
-        console.print(table(records))
-        for group in grouped(failed):
-            others = f" Also: {', '.join(one.vector for one in group[1:])}." if len(group) > 1 else ""
-            console.print(Text(told(group[0], quote_path(name)) + others), soft_wrap=True)
-        functions = ", ".join(dict.fromkeys(record.function for record in records))
-        tally = f"{len(records)} checks of {functions or 'nothing'}: {len(failed)} failed"
-        console.print(Text(tally, style="bold red" if failed else "bold"), soft_wrap=True)
+        _print(answers(), records, name, verbose=verbose)
     return NOT_AS_EXPECTED if failed else ANSWERED
 
 
@@ -89,8 +84,50 @@ def list_peers(*, as_json: bool) -> int:
         result.add_column(column)
     for one, version in found:
         result.add_row(*(Text(cell) for cell in (one.name, one.title, one.language, version or "-", one.needs)))
-    answers().print(result)
+    print_table(answers(), result)
     return ANSWERED
+
+
+def _print(console: Console, records: Sequence[Record], name: str, *, verbose: bool) -> None:
+    """The tables, the failures in words, and the summary line as the last."""
+    if verbose:
+        print_table(console, table(records))
+        console.print()
+    print_table(console, by_function(records))
+    failed = [record for record in records if record.failed]
+    for group in grouped(failed):
+        others = f" Also: {', '.join(one.vector for one in group[1:])}." if len(group) > 1 else ""
+        paragraph(console, Text(told(group[0], quote_path(name)) + others), Text("! ", style="bold red"))
+    if not verbose:
+        paragraph(console, Text(HELP, style="dim"))
+    functions = ", ".join(dict.fromkeys(record.function for record in records))
+    tally = f"{len(records)} checks of {functions or 'nothing'}: {len(failed)} failed"
+    paragraph(console, Text(tally, style="bold red" if failed else "bold green"))
+
+
+def by_function(records: Sequence[Record]) -> Table:
+    """One row a function, those with a failure first. What is free, or not offered, is not counted, as it cannot fail."""
+    result = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
+    result.add_column("function", overflow="fold")
+    for column in ("checks", "passed", "failed", "free"):
+        result.add_column(column, justify="right", no_wrap=True)
+    result.add_column("largest ratio", justify="right", no_wrap=True)
+    functions = dict.fromkeys(record.function for record in records)
+    groups = [[record for record in records if record.function == function] for function in functions]
+    for group in sorted(groups, key=lambda group: not any(record.failed for record in group)):
+        failed = sum(record.failed for record in group)
+        passed = sum(record.kind != Kind.FREE and record.verdict == Verdict.PASS for record in group)
+        name = f"! {group[0].function}" if failed else group[0].function
+        cells = (name, str(len(group)), str(passed), str(failed), str(len(group) - passed - failed), _largest(group))
+        result.add_row(*(Text(cell, style="bold red" if failed else "") for cell in cells))
+    return result
+
+
+def _largest(records: Sequence[Record]) -> str:
+    measured = [record.ratio for record in records if record.ratio is not None and record.kind != Kind.FREE]
+    if not measured:
+        return "-"
+    return f"{max(measured):.2g}"
 
 
 def table(records: Sequence[Record]) -> Table:

@@ -16,8 +16,9 @@ from rich.text import Text
 from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..proofs.trust import checker
-from .consoles import answers, print_json, stages, working
+from .consoles import answers, print_json
 from .failures import NOT_AS_EXPECTED, say
+from .progress import working
 
 STYLES = dict.fromkeys(("verified", "accepted"), "green") | dict.fromkeys(("rejected", "malformed"), "red")
 STYLES |= dict.fromkeys(("verified under an assumption", "not covered", "undecided", "not asked"), "yellow")
@@ -81,8 +82,8 @@ def _add_rocq(results: list[dict[str, Any]]) -> None:
                 certificates.append(certificate)
                 asked.append(result)
     try:
-        with stages() as progress:
-            said = recomputed(certificates, progress)
+        with working("asking Rocq") as tell:
+            said = recomputed(certificates, tell)
     except NoRocq as error:
         raise InvalidInput(f"--rocq: {error}") from None
     except BrokenTheory as error:

@@ -10,13 +10,16 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from enum import StrEnum
+from functools import wraps
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, ParamSpec
 
 import typer
 
 from .. import __version__
 from .failures import BAD_INPUT, INTERRUPTED, guarded, say
+
+Given = ParamSpec("Given")
 
 app = typer.Typer(
     name="faultspace",
@@ -47,6 +50,7 @@ class Expected(StrEnum):
 
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else on standard output.")]
+Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print the long tables, too.")]
 Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as the dyadic rationals that they are.")]
 OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", show_default=False, help="A system file, - or example:NAME.")]
 
@@ -85,31 +89,47 @@ def _top(
         raise typer.Exit(BAD_INPUT)
 
 
-@app.command()
+def _command(name: str | None = None) -> Callable[[Callable[Given, int]], Callable[Given, int]]:
+    """Makes a command of a function that parses nothing more, calls one module of this folder, imported by then only, and returns the exit
+    code: everything that can go wrong in it is told on one line, and the process leaves with the code that belongs to it.
+    """
+
+    def made(body: Callable[Given, int]) -> Callable[Given, int]:
+        @wraps(body)
+        def command(*arguments: Given.args, **options: Given.kwargs) -> int:
+            raise typer.Exit(guarded(lambda: body(*arguments, **options)))
+
+        app.command(name)(command)
+        return body
+
+    return made
+
+
+@_command()
 def verify(
-    effort: Annotated[Effort, typer.Option(help="How much to try: within a minute, or as long as it takes.")] = Effort.quick,
+    effort: Annotated[Effort, typer.Option(help="Samples of systems; or every small one, for the background.")] = Effort.quick,
     claim: Annotated[
-        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, told in full; may be repeated.")
+        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, a page of it; may be repeated.")
     ] = None,
     jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
     recheck: Annotated[
         bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
     ] = False,
+    verbose: Verbose = False,
     json: Json = False,
-) -> None:
-    """Decide every claim: the table of verdicts, with certificates. Exit 0 if every verdict is the expected one, else 1."""
+) -> int:
+    """Decide every claim: a line each, the long tables with -v, a page with --claim.
 
-    def body() -> int:
-        from . import verifying
+    Exit 0 if every verdict is the expected one, else 1.
+    """
+    from . import verifying
 
-        workers = jobs or os.cpu_count() or 1
-        return verifying.run(claim or [], effort=effort.value, jobs=workers, out=out, recheck=recheck, as_json=json)
-
-    _leave(body)
+    workers = jobs or os.cpu_count() or 1
+    return verifying.run(claim or [], effort=effort.value, jobs=workers, out=out, recheck=recheck, verbose=verbose, as_json=json)
 
 
-@app.command()
+@_command()
 def check(
     certificate: Annotated[list[str], typer.Argument(metavar="CERTIFICATE...", show_default=False, help="Certificate files.")],
     system: Annotated[
@@ -118,39 +138,31 @@ def check(
     ] = None,
     rocq: Annotated[bool, typer.Option("--rocq", help="Have Rocq's kernel recompute them, too; needs coqc with MathComp.")] = False,
     json: Json = False,
-) -> None:
+) -> int:
     """Run the checker on certificates. Exit 0: all verified; 3: all verified, one or more under an assumption that is told; 1: one is
     rejected, or not accepted by Rocq; 2: one does not parse.
     """
+    from . import checking
 
-    def body() -> int:
-        from . import checking
-
-        return checking.run(certificate, systems=system or [], rocq=rocq, as_json=json)
-
-    _leave(body)
+    return checking.run(certificate, systems=system or [], rocq=rocq, as_json=json)
 
 
-@app.command()
+@_command()
 def inspect(
     system: Annotated[list[str], typer.Argument(metavar="SYSTEM...", show_default=False, help="System files, - or example:NAME.")],
     json: Json = False,
     floats_exactly: Floats = False,
-) -> None:
+) -> int:
     """Everything about a system, exactly: indices, zeros, delays, window ranks, fault space.
 
     With --json one system gives an object, several an array of objects that also name their "file".
     """
+    from . import inspecting
 
-    def body() -> int:
-        from . import inspecting
-
-        return inspecting.run(system, as_json=json, floats_exactly=floats_exactly)
-
-    _leave(body)
+    return inspecting.run(system, as_json=json, floats_exactly=floats_exactly)
 
 
-@app.command()
+@_command()
 def compare(
     first: OneSystem,
     second: OneSystem,
@@ -158,43 +170,35 @@ def compare(
     word: Annotated[bool, typer.Option("--word", help='The separating word in full; with --json as "word".')] = False,
     json: Json = False,
     floats_exactly: Floats = False,
-) -> None:
+) -> int:
     """Whether two systems make the same outputs.
 
     If not: on how many samples they first differ, and a word that one makes and the other cannot. B and D play no part.
     """
+    from . import comparing
 
-    def body() -> int:
-        from . import comparing
-
-        expected = expect.value if expect else None
-        return comparing.run((first, second), as_json=json, expected=expected, word=word, floats_exactly=floats_exactly)
-
-    _leave(body)
+    expected = expect.value if expect else None
+    return comparing.run((first, second), as_json=json, expected=expected, word=word, floats_exactly=floats_exactly)
 
 
-@app.command()
+@_command()
 def limit(
     experiment: Annotated[
         list[str], typer.Argument(metavar="EXPERIMENT...", show_default=False, help="Experiment files, - or example:NAME.")
     ],
     json: Json = False,
     floats_exactly: Floats = False,
-) -> None:
+) -> int:
     """What subspace identification converges to, exactly: PI-MOESP and PO-MOESP, for filtered white noise as input and fault.
 
     An experiment is a system with B and D, the block rows "s" and "past", and "u_filter", "v_filter", "w_filter": matrices over lag.
     """
+    from . import limiting
 
-    def body() -> int:
-        from . import limiting
-
-        return limiting.run(experiment, as_json=json, floats_exactly=floats_exactly)
-
-    _leave(body)
+    return limiting.run(experiment, as_json=json, floats_exactly=floats_exactly)
 
 
-@app.command()
+@_command()
 def identify(
     data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ, NPY or MAT file of measurements.")],
     inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
@@ -208,23 +212,19 @@ def identify(
     ] = None,
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
     json: Json = False,
-) -> None:
+) -> int:
     """Model, fault dimension, fault space and fault signal from measured data; "undecided" where the data cannot tell.
 
     A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
     the matrix is called data.
     """
+    from . import identifying
 
-    def body() -> int:
-        from . import identifying
-
-        settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-        return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, as_json=json, **settings)
-
-    _leave(body)
+    settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
+    return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, as_json=json, **settings)
 
 
-@app.command("monte-carlo")
+@_command("monte-carlo")
 def monte_carlo(
     out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write tables, figures and all cases there.")],
     systems: Annotated[int, typer.Option(min=1, help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")] = 100,
@@ -233,18 +233,14 @@ def monte_carlo(
     dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Equal seeds give equal results, whoever does the work.")] = 1907,
     json: Json = False,
-) -> None:
+) -> int:
     """The paper's Monte Carlo study: as published with its vacuous cases marked, as corrected, each with true and identified model."""
+    from . import studying
 
-    def body() -> int:
-        from . import studying
-
-        return studying.run(systems=systems, samples=samples, jobs=jobs, cluster=dask, seed=seed, out=out, as_json=json)
-
-    _leave(body)
+    return studying.run(systems=systems, samples=samples, jobs=jobs, cluster=dask, seed=seed, out=out, as_json=json)
 
 
-@app.command()
+@_command()
 def audit(
     adapter: Annotated[
         str | None,
@@ -260,38 +256,28 @@ def audit(
     ] = None,
     timeout: Annotated[float, typer.Option(min=0.1, metavar="SECONDS", help="How long a check, with --exec an answer, may take.")] = 60.0,
     memory: Annotated[float, typer.Option(min=0.5, metavar="GIB", help="How much memory a check may take.")] = 4.0,
+    verbose: Verbose = False,
     json: Json = False,
-) -> None:
+) -> int:
     """Put a numeric implementation through checks whose answers are known exactly. Exit 1 if a must is not met.
 
     The adapter has some of: identify, residual, window_ranks, fault_dimension, fault_space, reconstruct, structure. It runs in a process of
     its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
     """
+    from . import auditing
 
-    def body() -> int:
-        from . import auditing
-
-        if peers:
-            return auditing.list_peers(as_json=json)
-        return auditing.run(adapter, command=command, peer=peer, only=check or [], seconds=timeout, gibibytes=memory, as_json=json)
-
-    _leave(body)
+    if peers:
+        return auditing.list_peers(as_json=json)
+    limits = {"seconds": timeout, "gibibytes": memory}
+    return auditing.run(adapter, command=command, peer=peer, only=check or [], verbose=verbose, as_json=json, **limits)
 
 
-@app.command()
+@_command()
 def examples(
     folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", show_default=False, help="Copy them there.")] = None,
     json: Json = False,
-) -> None:
+) -> int:
     """List the systems and experiments that come with the package, or copy them into a folder, with a small record of faulty data."""
+    from . import example_listing
 
-    def body() -> int:
-        from . import example_listing
-
-        return example_listing.run(folder, as_json=json)
-
-    _leave(body)
-
-
-def _leave(body: Callable[[], int]) -> None:
-    raise typer.Exit(guarded(body))
+    return example_listing.run(folder, as_json=json)

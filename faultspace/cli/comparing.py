@@ -18,9 +18,10 @@ from ..exact.structure.behavior import Comparison, Separation, compare
 from ..exact.structure.kernel_rows import kernel_representation
 from ..exact.structure.signals import simulate
 from ..exact.system.systems import ResidualSystem
-from .consoles import answers, print_json, working
+from .consoles import answers, print_json, print_table
 from .failures import ANSWERED, NOT_AS_EXPECTED, say
 from .notation import entry, polynomial
+from .progress import working
 from .reading_files import read_system
 
 MOST_SAMPLES = 24
@@ -97,7 +98,7 @@ def _print(console: Console, names: tuple[str, str], found: Comparison, *, whole
     shown = word.window if whole_word else min(word.window, MOST_SAMPLES)
     for k in range(shown):
         table.add_row(str(k), row_of(word.v, k), row_of(outputs, k))
-    console.print(table)
+    print_table(console, table)
     if shown < word.window:
         console.print(f"  ... and {word.window - shown} samples more; --word prints them all")
     row = word.row.coefficients

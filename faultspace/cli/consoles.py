@@ -1,9 +1,9 @@
-"""The two streams: answers on standard output, everything about how it is going on standard error.
+"""Standard output, where answers go; how it is going is told on standard error (`progress`).
 
 answers        the console for tables: colours and the window's width on a terminal, plain and 140 wide or more elsewhere
 print_json     one document on one line
-working        a spinner on standard error for work that takes longer than two seconds
-stages         a progress bar for work that tells its stage, how much is done and how much there is
+print_table    a table, or its rows as paragraphs where it is too wide
+paragraph      a text under a label: between words on a terminal, the lines below in line with the first; one line elsewhere
 """
 
 from __future__ import annotations
@@ -11,18 +11,14 @@ from __future__ import annotations
 import json
 import os
 import sys
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.measure import Measurement
+from rich.table import Table
 from rich.text import Text
 
-from .failures import say
-
 PIPED_WIDTH = 140
-PATIENCE = 2.0
+UNBOUNDED = 1_000_000
 
 
 class _Answers(Console):
@@ -40,51 +36,39 @@ def answers() -> Console:
     return _Answers(file=sys.stdout, width=width, markup=False, highlight=False, emoji=False)
 
 
+def paragraph(console: Console, text: Text | str, label: Text | str = "") -> None:
+    """The text after its label. Nothing is cut: a word that is longer than the line goes on in the next."""
+    if not console.is_terminal:
+        console.print(Text.assemble(label, text), soft_wrap=True)
+        return
+    if not label:
+        console.print(text, overflow="fold")
+        return
+    lines = Table.grid()
+    lines.add_column(no_wrap=True)
+    lines.add_column(overflow="fold")
+    lines.add_row(label, text)
+    console.print(lines)
+
+
+def print_table(console: Console, table: Table) -> None:
+    """The table where its columns fit, and elsewhere a paragraph for each row, which names every column that it has a value for."""
+    unbounded = console.options.update(width=UNBOUNDED)  # else the measure is no wider than the window
+    if Measurement.get(console, unbounded, table).minimum <= console.width:
+        console.print(table)
+        return
+    if table.title:
+        paragraph(console, str(table.title))
+    for first, *others in zip(*(column.cells for column in table.columns), strict=True):
+        pairs = zip(table.columns[1:], others, strict=True)
+        values = [f"{column.header}: {value}" for column, value in pairs if str(value)]
+        paragraph(console, "; ".join(values), Text.assemble(Text(str(first), style="bold"), "  " if values else ""))
+
+
 def print_json(document: object) -> None:
     """The document on one line of standard output."""
     sys.stdout.write(json.dumps(document) + "\n")
     sys.stdout.flush()
-
-
-@contextmanager
-def working(what: str) -> Iterator[None]:
-    """While the body runs: after two seconds a spinner on a terminal, a single line elsewhere."""
-    console = _progress_console()
-    status = console.status(Text(f"{what} ..."))
-    begin = status.start if console.is_terminal else lambda: say(f"{what} ...")
-    timer = threading.Timer(PATIENCE, begin)
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
-        timer.join()
-        status.stop()
-
-
-@contextmanager
-def stages() -> Iterator[Callable[[str, int, int], None]]:
-    """A function to call with (stage, done, total): a bar on a terminal, one line a stage elsewhere."""
-    console = _progress_console()
-    if not console.is_terminal:
-        seen: set[str] = set()
-
-        def tell(stage: str, done: int, total: int) -> None:
-            if stage not in seen:
-                seen.add(stage)
-                say(f"{stage} ({done}/{total})")
-
-        yield tell
-        return
-    columns = TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
-    with Progress(*columns, console=console, transient=True) as progress:
-        task = progress.add_task("starting", total=None)
-        yield lambda stage, done, total: progress.update(task, description=stage, completed=done, total=total)
-
-
-def _progress_console() -> Console:
-    return Console(file=sys.stderr, markup=False, highlight=False, emoji=False)
 
 
 def _columns() -> int:

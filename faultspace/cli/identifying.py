@@ -18,7 +18,7 @@ from ..numeric.report import files as report
 from ..numeric.report.summary import summary
 from .consoles import answers, print_json
 from .failures import ANSWERED, say
-from .pass_progress import passes
+from .progress import evenly, working
 from .reading_files import prepare_folder
 
 
@@ -45,7 +45,8 @@ def run(
     new = _missing(out)
     try:
         prepare_folder(out)
-        with passes() as tell:
+        with working(f"reading {quote_path(data)}") as telling:
+            tell = evenly(telling)
             record = read_record(data, inputs=inputs, outputs=outputs, tell=lambda *read: tell(f"reading {quote_path(data)}", *read))
             with in_file(data):
                 try:

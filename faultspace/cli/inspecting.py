@@ -13,10 +13,10 @@ from ..base.errors import in_file, quote_path
 from ..exact.algebra.fields import QQ, NumberField
 from ..exact.structure.record import Structure, structure
 from ..exact.system.systems import FaultySystem, ResidualSystem
-from .consoles import working
 from .failures import say
 from .file_by_file import Answer, answer_each
 from .notation import matrix_lines, polynomial, several
+from .progress import working
 from .reading_files import read_system
 
 FLOATS = (

@@ -17,9 +17,9 @@ from ..exact.limits.column_space import Limit
 from ..exact.limits.experiments import Experiment
 from ..exact.limits.inputs import InputLimit
 from ..exact.limits.moesp import PopulationLimits, population_limits
-from .consoles import working
 from .file_by_file import Answer, answer_each
 from .notation import matrix_lines, polynomial
+from .progress import working
 from .reading_files import read_experiment
 
 LONGEST_ENTRY = 24

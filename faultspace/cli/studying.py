@@ -1,29 +1,20 @@
 """`faultspace monte-carlo`: the paper's study as published and as corrected, with the true and with an identified model.
 
 run        the command's body
-watching   progress on standard error with the time that remains
 """
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
-
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from ..base.errors import InvalidData, InvalidInput, quote_path
 from ..numeric.study.studies import STUDIES, run_study
-from .consoles import answers, print_json
+from .consoles import answers, paragraph, print_json, print_table
 from .failures import ANSWERED, say
+from .progress import Tell, working
 from .reading_files import prepare_folder
 from .study_report import EXPLANATION, document, remarks, table, write
-
-TELL_EVERY = 10.0
-
-Tell = Callable[[str, int, int, float], None]
 
 
 def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, seed: int, out: Path, as_json: bool) -> int:
@@ -32,9 +23,9 @@ def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, se
     prepare_folder(out)
     studies = []
     try:
-        with watching() as tell:
+        with working("starting") as tell:
             for name, plan in STUDIES.items():
-                watch = _told(tell, name)
+                watch = _of_study(tell, name)
                 studies.append(run_study(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, progress=watch))
     except InvalidData as error:
         raise InvalidInput(str(error)) from None
@@ -44,41 +35,12 @@ def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, se
     else:
         console = answers()
         for study in studies:
-            console.print(table(study))
+            print_table(console, table(study))
         for line in (EXPLANATION, *remarks(studies)):
-            console.print(line, soft_wrap=True)
+            paragraph(console, line)
     say(f"{', '.join(written)} are in {quote_path(str(out))}")
     return ANSWERED
 
 
-@contextmanager
-def watching() -> Iterator[Tell]:
-    """A function to call with (study, done, total, seconds left): a bar on a terminal, elsewhere a line at times."""
-    console = Console(stderr=True, markup=False, highlight=False, emoji=False)
-    if not console.is_terminal:
-        last = time.monotonic()
-
-        def tell(study: str, done: int, total: int, left: float) -> None:
-            nonlocal last
-            if time.monotonic() - last >= TELL_EVERY and done < total:
-                last = time.monotonic()
-                say(f"{study}: {done} of {total} systems, about {_duration(left)} left")
-
-        yield tell
-        return
-    name, left = (TextColumn(text, markup=False) for text in ("{task.description}", "{task.fields[left]}"))
-    with Progress(name, BarColumn(), MofNCompleteColumn(), left, console=console, transient=True) as progress:
-        task = progress.add_task("starting", total=None, left="")
-
-        def show(study: str, done: int, total: int, left: float) -> None:
-            progress.update(task, description=study, completed=done, total=total, left=f"{_duration(left)} left")
-
-        yield show
-
-
-def _told(tell: Tell, name: str) -> Callable[[int, int, float], None]:
+def _of_study(tell: Tell, name: str) -> Callable[[int, int, float], None]:
     return lambda done, total, left: tell(name, done, total, left)
-
-
-def _duration(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 90 else f"{seconds / 60:.0f} min"

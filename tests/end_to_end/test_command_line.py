@@ -20,7 +20,7 @@ from hypothesis import HealthCheck, given, settings
 from typer.testing import CliRunner
 
 import faultspace
-from faultspace.cli import consoles, failures
+from faultspace.cli import failures
 from faultspace.cli.command_line import app
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import read_system
@@ -387,24 +387,6 @@ def test_output_that_cannot_be_written_is_one_line() -> None:
 def test_closed_output_is_no_error() -> None:
     shell = f"{shlex.quote(sys.executable)} -m faultspace inspect example:paper >&- 2>&-"
     assert subprocess.run(shell, shell=True, cwd=ROOT, env=environment()).returncode == 0
-
-
-def test_long_work_is_told_and_short_work_is_not(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(consoles, "PATIENCE", 0.1)
-    with consoles.working("short"):
-        pass
-    assert capsys.readouterr() == ("", "")
-    with consoles.working("long"):
-        time.sleep(0.5)
-    assert capsys.readouterr() == ("", "faultspace: long ...\n")
-
-
-def test_stages_are_told_once_each_where_there_is_no_terminal(capsys: pytest.CaptureFixture[str]) -> None:
-    with consoles.stages() as progress:
-        for done in range(3):
-            progress("first", done, 3)
-        progress("second", 0, 1)
-    assert capsys.readouterr() == ("", "faultspace: first (0/3)\nfaultspace: second (0/1)\n")
 
 
 def test_the_schemas_share_their_definition_of_a_system() -> None:

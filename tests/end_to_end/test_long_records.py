@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-import io
 import subprocess
 import sys
 from pathlib import Path
@@ -20,7 +19,6 @@ from numpy.typing import NDArray
 
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidData
-from faultspace.cli.pass_progress import passes
 from faultspace.numeric import pipeline as identifying
 from faultspace.numeric.data import records
 from faultspace.numeric.data.records import Passes, Record, RecordWriter, SampleStore, recorded
@@ -192,25 +190,3 @@ def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> No
     numbers = 8 * 5 * (sizes[1] - sizes[0]) / 2**20  # MiB of the record alone, the residual and the signal not counted
     print(f"{format}: {peaks[0]:.0f} MiB at {sizes[0]} samples, {peaks[1]:.0f} at {sizes[1]}; {numbers:.0f} MiB more numbers")
     assert peaks[1] - peaks[0] < numbers / 2, peaks
-
-
-# Progress
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
-def test_progress_is_told_on_a_terminal_and_nowhere_else(monkeypatch: pytest.MonkeyPatch) -> None:
-    for stream, wanted in ((Terminal(), True), (io.StringIO(), False)):
-        monkeypatch.setattr(sys, "stderr", stream)
-        monkeypatch.setenv("TERM", "xterm")
-        with passes() as tell:
-            tell("reading", 0, 10)
-            tell("reading", 5, 10)
-            tell("identifying [pass 2]", 3, 10)
-            tell("counting", 0, 0)
-        shown = stream.getvalue()
-        assert bool(shown) == wanted
-        assert not wanted or "counting" in shown

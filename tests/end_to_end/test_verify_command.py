@@ -6,8 +6,10 @@ pretended    puts it in the place of the run
 
 from __future__ import annotations
 
+import contextlib
 import io
 import json
+import re
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -16,9 +18,11 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from faultspace.cli import consoles, verifying
+from faultspace.cli import consoles, verdict_summary, verdict_tables, verifying
+from faultspace.cli.command_line import main
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import read_system
+from faultspace.proofs.evidence.attacks import Attacked
 from faultspace.proofs.evidence.specimens import specimens
 from faultspace.proofs.trust.structure_certificates import sha256, window_ranks
 from faultspace.proofs.verdict.ledger import Claim, Reading
@@ -98,12 +102,12 @@ def test_exit_0_if_every_verdict_is_the_expected_one(pretended: Pretend, verdict
     assert run.code == code
     assert calls == [{"claims": None, "effort": "quick", "jobs": 2}]
     assert run.json == report(None, verdict).to_json()
-    assert run.err == "faultspace: systems (0/12)\nfaultspace: claim-a: as-printed (0/3)\n"
+    assert run.err == ""
 
 
 def test_the_table_has_a_row_for_every_reading(pretended: Pretend) -> None:
     pretended(Verdict.CERTIFIED)
-    out = call("verify").out
+    out = call("verify", "--verbose").out
     heading, *lines = [line for line in out.splitlines() if line.strip(" ─")]
     assert " ".join(heading.split()) == "claim / reading verdict statement / hypotheses / evidence certificates seconds"
     assert [line.split()[:2] for line in lines if not line.startswith("   ")][:2] == [["claim-a", "AMENDED"], ["claim-b", "CERTIFIED"]]
@@ -115,13 +119,13 @@ def test_the_table_has_a_row_for_every_reading(pretended: Pretend) -> None:
     assert "REFUTED" in rows[0] and "CERTIFIED" in rows[1]
     assert "hypotheses: left-invertible; s >= n" in out
     assert lines[-1].startswith("as expected: all 2 claims") and "52 certificates" in lines[-1]
-    assert "\x1b" not in out and max(map(len, out.splitlines())) <= consoles.PIPED_WIDTH
+    assert "\x1b" not in out and max(map(len, lines[:end])) <= consoles.PIPED_WIDTH
 
 
 @pytest.mark.parametrize("width", [80, 100, 200])
 def test_no_column_is_lost_on_a_narrow_terminal(width: int) -> None:
     console = Console(width=width, file=io.StringIO())
-    console.print(verifying.verdict_table(report(None, Verdict.REFUTED)))
+    console.print(verdict_tables.verdict_table(report(None, Verdict.REFUTED)))
     assert isinstance(console.file, io.StringIO)
     lines = [line.rstrip() for line in console.file.getvalue().splitlines()]
     assert max(map(len, lines)) <= width
@@ -131,9 +135,11 @@ def test_no_column_is_lost_on_a_narrow_terminal(width: int) -> None:
 
 def test_an_unexpected_verdict_is_seen(pretended: Pretend) -> None:
     pretended(Verdict.REFUTED)
-    out = call("verify").out
-    assert "(expected CERTIFIED)" in out
-    assert "NOT as expected: claim-b; 2 claims" in out
+    lines = call("verify").out.splitlines()
+    assert lines[1].split()[:3] == ["!", "claim-b", "REFUTED"], "red comes first"
+    assert "! claim-b: REFUTED (expected CERTIFIED)" in lines
+    assert "! claim-b, with-zeros: REFUTED (expected CERTIFIED); evidence for with-zeros" in lines
+    assert lines[-1].startswith("NOT as expected: claim-b; 2 claims")
 
 
 def test_a_claim_is_told_in_full(pretended: Pretend) -> None:
@@ -144,6 +150,11 @@ def test_a_claim_is_told_in_full(pretended: Pretend) -> None:
         assert text in run.out
     assert sha256(CERTIFICATE) in run.out
     assert "claim-b" not in run.out
+    page = [" ".join(line.split()) for line in run.out.splitlines()]
+    assert "which hypotheses are needed for: the rank is right" in page
+    assert "without s >= n: REFUTED, needed" in page and "evidence: A=[[0]]" in page
+    assert "without observable: CERTIFIED, not seen to be needed" in page
+    assert page[-1].startswith("as expected: the claim; 2 readings")
 
 
 def test_an_unknown_claim_is_told_before_the_run(pretended: Pretend) -> None:
@@ -185,7 +196,7 @@ def test_a_folder_that_cannot_be_written_into_is_told_before_the_run(pretended: 
 
 def test_the_hypotheses_have_a_table_of_their_own(pretended: Pretend) -> None:
     pretended(Verdict.CERTIFIED)
-    out = call("verify").out
+    out = call("verify", "-v").out
     told = [" ".join(line.split()) for line in out[out.index("which hypotheses are needed") :].splitlines()]
     assert any(line.startswith("claim-a the rank is right") for line in told)
     assert f"s >= n REFUTED A=[[0]] {SHORT}" in told and "observable CERTIFIED all 12 tried 5 accepted" in told
@@ -197,3 +208,58 @@ def test_a_hypothesis_with_another_verdict_is_not_as_expected(pretended: Pretend
     monkeypatch.setattr(sys.modules[__name__], "ROWS", (replace(ROWS[0], verdict=Verdict.CERTIFIED), *ROWS[1:]))
     answer = call("verify")
     assert answer.code == 1 and "claim-a without s >= n" in answer.out
+
+
+def test_by_itself_it_prints_a_line_for_each_claim_and_few_others(pretended: Pretend) -> None:
+    pretended(Verdict.CERTIFIED)
+    out = call("verify").out
+    lines = [" ".join(line.split()) for line in out.splitlines()]
+    assert lines[1:3] == ["claim-a AMENDED 1 refuted 1 certified", "claim-b CERTIFIED - 1 certified"]
+    assert "hypotheses: 2 dropped alone: 1 needed (a counterexample without it), 1 without which no counterexample was found; " in out
+    assert "1 pairs: 0 needed only together." in out and "attacks: none is stored on these claims." in lines
+    assert "machine-checked: not asked" in lines and "AMENDED: refuted as printed" in out and "PROVED:" not in out
+    assert len(lines) == 2 + 7 and lines[-1].startswith("as expected: all 2 claims; 3 readings")
+    assert "\x1b" not in out
+
+
+def test_the_verdict_of_the_adversary_is_told_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    made = report(None, Verdict.CERTIFIED)
+    attacked = (Attacked("one", "a counterexample", True, None), Attacked("two", "none found", False, "out of date"))
+    (first, second), claim = made.claims[0].readings, made.claims[0]
+    shown = replace(claim, readings=(replace(first, attacks=attacked), replace(second, attacks=attacked[:1])))
+    words = verdict_summary.attack_words(replace(made, claims=(shown, made.claims[1])))
+    assert words == (
+        "3 looked at again: 2 confirm a counterexample (1 of these against a verdict other than REFUTED), 1 found none; "
+        "1 out of date or not found again."
+    )
+
+
+class Window(io.StringIO):
+    """A terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.mark.parametrize("options", [(), ("-v",), ("--claim", "claim-a")], ids=" ".join)
+@pytest.mark.parametrize("width", [60, 80, 140, 200])
+def test_a_terminal_of_any_width_shows_everything(
+    pretended: Pretend, monkeypatch: pytest.MonkeyPatch, width: int, options: tuple[str, ...]
+) -> None:
+    pretended(Verdict.REFUTED)
+    for name, value in (("TERM", "xterm"), ("COLUMNS", str(width)), ("NO_COLOR", "1")):
+        monkeypatch.setenv(name, value)
+    window = Window()
+    with contextlib.redirect_stdout(window):
+        code = main(["verify", *options])
+    shown = re.sub(r"\x1b\[[0-9;?]*m", "", window.getvalue())
+    assert code == (0 if "--claim" in options else 1)
+    assert max(map(len, shown.splitlines())) <= width and "…" not in shown
+    together = re.sub(r"[\s─]", "", shown)
+    wanted = ["claim-a", "AMENDED", "certificates accepted"]
+    if options != ("--claim", "claim-a"):
+        wanted += ["claim-b", "NOT as expected: claim-b", "claim-b: REFUTED (expected CERTIFIED)", "readings as printed"]
+    if options:
+        wanted += [SHORT, "needed", "observable"]
+        wanted += ["evidence for with-zeros", "left-invertible; s >= n"] if width < verifying.WIDE or "--claim" in options else []
+    assert [text for text in wanted if "".join(text.split()) not in together] == []

@@ -1,0 +1,137 @@
+"""What `faultspace verify` prints by itself: a line for each claim, those that are not as expected first, and what stands behind them all.
+
+print_lines     the claims, what the verdicts mean, the hypotheses, the attacks, Rocq
+print_summary   the last line
+resting_on      how many readings of a claim have which verdict
+hypothesis_words, attack_words   a sentence each
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from ..proofs.verdict.verdicts import ClaimResult, Report, Row, Verdict
+from .consoles import paragraph
+from .verdict_tables import STYLES
+
+MEANINGS = {
+    Verdict.PROVED: "for all systems, by Rocq",
+    Verdict.IDENTITY: "for all entries, at the dimensions named",
+    Verdict.CERTIFIED: "found where it is to exist, or no counterexample among those tried",
+    Verdict.REFUTED: "by a counterexample",
+    Verdict.AMENDED: "refuted as printed, or a part of it, and a repair is not",
+    Verdict.ERROR: "a check did not finish",
+}
+HELP = "--claim ID prints a page of a claim, -v the long tables, --out DIR writes the certificates."
+
+
+def print_lines(console: Console, report: Report) -> None:
+    """A line for each claim, then a sentence on each of what they rest on."""
+    claims = sorted(report.claims, key=lambda claim: claim.as_expected)  # stable: else in the order of the ledger
+    console.print(claims_table(claims))
+    for line in differences(report):
+        paragraph(console, Text(line, style="bold red"), "! ")
+    occurring = [verdict for verdict in Verdict if any(claim.verdict == verdict for claim in claims)]
+    paragraph(console, Text("; ".join(f"{verdict}: {MEANINGS[verdict]}" for verdict in occurring) + ".", style="dim"))
+    if report.hypotheses:
+        paragraph(console, hypothesis_words(report.hypotheses), "hypotheses: ")
+    paragraph(console, attack_words(report), "attacks: ")
+    paragraph(console, report.machine, "machine-checked: ")
+    paragraph(console, Text(HELP, style="dim"))
+
+
+def claims_table(claims: Sequence[ClaimResult]) -> Table:
+    """One row a claim; "!" marks those that are not as expected."""
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
+    table.add_column("claim", no_wrap=True)
+    table.add_column("verdict", no_wrap=True)
+    table.add_column("readings as printed", overflow="fold")
+    table.add_column("readings of ours", overflow="fold")
+    for claim in claims:
+        name = Text(claim.claim.id) if claim.as_expected else Text(f"! {claim.claim.id}", style="bold red")
+        verdict = Text(str(claim.verdict), style=STYLES[claim.verdict] if claim.as_expected else "bold red")
+        table.add_row(name, verdict, resting_on(claim, ours=False), resting_on(claim, ours=True))
+    return table
+
+
+def resting_on(claim: ClaimResult, *, ours: bool) -> str:
+    """How many of the readings as printed, or of ours, have which verdict: "1 proved, 2 refuted"."""
+    verdicts = [result.outcome.verdict for result in claim.readings if result.reading.repair == ours]
+    counts = Counter(verdicts)
+    told = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])
+    return f"parts: {told}" if claim.claim.in_parts and not ours else told or "-"
+
+
+def differences(report: Report) -> Iterator[str]:
+    """What is not as expected, a line each."""
+    for claim in report.claims:
+        if claim.verdict != claim.expected:
+            yield f"{claim.claim.id}: {claim.verdict} (expected {claim.expected})"
+        for result in claim.readings:
+            if not result.as_expected:
+                outcome = result.outcome
+                yield f"{claim.claim.id}, {result.reading.id}: {outcome.verdict} (expected {result.expected}); {outcome.evidence}"
+    for row in report.hypotheses:
+        if not row.as_expected:
+            expected = f" (expected {row.expected})" if row.expected not in (None, row.verdict) else ""
+            yield f"{_without(row)}: {row.verdict}{expected}; {row.evidence}"
+
+
+def hypothesis_words(rows: Sequence[Row]) -> str:
+    """How many hypotheses are needed, how many are proved not to be, and where only no counterexample was found."""
+    single = [row for row in rows if len(row.dropped) == 1]
+    meanings = Counter(row.meaning or "undecided, the check did not finish" for row in single)
+    words = {
+        "needed": "needed (a counterexample without it)",
+        "not needed": "proved not needed",
+        "follows from the others": "that follow from the others",
+        "not seen to be needed": "without which no counterexample was found",
+    }
+    order = [*words, *(meaning for meaning in meanings if meaning not in words)]
+    told = ", ".join(f"{meanings[meaning]} {words.get(meaning, meaning)}" for meaning in order if meanings[meaning])
+    together = [row for row in rows if len(row.dropped) == 2]
+    pairs = sum(row.verdict == Verdict.REFUTED and row.already is None for row in together)
+    return f"{len(single)} dropped alone: {told or 'none'}; {len(together)} pairs: {pairs} needed only together."
+
+
+def attack_words(report: Report) -> str:
+    """How many stored attacks this run has looked at again, and what came of them."""
+    readings = [(attack, result.outcome.verdict) for claim in report.claims for result in claim.readings for attack in result.attacks]
+    attacked = readings + [(attack, row.verdict) for row in report.hypotheses for attack in row.attacks]
+    if not attacked:
+        return "none is stored on these claims."
+    found = [verdict for attack, verdict in attacked if attack.refutes]
+    trouble = sum(attack.trouble is not None for attack, _ in attacked)
+    standing = sum(verdict != Verdict.REFUTED for verdict in found)
+    return (
+        f"{len(attacked)} looked at again: {len(found)} confirm a counterexample "
+        f"({standing} of these against a verdict other than REFUTED), {len(attacked) - len(found)} found none; "
+        f"{trouble} out of date or not found again."
+    )
+
+
+def print_summary(console: Console, report: Report) -> None:
+    """Whether everything is as expected, and of what: one line, in words."""
+    readings = [reading for claim in report.claims for reading in claim.readings]
+    accepted = sum(reading.outcome.accepted for reading in readings)
+    different = [claim.claim.id for claim in report.claims if not claim.as_expected]
+    different += [_without(row) for row in report.hypotheses if not row.as_expected]
+    accepted += sum(row.accepted for row in report.hypotheses if row.verdict == Verdict.REFUTED and row.already is None)
+    tail = (
+        f"{len(readings)} readings, {len(report.hypotheses)} sets of hypotheses dropped, {accepted} certificates accepted, "
+        f"effort {report.effort}, {report.seconds:.0f} s"
+    )
+    count = "the claim" if len(report.claims) == 1 else f"all {len(report.claims)} claims"
+    if different:
+        paragraph(console, Text(f"NOT as expected: {', '.join(different)}; {len(report.claims)} claims, {tail}", style="bold red"))
+    else:
+        paragraph(console, Text(f"as expected: {count}; {tail}", style="bold green"))
+
+
+def _without(row: Row) -> str:
+    return f"{row.claim} without {' and '.join(row.dropped) or 'anything'}"
