@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from ..base.errors import InvalidData, InvalidInput, quote_path
-from ..numeric.study.studies import STUDIES, run_study
+from ..numeric.study.studies import STUDIES, monte_carlo
 from .consoles import answers, print_json
 from .failures import ANSWERED, say
 from .reading_files import prepare_folder
@@ -35,7 +35,7 @@ def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, se
         with watching() as tell:
             for name, plan in STUDIES.items():
                 watch = _told(tell, name)
-                studies.append(run_study(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, progress=watch))
+                studies.append(monte_carlo(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, progress=watch))
     except InvalidData as error:
         raise InvalidInput(str(error)) from None
     written = write(studies, out)
