@@ -73,12 +73,12 @@ def study_here() -> dict[str, Any]:
     """Our side, in this process: the study once to warm up, then on one process and on all cores."""
     import numpy as np
 
-    from faultspace.numeric.study.studies import PUBLISHED, run_study
+    from faultspace.numeric.study.studies import PUBLISHED, monte_carlo
 
     seconds: dict[int | None, float] = {}
     for jobs in (1, None):
-        run_study(PUBLISHED, systems=8, jobs=jobs)
-        studies = [run_study(PUBLISHED, systems=SYSTEMS, jobs=jobs) for _ in range(REPEATS)]
+        monte_carlo(PUBLISHED, systems=8, jobs=jobs)
+        studies = [monte_carlo(PUBLISHED, systems=SYSTEMS, jobs=jobs) for _ in range(REPEATS)]
         seconds[jobs] = min(study.seconds for study in studies)
     errors = [error for case in studies[0].cases if (error := studies[0].error(case)) is not None]
     return {"one_process": seconds[1], "all_cores": seconds[None], "error": 100 * float(np.median(errors))}

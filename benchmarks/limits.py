@@ -27,7 +27,7 @@ from faultspace.exact.limits.column_space import past_input_and_output_limit, pa
 from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.inputs import by_moesp, by_output_error
 from faultspace.exact.limits.lyapunov import state_covariance
-from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moesp import limit
 from faultspace.exact.limits.moments import Covariances, window_covariances
 from faultspace.exact.limits.process import JointProcess, joint_process
 from faultspace.exact.system.windows import observability_matrix
@@ -82,7 +82,7 @@ def measured(given: Experiment) -> dict[str, Any]:
     timed("output error", lambda: by_output_error(known, residual.A, residual.C))
     timed("MOESP", lambda: by_moesp(blocks, observability_matrix(residual, given.s), residual.p))
     total = sum(value for name, value in seconds.items() if name != "dense")
-    limits = population_limits(given)
+    limits = limit(given)
     makers = (make.past_input_limit, make.past_input_and_output_limit, make.output_error_inputs, make.moesp_inputs)
     certificates = timed("certified", lambda: [maker(limits) for maker in makers])
     try:

@@ -34,7 +34,7 @@ from rich.progress import track
 
 from benchmarks.sheets import Sheet, markdown
 from faultspace.exact.limits.experiments import Experiment
-from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.exact.limits.moesp import PopulationLimits, limit
 from faultspace.numeric.model.displacement_gram import DisplacementGram
 from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.model.past_outputs import po_moesp
@@ -77,18 +77,18 @@ def chosen(family: str) -> PopulationLimits:
     """The first experiment of the family with a nonzero limit of PI-MOESP, by seed 0, 1, ..., of those with n = 2 where it has some."""
     drawn = [FAMILIES[family](Random(f"{family} {seed}")) for seed in range(DRAWN)]
     most = max(experiment.system.residual.n for experiment in drawn if experiment.system.residual.n <= 2)
-    limits = (population_limits(experiment) for experiment in drawn if experiment.system.residual.n == most)
-    return next(found for found in limits if found.past_inputs.rank)
+    found_limits = (limit(experiment) for experiment in drawn if experiment.system.residual.n == most)
+    return next(found for found in found_limits if found.past_inputs.rank)
 
 
 def expected(found: PopulationLimits) -> dict[tuple[str, str], Any]:
     """Exact vectors by method and "L" or "model"."""
     result: dict[tuple[str, str], Any] = {}
-    for method, limit in zip(METHODS, (found.past_inputs, found.past_outputs), strict=True):
-        result[method, "L"] = floats(limit.matrix).ravel()
-        told = found.of_limit(limit)
-        if limit.state is not None:
-            monic = [float(c) for c in reversed(limit.state.characteristic_polynomial)]
+    for method, one in zip(METHODS, (found.past_inputs, found.past_outputs), strict=True):
+        result[method, "L"] = floats(one.matrix).ravel()
+        told = found.of_limit(one)
+        if one.state is not None:
+            monic = [float(c) for c in reversed(one.state.characteristic_polynomial)]
             parts = (told["markov"] or [])[: found.experiment.system.residual.n + 1]
             result[method, "model"] = np.array(monic[1:] + [float(Fraction(x)) for part in parts for row in part for x in row])
     return result

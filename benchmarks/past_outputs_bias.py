@@ -40,7 +40,7 @@ from faultspace.exact.algebra.stability import characteristic_polynomial
 from faultspace.exact.limits.column_space import state_part
 from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.inputs import by_output_error
-from faultspace.exact.limits.moesp import PopulationLimits, markov_parameters, population_limits
+from faultspace.exact.limits.moesp import PopulationLimits, limit, markov_parameters
 from faultspace.exact.limits.moments import covariances
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.model.past_inputs import pi_moesp
@@ -190,7 +190,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 def examined(setting: Setting, lengths: list[int], peer_python: str | None) -> tuple[Sheet, list[str]]:
     """The exact limits, then what was measured at each N, with notes on the order left free."""
-    found = population_limits(benchmark_experiment(setting))
+    found = limit(benchmark_experiment(setting))
     told = free_order(found)
     rows, notes = [], []
     for past_outputs, order in ((False, ORDER), (True, ORDER), (True, told.rank)):

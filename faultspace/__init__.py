@@ -1,6 +1,22 @@
-"""The front door; the rooms behind it are `faultspace.exact`, `faultspace.numeric` and `faultspace.proofs`.
+"""Faults in linear systems: exact answers about a system, a method for measured data, and verdicts with certificates on a paper's claims.
 
-__version__     the one place where the version is written; the build reads it from here
+    import faultspace as fs
+
+System, analyze, compare, limit    an exact system; its structure; whether two are equivalent; what subspace identification converges to
+certify, check, verify             a certificate of what is so; the checker's word on it; every claim of the paper decided anew
+identify, read_record              from measured data to model, number of faults, fault space and fault signal; a record from a file
+monte_carlo, audit                 the paper's study; anyone's implementation against exact ground truth
+errors                             the errors of bad input
+__version__                        the one place where the version is written; the build reads it from here
+
+The rooms behind these names are `faultspace.exact`, `faultspace.numeric` and `faultspace.proofs`. A name is loaded when it is first asked
+for; the names and where they live are listed in the file `__init__.pyi` beside this one.
 """
 
+import lazy_loader
+
+from .base import errors as errors
+
 __version__ = "0.1.0"
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -22,7 +22,7 @@ How far rounding may carry the answers: conditioning, residual_conditioning. Pic
 
 The paper's experiments
     example_v                          its example
-    monte_carlo.run_study              its study, as published and as corrected; study_systems, study_experiments,
+    monte_carlo.monte_carlo              its study, as published and as corrected; study_systems, study_experiments,
                                        study_cases, study_workers
 
 The audit (numeric/audit, which imports the exact branch too): anyone's implementation against exact ground truth.

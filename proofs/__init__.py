@@ -1,9 +1,13 @@
 """Claims, verdicts and certificates: what the paper states, what is true of it, and what proves it.
 
-A verdict is computed by a run, never stored by hand. The certificates are decided by `checker.py`, which imports
-nothing but Python's standard library; their format is `FORMAT.md` beside this file. Everything else here may import
-`faultspace.exact`, and modules with `cross` in their name `faultspace.numeric`.
+A verdict is computed by a run, never stored by hand. The certificates are decided by `trust/checker.py`, which imports nothing but Python's
+standard library; their format is `trust/FORMAT.md`. Everything else here may import `faultspace.exact`, and modules with `cross` in their
+name `faultspace.numeric`. The public names are loaded when they are first asked for; `__init__.pyi` lists them with their modules.
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 if __name__ == "proofs":
     raise ImportError("this folder is no package of its own: write 'import faultspace.proofs'")

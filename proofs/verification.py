@@ -29,9 +29,20 @@ TRUSTED = "this trusts Rocq's kernel, MathComp, and files compiled before in you
 
 
 def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, progress: Progress | None = None) -> Report:
-    """Check the claims with these ids (None: all). `progress(stage, done, total)` is told how far it is.
+    """Every claim of the ledger, or those with the ids `claims`, decided now: each reading with a verdict and the evidence it rests on.
+
+    `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core), and `progress(stage, done, total)` hears how far
+    the run is. The Report has `claims`, `hypotheses`, `as_expected` (whether every verdict is the one the ledger expects), `certificates()`
+    and `summary()`. A single claim takes tens of seconds, because what the readings rest on is made anew. The claims are those of [G25].
 
     Raises InvalidInput for an unknown claim or effort.
+
+    >>> import faultspace as fs
+    >>> try:
+    ...     fs.verify(["no-such-claim"])
+    ... except fs.errors.InvalidInput as error:
+    ...     print(str(error)[:27])
+    claim: got 'no-such-claim',
     """
     if effort not in EFFORTS:
         raise InvalidInput(f"effort: got {effort!r}, expected one of {', '.join(EFFORTS)}")

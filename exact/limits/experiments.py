@@ -80,6 +80,11 @@ class Experiment:
                 "closed by its controller, or one with A scaled down"
             )
 
+    @property
+    def sizes(self) -> str:
+        """How many states, faults, outputs and inputs, and the block rows of both windows, in words."""
+        return f"{self.system.sizes.rpartition(', over ')[0]}; s = {self.s}, past = {self.past}"
+
     def to_json(self) -> dict[str, Any]:
         """The dict that exact files hold."""
         result = self.system.to_json() | {"s": self.s, "past": self.past}

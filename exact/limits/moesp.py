@@ -1,28 +1,35 @@
 """Everything that is known exactly about the population limit of an experiment, as `faultspace limit` prints it.
 
 PopulationLimits   both limits, the regressions for B and D, their bias
-population_limits  from an Experiment
-limit              from an Experiment to the JSON-ready dict
+limit              from an Experiment, or from what an experiment's file holds
 markov_parameters  D, CB, CAB, ...
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
+from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, beside, stacked
+from ..algebra.notation import matrix_lines, polynomial
+from ..algebra.stability import characteristic_polynomial
 from ..system.windows import observability_matrix
 from .column_space import Limit, past_input_and_output_limit, past_input_limit
-from .experiments import Experiment
+from .experiments import Experiment, read_experiment
 from .inputs import InputLimit, by_moesp, by_output_error
 from .leading_vectors import leading_vectors_span
 from .moments import Covariances, WindowCovariances, covariances, window_covariances
 
+LONGEST_ENTRY = 24
 
-@dataclass(frozen=True)
-class PopulationLimits:
+
+@dataclass(frozen=True, repr=False)
+class PopulationLimits(Shown):
     """past_inputs (PI-MOESP), past_outputs (PO-MOESP), and the limits of B, D in the basis of the given A and C (None: not unique)."""
 
     experiment: Experiment
@@ -32,6 +39,28 @@ class PopulationLimits:
     past_outputs: Limit
     true_AC: InputLimit | None
     moesp: InputLimit | None
+
+    @property
+    def title(self) -> str:
+        """How many states, faults, outputs and inputs, and the windows' block rows s and past."""
+        return self.experiment.sizes
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """What `faultspace limit` prints, as (name, value) pairs."""
+        system = self.experiment.system.residual
+        yield "past inputs as instruments (PI-MOESP)", ""
+        yield from _of_limit(self, self.past_inputs)
+        yield "past inputs and outputs as instruments (PO-MOESP)", ""
+        yield from _of_limit(self, self.past_outputs)
+        yield "the system itself", ""
+        yield "characteristic polynomial of A", _polynomial(characteristic_polynomial(system.A))
+        for title, regression in (("with the true A and C, by output error", self.true_AC), ("by MOESP's regression", self.moesp)):
+            yield f"B and D {title}", ""
+            if regression is None:
+                yield "B, D", "not unique"
+                continue
+            bias = self.bias(regression)
+            yield from _of_regression(regression, bias)
 
     def to_json(self) -> dict[str, Any]:
         """What `faultspace limit EXPERIMENT --json` prints."""
@@ -102,8 +131,27 @@ def markov_parameters(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) ->
     return result
 
 
-def population_limits(experiment: Experiment) -> PopulationLimits:
-    """All of it. Raises InvalidInput where the input does not excite s + past block rows."""
+def limit(experiment: Experiment | Mapping[str, Any]) -> PopulationLimits:
+    """What PI-MOESP and PO-MOESP converge to for an experiment, as the number of samples goes to infinity: exact in every number.
+
+    `experiment` is an Experiment, or the dict that an experiment's file holds: "A", "B", "C", "D", "F", "G" with rational entries, the
+    block rows "s" and "past", and the filters "u_filter" and "v_filter" (and "w_filter" of the noise) that make the stationary input, fault
+    and noise out of white noise. The PopulationLimits has `past_inputs` and `past_outputs` (ranks and column spaces beside the one of O_s)
+    and `true_AC` and `moesp`, the limits of B (n x n_u) and D (p x n_u), None where they are not unique. Source: [G25]; [VV07] for PI- and
+    PO-MOESP.
+
+    Raises InvalidInput where A is not stable, where an entry is not rational, and where the input does not excite s + past block rows.
+
+    >>> import faultspace as fs
+    >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[0]]}
+    >>> found = fs.limit({**system, "s": 2, "past": 2, "u_filter": [[[1, 0]]], "v_filter": [[[0, 1]]]})
+    >>> found.past_inputs.rank, found.past_inputs.equals_observability_range
+    (1, True)
+    """
+    if isinstance(experiment, Mapping):
+        experiment = read_experiment(experiment)
+    if not isinstance(experiment, Experiment):
+        raise InvalidInput(f"experiment: got {shorten(experiment)}, expected an Experiment or the dict of an experiment's file")
     residual = experiment.system.residual
     known = covariances(experiment)
     blocks = window_covariances(experiment, known)
@@ -118,6 +166,55 @@ def population_limits(experiment: Experiment) -> PopulationLimits:
     )
 
 
-def limit(experiment: Experiment) -> dict[str, Any]:
-    """The JSON-ready answer to an experiment, exact in every number. Raises InvalidInput as `population_limits`."""
-    return population_limits(experiment).to_json()
+def _of_limit(found: PopulationLimits, limit: Limit) -> Iterator[tuple[str, str]]:
+    yield "rank of the limit", f"{limit.rank}; of O_s {limit.observability_rank}, of both together {limit.joint_rank}"
+    yield "column space", _columns(limit, found.experiment.system.residual.n)
+    if limit.contains_observability_range and not limit.equals_observability_range:
+        yield "", _leading(limit.observability_rank, found.leading_vectors_right(limit))
+    if limit.state is not None:
+        yield "characteristic polynomial of its A", _polynomial(limit.state.characteristic_polynomial)
+
+
+def _columns(limit: Limit, n: int) -> str:
+    if limit.equals_observability_range:
+        if limit.rank < n:
+            return "that of O_s, which is not of rank n: (A, C) is not observable on s samples"
+        return "that of O_s: A and C are consistent" if limit.state else "that of O_s, but s is too small to tell A"
+    if limit.within_observability_range:
+        return "inside that of O_s, and smaller: states are missing"
+    if limit.contains_observability_range:
+        return f"that of O_s and {limit.rank - limit.observability_rank} more: the rank does not tell the order {n}"
+    return "neither inside that of O_s nor around it: nothing in it spans that of O_s"
+
+
+def _leading(count: int, right: bool) -> str:
+    """What becomes of O_s where the limit has more columns than it, and the largest singular values choose among them."""
+    vectors = "its leading left singular vector" if count == 1 else f"its {count} leading left singular vectors"
+    if right:
+        return f"{vectors} {'spans' if count == 1 else 'span'} that of O_s all the same, with the outputs as they are scaled here"
+    return f"{vectors} {'does' if count == 1 else 'do'} not span that of O_s, with the outputs as they are scaled here"
+
+
+def _of_regression(found: InputLimit, bias: InputLimit) -> Iterator[tuple[str, str]]:
+    for name, matrix, error in (("B", found.B, bias.B), ("D", found.D, bias.D)):
+        yield from _lines(f"limit of {name}", matrix)
+        if error.is_zero():
+            yield f"its bias for {name}", "none"
+        else:
+            yield from _lines(f"its bias for {name}", error)
+
+
+def _lines(name: str, matrix: Matrix) -> Iterator[tuple[str, str]]:
+    """The matrix in full, or, where an entry is too long to be read, about it in decimals: --json has the fractions."""
+    lines = matrix_lines(matrix) or [f"empty, {matrix.nrows} x {matrix.ncols}"]
+    entries = [entry for row in matrix.elements() for entry in row]
+    if any(len(str(entry)) > LONGEST_ENTRY for entry in entries):
+        about = [[f"{float(Fraction(int(x.p), int(x.q))):.9g}" for x in row] for row in matrix.elements()]
+        width = max(len(text) for row in about for text in row)
+        lines = ["[ " + "  ".join(text.rjust(width) for text in row) + " ] about" for row in about]
+    yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
+
+
+def _polynomial(coefficients: Sequence[object]) -> str:
+    return polynomial([QQ.element(c) for c in coefficients], QQ)
+

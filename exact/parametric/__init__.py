@@ -1,1 +1,1 @@
-"""TODO."""
+"""Systems with indeterminate entries: what holds for almost all of them, and on which strata it does not."""

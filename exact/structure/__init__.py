@@ -1,1 +1,1 @@
-"""TODO."""
+"""What a system is in itself: zeros, indices, kernel rows, delays, behaviour and fault space."""

@@ -3,6 +3,7 @@
     Separation          a word (x0, v) of one system on `window` samples and a kernel row of the other that it violates
     separation          the shortest word of `inner` that is none of `outer`, or None: then B(inner) is contained in B(outer)
     Comparison          both directions at once; `first_difference` = the least window on which the restricted behaviours differ
+    Word                the shortest word that one system makes and the other cannot, with its outputs
     compare             of two systems with the same field and p; n and m may differ
 
 B(inner)|_s lies in B(outer)|_s iff every kernel row of `outer` of degree below s annihilates `inner`: those rows and their shifts span
@@ -12,12 +13,19 @@ Theorem 1, [W91].
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
-from ...base.errors import InvalidInput
+from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
-from ..system.systems import ResidualSystem
-from .kernel_rows import KernelRepresentation, KernelRow, horner
+from ..algebra.notation import entry, polynomial
+from ..system.systems import FaultySystem, ResidualSystem, counted
+from .kernel_rows import KernelRepresentation, KernelRow, horner, kernel_representation
+from .signals import simulate
+
+MOST_SAMPLES = 24
 
 
 @dataclass(frozen=True)
@@ -31,7 +39,27 @@ class Separation:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Word:
+    """What the system `of`, "first" or "second", makes and the other cannot: `separation` with the outputs, window x p."""
+
+    of: str
+    maker: ResidualSystem
+    separation: Separation
+    outputs: Matrix
+
+    def to_json(self) -> dict[str, Any]:
+        """v and r hold one row a sample; row holds [c_0, ..., c_mu] of the kernel row that is violated."""
+        return {
+            "of": self.of,
+            "x0": [row[0] for row in self.separation.x0.to_json()],
+            "v": self.separation.v.to_json(),
+            "r": self.outputs.to_json(),
+            "row": self.separation.row.coefficients.to_json(),
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison(Shown):
     """`first_not_in_second` and `second_not_in_first`: shortest separations, None where there is inclusion."""
 
     first: KernelRepresentation
@@ -49,6 +77,60 @@ class Comparison:
         """The least number of samples on which the restricted behaviours differ, None where they are equal."""
         found = [s.window for s in (self.first_not_in_second, self.second_not_in_first) if s is not None]
         return min(found, default=None)
+
+    @property
+    def word(self) -> Word | None:
+        """The shortest word of one system that the other cannot make; None where they are equivalent."""
+        candidates = [("first", self.first.system, self.first_not_in_second), ("second", self.second.system, self.second_not_in_first)]
+        words = [(of, maker, found) for of, maker, found in candidates if found is not None]
+        shortest = min(words, key=lambda candidate: candidate[2].window, default=None)
+        if shortest is None:
+            return None
+        of, maker, found = shortest
+        return Word(of, maker, found, simulate(maker, found.x0, found.v).residuals)
+
+    @property
+    def title(self) -> str:
+        """Whether the two are equivalent, and where not, on how many samples they first differ."""
+        if self.first_difference is None:
+            return "equivalent: both make the same outputs, on every window"
+        return f"different: first on {counted(self.first_difference, 'sample')}, the same on fewer"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The verdict, and the word that separates the two, as (name, value) pairs."""
+        yield from (("", text) for text in self.lines()[1:])
+
+    def summary(self) -> str:
+        """The verdict, and the word that separates the two; of a long one the first samples."""
+        return "\n".join(self.lines())
+
+    def lines(self, first: str = "the first system", second: str = "the second system", *, samples: int = MOST_SAMPLES) -> list[str]:
+        """What `faultspace compare` prints, with these names of the two systems, and at most so many samples of the word."""
+        word = self.word
+        if word is None:
+            return [self.title]
+        own, other = (first, second) if word.of == "first" else (second, first)
+        found, field = word.separation, word.maker.field
+
+        def row_of(matrix: Matrix, i: int) -> str:
+            return ", ".join(entry(matrix[i, j], field) for j in range(matrix.ncols))
+
+        result = [self.title, f"{own} makes this word of {counted(found.window, 'sample')}, which {other} cannot:"]
+        result.append(f"  x(0) = ({', '.join(entry(found.x0[i, 0], field) for i in range(word.maker.n))})")
+        shown = min(found.window, samples)
+        table = [("k", "v(k)", "r(k)"), *((str(k), row_of(found.v, k), row_of(word.outputs, k)) for k in range(shown))]
+        widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+        result += ["".join(f"  {text:<{width}}  " for text, width in zip(row, widths, strict=True)) for row in table]
+        if shown < found.window:
+            result.append(f"  ... and {found.window - shown} samples more; --word prints them all")
+        row = found.row.coefficients
+        polynomials = [polynomial([row[k, j] for k in range(row.nrows)], field) for j in range(row.ncols)]
+        return [*result, f"every word r of {other} satisfies N(q) r = 0 with N(q) = [ {',  '.join(polynomials)} ]"]
+
+    def to_json(self) -> dict[str, Any]:
+        """The verdict and the separating word: what `faultspace compare --json --word` prints."""
+        word = self.word
+        return {"equivalent": self.equivalent, "first_difference": self.first_difference, "word": None if word is None else word.to_json()}
 
 
 def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation | None:
@@ -73,12 +155,35 @@ def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation
     return None
 
 
-def compare(first: KernelRepresentation, second: KernelRepresentation) -> Comparison:
-    """Whether two systems, given by their kernel representations, make the same outputs.
+def compare(
+    first: ResidualSystem | FaultySystem | KernelRepresentation, second: ResidualSystem | FaultySystem | KernelRepresentation
+) -> Comparison:
+    """Whether two systems make the same outputs from any initial state and fault, and where not, a word that only one of them makes.
 
-    Raises InvalidInput when fields or numbers of outputs differ.
+    The systems have p outputs each over the same field; their numbers of states and faults may differ, and inputs play no part. Where its
+    kernel representation is at hand, it stands for a system. The Comparison has `equivalent`, `first_difference` (a number of samples, or
+    None) and `word`. Source: [G25] Theorem 1, [W91].
+
+    Raises InvalidInput when fields or numbers of outputs differ, and for anything that is no system.
+
+    >>> import faultspace as fs
+    >>> delayed = fs.System(A=[[0]], F=[[1]], C=[[1]], G=[[0]])
+    >>> direct = fs.System(A=[[0]], F=[[0]], C=[[0]], G=[[1]])
+    >>> fs.compare(delayed, direct).equivalent
+    True
+    >>> fs.compare(delayed, fs.System(A=[["1/2"]], F=[[0]], C=[[1]], G=[[0]]))
+    <Comparison: different: first on 2 samples, the same on fewer>
     """
-    return Comparison(first, second, separation(first.system, second), separation(second.system, first))
+    one, other = _kernel(first), _kernel(second)
+    return Comparison(one, other, separation(one.system, other), separation(other.system, one))
+
+
+def _kernel(system: ResidualSystem | FaultySystem | KernelRepresentation) -> KernelRepresentation:
+    if isinstance(system, KernelRepresentation):
+        return system
+    if not isinstance(system, (ResidualSystem, FaultySystem)):
+        raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
+    return kernel_representation(system.residual)
 
 
 def included_on(inner: ResidualSystem, outer: KernelRepresentation, window: int) -> bool:

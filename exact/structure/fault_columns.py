@@ -4,7 +4,6 @@
     fault_space         of a kernel representation; window None: the limit Z, reached from lag + 1 samples on
     from_kernel_rows    the same from any left null rows, of a model or of data
     with_pair           the system (A, Fhat P, C, Ghat P) for a dim x k matrix P
-    is_equivalent_pair  whether that system has the behaviour of the original
 
 z solves (11), N_s T_s(z) = 0 with all block columns, iff every kernel row of degree below s annihilates the system (A, f, C, g).
 Equal spaces have equal bases. Source: [G25] problem (11), Theorem 3.
@@ -18,8 +17,7 @@ from dataclasses import dataclass
 from ...base.errors import InvalidInput
 from ..algebra.matrices import Matrix, right_null_space, row_echelon, stacked
 from ..system.systems import ResidualSystem
-from .behavior import compare
-from .kernel_rows import KernelRepresentation, column_conditions, kernel_representation
+from .kernel_rows import KernelRepresentation, column_conditions
 
 
 @dataclass(frozen=True)
@@ -94,8 +92,3 @@ def with_pair(space: FaultSpace, P: object) -> ResidualSystem:
     if P.nrows != space.dimension:
         raise InvalidInput(f"P: got {P.nrows} x {P.ncols}, expected {space.dimension} rows, one a basis column")
     return space.system.with_faults(space.F @ P, space.G @ P)
-
-
-def is_equivalent_pair(kernel: KernelRepresentation, candidate: ResidualSystem) -> bool:
-    """Whether (A, F', C, G') has the output behaviour of the system, decided on the behaviours themselves."""
-    return compare(kernel, kernel_representation(candidate)).equivalent

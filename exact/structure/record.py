@@ -1,15 +1,19 @@
 """Everything the exact branch knows about a residual system, in one record: what `faultspace inspect` prints.
 
 Structure       indices, zeros, orders, lag, observability, both delays, window ranks, problem (11) at every window
-structure       of a ResidualSystem
+analyze         the Structure of a ResidualSystem
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
+from ..algebra.notation import matrix_lines, polynomial, several
 from ..algebra.polynomials import Poly, written
 from ..system.systems import FaultySystem, ResidualSystem
 from .fault_columns import FaultSpace, fault_space, fault_space_dimension
@@ -18,8 +22,8 @@ from .kernel_rows import KernelRepresentation, kernel_representation
 from .pencil import infinite_zero_orders, invariant_zero_polynomial, right_minimal_indices
 
 
-@dataclass(frozen=True)
-class Structure:
+@dataclass(frozen=True, repr=False)
+class Structure(Shown):
     """The structural invariants of a residual system; names as in the module `pencil` and `kernel_representation`."""
 
     kernel: KernelRepresentation
@@ -52,6 +56,38 @@ class Structure:
         """Whether the normal rank is m."""
         return self.kernel.normal_rank == self.system.m
 
+    @property
+    def title(self) -> str:
+        """How many states, faults and outputs, and the field."""
+        return self.system.sizes
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """What `faultspace inspect` prints, as (name, value) pairs."""
+        kernel, n = self.kernel, self.system.n
+        yield "pencil P(q) = [[qI - A, -F], [C, G]]", ""
+        yield "normal rank r", f"{kernel.normal_rank} of at most {min(self.system.m, self.system.p)}"
+        yield "left minimal indices", several(kernel.left_minimal_indices)
+        yield "lag", str(kernel.lag)
+        yield "right minimal indices", several(self.right_minimal_indices)
+        yield "invariant zero polynomial", polynomial(self.invariant_zero_polynomial, self.system.field)
+        yield "infinite zero orders", several(self.infinite_zero_orders)
+        yield "zeros, finite + infinite = zeta", f"{self.finite_zeros} + {sum(self.infinite_zero_orders)} = {self.zeta}"
+        yield "states and faults", ""
+        yield "(A, C) observable", _yes(self.observable)
+        yield "(A, F) controllable", _yes(self.controllable)
+        yield "left-invertible (r = m)", _yes(self.left_invertible)
+        yield "inversion delay, x(0) known", _delay(self.delay_known_state)
+        yield "inversion delay, x(0) unknown", _delay(self.delay_unknown_state)
+        document = self.to_json()
+        yield f"windows of s = 1, ..., {n + 3} samples", ""
+        yield "rank [O_s T_s]", several(document["window_ranks"])
+        yield "dimension of problem (11)", several(document["fault_space_dimensions"])
+        space = self.fault_space
+        yield f"fault space: n_z = {space.dimension}, reached from s = {space.exact_from} on", ""
+        for name, matrix in (("Fhat", space.F), ("Ghat", space.G)):
+            lines = matrix_lines(matrix) or [f"empty, {matrix.nrows} x {matrix.ncols}"]
+            yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
+
     def to_json(self) -> dict[str, Any]:
         """The object that `faultspace inspect --json` prints."""
         system, kernel = self.system, self.kernel
@@ -80,8 +116,25 @@ class Structure:
         }
 
 
-def structure(system: ResidualSystem | FaultySystem) -> Structure:
-    """The structure of a system (B and D play no part): any field, any dimensions, observable or not, left-invertible or not."""
+def analyze(system: ResidualSystem | FaultySystem) -> Structure:
+    """Everything that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
+
+    `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
+    left-invertible or not; B and D play no part. The Structure has `kernel.lag` (a number of samples), `kernel.left_minimal_indices`,
+    `invariant_zero_polynomial` (ascending coefficients), `infinite_zero_orders`, `delay_known_state` and `delay_unknown_state` (samples, or
+    None where there is no inverse) and `fault_space`, whose basis is n_z x (n + p) with rows [f' g']. Source: [G25]; [W91] for the lag.
+
+    Raises InvalidInput for anything that is no system.
+
+    >>> import faultspace as fs
+    >>> found = fs.analyze(fs.System(A=[[0, 1], [0, 0]], F=[[0], [1]], C=[[1, 0], [0, 0]], G=[[0], [1]]))
+    >>> found
+    <Structure: 2 states, 1 fault, 2 outputs, over Q>
+    >>> found.kernel.lag, found.delay_known_state
+    (2, 0)
+    """
+    if not isinstance(system, (ResidualSystem, FaultySystem)):
+        raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
     system = system.residual
     kernel = kernel_representation(system)
     right = right_minimal_indices(system)
@@ -104,3 +157,11 @@ def _is_observable(system: ResidualSystem) -> bool:
     """rank O_n = n, read off the kernel representation of the system without faults."""
     faultless = system.with_faults(Matrix.zero(system.field, system.n, 0), Matrix.zero(system.field, system.p, 0))
     return kernel_representation(faultless).rank(system.n) == system.n
+
+
+def _yes(value: bool) -> str:
+    return "yes" if value else "no"
+
+
+def _delay(value: int | None) -> str:
+    return "none" if value is None else str(value)

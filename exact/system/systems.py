@@ -2,6 +2,7 @@
 
     ResidualSystem     x(k+1) = A x + F v,        r = C x + G v        n states, m faults, p outputs
     FaultySystem       x(k+1) = A x + B u + F v,  y = C x + D u + G v  the same with nu inputs; `.residual` forgets them
+    System             either, from matrices
     read_system        either, from the dict of an exact file
     from_float_exactly a float as the dyadic rational that it is (the only way in for floats)
 
@@ -20,6 +21,7 @@ import sympy
 from ...base.errors import InvalidInput, shorten
 from ..algebra.fields import QQ, Field, field_from_json
 from ..algebra.matrices import Matrix
+from ..algebra.notation import field_words
 from ..algebra.validation import MAX_DIMENSION
 
 
@@ -93,6 +95,11 @@ class ResidualSystem:
         """The system itself: what FaultySystem.residual is for a system with inputs."""
         return self
 
+    @property
+    def sizes(self) -> str:
+        """How many states, faults and outputs, over which field, in words."""
+        return f"{counted(self.n, 'state')}, {counted(self.m, 'fault')}, {counted(self.p, 'output')}, over {field_words(self.field)}"
+
     def transposed(self) -> ResidualSystem:
         """(A', C', F', G'): its pencil is the transpose, its left minimal indices are the right ones of this system."""
         return ResidualSystem(self.A.transposed(), self.C.transposed(), self.F.transposed(), self.G.transposed())
@@ -136,12 +143,69 @@ class FaultySystem:
         """Number of inputs."""
         return self.B.ncols
 
+    @property
+    def sizes(self) -> str:
+        """How many states, faults, outputs and inputs, over which field, in words."""
+        one, _, over = self.residual.sizes.rpartition(", over ")
+        return f"{one}, {counted(self.nu, 'input')}, over {over}"
+
     def to_json(self) -> dict[str, Any]:
         """The dict that exact files hold."""
         result = self.residual.to_json()
         if self.nu == 0 or "n" in result:
             result |= {"n": self.residual.n, "m": self.residual.m, "p": self.residual.p, "nu": self.nu}
         return result | {"B": self.B.to_json(), "D": self.D.to_json()}
+
+
+def System(
+    A: object,
+    F: object,
+    C: object,
+    G: object,
+    *,
+    B: object = None,
+    D: object = None,
+    field: Field | str | Mapping[str, Any] = QQ,
+    n: int | None = None,
+    m: int | None = None,
+    p: int | None = None,
+) -> ResidualSystem | FaultySystem:
+    """The exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs and n_u inputs u.
+
+    A is n x n, F n x m, C p x n, G p x m, B n x n_u, D p x n_u: nested lists of integers, strings such as "1/2" and Fractions, or sympy
+    matrices. Floats are refused, because a measured float has no exact zeros; `faultspace.exact.from_float_exactly` takes one as it is.
+    `field` is "Q", {"prime": 3}, {"minimal_polynomial": ["-2", "0", "1"]} for Q(sqrt 2), or a field of `faultspace.exact`. The sizes n, m
+    and p are needed where a dimension is zero. The result is a FaultySystem where B and D are given, else a ResidualSystem without inputs.
+
+    Raises InvalidInput when shapes or fields do not agree, for entries that are not exact, and for one of B and D without the other.
+
+    >>> import faultspace as fs
+    >>> print(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]).sizes)
+    1 state, 1 fault, 1 output, over Q
+    >>> try:
+    ...     fs.System(A=[[0.5]], F=[[1]], C=[[1]], G=[[0]])
+    ... except fs.errors.InvalidInput as error:
+    ...     print(error)
+    A[0][0]: got 0.5, expected a rational string such as "-3/4" (floats are not exact; see from_float_exactly)
+    """
+    if isinstance(field, (str, Mapping)):
+        field = field_from_json(field)
+    if (B is None) != (D is None):
+        raise InvalidInput("got only one of B and D, expected both or neither")
+    system = ResidualSystem.of(A, F, C, G, field=field, n=n, m=m, p=p)
+    if B is None:
+        return system
+    nu = _dimension("n_u", None, (B, 1), (D, 1))
+    if nu > MAX_DIMENSION:
+        raise InvalidInput(f"n_u: got {nu}, at most {MAX_DIMENSION} is supported")
+    return FaultySystem(
+        system, Matrix.of(B, field, shape=(system.n, nu), where="B"), Matrix.of(D, field, shape=(system.p, nu), where="D")
+    )
+
+
+def counted(count: int, word: str) -> str:
+    """The number with the word in its singular or plural: "1 state", "2 states"."""
+    return f"{count} {word}{'' if count == 1 else 's'}"
 
 
 def read_system(data: object, *, where: str = "system") -> ResidualSystem | FaultySystem:

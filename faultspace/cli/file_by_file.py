@@ -1,12 +1,12 @@
 """Commands that answer about one file after the other: a bad one is told and the rest is still done.
 
-Answer        what is known about a file: a heading, a sheet of (name, value) pairs, and the record behind it, with `to_json`
+Answer        what is known about a file: a heading, and the record with its `sheet` and `to_json`
 answer_each   the command's body: answers, printed or as JSON; the largest exit code
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -14,24 +14,24 @@ from rich.console import Console
 from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path
+from ..base.sheets import Sheet, line
 from .consoles import answers, print_json
 from .failures import ANSWERED, BAD_INPUT, say
 
-NAME_WIDTH = 36
-
 
 class Found(Protocol):
-    """A record that can be written as JSON."""
+    """A record that people and programs can read."""
+
+    def sheet(self) -> Sheet: ...
 
     def to_json(self) -> dict[str, Any]: ...
 
 
 @dataclass(frozen=True)
 class Answer:
-    """In `sheet` a pair without a value is a heading, one without a name goes on with the value above it."""
+    """The heading follows the file's name on its line."""
 
     heading: str
-    sheet: Iterable[tuple[str, str]]
     found: Found
 
 
@@ -61,7 +61,6 @@ def answer_each(names: Sequence[str], answer: Callable[[str], Answer], *, as_jso
 def _print(console: Console, name: str, given: Answer) -> None:
     """Lines without a frame: a terminal may wrap them, a pipe gets them whole."""
     console.print(Text.assemble((quote_path(name), "bold"), f"   {given.heading}"), soft_wrap=True)
-    for label, value in given.sheet:
-        line = Text(f"    {label:<{NAME_WIDTH}}{value}") if value else Text(f"  {label}", style="bold cyan")
-        console.print(line, soft_wrap=True)
+    for label, value in given.found.sheet():
+        console.print(Text(line(label, value), style="" if value else "bold cyan"), soft_wrap=True)
     console.print()

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..base.errors import InvalidData, InvalidInput, quote_path
-from ..numeric.study.studies import STUDIES, run_study
+from ..numeric.study.studies import STUDIES, monte_carlo
 from .consoles import answers, paragraph, print_json, print_table
 from .failures import ANSWERED, say
 from .progress import Tell, working
@@ -26,7 +26,7 @@ def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, se
         with working("starting") as tell:
             for name, plan in STUDIES.items():
                 watch = _of_study(tell, name)
-                studies.append(run_study(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, progress=watch))
+                studies.append(monte_carlo(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, progress=watch))
     except InvalidData as error:
         raise InvalidInput(str(error)) from None
     written = write(studies, out)

@@ -18,7 +18,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
 from faultspace.exact.algebra.matrices import Matrix, left_null_space, rank
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import excitation_matrix, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import window_matrix
@@ -103,7 +103,7 @@ def _faults(slug: str, system: ResidualSystem) -> FaultVector:
 def _seen(slug: str, view: FaultView, system: ResidualSystem, x0: Matrix, v: Matrix, whole: FaultVector | None) -> FaultVector:
     """The vector in that view; ranks and singular values are those of `whole` where all samples are there."""
     n, windows = system.n, system.n + 2
-    known = structure(system)
+    known = analyze(system)
     lag, delay = known.kernel.lag, known.delay_known_state
     trajectory = simulate(system, x0, v)
     longest = max(windows, LONG_WINDOW)
@@ -210,7 +210,7 @@ def _noisy(slug: str, small: ResidualSystem) -> NoisyVector:
     system = small.with_faults(*(matrix([[x * 10**4 for x in row] for row in fractions(M)], small.m) for M in (small.F, small.G)))
     windows = system.n + 2
     blank = NoisyVector(slug, system, Fraction(1), 1200, 20250521, (), ())
-    known = structure(system).kernel
+    known = analyze(system).kernel
     ranks = tuple(known.rank(s) for s in range(1, windows + 1))
     gaps = tuple((low, _noise_norm(blank, s)) for s, low in enumerate(_enclosed_from_below(blank, ranks), start=1))
     if min(low / high for low, high in gaps) < CLEAR:

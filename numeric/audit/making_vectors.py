@@ -28,8 +28,8 @@ import numpy as np
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.exact.limits.filters import Filter
-from faultspace.exact.limits.moesp import population_limits
-from faultspace.exact.structure.record import Structure, structure
+from faultspace.exact.limits.moesp import limit
+from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
 from ..model.compression import EPS, compress
@@ -150,11 +150,11 @@ def _doubled(given: Matrix) -> Matrix:
 
 def structure_vectors() -> list[StructureVector]:
     """See the module; those left-invertible in three views as well, whose units are powers of two."""
-    plain = [(slug, system, structure(system)) for slug, system in structure_systems()]
+    plain = [(slug, system, analyze(system)) for slug, system in structure_systems()]
     result = [_structure(slug, system, known) for slug, system, known in plain]
     for slug, system, known in plain:
         if known.left_invertible:
-            result += [_structure(f"{slug}-{name}", seen, structure(seen)) for name, seen in _otherwise(system)]
+            result += [_structure(f"{slug}-{name}", seen, analyze(seen)) for name, seen in _otherwise(system)]
     return result
 
 
@@ -210,7 +210,7 @@ def _consistency(slug: str, system: FaultySystem, s: int, seed: int) -> Consiste
     unit = [["1" if j == i else "0" for j in range(system.nu + 1)] for i in range(system.nu + 1)]
     u_filter = Filter.of([unit[: system.nu]])
     v_filter = Filter.of([unit[system.nu :]], ["1", str(-c)])
-    limits = population_limits(Experiment(system, s, s, u_filter, v_filter))
+    limits = limit(Experiment(system, s, s, u_filter, v_filter))
     if not limits.past_inputs.equals_observability_range:
         raise ArithmeticError(f"{slug}: past inputs are not consistent here")
     left = np.linalg.svd(floats(limits.past_outputs.matrix))[0][:, :n]

@@ -86,10 +86,23 @@ def audit(
     expected: Sequence[ExpectedFailure] = (),
     tell: Callable[[str, int, int], None] = lambda name, done, total: None,
 ) -> tuple[Record, ...]:
-    """A record for every check of the functions that the implementation, any object, has; never raises for what they do.
+    """An implementation of subspace identification and fault estimation, of anyone's, through checks with exactly known answers.
 
-    In this process, so nothing limits them: see `audit_named`. `only`: slugs, or slug[vector]. `expected`: failures that are known. `tell`
-    hears of the progress. Raises InvalidData for an implementation without a function, and for unknown names.
+    `implementation` is any object, a module say, with one or more of the functions that `faultspace.numeric.audit.adapter` describes
+    (`pi_moesp`, `residual`, `fault_dimension`, `fault_space`, ...; arrays are time-major, y is N x p and u is N x n_u). `only` names the
+    checks to run, by slug or slug[vector]; `expected` lists failures that are known; `tell(name, done, total)` hears of the progress. The
+    result has a Record for every check of the functions that are there: `verdict`, and what was got beside the bound. It runs in this
+    process, so that nothing limits the time that the functions take; `audit_named` runs them in a process of its own. What they do, this
+    never raises. Source: the checks take their truth from [G25] and the claims of this library.
+
+    Raises InvalidData for an implementation without any of the functions, and for names of checks that do not exist.
+
+    >>> import faultspace as fs
+    >>> try:
+    ...     fs.audit(object())
+    ... except fs.errors.InvalidData as error:
+    ...     print("refused")
+    refused
     """
     functions = {name: guarded(one) for name, one in offered(implementation).items()}
     return _records(chosen(functions, only), lambda check: perform(check, functions[check.function]), expected, tell)

@@ -1,1 +1,1 @@
-"""TODO."""
+"""How many faults there are, or that the data cannot tell."""

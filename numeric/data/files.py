@@ -67,7 +67,22 @@ def split_names(given: Sequence[str]) -> list[str]:
 
 
 def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], tell: Tell | None = None) -> Record:
-    """The record in the file at `path`; `tell` hears how much of how much has been read. Raises InvalidInput."""
+    """The record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
+
+    `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the names
+    of columns or, for matrices, as NAME[:,j]. Rows are samples, in the order of time, and every number must be finite. `tell(done, total)`
+    hears how much of how much has been read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and
+    need not fit into memory (a MAT file must).
+
+    Raises InvalidInput for a file that cannot be read, a channel that is not there or is named twice, and for numbers that are not finite.
+
+    >>> import faultspace as fs, pathlib, tempfile
+    >>> path = pathlib.Path(tempfile.mkdtemp(), "small.csv")
+    >>> _ = path.write_text("valve,level\\n0.0,1.0\\n1.0,0.5\\n")
+    >>> record = fs.read_record(str(path), inputs=["valve"], outputs=["level"])
+    >>> len(record), record.inputs, record.outputs
+    (2, ('valve',), ('level',))
+    """
     with in_file(path), ExitStack() as stack:
         chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
         for option, names in chosen.items():

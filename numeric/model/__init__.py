@@ -1,1 +1,1 @@
-"""TODO."""
+"""From data to the system matrices and the residual of the model."""

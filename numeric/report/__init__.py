@@ -1,1 +1,1 @@
-"""TODO."""
+"""What an identification tells: its summary, its pictures and its files."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""How far rounding may carry the answers."""

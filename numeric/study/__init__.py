@@ -1,1 +1,1 @@
-"""TODO."""
+"""The example and the Monte Carlo study of the paper."""

@@ -1,6 +1,6 @@
 """The Monte Carlo study of the paper: how far the estimated fault space lies from the true one, over many random systems.
 
-    run_study            a plan carried out: a Study
+    monte_carlo            a plan carried out: a Study
     PUBLISHED            the published settings and metric: s = 5, rank R_s taken as n_x + s n_v - zeros, noise "of 40 dB" that is 43 dB
                          down, error = angles between [F; G] and the estimate over n_v pi/2
     IDENTIFIED           as published, but with A, B, C, D from PI-MOESP on the same data in place of the true ones
@@ -150,8 +150,8 @@ class Study:
         }
 
 
-def run_study(
-    plan: Plan,
+def monte_carlo(
+    plan: Plan | str,
     *,
     systems: int = 100,
     seed: int = SEED,
@@ -160,12 +160,26 @@ def run_study(
     cluster: str | None = None,
     progress: Progress | None = None,
 ) -> Study:
-    """The study of `systems` random systems, a quarter for each number of zeros, of `samples` samples each.
+    """The paper's Monte Carlo study: how far the estimated fault space lies from the true one, over many random systems.
 
-    `jobs` processes (None: all cores, as far as they are worth their start), or the Dask cluster whose scheduler is at the address
-    `cluster`; the results are the same. `progress` is called with (done, total, seconds left) as cases come in. Raises InvalidData for
-    numbers out of range and for a cluster that cannot be used.
+    `plan` is one of PUBLISHED, IDENTIFIED, CORRECTED and CORRECTED_IDENTIFIED, or its name in `STUDIES`: "published", "identified",
+    "corrected", "corrected-identified". `systems` random systems are drawn, a quarter for each number of zeros from 0 to 3, with records of
+    `samples` samples each; equal seeds give equal cases. `jobs` processes share the work (None: all cores, as far as they are worth their
+    start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `progress` is called with (done,
+    total, seconds left) as cases come in. The Study has `cases`, whose errors are fractions of the metric's maximum, and `to_json()`.
+    Source: [G25] section V; [YL16] for the distances.
+
+    Raises InvalidData for an unknown plan, for numbers out of range and for a cluster that cannot be used.
+
+    >>> import faultspace as fs
+    >>> study = fs.monte_carlo("published", systems=4, samples=200, jobs=1)
+    >>> len(study.cases), study.plan.name
+    (4, 'published')
     """
+    if isinstance(plan, str):
+        if plan not in STUDIES:
+            raise InvalidData(f"plan: got {plan!r}; one of {', '.join(STUDIES)} is needed")
+        plan = STUDIES[plan]
     systems, samples = positive(systems, "systems"), positive(samples, "samples")
     if seed < 0:
         raise InvalidData(f"seed: got {seed}; a whole number from 0 on is needed")

@@ -23,7 +23,7 @@ from ...exact.algebra.matrices import Matrix
 from ...exact.limits.column_space import past_input_limit
 from ...exact.limits.inputs import by_output_error
 from ...exact.limits.lyapunov import solve
-from ...exact.limits.moesp import PopulationLimits, population_limits
+from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.limits.moments import covariances, window_covariances
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.windows import observability_matrix
@@ -176,7 +176,7 @@ def _decide(family: Family, point: Point, fails: Fails, note: str) -> Witness | 
     seen = kernel_representation(residual).normal_rank == residual.m
     if not (seen and dossier.observable and dossier.controllable and dossier.long_past):
         return None
-    found = population_limits(experiment)
+    found = limit(experiment)
     if not fails(dossier, found):
         return None
     certificates = tuple(certificates_of(found))

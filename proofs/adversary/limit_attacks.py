@@ -14,7 +14,7 @@ from typing import Any
 
 from ...exact.limits.column_space import past_input_limit
 from ...exact.limits.lyapunov import solve
-from ...exact.limits.moesp import population_limits
+from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances, window_covariances
 from ...exact.system.windows import observability_matrix
 from ..evidence.attacks import Family, Point, Witness
@@ -38,7 +38,7 @@ def decided_by(at: At, fails: Fails) -> Callable[[Point], Witness | None]:
         dossier = examine_experiment("adversary", experiment)
         if not fails(dossier):
             return None
-        certificates = tuple(certificates_of(population_limits(experiment)))
+        certificates = tuple(certificates_of(limit(experiment)))
         for certificate in certificates:
             accept(certificate)
         return Witness(describe(at(point), dossier), point, certificates)

@@ -18,7 +18,7 @@ from itertools import product
 from typing import Any
 
 from ...exact.algebra.matrices import Matrix
-from ...exact.parametric.exceptional import generic_exceptional
+from ...exact.parametric.cofactors import generic_exceptional
 from ...exact.structure.behavior import compare
 from ...exact.structure.kernel_rows import kernel_representation
 from ..claims.common import delays, zeros

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...exact.parametric.exceptional import generic_exceptional, generic_exceptional_without_feedthrough
+from ...exact.parametric.cofactors import generic_exceptional, generic_exceptional_without_feedthrough
 from ...exact.structure.kernel_rows import kernel_representation
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.pairs_by_polynomial import JudgedPair

@@ -16,7 +16,7 @@ from typing import Any
 from ...exact.algebra.matrices import Matrix
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.hidden_states import hides_a_state
-from ...exact.limits.moesp import population_limits
+from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances
 from ...exact.parametric.leads import lead_identities
 from ..evidence.experiments import Drive, LimitDossier, certificates_of, examine_experiment, experiments_in_order, leading, nilpotent_points
@@ -192,7 +192,7 @@ def smallest_seasonal(fails: Callable[[LimitDossier], bool], taps: int, others: 
 
 def show(dossier: LimitDossier) -> list[Certificate]:
     """Both limits and the regressions."""
-    return certificates_of(population_limits(dossier.experiment))
+    return certificates_of(limit(dossier.experiment))
 
 
 def show_words(dossier: LimitDossier) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from ...exact.limits.moesp import PopulationLimits, population_limits
+from ...exact.limits.moesp import PopulationLimits, limit
 from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment, following
 from ..evidence.kept_experiments import kept
 from ..verdict.verdicts import Outcome, Verdict
@@ -29,7 +29,7 @@ def for_every_system(bench: Workbench) -> Outcome:
     """A, C of order n, B or D come out wrong in every case: the leading left singular vectors of a limit of rank n + 1 can span O_s."""
     certificates, words = [], []
     for name in NOT_ALL:
-        found = population_limits(kept(name))
+        found = limit(kept(name))
         dossier = examine_experiment("kept", found.experiment)
         larger = found.past_inputs.rank == found.experiment.system.residual.n + 1
         right = _regressions_right(found)

@@ -25,7 +25,7 @@ from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.algebra.stability import characteristic_polynomial, is_stable
 from ...exact.limits.experiments import Experiment, read_experiment
-from ...exact.limits.moesp import PopulationLimits, population_limits
+from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..trust import limit_certificates as make
@@ -115,7 +115,7 @@ def certificates_of(found: PopulationLimits) -> list[Certificate]:
 
 def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
     """Certify the limits of an experiment and say what its signals are like."""
-    found = population_limits(experiment)
+    found = limit(experiment)
     certificates = certificates_of(found)
     for certificate in certificates:
         accept(certificate)

@@ -19,7 +19,7 @@ from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix
 from ...exact.limits.experiments import Experiment as Record
 from ...exact.limits.lyapunov import solve
-from ...exact.limits.moesp import PopulationLimits, population_limits
+from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
 from ..claims.proposition_1 import show_words
 from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
@@ -110,7 +110,7 @@ def _experiment(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -
 
 def driven(record: LimitDossier) -> Driven:
     """The subject made of an experiment with certified limits."""
-    found = population_limits(record.experiment)
+    found = limit(record.experiment)
     state, residual = found.past_inputs.state, record.experiment.system.residual
     read = None if state is None else similarity(_without_faults(residual), _model(state.A, state.C))
     return Driven(record, read is not None, autoregressive(found, record.experiment.s))
@@ -178,6 +178,6 @@ def _without_faults(system: ResidualSystem) -> ResidualSystem:
 def _show(subject: Driven) -> Iterator[Certificate]:
     """The limits and the regressions, and the rank of O_(s-1), which must be n for A to be read."""
     experiment = subject.record.experiment
-    yield from certificates_of(population_limits(experiment))
+    yield from certificates_of(limit(experiment))
     if experiment.s > 1:
         yield make.matrix_rank("window", _without_faults(experiment.system.residual), window=experiment.s - 1)

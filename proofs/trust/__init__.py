@@ -1,1 +1,1 @@
-"""TODO."""
+"""The certificates, the checker that alone decides them, and what makes them."""

@@ -16,6 +16,7 @@ from enum import StrEnum
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
+from ...base.sheets import Shown
 from ..evidence.attacks import Attacked
 from ..trust.structure_certificates import Certificate, sha256
 from .ledger import Claim, Reading
@@ -230,8 +231,8 @@ class Row:
         }
 
 
-@dataclass(frozen=True)
-class Report:
+@dataclass(frozen=True, repr=False)
+class Report(Shown):
     """The result of a run."""
 
     effort: str
@@ -246,6 +247,20 @@ class Report:
     def as_expected(self) -> bool:
         """Whether every verdict is the expected one."""
         return all(claim.as_expected for claim in self.claims) and all(row.as_expected for row in self.hypotheses)
+
+    @property
+    def title(self) -> str:
+        """How many claims were decided, and how many of the verdicts are not those that the ledger expects."""
+        wrong = sum(not claim.as_expected for claim in self.claims) + sum(not row.as_expected for row in self.hypotheses)
+        claims = f"{len(self.claims)} claim{'' if len(self.claims) == 1 else 's'}"
+        return f"{claims} decided: {'every verdict is the expected one' if not wrong else f'{wrong} verdicts are not the expected ones'}"
+
+    def sheet(self) -> list[tuple[str, str]]:
+        """The claims with their verdicts, as (name, value) pairs; those that are not as expected come first."""
+        ordered = sorted(self.claims, key=lambda claim: claim.as_expected)
+        claims = [(c.claim.id, str(c.verdict) + ("" if c.as_expected else f", expected {c.expected}")) for c in ordered]
+        wrong = [row for row in self.hypotheses if not row.as_expected]
+        return [*((f"{r.claim} without {' and '.join(r.dropped)}", f"{r.verdict}, expected {r.expected}") for r in wrong), *claims]
 
     def certificates(self) -> list[Certificate]:
         """Every headline certificate once, in the order of the claims."""

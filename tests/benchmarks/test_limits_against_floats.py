@@ -15,7 +15,7 @@ from benchmarks import past_outputs_bias
 from benchmarks.identification_data import ORDER, Setting, errors, record
 from benchmarks.limits_against_floats import ERRORS, METHODS, chosen, compared, distance, drawn, expected, sample_limits, table
 from benchmarks.past_outputs_bias import benchmark_experiment, examined, free_order, predicted
-from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.exact.limits.moesp import PopulationLimits, limit
 from faultspace.numeric.model.past_outputs import po_moesp
 from faultspace.proofs.evidence.experiments import FAMILIES
 from tests.numeric.predicted_limits import invariants, predicted_model
@@ -26,7 +26,7 @@ CELL = Setting(1, 1, 10, 100_000)
 
 @cache
 def benchmark_limits() -> PopulationLimits:
-    return population_limits(benchmark_experiment(CELL))
+    return limit(benchmark_experiment(CELL))
 
 
 def rows_of(family: str, seeds: int = 6) -> list[Any]:
@@ -62,9 +62,9 @@ def test_every_family_has_an_experiment_and_an_exact_limit(family: str) -> None:
     one_state = family == "u white, v(k) = K u(k-1), B and D right by output error"
     assert found.experiment.system.residual.n == (1 if one_state else 2) and found.past_inputs.rank
     exact = expected(found)
-    for method, limit in zip(METHODS, (found.past_inputs, found.past_outputs), strict=True):
-        assert exact[method, "L"].size == limit.matrix.nrows * limit.matrix.ncols
-        assert ((method, "model") in exact) == (limit.state is not None)
+    for method, one in zip(METHODS, (found.past_inputs, found.past_outputs), strict=True):
+        assert exact[method, "L"].size == one.matrix.nrows * one.matrix.ncols
+        assert ((method, "model") in exact) == (one.state is not None)
 
 
 def test_floats_tend_to_the_limit_and_right_models_are_told(tmp_path: Path) -> None:
@@ -138,7 +138,7 @@ def test_a_free_order_models_the_fault_as_well(monkeypatch: pytest.MonkeyPatch) 
 def test_fault_and_noise_have_the_levels_of_the_benchmark() -> None:
     """Variance of the outputs: from one record and exactly."""
     for setting in (Setting(2, 3, 3, 200_000), Setting(2, 3, 3, 200_000, 1.0)):
-        found = population_limits(benchmark_experiment(setting))
+        found = limit(benchmark_experiment(setting))
         now = found.known.now(found.known.process.y, found.known.process.y)
         exact = [float(int(now[i, i].p) / int(now[i, i].q)) for i in range(3)]
         assert np.var(record(setting)[0], axis=0) == pytest.approx(exact, rel=0.05)

@@ -43,7 +43,7 @@ from faultspace.exact.structure.pencil import (
     right_null_polynomial,
     zero_dynamics_polynomial,
 )
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.relations import integer_relations, relations_over_prime_field
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.structure.zero_output import chain_from_rest, zero_output_chain
@@ -66,7 +66,7 @@ def read(system: Json) -> ResidualSystem:
 
 def indices(system: ResidualSystem) -> tuple[Any, ...]:
     """(r, left indices, right indices, zero polynomial, infinite orders, both delays): unchanged by changes of basis."""
-    all_of_it = structure(system)
+    all_of_it = analyze(system)
     return (
         all_of_it.kernel.normal_rank,
         all_of_it.kernel.left_minimal_indices,
@@ -87,8 +87,8 @@ def random_matrix(rng: Random, system: ResidualSystem, nrows: int, ncols: int) -
 
 
 def check_report(system: Json) -> None:
-    """`structure(...).to_json()` equals what the oracle finds from definitions."""
-    fast, slow = structure(read(system)).to_json(), inspect_slowly(system)
+    """`analyze(...).to_json()` equals what the oracle finds from definitions."""
+    fast, slow = analyze(read(system)).to_json(), inspect_slowly(system)
     assert same_report(slow, fast), (system, fast, slow)
 
 
@@ -212,7 +212,7 @@ def check_diagonals(system: Json) -> None:
 def check_kronecker_sum(system: Json) -> None:
     """n, p, m and zeta out of the Kronecker structure, and the two formulas for ranks and dimensions."""
     exact = read(system)
-    found = structure(exact)
+    found = analyze(exact)
     kernel = found.kernel
     eta, eps, orders = kernel.left_minimal_indices, found.right_minimal_indices, found.infinite_zero_orders
     assert exact.n == sum(eta) + sum(eps) + found.finite_zeros + sum(orders)

@@ -40,7 +40,7 @@ from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.inversion import largest_output_nulling
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.structure.pencil import characteristic_polynomial, infinite_zero_orders
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.structure.zero_output import chain_from_rest
 from faultspace.exact.system.systems import ResidualSystem
@@ -93,7 +93,7 @@ def check_space(system: Json) -> None:
     assert columns @ found.a == stacked(exact.A @ found.states, exact.C @ found.states)
     assert found.n_z == found.zeta + found.columns
     assert found.zeta == exact.n - sum(found.kernel.left_minimal_indices)
-    all_of_it = structure(exact)
+    all_of_it = analyze(exact)
     if all_of_it.left_invertible:
         assert found.zeta == all_of_it.zeta
     unobserved = exact.n - rank(observability_matrix(exact, exact.n))
@@ -212,7 +212,7 @@ def check_assignment(system: Json, seed: int) -> None:
         desired = polynomials.multiply(found.fixed, (*own, field.element(1)))
         result = assign_zeros(found, list(desired))
         assert result.desired == desired and result.verdict.polynomial == tuple(result.unit * c for c in desired)
-        again = structure(result.system)
+        again = analyze(result.system)
         assert again.invariant_zero_polynomial == desired and again.left_invertible
         assert sum(again.infinite_zero_orders) == found.zeta - len(desired) + 1
         assert compare(found.kernel, again.kernel).equivalent
@@ -230,7 +230,7 @@ def check_zero_feedthrough(system: Json) -> None:
     assert exact.G.is_zero()
     kernel = kernel_representation(exact)
     assert members_by_formula(exact) == exceptional(kernel).states
-    all_of_it = structure(exact)
+    all_of_it = analyze(exact)
     if not all_of_it.left_invertible:
         return
     found = zero_feedthrough(kernel)

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from faultspace.base.errors import InvalidInput
 from faultspace.exact.algebra.matrices import Matrix, beside, stacked
 from faultspace.exact.structure.behavior import compare, included_on
-from faultspace.exact.structure.fault_columns import fault_space, is_equivalent_pair
+from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
@@ -66,7 +66,7 @@ def test_equal_by_construction(given: Json, seed: int) -> None:
         found = compare(kernel, kernel_representation(other))
         assert found.equivalent and found.first_difference is None
         assert found.first_not_in_second is None and found.second_not_in_first is None
-    assert is_equivalent_pair(kernel, equal[3])
+    assert compare(kernel, equal[3]).equivalent
 
 
 @settings(max_examples=60)
@@ -142,9 +142,9 @@ def test_pairs_of_the_fault_space(given: Json, seed: int) -> None:
     candidate = exact.with_faults(space.F @ P, space.G @ P)
     other = kernel_representation(candidate)
     assert compare(other, kernel).first_not_in_second is None
-    assert is_equivalent_pair(kernel, candidate) == (other.normal_rank == kernel.normal_rank)
+    assert compare(kernel, candidate).equivalent == (other.normal_rank == kernel.normal_rank)
     everything = exact.with_faults(space.F, space.G)
-    assert is_equivalent_pair(kernel, everything)
+    assert compare(kernel, everything).equivalent
 
 
 def test_the_other_output_count_and_field_are_refused() -> None:

@@ -15,10 +15,11 @@ from hypothesis import strategies as st
 from faultspace.base.errors import InvalidInput
 from faultspace.exact.algebra.fields import QQ, PrimeField
 from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, rank, row_echelon, stacked
-from faultspace.exact.structure.fault_columns import fault_space, fault_space_dimension, from_kernel_rows, is_equivalent_pair, with_pair
+from faultspace.exact.structure.behavior import compare
+from faultspace.exact.structure.fault_columns import fault_space, fault_space_dimension, from_kernel_rows, with_pair
 from faultspace.exact.structure.inversion import largest_output_nulling
 from faultspace.exact.structure.kernel_rows import kernel_representation
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.zero_output import chain_from_rest
 from faultspace.exact.system.systems import ResidualSystem, read_system
 from tests.exact import checks
@@ -51,7 +52,7 @@ def test_every_window(field: Json, data: st.DataObject) -> None:
 @settings(max_examples=100)
 @given(systems())
 def test_the_closed_form(given: Json) -> None:
-    found = structure(checks.read(given))
+    found = analyze(checks.read(given))
     if found.left_invertible:
         assert closed_form(found.system) == found.fault_space.basis
         U = beside(largest_output_nulling(found.system), chain_from_rest(found.system).last_subspace)
@@ -62,7 +63,7 @@ def test_the_closed_form_is_tried_on_zeros_of_both_kinds() -> None:
     """The named systems include left-invertible ones with finite and with infinite zeros."""
     kinds = set()
     for named in [*adversarial("Q").values(), paper_example()]:
-        found = structure(checks.read(named))
+        found = analyze(checks.read(named))
         if found.left_invertible:
             assert closed_form(found.system) == found.fault_space.basis
             kinds.add((found.finite_zeros > 0, sum(found.infinite_zero_orders) > 0))
@@ -79,7 +80,7 @@ def test_some_basis_gives_back_the_system(given: Json, seed: int) -> None:
     P = stacked(system.F, system.G).rows(row_echelon(space.basis).pivots)
     assert with_pair(space, P) == system
     T = checks.random_matrix(Random(seed), system, system.m, system.m)
-    assert is_equivalent_pair(kernel, with_pair(space, P @ T)) or rank(T) < system.m
+    assert compare(kernel, with_pair(space, P @ T)).equivalent or rank(T) < system.m
 
 
 @SOME
@@ -105,8 +106,8 @@ def test_the_smallest_example() -> None:
     assert not fault_space(kernel, 1).is_limit and fault_space(kernel, 2).is_limit
     assert fault_space(kernel, 2).basis == Matrix.of([[1, 0, 1]])
     doubtful = with_pair(fault_space(kernel, 1), Matrix.of([[5], [3], [-2]]))
-    assert not is_equivalent_pair(kernel, doubtful)
-    assert is_equivalent_pair(kernel, with_pair(fault_space(kernel), Matrix.of([["-7/3"]])))
+    assert not compare(kernel, doubtful).equivalent
+    assert compare(kernel, with_pair(fault_space(kernel), Matrix.of([["-7/3"]]))).equivalent
 
 
 @pytest.mark.parametrize("n", [1, 4, 12])
@@ -124,7 +125,7 @@ def test_full_column_rank_is_not_enough() -> None:
     assert space.dimension == 3  # zeta = 1 and p = r = 2: every column is accepted
     bad = with_pair(space, Matrix.of([[1, 0], [0, 1], [0, 0]]))
     assert rank(stacked(bad.F, bad.G)) == 2
-    assert not is_equivalent_pair(kernel, bad)
+    assert not compare(kernel, bad).equivalent
     assert kernel_representation(bad).normal_rank == 1
 
 
@@ -151,6 +152,6 @@ def test_P_may_be_nested_lists_and_a_system_may_have_inputs() -> None:
     data = {"A": [["0"]], "F": [["1", "0"]], "C": [["1"], ["0"]], "G": [["0", "0"], ["0", "1"]]}
     plain, with_inputs = read_system(data), read_system(data | {"B": [["1"]], "D": [["0"], ["2"]]})
     kernel = kernel_representation(with_inputs)
-    assert structure(with_inputs).to_json() == structure(plain).to_json()
+    assert analyze(with_inputs).to_json() == analyze(plain).to_json()
     bad = with_pair(fault_space(kernel), [[1, 0], [0, 1], [0, 0]])
     assert bad == with_pair(fault_space(kernel), Matrix.of([[1, 0], [0, 1], [0, 0]]))

@@ -12,9 +12,9 @@ from faultspace.exact.algebra.fields import QQ
 from faultspace.exact.algebra.matrices import Matrix, row_echelon
 from faultspace.exact.algebra.polynomials import monic, trimmed
 from faultspace.exact.pairs.polynomial import exceptional
-from faultspace.exact.parametric import exceptional as room
+from faultspace.exact.parametric import cofactors as room
 from faultspace.exact.parametric.case_tree import coefficients, evaluate
-from faultspace.exact.parametric.exceptional import GenericExceptional, generic_exceptional, generic_exceptional_without_feedthrough
+from faultspace.exact.parametric.cofactors import GenericExceptional, generic_exceptional, generic_exceptional_without_feedthrough
 from faultspace.exact.parametric.identities import IdentityFailure
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem

@@ -10,7 +10,7 @@ import pytest
 
 from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.hidden_states import hides_a_state, reflections
-from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moesp import limit
 from faultspace.exact.limits.moments import covariances
 
 
@@ -40,7 +40,7 @@ def test_as_the_limit_has_it(seed: int, s: int) -> None:
         den = ["1", *["0"] * s, str(k * factor * (1 + d)), *["0"] * s, str(d)]
         given = experiment(companion(a, b), ["1"], den, s)
         assert hides_a_state(given, covariances(given)) == lost
-        assert population_limits(given).past_inputs.rank == (1 if lost else 2)
+        assert limit(given).past_inputs.rank == (1 if lost else 2)
 
 
 @pytest.mark.parametrize(

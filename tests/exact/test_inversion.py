@@ -17,7 +17,7 @@ from faultspace.exact.structure.inversion import (
     left_inverse,
 )
 from faultspace.exact.structure.kernel_rows import kernel_representation
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import observability_matrix, window_matrix
 from tests.exact import checks
@@ -38,7 +38,7 @@ def test_delays_inverses_and_words(field: Json, data: st.DataObject) -> None:
 @given(systems())
 def test_when_there_is_a_delay(given: Json) -> None:
     """Known state: r = m, and the delay is the largest infinite order. Unknown: r = m and n_f = n - rank O_n."""
-    found = structure(checks.read(given))
+    found = analyze(checks.read(given))
     system = found.system
     if found.left_invertible:
         assert found.delay_known_state == max(found.infinite_zero_orders, default=0)

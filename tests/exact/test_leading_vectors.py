@@ -9,7 +9,7 @@ import pytest
 
 from faultspace.exact.algebra.matrices import Matrix, column_basis, left_null_space, rank
 from faultspace.exact.limits.leading_vectors import leading_vectors_span
-from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moesp import limit
 from faultspace.proofs.evidence.experiments import examine_experiment
 from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
 
@@ -89,15 +89,15 @@ def test_a_tie_a_missing_direction_and_irrational_values() -> None:
 @pytest.mark.parametrize("name", ["following-fault", "following-fault-two-states"])
 def test_a_fault_that_follows_the_input_and_biases_nothing(name: str) -> None:
     """One more rank than states, and yet A, C, and B, D by output error are right; with the outputs scaled apart they need not be."""
-    found = population_limits(kept(name))
-    limit, n = found.past_inputs, found.experiment.system.residual.n
-    assert limit.rank == n + 1 and limit.contains_observability_range and found.leading_vectors_right(limit)
+    found = limit(kept(name))
+    ranks, n = found.past_inputs, found.experiment.system.residual.n
+    assert ranks.rank == n + 1 and ranks.contains_observability_range and found.leading_vectors_right(ranks)
     assert found.true_AC is not None and found.bias(found.true_AC).B.is_zero() and found.bias(found.true_AC).D.is_zero()
     true = sorted(np.linalg.eigvals(floats(found.experiment.system.residual.A)).real)
     p = found.experiment.system.residual.p
-    assert np.allclose(_poles(floats(limit.matrix), p, n), true, atol=1e-9)
-    scales = np.diag([1.0 if row % p == 0 else 3.0 for row in range(limit.matrix.nrows)])
-    assert np.allclose(_poles(scales @ floats(limit.matrix), p, n), true, atol=1e-9) == (p == 1)  # the weights of the outputs decide
+    assert np.allclose(_poles(floats(ranks.matrix), p, n), true, atol=1e-9)
+    scales = np.diag([1.0 if row % p == 0 else 3.0 for row in range(ranks.matrix.nrows)])
+    assert np.allclose(_poles(scales @ floats(ranks.matrix), p, n), true, atol=1e-9) == (p == 1)  # the weights of the outputs decide
 
 
 def _poles(L: np.ndarray, p: int, n: int) -> list[float]:
@@ -114,5 +114,5 @@ def test_a_rank_is_lost_though_the_fault_is_uncorrelated(name: str) -> None:
 
 
 def test_observable_on_s_samples_and_not_on_one_less() -> None:
-    found = population_limits(kept("observable-late"))
+    found = limit(kept("observable-late"))
     assert found.past_inputs.equals_observability_range and found.past_inputs.state is None

@@ -16,7 +16,7 @@ from faultspace.exact.algebra.fields import QQ
 from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, rank, stacked
 from faultspace.exact.limits.column_space import state_part
 from faultspace.exact.limits.experiments import Experiment
-from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.exact.limits.moesp import PopulationLimits, limit
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import observability_matrix, reachability_matrix
 from tests.exact.experiment_families import Rows, driven, rows, system, white_with_leads
@@ -71,7 +71,7 @@ def test_an_independent_fault_leaves_everything_right(seed: int) -> None:
     u[0] = [[*("1" if i == j else "0" for j in range(nu)), *["0"] * m] for i in range(nu)]
     v = [[["0"] * nu + row for row in rows(random, m, m)] for _ in range(2)]
     experiment = driven(given, n + 1, n, {"num": u, "den": ["1", "-1/2"]}, {"num": v, "den": ["1", "1/3", "1/5"]}, [rows(random, p, p)])
-    found = population_limits(experiment)
+    found = limit(experiment)
     A, B = experiment.system.residual.A, experiment.system.B
     assert found.past_inputs.within_observability_range and unbiased(found)
     if controllable(A, B):
@@ -85,7 +85,7 @@ def test_a_white_input_that_the_fault_follows_ahead_of_time(seed: int) -> None:
     n, m, nu, p = (random.randint(1, top) for top in (3, 2, 2, 3))
     given = system(random, n, m, p, nu)
     phi = [rows(random, m, nu) for _ in range(random.randint(1, 4))]
-    found = population_limits(white_with_leads(given, n + 1, n, phi))
+    found = limit(white_with_leads(given, n + 1, n, phi))
     residual, B, D = found.experiment.system.residual, found.experiment.system.B, found.experiment.system.D
     column = residual.F
     D = D + residual.G @ Matrix.of(phi[0])
@@ -103,7 +103,7 @@ def test_a_white_input_that_the_fault_follows_ahead_of_time(seed: int) -> None:
 def test_lead_one_by_hand() -> None:
     """v(k) = u(k+1): B + AF and D + CF; with G = 0 by MOESP's regression too, with G not."""
     for G, agrees in (([["0"], ["0"]], True), ([["1"], ["1"]], False)):
-        found = population_limits(white_with_leads(SCALAR | {"G": G, "C": [["1"], ["2"]]}, 3, 2, [NONE, ONE]))
+        found = limit(white_with_leads(SCALAR | {"G": G, "C": [["1"], ["2"]]}, 3, 2, [NONE, ONE]))
         assert found.true_AC is not None and found.moesp is not None
         assert Matrix.of([["3/2"]]) == found.true_AC.B and Matrix.of([[1], [2]]) == found.true_AC.D
         assert ((found.moesp.B, found.moesp.D) == (found.true_AC.B, found.true_AC.D)) == agrees
@@ -111,7 +111,7 @@ def test_lead_one_by_hand() -> None:
 
 def test_controllability_of_the_b_that_is_seen_is_needed() -> None:
     """A = 1/2, F = 1, B = -1/2, v(k) = u(k+1): (A, B) is controllable, B + AF = 0, and the limit is zero."""
-    found = population_limits(white_with_leads(SCALAR | {"B": [["-1/2"]]}, 3, 3, [NONE, ONE]))
+    found = limit(white_with_leads(SCALAR | {"B": [["-1/2"]]}, 3, 3, [NONE, ONE]))
     assert found.past_inputs.rank == 0 and found.past_inputs.matrix.is_zero()
     assert not found.past_inputs.contains_observability_range and found.past_inputs.state is None
 
@@ -119,10 +119,10 @@ def test_controllability_of_the_b_that_is_seen_is_needed() -> None:
 def test_a_moving_average_input_ruins_a_and_c() -> None:
     """u = e(k) + e(k-1)/2, v = e(k+1): rank 2 for one state."""
     experiment = driven(SCALAR, 3, 3, [NONE, ONE, [["1/2"]]], [ONE])
-    found = population_limits(experiment)
+    found = limit(experiment)
     assert (found.past_inputs.rank, found.past_inputs.joint_rank) == (2, 2)
     # The same with v(k) = u(k+1), a fault that is a filter of the input alone.
-    assert population_limits(leads(SCALAR, 3, 3, ["1", "1/2"], ["1"], ["0", "1"])).past_inputs.rank == 2
+    assert limit(leads(SCALAR, 3, 3, ["1", "1/2"], ["1"], ["0", "1"])).past_inputs.rank == 2
 
 
 def test_a_moving_average_input_with_lead_one_and_no_feedthrough() -> None:
@@ -134,7 +134,7 @@ def test_a_moving_average_input_with_lead_one_and_no_feedthrough() -> None:
         given = system(random, n, 1, 2, 1)
         if not feedthrough:
             given["G"] = [["0"], ["0"]]
-        found = population_limits(leads(given, n + 1, n, ["1", "1/2"], ["1", "-1/3"], ["0"] * lead + ["1"]))
+        found = limit(leads(given, n + 1, n, ["1", "1/2"], ["1", "-1/3"], ["0"] * lead + ["1"]))
         seen[lead, feedthrough, found.past_inputs.within_observability_range] += 1
     assert seen[1, False, False] == 0 and seen[1, False, True] == 6
     assert min(seen[1, True, False], seen[2, False, False], seen[2, True, False]) >= 4
@@ -149,7 +149,7 @@ def test_an_autoregressive_input_of_order_at_most_s(seed: int) -> None:
     given = system(random, n, 1, 2, 1)
     for order in (s, s + 1):
         den = ["1", *(str(Fraction(random.choice([-1, 1]), 3 * order)) for _ in range(order))]
-        found = population_limits(leads(given, s, n, ["1"], den, ["1", "-1/2", "1/3"]))
+        found = limit(leads(given, s, n, ["1"], den, ["1", "-1/2", "1/3"]))
         if order == s:
             assert found.past_inputs.within_observability_range
         elif seed == 0:
@@ -174,7 +174,7 @@ def test_a_fault_that_follows_the_input() -> None:
         K = rows(random, m, nu)
         unit = [["1" if i == j else "0" for j in range(nu)] for i in range(nu)]
         experiment = driven(system(random, n, m, p, nu), n + nu + 1, n + nu, [unit], [[["0"] * nu] * m, K])
-        found = population_limits(experiment)
+        found = limit(experiment)
         assert found.past_inputs.rank == found.past_outputs.rank == degree_with_delay(experiment, Matrix.of(K))
         gains[found.past_inputs.rank - n] += 1
     assert gains[1] >= 8 and gains[2] >= 1
@@ -184,7 +184,7 @@ def test_a_fault_that_follows_the_input_unseen() -> None:
     """C A^-1 F K = G K cancels the pole at 0: rank n, and A, C are right though v(k) = K u(k-1)."""
     one = SCALAR | {"C": [["1"]], "D": [["0"]], "p": 1}
     for G, gain in (("0", 1), ("2", 0)):
-        found = population_limits(driven(one | {"G": [[G]]}, 3, 3, [ONE], [NONE, ONE]))
+        found = limit(driven(one | {"G": [[G]]}, 3, 3, [ONE], [NONE, ONE]))
         assert found.past_inputs.rank == 1 + gain
         assert found.past_inputs.equals_observability_range == (gain == 0)
         assert not unbiased(found)
@@ -197,11 +197,11 @@ def test_a_fault_equal_to_the_input(seed: int) -> None:
     n, p, nu = random.randint(1, 3), random.randint(1, 2), random.randint(1, 2)
     unit = [["1" if i == j else "0" for j in range(nu)] for i in range(nu)]
     u = {"num": [unit, rows(random, nu, nu)], "den": ["1", "-1/2"]}
-    found = population_limits(driven(system(random, n, nu, p, nu), n + 1, n, u, u))
+    found = limit(driven(system(random, n, nu, p, nu), n + 1, n, u, u))
     residual, B, D = found.experiment.system.residual, found.experiment.system.B, found.experiment.system.D
-    for limit in (found.past_inputs, found.past_outputs):
-        assert limit.within_observability_range
-        assert limit.equals_observability_range or not controllable(residual.A, B + residual.F)
+    for one in (found.past_inputs, found.past_outputs):
+        assert one.within_observability_range
+        assert one.equals_observability_range or not controllable(residual.A, B + residual.F)
     for regression in (found.true_AC, found.moesp):
         assert regression is None or (regression.B, regression.D) == (B + residual.F, D + residual.G)
 
@@ -231,7 +231,7 @@ FAULTS: dict[str, Any] = {
 def test_past_outputs_as_instruments_want_whiteness(fault: str, G: str, w: Any, within: bool) -> None:
     """v independent of u, past inputs always right; past outputs as well only if what is ahead of them is uncorrelated with them."""
     given = SCALAR | {"G": [["0"], [G]], "C": [["1"], ["1/3"]]}
-    found = population_limits(driven(given, 3, 2, [[["1", "0"]], [["1/2", "0"]]], FAULTS[fault], w))
+    found = limit(driven(given, 3, 2, [[["1", "0"]], [["1/2", "0"]]], FAULTS[fault], w))
     assert found.past_inputs.equals_observability_range and unbiased(found)
     assert found.past_outputs.equals_observability_range == within
     assert found.past_outputs.contains_observability_range
@@ -241,7 +241,7 @@ def test_the_true_order_is_exceeded_by_the_fault_model() -> None:
     """Past outputs, v autoregressive of order 1, no noise: the limit of rank n + 1 carries a model whose poles are those of A and of v."""
     one = SCALAR | {"C": [["1"], ["2"]]}
     fault = {"num": [[["0", "1"]]], "den": ["1", "-1/3"]}
-    found = population_limits(driven(one, 4, 4, [[["1", "0"]]], fault))
+    found = limit(driven(one, 4, 4, [[["1", "0"]]], fault))
     assert found.past_outputs.rank == 2 and found.past_outputs.state is None
     state = state_part(column_basis(found.past_outputs.matrix), 2)
     assert state is not None and state.characteristic_polynomial == (Fraction(1, 6), Fraction(-5, 6), Fraction(1))

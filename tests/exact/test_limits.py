@@ -15,7 +15,7 @@ from faultspace.exact.limits.column_space import past_input_and_output_limit, pa
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.exact.limits.inputs import by_moesp, by_output_error
 from faultspace.exact.limits.lyapunov import solve, state_covariance, stein
-from faultspace.exact.limits.moesp import limit, population_limits
+from faultspace.exact.limits.moesp import limit
 from faultspace.exact.limits.moments import covariances, window_covariances
 from faultspace.exact.limits.process import joint_process
 from faultspace.exact.system.windows import observability_matrix
@@ -51,7 +51,7 @@ def test_finite_responses_sum_to_the_same_limits(seed: int, shape: dict[str, int
     """FIR filters and a nilpotent A: every covariance is a finite sum, which knows neither joint process nor Lyapunov equation."""
     experiment = random_experiment(seed + 100, finite=True, **shape)
     assert excited(experiment)
-    found = population_limits(experiment)
+    found = limit(experiment)
     made = slow.responses(experiment, 12)
     assert all(block.is_zero_matrix for block in (made.y[-1], made.u[-1], made.v[-1]))
     known, s, past = found.known, experiment.s, experiment.past
@@ -221,7 +221,7 @@ def test_the_projection_solves_its_equation() -> None:
 
 def test_the_dict_says_what_the_records_say() -> None:
     experiment = random_experiment(11, finite=False, n=2, s=3, past=3)
-    found, document = population_limits(experiment), limit(experiment)
+    found, document = limit(experiment), limit(experiment).to_json()
     assert document["limit_rank"] == found.past_inputs.rank and document["past_outputs"]["limit_rank"] == found.past_outputs.rank
     assert found.true_AC is not None and document["true_AC"]["B"] == found.true_AC.B.to_json()
     bias = Matrix.of(document["true_AC"]["bias"]["B"])

@@ -16,7 +16,7 @@ from faultspace.exact.algebra.fields import PrimeField
 from faultspace.exact.algebra.matrices import Matrix, beside, rank, row_echelon, solve_left, stacked
 from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.kernel_rows import kernel_representation
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
 from tests.oracle.families import paper_example
@@ -72,7 +72,7 @@ def test_bases_of_states_faults_and_outputs(given: Json, seed: int) -> None:
     other = ResidualSystem(T @ system.A @ T_inverse, T @ system.F @ V, U @ system.C @ T_inverse, U @ system.G @ V)
     assert checks.indices(other) == checks.indices(system)
     assert limit(other) == moved(limit(system), T, U)
-    first, second = structure(system), structure(other)
+    first, second = analyze(system), analyze(other)
     assert (first.observable, first.controllable) == (second.observable, second.controllable)
 
 
@@ -165,8 +165,8 @@ def test_two_systems_side_by_side(first: Json, second: Json) -> None:
         upper, lower = Matrix.zero(a.field, a.nrows, b.ncols), Matrix.zero(a.field, b.nrows, a.ncols)
         return stacked(beside(a, upper), beside(lower, b))
 
-    both = structure(ResidualSystem(*(diagonal(getattr(one, k), getattr(two, k)) for k in "AFCG")))
-    parts = structure(one), structure(two)
+    both = analyze(ResidualSystem(*(diagonal(getattr(one, k), getattr(two, k)) for k in "AFCG")))
+    parts = analyze(one), analyze(two)
     assert both.kernel.left_minimal_indices == tuple(sorted(x for s in parts for x in s.kernel.left_minimal_indices))
     assert both.right_minimal_indices == tuple(sorted(x for s in parts for x in s.right_minimal_indices))
     assert both.infinite_zero_orders == tuple(sorted(x for s in parts for x in s.infinite_zero_orders))

@@ -25,7 +25,7 @@ from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.inversion import ambiguous_word
 from faultspace.exact.structure.kernel_rows import horner, kernel_representation
 from faultspace.exact.structure.pencil import right_null_polynomial
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.structure.zero_output import zero_output_chain
 from faultspace.exact.system.modular import image
@@ -81,7 +81,7 @@ RECORDS: dict[str, Callable[[ResidualSystem], Any]] = {
     "ambiguous word": lambda s: ambiguous_word(s, 1, known_state=False),
     "trajectory": lambda s: simulate(s, s.F.columns([0]), s.A.columns(range(s.m))),
     "Horner": lambda s: horner(s.C.transposed().columns([0]) @ s.C.columns([0]).transposed(), s),
-    "structure": structure,
+    "structure": analyze,
 }
 FIELD_OBJECTS: dict[str, Field] = {name: field_from_json(f) for name, f in FIELDS.items()}
 

@@ -14,7 +14,7 @@ from faultspace.exact.algebra.fields import PrimeField
 from faultspace.exact.algebra.matrices import Matrix, rank
 from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.kernel_rows import kernel_representation
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import Trajectory, data_fault_space, excitation_matrix, hankel, persistency, simulate
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import window_matrix
@@ -93,7 +93,7 @@ def test_a_persistently_exciting_fault_excites_everything(given: Json, seed: int
     exact = checks.read(given)
     found = excited(exact, seed, 12 + 6 * exact.m)
     order = persistency(found.faults)
-    assume(order > exact.n and structure(exact).controllable)
+    assume(order > exact.n and analyze(exact).controllable)
     matrix = excitation_matrix(found, order - exact.n)
     assert rank(matrix) == matrix.nrows
 

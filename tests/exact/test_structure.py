@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from faultspace.exact.structure.kernel_rows import kernel_representation
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from tests.exact import checks
 from tests.oracle.families import FIELDS, adversarial, paper_example, shift_register
 from tests.oracle.fields import parse_field
@@ -67,7 +67,7 @@ def test_all_small_systems(prime: int, n: int, p: int, m: int) -> None:
 def test_planted_structure_is_found(field: Json, data: st.DataObject) -> None:
     """Up to five states, outputs and faults: more than the oracle could do by minors."""
     system, planted = data.draw(planted_systems(field=field, largest=5))
-    found = structure(checks.read(system))
+    found = analyze(checks.read(system))
     assert found.kernel.normal_rank == planted.normal_rank
     assert found.kernel.left_minimal_indices == planted.left
     assert found.right_minimal_indices == planted.right
@@ -102,14 +102,14 @@ def test_larger_systems_over_two_elements(system: Json) -> None:
 @pytest.mark.parametrize("n", [1, 7, 40])
 def test_a_long_shift_register(n: int) -> None:
     """Lag n, delay 0: the kernel row has degree n, found without building a window of n samples over Q."""
-    found = structure(checks.read(shift_register("Q", n)))
+    found = analyze(checks.read(shift_register("Q", n)))
     assert (found.kernel.lag, found.zeta, found.delay_known_state, found.delay_unknown_state) == (n, 0, 0, 0)
     assert [found.kernel.rank(s) for s in (1, n, n + 1)] == [2, 2 * n, 2 * n + 1]
     assert found.fault_space.exact_from == n + 1
 
 
 def test_the_example_of_the_paper() -> None:
-    found = structure(checks.read(paper_example()))
+    found = analyze(checks.read(paper_example()))
     kernel = kernel_representation(found.system)
     assert [kernel.rank(s) for s in range(1, 7)] == [2, 4, 5, 6, 7, 8]
     assert (found.zeta, kernel.lag, found.fault_space.dimension) == (1, 2, 2)

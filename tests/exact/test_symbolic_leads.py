@@ -13,7 +13,7 @@ from faultspace.exact.algebra.matrices import Matrix, beside
 from faultspace.exact.algebra.stability import is_stable
 from faultspace.exact.limits.experiments import read_experiment
 from faultspace.exact.limits.inputs import by_output_error
-from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moesp import limit
 from faultspace.exact.parametric.case_tree import evaluate
 from faultspace.exact.parametric.identities import IdentityFailure
 from faultspace.exact.parametric.leads import lead_identities
@@ -74,7 +74,7 @@ def test_the_exact_limits_agree(dimensions: tuple[int, int, int, int, int]) -> N
             Matrix.of([[evaluate(f, values) for f in row] for row in table], shape=(height, nu))
             for table, height in ((found.B, n), (found.D, p))
         )
-        limits = population_limits(_experiment(dimensions, values))
+        limits = limit(_experiment(dimensions, values))
         residual = limits.experiment.system.residual
         blocks = [B]
         for _ in range(n):

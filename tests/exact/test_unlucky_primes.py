@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from faultspace.exact.algebra.fields import QQ, NumberField, PrimeField
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.kernel_rows import kernel_representation
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.system import modular
 from faultspace.exact.system.modular import LARGEST_PRIME, image, primes_below, simple_root
 from faultspace.exact.system.systems import ResidualSystem
@@ -209,7 +209,7 @@ def test_a_field_of_degree_one() -> None:
     over = ResidualSystem.of([["1/2", 1], [0, 3]], [[0], [1]], [[1, 0]], [[0]], field=field)
     plain = ResidualSystem.of([["1/2", 1], [0, 3]], [[0], [1]], [[1, 0]], [[0]])
     checks.check_report(over.to_json())
-    found, wanted = structure(over).to_json(), structure(plain).to_json()
+    found, wanted = analyze(over).to_json(), analyze(plain).to_json()
     assert {**found, "field": "Q"} == wanted
 
 
@@ -245,5 +245,5 @@ def test_an_entry_that_is_a_product_of_all_the_first_primes() -> None:
             break
         entry, count = entry * prime, count + 1
     assert count > 2000
-    found = structure(ResidualSystem.of([[1]], [[1]], [[entry]], [[0]]))
+    found = analyze(ResidualSystem.of([[1]], [[1]], [[entry]], [[0]]))
     assert found.to_json()["window_ranks"] == [1, 2, 3, 4]

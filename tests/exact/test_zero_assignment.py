@@ -15,7 +15,7 @@ from faultspace.exact.algebra.fields import QQ
 from faultspace.exact.pairs.assignment import assign_zeros, recoverable_pair
 from faultspace.exact.pairs.polynomial import judge
 from faultspace.exact.structure.inversion import ambiguous_word
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from tests.exact import pair_checks
 from tests.exact.test_broken_on_purpose import Broken, spoil
 from tests.exact.test_exceptional import chains
@@ -76,7 +76,7 @@ def test_the_example_gets_a_zero_at_five() -> None:
     found = pair_checks.pencil_of(paper_example())
     assert (found.zeta, found.columns) == (1, 1)
     result = assign_zeros(found, ["-5", "1"])
-    assert structure(result.system).invariant_zero_polynomial == tuple(found.system.field.element(c) for c in ("-5", "1"))
+    assert analyze(result.system).invariant_zero_polynomial == tuple(found.system.field.element(c) for c in ("-5", "1"))
 
 
 def test_sympy_polynomials_are_taken() -> None:

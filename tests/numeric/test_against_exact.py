@@ -18,7 +18,7 @@ from faultspace.exact.structure.fault_columns import fault_space as exact_fault_
 from faultspace.exact.structure.fault_columns import with_pair
 from faultspace.exact.structure.inversion import delay_known_state, delay_unknown_state
 from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_representation
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import excitation_matrix, simulate
 from faultspace.exact.system.systems import ResidualSystem, read_system
 from faultspace.numeric.signal.reconstruction import reconstruct_fault
@@ -103,7 +103,7 @@ def test_the_space_at_every_window(shape: Structure) -> None:
             assert got <= found.error_bound
             print(f"{shape} s={s}: got {got:.1e}, bound {found.error_bound:.1e}, ratio {got / found.error_bound:.1e}")
         limit = exact_fault_space(kernel)
-        assert fault_space(r, A, C).n_z == limit.dimension == structure(system).zeta + system.m
+        assert fault_space(r, A, C).n_z == limit.dimension == analyze(system).zeta + system.m
 
 
 def test_wrong_columns_at_the_lag() -> None:
@@ -128,7 +128,7 @@ def test_zeros_and_delays(shape: Structure) -> None:
         assert found.left_invertible
         assert found.delay_known_state == delay_known_state(kernel)
         assert found.delay_unknown_state == delay_unknown_state(kernel)
-        polynomial = [float(c) for c in structure(system).invariant_zero_polynomial]
+        polynomial = [float(c) for c in analyze(system).invariant_zero_polynomial]
         assert len(found.zeros) == len(polynomial) - 1
         for zero in found.zeros:
             size = sum(abs(c) * abs(zero) ** k for k, c in enumerate(polynomial))
@@ -158,7 +158,7 @@ def test_finite_zeros_are_those_of_the_pencil(shape: tuple[int, int, int], F: An
     for C in ([["0", "1"]], [["0", "0"]], [["1", "1"]]):
         given = {"A": [["1/2", "0"], ["0", "3/4"]], "F": F, "C": C, "G": G, "n": n, "m": m, "p": p}
         system = read_system(given).residual
-        polynomial = [float(c) for c in structure(system).invariant_zero_polynomial]
+        polynomial = [float(c) for c in analyze(system).invariant_zero_polynomial]
         found = fault_zeros(*(floats(M) for M in (system.A, system.F, system.C, system.G)))
         assert _zeros_differ_by(found.zeros, polynomial) < 1e-9, C
 
@@ -171,7 +171,7 @@ def test_finite_zeros_are_those_of_the_pencil(shape: tuple[int, int, int], F: An
 def test_finite_zeros_beside_right_indices(shape: Structure) -> None:
     for seed in range(3):
         system = stable(read_system(planted_system(Random(seed), "Q", shape)).residual)
-        polynomial = [float(c) for c in structure(system).invariant_zero_polynomial]
+        polynomial = [float(c) for c in analyze(system).invariant_zero_polynomial]
         found = fault_zeros(*(floats(M) for M in (system.A, system.F, system.C, system.G)))
         assert not found.left_invertible and len(polynomial) == len(shape.roots) + 1
         assert _zeros_differ_by(found.zeros, polynomial) < 1e-6

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from faultspace.exact.limits.experiments import read_experiment
-from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.exact.limits.moesp import PopulationLimits, limit
 from faultspace.numeric.model.compression import compress
 from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.model.past_outputs import po_moesp
@@ -24,7 +24,7 @@ NAMES = ("fault-leads-input", "fault-follows-input", "independent-fault")
 @cache
 def known(name: str) -> PopulationLimits:
     text = resources.files("faultspace").joinpath("examples", f"{name}.json").read_text("utf-8")
-    return population_limits(read_experiment(json.loads(text)))
+    return limit(read_experiment(json.loads(text)))
 
 
 @cache

@@ -15,7 +15,7 @@ from faultspace.numeric.study.cases import LIKELIHOOD, PAPER, Case, Errors
 from faultspace.numeric.study.example_v import behaviour_ranks, exact_fault_space, example_v, lines, published_ranks, recorded_errors, tally
 from faultspace.numeric.study.example_v import system as example_system
 from faultspace.numeric.study.experiments import NOISE_GAIN, experiment, response
-from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, by_phase, by_zeros, median_interval, run_study
+from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, by_phase, by_zeros, median_interval, monte_carlo
 from faultspace.numeric.study.systems import pencil_zeros, study_system
 
 # Medians of the author's own run, 25 systems for each number of zeros, in percent, read off the plot that his notebook keeps.
@@ -85,7 +85,7 @@ def test_the_stated_noise_is_43_decibels_and_the_corrected_one_40() -> None:
 
 
 def test_vacuous_cases_are_those_without_a_null_row_and_only_those() -> None:
-    published, corrected = (run_study(plan, systems=8, jobs=1, samples=300) for plan in (PUBLISHED, CORRECTED))
+    published, corrected = (monte_carlo(plan, systems=8, jobs=1, samples=300) for plan in (PUBLISHED, CORRECTED))
     assert [case.n_zeros for case in published.cases] == [0, 1, 2, 3] * 2
     assert [case.vacuous for case in published.cases] == [True, False, False, False] * 2
     assert not any(case.vacuous for case in corrected.cases)
@@ -101,7 +101,7 @@ def test_vacuous_cases_are_those_without_a_null_row_and_only_those() -> None:
 
 
 def test_all_studies_see_the_same_systems_and_beat_a_random_subspace() -> None:
-    studies = [run_study(plan, systems=8, seed=2, jobs=1) for plan in STUDIES.values()]
+    studies = [monte_carlo(plan, systems=8, seed=2, jobs=1) for plan in STUDIES.values()]
     assert len({tuple(case.zeros for case in study.cases) for study in studies}) == 1
     for study in studies:
         found = [study.error(case) for case in study.cases if not case.vacuous]
@@ -111,7 +111,7 @@ def test_all_studies_see_the_same_systems_and_beat_a_random_subspace() -> None:
 
 
 def test_the_authors_recorded_medians_are_within_sampling_error() -> None:
-    study = run_study(PUBLISHED, systems=600, seed=1, jobs=1)
+    study = monte_carlo(PUBLISHED, systems=600, seed=1, jobs=1)
     for n_zeros, recorded in RECORDED_MEDIANS.items():
         found = [100 * errors(case).published for case in study.cases if case.n_zeros == n_zeros]
         # The median of 25 draws lies between these quantiles of the population in 99.9 % of all runs: Beta(13, 13).
@@ -122,7 +122,7 @@ def test_the_authors_recorded_medians_are_within_sampling_error() -> None:
 
 
 def test_likelihood_comes_closer_than_the_published_estimator() -> None:
-    study = run_study(CORRECTED, systems=24, jobs=1)
+    study = monte_carlo(CORRECTED, systems=24, jobs=1)
     paper, likelihood = (np.array([study.error(case, name) for case in study.cases], dtype=float) for name in (PAPER, LIKELIHOOD))
     assert np.median(likelihood) < 0.5 * np.median(paper)
     for case in study.cases:
@@ -133,7 +133,7 @@ def test_likelihood_comes_closer_than_the_published_estimator() -> None:
 
 
 def test_the_published_metric_is_the_same_angles_over_another_maximum() -> None:
-    case = run_study(PUBLISHED, systems=2, jobs=1, samples=300).cases[1]
+    case = monte_carlo(PUBLISHED, systems=2, jobs=1, samples=300).cases[1]
     assert errors(case).published == pytest.approx(errors(case).containment / np.sqrt(2))
     system = study_system(2, 5)
     basis = np.linalg.qr(np.random.default_rng(3).standard_normal((8, 4)))[0]
@@ -153,7 +153,7 @@ def test_few_values_have_no_interval() -> None:
 
 def test_progress_counts_to_the_end() -> None:
     seen: list[tuple[int, int, float]] = []
-    run_study(CORRECTED, systems=3, jobs=1, samples=200, progress=lambda *told: seen.append(told))
+    monte_carlo(CORRECTED, systems=3, jobs=1, samples=200, progress=lambda *told: seen.append(told))
     assert [(done, total) for done, total, _ in seen] == [(1, 3), (2, 3), (3, 3)]
     assert seen[-1][2] == 0.0
 
@@ -161,7 +161,7 @@ def test_progress_counts_to_the_end() -> None:
 @pytest.mark.parametrize("wrong", [{"systems": 0}, {"jobs": 0}, {"seed": -1}, {"samples": 0}])
 def test_bad_numbers_are_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(InvalidData, match=next(iter(wrong))):
-        run_study(PUBLISHED, **wrong)
+        monte_carlo(PUBLISHED, **wrong)
 
 
 def test_only_up_to_three_zeros_are_built() -> None:
@@ -175,7 +175,7 @@ def test_figures_are_drawn_on_the_axes_given(tmp_path: Path) -> None:
 
     from faultspace.numeric.study import plots as study_plots
 
-    study = run_study(PUBLISHED, systems=8, jobs=1, samples=200)
+    study = monte_carlo(PUBLISHED, systems=8, jobs=1, samples=200)
     for draw in (study_plots.error_histogram, study_plots.errors_by_zeros, study_plots.errors_by_phase, study_plots.errors_against_circle):
         ax = Figure().add_subplot()
         assert draw(study, ax) is ax
@@ -184,7 +184,7 @@ def test_figures_are_drawn_on_the_axes_given(tmp_path: Path) -> None:
     ax = study_plots.error_histogram(study, Figure().add_subplot())
     heights = [bar.get_height() for container in ax.containers for bar in container if bar.get_hatch() is None]
     assert max(heights) <= 6 and sum(heights) == 6
-    for each, panels in ((study, 4), (run_study(CORRECTED, systems=8, jobs=1, samples=200), 6)):
+    for each, panels in ((study, 4), (monte_carlo(CORRECTED, systems=8, jobs=1, samples=200), 6)):
         figure = study_plots.study_figure(each)
         assert len(figure.axes) == panels
         figure.savefig(tmp_path / "figure.png")

@@ -10,7 +10,7 @@ import pytest
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.study import workers as study_workers
-from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Plan, Study, run_study
+from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Plan, Study, monte_carlo
 from faultspace.numeric.study.workers import in_order
 
 
@@ -31,11 +31,11 @@ def assert_same(one: Study, two: Study) -> None:
 
 def test_cases_do_not_depend_on_the_number_of_workers_nor_on_how_many_follow() -> None:
     plan = Plan(**{**vars(CORRECTED), "worth": 1})
-    alone, together = (run_study(plan, systems=6, seed=4, jobs=jobs, samples=300) for jobs in (1, 2))
+    alone, together = (monte_carlo(plan, systems=6, seed=4, jobs=jobs, samples=300) for jobs in (1, 2))
     assert_same(alone, together)
-    shorter = run_study(plan, systems=5, seed=4, jobs=1, samples=300)
+    shorter = monte_carlo(plan, systems=5, seed=4, jobs=1, samples=300)
     assert shorter.cases == alone.cases[:5]
-    assert run_study(plan, systems=5, seed=5, jobs=1, samples=300).cases != shorter.cases
+    assert monte_carlo(plan, systems=5, seed=5, jobs=1, samples=300).cases != shorter.cases
 
 
 def test_a_cluster_gives_the_same_cases_and_only_its_scheduler_counts() -> None:
@@ -43,9 +43,9 @@ def test_a_cluster_gives_the_same_cases_and_only_its_scheduler_counts() -> None:
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
         seen: list[int] = []
         address = cluster.scheduler_address
-        spread = run_study(CORRECTED, systems=6, seed=4, samples=300, cluster=address, progress=lambda done, total, left: seen.append(done))
+        spread = monte_carlo(CORRECTED, systems=6, seed=4, samples=300, cluster=address, progress=lambda done, *_: seen.append(done))
     assert seen == [1, 2, 3, 4, 5, 6]
-    assert_same(run_study(CORRECTED, systems=6, seed=4, samples=300, jobs=1), spread)
+    assert_same(monte_carlo(CORRECTED, systems=6, seed=4, samples=300, jobs=1), spread)
 
 
 def test_without_a_scheduler_there_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -53,7 +53,7 @@ def test_without_a_scheduler_there_one_line_says_so(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(study_workers, "PATIENCE", 1)
     for address in ("tcp://127.0.0.1:9", "nonsense://", "127.0.0.1:notaport"):
         with pytest.raises(InvalidData, match="no Dask scheduler answers"):
-            run_study(PUBLISHED, systems=2, samples=100, cluster=address)
+            monte_carlo(PUBLISHED, systems=2, samples=100, cluster=address)
 
 
 def test_without_workers_there_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -63,13 +63,13 @@ def test_without_workers_there_one_line_says_so(monkeypatch: pytest.MonkeyPatch)
         distributed.LocalCluster(n_workers=0, dashboard_address=None) as cluster,
         pytest.raises(InvalidData, match="has no worker"),
     ):
-        run_study(PUBLISHED, systems=2, samples=100, cluster=cluster.scheduler_address)
+        monte_carlo(PUBLISHED, systems=2, samples=100, cluster=cluster.scheduler_address)
 
 
 def test_without_distributed_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InvalidData, match=r"faultspace\[cluster\]"):
-        run_study(PUBLISHED, systems=2, samples=100, cluster="tcp://127.0.0.1:8786")
+        monte_carlo(PUBLISHED, systems=2, samples=100, cluster="tcp://127.0.0.1:8786")
 
 
 def test_results_come_in_the_order_of_the_tasks_with_the_time_that_remains() -> None:
@@ -81,4 +81,4 @@ def test_results_come_in_the_order_of_the_tasks_with_the_time_that_remains() -> 
 
 def test_a_cluster_and_a_number_of_processes_are_refused_together() -> None:
     with pytest.raises(InvalidData, match="leave one of them out"):
-        run_study(PUBLISHED, systems=2, jobs=2, cluster="tcp://127.0.0.1:8786")
+        monte_carlo(PUBLISHED, systems=2, jobs=2, cluster="tcp://127.0.0.1:8786")

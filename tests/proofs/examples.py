@@ -22,7 +22,7 @@ from faultspace.exact.algebra.fields import QQ, Field, NumberField, PrimeField
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.inputs import InputLimit
-from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
@@ -98,7 +98,7 @@ def experiments() -> dict[str, Experiment]:
 
 def limit_certificates(about: Experiment) -> Iterator[Certificate]:
     """By both instruments and both regressions, where these have one solution."""
-    found = population_limits(about)
+    found = limit(about)
     yield make_limit.past_input_limit(found)
     yield make_limit.past_input_and_output_limit(found)
     if found.true_AC is not None:
@@ -109,7 +109,7 @@ def limit_certificates(about: Experiment) -> Iterator[Certificate]:
 
 def forged_inputs(about: Experiment, B: object, D: object) -> Certificate:
     """As if these B and D were what the true-AC regression gives."""
-    found = population_limits(about)
+    found = limit(about)
     return written(make_limit.output_error_inputs(replace(found, true_AC=InputLimit(Matrix.of(B), Matrix.of(D)))))
 
 

@@ -14,7 +14,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moesp import limit
 from faultspace.exact.limits.moments import covariances
 from faultspace.proofs.adversary import engine, following
 from faultspace.proofs.adversary.attacking import Attacking, of_reading, of_row
@@ -53,7 +53,7 @@ def test_the_false_repair_is_found_from_nothing(seed: int) -> None:
     assert trial.witness is not None, trial
     assert time.process_time() - started < 20
     drawn = trial.attack.family.at(trial.witness.point)
-    limits = population_limits(exact_experiment(drawn))
+    limits = limit(exact_experiment(drawn))
     assert limits.past_inputs.rank < limits.past_inputs.observability_rank == len(drawn.A)
     for certificate in trial.witness.certificates:
         checker.verify(certificate)
@@ -205,7 +205,7 @@ def test_limits_in_floats_are_the_exact_ones(family: object) -> None:
     low, high = np.array(family.box).T  # type: ignore[attr-defined]
     for _ in range(3):
         point = [Fraction(x).limit_denominator(20) for x in rng.uniform(0.7 * low, 0.7 * high)]
-        limits = population_limits(exact_experiment(family.at(point)))  # type: ignore[attr-defined]
+        limits = limit(exact_experiment(family.at(point)))  # type: ignore[attr-defined]
         floats = float_limits(family.at([float(x) for x in point]))  # type: ignore[attr-defined]
         for exact, found in ((limits.past_inputs.matrix, floats.past_inputs), (limits.past_outputs.matrix, floats.past_outputs)):
             wanted = np.array([[int(x.p) / int(x.q) for x in row] for row in exact.elements()])

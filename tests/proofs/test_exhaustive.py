@@ -7,7 +7,7 @@ from itertools import product
 
 import pytest
 
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.evidence.exhaustive import all_systems, orbits
 
@@ -61,7 +61,7 @@ def test_zero_dimensions(q: int, n: int, p: int, m: int) -> None:
 
 
 def invariants(system: ResidualSystem) -> tuple[object, ...]:
-    report = structure(system).to_json()
+    report = analyze(system).to_json()
     return tuple(str(report[key]) for key in report if key not in ("fault_space", "field"))
 
 

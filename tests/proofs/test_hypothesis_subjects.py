@@ -12,7 +12,7 @@ import pytest
 from faultspace.exact.algebra.fields import PrimeField
 from faultspace.exact.algebra.matrices import Matrix, column_basis, rank
 from faultspace.exact.algebra.polynomials import divide, gcd, monic
-from faultspace.exact.limits.moesp import population_limits
+from faultspace.exact.limits.moesp import limit
 from faultspace.exact.pairs.assignment import ZeroAssignment, assign_zeros
 from faultspace.exact.pairs.bad_variety import _codimension, _index_lists
 from faultspace.exact.pairs.polynomial import Exceptional, polynomial_at
@@ -236,11 +236,11 @@ def test_the_rank_drops_on_a_hypersurface_only(t: str, d: str, a: str, b: str, s
     C = ONE_OUTPUT if s == 3 else BOTH_STATES
     T, D, one, two = (Fraction(x) for x in (t, d, a, b))
     assert one * two * D * (T * T - D if s == 3 else T) == 1 + two
-    assert population_limits(drop(t, d, a, b, s, C)).past_inputs.rank == 1
+    assert limit(drop(t, d, a, b, s, C)).past_inputs.rank == 1
     beside = drop(t, d, str(one + Fraction(1, 100)), b, s, C)
-    assert population_limits(beside).past_inputs.rank == 2
+    assert limit(beside).past_inputs.rank == 2
     longer = replace(drop(t, d, a, b, s, C), past=3)
-    assert population_limits(longer).past_inputs.rank == 2
+    assert limit(longer).past_inputs.rank == 2
 
 
 def test_a_limit_from_which_a_cannot_be_read_is_not_right() -> None:

@@ -24,7 +24,7 @@ from faultspace.exact.limits import experiments as reading
 from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.filters import Filter
 from faultspace.exact.limits.inputs import InputLimit
-from faultspace.exact.limits.moesp import PopulationLimits, population_limits
+from faultspace.exact.limits.moesp import PopulationLimits, limit
 from faultspace.exact.limits.moments import covariances
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import limit_certificates as make
@@ -69,7 +69,7 @@ def test_random_limits_are_certified_and_true() -> None:
     rng, made, refused, ranks = Random(8), 0, 0, set[tuple[bool, bool]]()
     for _ in range(60):
         try:
-            found = population_limits(read_experiment(drawn(rng)))
+            found = limit(read_experiment(drawn(rng)))
         except InvalidInput:
             continue
         for maker in MAKERS:
@@ -104,13 +104,13 @@ def test_every_limit_certificate_agrees_with_the_schema() -> None:
 
 
 def test_no_solution_that_is_only_one_has_no_certificate() -> None:
-    unseen = population_limits(experiment(C=[[0]], s=1))
+    unseen = limit(experiment(C=[[0]], s=1))
     for maker, reason in ((make.output_error_inputs, "not unique"), (make.moesp_inputs, "more than one")):
         with pytest.raises(Unprovable, match=reason):
             maker(unseen)
     # Two inputs of which the second repeats the first, three samples later: unique all the same, for one state and two samples.
     late = experiment(B=[[1, 0]], D=[[0, 1]], u_filter=[[[1], [0]], [[0], [0]], [[0], [0]], [[0], [1]]], v_filter=[[[0]], [[1]]], s=1)
-    checker.verify(make.output_error_inputs(population_limits(late)))
+    checker.verify(make.output_error_inputs(limit(late)))
 
 
 # -- what each refusal keeps out -----------------------------------------------------------------------------------------
@@ -118,13 +118,13 @@ def test_no_solution_that_is_only_one_has_no_certificate() -> None:
 
 def unstable_filter() -> Certificate:
     """u(k) = e(k) - 2 u(k-1) has a solution of its Lyapunov equation, and no stationary covariance."""
-    return make.past_input_limit(population_limits(replace(experiment(), u_filter=Filter((Matrix.of([[1]]),), (fmpq(1), fmpq(2))))))
+    return make.past_input_limit(limit(replace(experiment(), u_filter=Filter((Matrix.of([[1]]),), (fmpq(1), fmpq(2))))))
 
 
 def unstable_system(monkeypatch: pytest.MonkeyPatch) -> Certificate:
     """Nor has the state of x+ = 2 x + u + v."""
     monkeypatch.setattr(reading, "is_stable", lambda _: True)
-    return make.moesp_inputs(population_limits(experiment(A=[[2]])))
+    return make.moesp_inputs(limit(experiment(A=[[2]])))
 
 
 def one_input_twice(monkeypatch: pytest.MonkeyPatch) -> Certificate:
@@ -152,7 +152,7 @@ def unseen_state(monkeypatch: pytest.MonkeyPatch) -> Certificate:
 
 def plain_least_squares() -> Certificate:
     """The nearest Toeplitz matrix, without the projection: as if O_s spanned nothing."""
-    found = population_limits(experiments()["coloured"])
+    found = limit(experiments()["coloured"])
     W = found.blocks.yf_uf @ Matrix(QQ, 2, 2, found.blocks.uf_uf.flint.inv())
     B, D = [[str(W[1, 0])]], [[str((W[0, 0] + W[1, 1]) / 2)]]
     certificate = written(make.moesp_inputs(found))

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from faultspace.exact.algebra.matrices import rank, stacked
-from faultspace.exact.structure.record import structure
+from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import data_fault_space, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.audit.exact_comparison import characteristic_polynomial, markov
@@ -170,7 +170,7 @@ def test_views_are_the_same_record(vector: Any) -> None:
 def test_unexciting_faults_are_explained_by_others(vector: Any) -> None:
     """Problem (11) has more solutions on these data than for the system, and the faults as given are fewer than they seem."""
     system = vector.system
-    known = structure(system).fault_space
+    known = analyze(system).fault_space
     found = data_fault_space(vector.r, system.A, system.C, system.n + 5)
     assert vector.shown < system.m
     assert found.nrows != known.dimension or rank(stacked(found, known.basis)) > known.dimension

@@ -3,6 +3,7 @@
 entry              one field element; long ones are cut in the middle
 polynomial         coefficients by ascending power as a polynomial in q
 matrix_lines       a matrix as lines of aligned columns; large ones lose their middle
+field_words        the name of a field
 several            a list of numbers on one line
 """
 
@@ -11,9 +12,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ..exact.algebra.fields import Field, NumberField
-from ..exact.algebra.matrices import Matrix
-from ..exact.algebra.writing import sum_of_powers
+from .fields import QQ, Field, NumberField
+from .matrices import Matrix
+from .writing import sum_of_powers
 
 LONGEST_ENTRY = 40
 MOST_ROWS, MOST_COLUMNS, MOST_NUMBERS = 24, 12, 24
@@ -29,6 +30,13 @@ def entry(element: Any, field: Field) -> str:
 def polynomial(coefficients: Sequence[Any], field: Field, unknown: str = "q") -> str:
     """The polynomial with these ascending coefficients, highest power first."""
     return sum_of_powers([entry(c, field) for c in coefficients], unknown)
+
+
+def field_words(field: Field) -> str:
+    """The field as people name it; a number field by the polynomial whose root it adjoins."""
+    if isinstance(field, NumberField):
+        return f"Q(a), a a root of {polynomial([QQ.element(c) for c in field.minimal_polynomial], QQ, 'a')}"
+    return str(field)
 
 
 def matrix_lines(matrix: Matrix) -> list[str]:

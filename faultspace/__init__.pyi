@@ -1,0 +1,14 @@
+from .base import errors as errors
+from .exact.limits.moesp import limit as limit
+from .exact.structure.behavior import compare as compare
+from .exact.structure.record import analyze as analyze
+from .exact.system.systems import System as System
+from .numeric.audit.running import audit as audit
+from .numeric.data.files import read_record as read_record
+from .numeric.pipeline import identify as identify
+from .numeric.study.studies import monte_carlo as monte_carlo
+from .proofs.trust.certifying import certify as certify
+from .proofs.trust.certifying import check as check
+from .proofs.verification import verify as verify
+
+__version__: str

@@ -1,0 +1,51 @@
+"""What a person reads of a record: pairs of a name and a value, and the forms they are shown in.
+
+Sheet      (name, value) pairs; a pair without a value is a heading, one without a name goes on with the value above it
+line       one pair as a line of text
+Shown      gives a record with `title` and `sheet` its `summary()`, a short `repr` and the table that a notebook shows
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from html import escape
+
+Sheet = Iterable[tuple[str, str]]
+
+NAME_WIDTH = 36
+
+
+def line(name: str, value: str) -> str:
+    """One pair of a sheet on one line, the values of a sheet below each other."""
+    return f"    {name:<{NAME_WIDTH}}{value}" if value else f"  {name}"
+
+
+class Shown(ABC):
+    """A record that can be read by people."""
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """What the record is about, on one short line."""
+
+    @abstractmethod
+    def sheet(self) -> Sheet:
+        """What there is to say of it."""
+
+    def summary(self) -> str:
+        """The record in words: the title, then a line for each pair of the sheet. It is what the command of the same name prints."""
+        return "\n".join([self.title, *(line(name, value) for name, value in self.sheet())])
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self.title}>"
+
+    def _repr_html_(self) -> str:
+        """The sheet as a table, for notebooks."""
+        rows = "".join(
+            f"<tr><td>{escape(name)}</td><td style='white-space: pre; text-align: left'>{escape(value)}</td></tr>"
+            if value
+            else f"<tr><th colspan='2' style='text-align: left'>{escape(name)}</th></tr>"
+            for name, value in self.sheet()
+        )
+        return f"<table><caption>{escape(self.title)}</caption>{rows}</table>"

@@ -1,0 +1,11 @@
+from .trust.certifying import Checked as Checked
+from .trust.certifying import certify as certify
+from .trust.certifying import check as check
+from .trust.checker import Malformed as Malformed
+from .trust.checker import Rejected as Rejected
+from .trust.structure_certificates import Unprovable as Unprovable
+from .verdict.ledger import Claim as Claim
+from .verdict.ledger import Reading as Reading
+from .verdict.verdicts import Report as Report
+from .verdict.verdicts import Verdict as Verdict
+from .verification import verify as verify

@@ -1,0 +1,199 @@
+"""Certificates by the name of their kind, and the checker's word on them: what `faultspace.certify` and `faultspace.check` are.
+
+KINDS      kind of a certificate -> what it needs to know besides the system, and the function that makes it
+certify    the certificate of a kind about a system, a pair of systems, or an experiment
+Checked    what the checker has verified, with a summary
+check      puts a certificate before the checker
+
+Nothing here is trusted: `certify` may be wrong, and the checker then rejects what it made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
+
+from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
+from ...exact.limits.experiments import Experiment
+from ...exact.limits.moesp import PopulationLimits, limit
+from ...exact.structure.fault_columns import fault_space
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import FaultySystem, ResidualSystem
+from . import checker
+from . import limit_certificates as limits
+from . import structure_certificates as structure
+from .structure_certificates import Certificate, Unprovable
+
+
+class _Kind(NamedTuple):
+    """What a kind asks for beside its subject, what it may be told, and its maker, which gets subject and options."""
+
+    needed: tuple[str, ...]
+    optional: tuple[str, ...]
+    make: Callable[..., Certificate]
+
+
+def _left_invertible(system: ResidualSystem, kind: str) -> Certificate:
+    certificate = structure.left_invertible(kernel_representation(system))
+    if certificate["kind"] != kind:
+        raise Unprovable("the system is left-invertible" if kind.startswith("not") else "the system is not left-invertible")
+    return certificate
+
+
+def _moesp_limit(found: PopulationLimits, instruments: str) -> Certificate:
+    makers = {"past-inputs": limits.past_input_limit, "past-inputs-and-outputs": limits.past_input_and_output_limit}
+    make: Callable[[PopulationLimits], Certificate] = _choose(makers, "instruments", instruments)
+    return make(found)
+
+
+def _input_limit(found: PopulationLimits, regression: str) -> Certificate:
+    makers = {"true-AC": limits.output_error_inputs, "moesp": limits.moesp_inputs}
+    make: Callable[[PopulationLimits], Certificate] = _choose(makers, "regression", regression)
+    return make(found)
+
+
+def _matrix_rank(system: ResidualSystem, matrix: str, window: int | None = None) -> Certificate:
+    _choose(dict.fromkeys(("observability", "reachability", "toeplitz", "window")), "matrix", matrix)
+    if matrix in ("toeplitz", "window") and window is None:
+        raise InvalidInput(f"window: got none, expected the number of samples of the {matrix} matrix")
+    return structure.matrix_rank(matrix, system, window=window)
+
+
+def _inversion_delay(system: ResidualSystem, initial_state: str) -> Certificate:
+    known = _choose({"known": True, "unknown": False}, "initial_state", initial_state)
+    return structure.inversion_delay(kernel_representation(system), known_state=known)
+
+
+def _fault_space(system: ResidualSystem, window: int | None = None) -> Certificate:
+    kernel = kernel_representation(system)
+    return structure.fault_space(kernel, fault_space(kernel, window))
+
+
+def _window_equality(system: ResidualSystem, other: ResidualSystem, window: int) -> Certificate:
+    return structure.window_equality(kernel_representation(system), kernel_representation(other), window)
+
+
+KINDS: dict[str, _Kind] = {
+    "behaviour-difference": _Kind(("other",), (), lambda s, other: structure.behaviour_difference(s, kernel_representation(other))),
+    "behaviour-equality": _Kind(
+        ("other",), (), lambda s, other: structure.behaviour_equality(kernel_representation(s), kernel_representation(other))
+    ),
+    "behaviour-inclusion": _Kind(("other",), (), lambda s, other: structure.behaviour_inclusion(s, kernel_representation(other))),
+    "fault-space": _Kind((), ("window",), _fault_space),
+    "finite-zeros": _Kind((), (), structure.finite_zeros),
+    "infinite-zeros": _Kind((), (), structure.infinite_zeros),
+    "input-limit": _Kind(("regression",), (), _input_limit),
+    "inversion-delay": _Kind(("initial_state",), (), _inversion_delay),
+    "left-invertible": _Kind((), (), lambda s: _left_invertible(s, "left-invertible")),
+    "left-invertible-line": _Kind(("other",), (), lambda s, other: structure.left_invertible_line(s, other)),
+    "matrix-rank": _Kind(("matrix",), ("window",), _matrix_rank),
+    "moesp-limit": _Kind(("instruments",), (), _moesp_limit),
+    "not-left-invertible": _Kind((), (), lambda s: _left_invertible(s, "not-left-invertible")),
+    "schur-stable": _Kind((), (), structure.schur_stable),
+    "window-equality": _Kind(("other", "window"), (), _window_equality),
+    "window-ranks": _Kind((), (), lambda s: structure.window_ranks(kernel_representation(s))),
+}  # fmt: skip
+OF_LIMITS = ("input-limit", "moesp-limit")
+
+
+def certify(subject: ResidualSystem | FaultySystem | Experiment | Mapping[str, Any], kind: str, **options: Any) -> Certificate:
+    """The certificate of this kind about a system: a statement with a witness, as a JSON-ready dict that `check` can decide.
+
+    `subject` is an exact system (its inputs play no part), or, for "moesp-limit" and "input-limit", an Experiment or the dict of an
+    experiment's file. Some kinds take options: `other`, a second system, for "behaviour-difference", "behaviour-equality",
+    "behaviour-inclusion", "left-invertible-line" and "window-equality"; `window`, a number of samples, for "window-equality", "fault-space"
+    (none: the limit) and "matrix-rank"; `matrix`, one of "observability", "reachability", "toeplitz" and "window", for "matrix-rank";
+    `initial_state`, "known" or "unknown", for "inversion-delay"; `instruments`, "past-inputs" or "past-inputs-and-outputs", for
+    "moesp-limit"; `regression`, "true-AC" or "moesp", for "input-limit". The kinds "finite-zeros", "infinite-zeros", "left-invertible",
+    "not-left-invertible", "schur-stable" and "window-ranks" take none. What each states is written in proofs/trust/FORMAT.md.
+
+    Raises InvalidInput for an unknown kind (the message names the kinds), for options that do not go with it and for a subject of the wrong
+    type, and `faultspace.proofs.Unprovable` where the statement is not true.
+
+    >>> import faultspace as fs
+    >>> system = fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]])
+    >>> certificate = fs.certify(system, "inversion-delay", initial_state="known")
+    >>> certificate["statement"]["delay"]
+    1
+    >>> fs.check(certificate).assumes
+    []
+    """
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise InvalidInput(f"kind: got {shorten(kind)}, expected one of {', '.join(KINDS)}")
+    needed, optional, make = KINDS[kind]
+    for name in options:
+        if name not in (*needed, *optional):
+            raise InvalidInput(f"{name}: {kind} takes no such option, expected {' and '.join((*needed, *optional)) or 'none'}")
+    for name in needed:
+        if name not in options:
+            raise InvalidInput(f"{name}: got none, {kind} needs one")
+    if "window" in options:
+        window = options["window"]
+        if not (window is None and "window" in optional) and (type(window) is not int or window < 0):
+            raise InvalidInput(f"window: got {shorten(window)}, expected an integer >= 0, a number of samples")
+    if "other" in options:
+        options["other"] = _system(options["other"], "other")
+    if kind in OF_LIMITS:
+        if not isinstance(subject, (Experiment, Mapping)):
+            raise InvalidInput(f"subject: got {shorten(subject)}, expected an experiment, which {kind} is about")
+        return make(limit(subject), **options)
+    try:
+        return make(_system(subject, "subject"), **options)
+    except ValueError as error:
+        if isinstance(error, (InvalidInput, Unprovable)):
+            raise
+        raise InvalidInput(f"{kind}: {error}") from None
+
+
+class Checked(Shown, checker.Verified):
+    """What the checker has verified: `statement`, in words, and `assumes`, a list of what it took for granted, empty in most cases."""
+
+    @property
+    def title(self) -> str:
+        """Whether the statement holds without an assumption."""
+        return "verified under an assumption" if self.assumes else "verified"
+
+    def sheet(self) -> list[tuple[str, str]]:
+        """The statement and the assumptions, as (name, value) pairs."""
+        return [("statement", self.statement), *(("assumed, not verified", text) for text in self.assumes)]
+
+    def to_json(self) -> dict[str, Any]:
+        """The statement and the assumptions."""
+        return {"statement": self.statement, "assumes": self.assumes}
+
+
+def check(certificate: Mapping[str, Any], systems: Iterable[Any] = ()) -> Checked:
+    """What a certificate proves, decided by the checker, which trusts nothing that the certificate says.
+
+    `certificate` is the JSON-ready dict that `certify` returns or that a certificate's file holds (a file is best read by
+    `faultspace.proofs.trust.checker.load`, which keeps the limits of the format). Each of `systems`, JSON-ready dicts or systems, must be
+    one that the statement is about. The result has `statement`, in words, and `assumes`, the list of what was not verified.
+
+    Raises `faultspace.proofs.Rejected` where the witness does not prove the statement, and `faultspace.proofs.Malformed` for what is no
+    certificate. The format is in proofs/trust/FORMAT.md.
+
+    >>> import faultspace as fs
+    >>> certificate = fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "schur-stable")
+    >>> fs.check(certificate)
+    <Checked: verified>
+    >>> certificate["statement"]["system"]["A"] = [["2"]]
+    >>> fs.check(certificate)
+    Traceback (most recent call last):
+      ...
+    faultspace.proofs.trust.checker.Rejected: an eigenvalue is not inside the unit circle
+    """
+    insisted = [one.to_json() if isinstance(one, (ResidualSystem, FaultySystem, Experiment)) else one for one in systems]
+    return Checked(*checker.verify(certificate, insisted))
+
+
+def _system(given: Any, name: str) -> ResidualSystem:
+    if not isinstance(given, (ResidualSystem, FaultySystem)):
+        raise InvalidInput(f"{name}: got {shorten(given)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
+    return given.residual
+
+
+def _choose(known: Mapping[str, Any], name: str, given: object) -> Any:
+    if not isinstance(given, str) or given not in known:
+        raise InvalidInput(f"{name}: got {shorten(given)}, expected one of {', '.join(known)}")
+    return known[given]
