@@ -1,6 +1,6 @@
 """What `identify` returns: the model, the residual, the count of faults, their space and signal, and what a user must know.
 
-Answer        the record; None stands for what was not asked because of what came before
+Identification        the record; None stands for what was not asked because of what came before
 COUNTED_BY    what a count can rest on
 """
 
@@ -8,25 +8,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..base.arrays import Array
 from .count.against_healthy import FaultsAgainstHealthy
 from .count.mean_shift import MeanShift
 from .count.rank_gap import FaultDimension
 from .data.records import Record
-from .model.past_inputs import Identification
-from .signal.long_reconstruction import FaultSignal
-from .signal.long_residuals import LongResidual
+from .model.past_inputs import MoespModel
+from .model.residuals import ResidualSignal
+from .signal.reconstruction import Reconstruction
+from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
 
-Array = NDArray[np.float64]
 COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
 """What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class Identification:
     """What was found. None: not asked, because of what came before; `notes` says what a user must know, why an end was reached included.
 
     singular_values of PI-MOESP; order_given: the order was stated by the user; held: the samples that faults were counted on; count: the
@@ -43,23 +41,24 @@ class Answer:
     means_removed: bool
     order_given: bool
     singular_values: Array
-    identification: Identification | None
-    residual: LongResidual | None = None
+    model: MoespModel | None
+    residual: ResidualSignal | None = None
+    sizes: ResidualSizes | None = None
     held: tuple[int, int] = (0, 0)
     dimension: FaultDimension | None = None
-    count: int | None = None
-    count_given: bool = False
-    count_reason: str = ""
+    n_v: int | None = None
+    n_v_given: bool = False
+    reason: str = ""
     counted_by: str | None = None
-    healthy_until: int | None = None
-    healthy: tuple[int, int] = (0, 0)
+    healthy: int | None = None
+    counted_against: tuple[int, int] = (0, 0)
     against: FaultsAgainstHealthy | None = None
     mean: MeanShift | None = None
     visible: Array | None = None
     unexplained: bool = False
-    space: FaultSpaceEstimate | None = None
+    fault_space: FaultSpaceEstimate | None = None
     pair: tuple[Array, Array] | None = None
-    signal: FaultSignal | None = None
+    signal: Reconstruction | None = None
     explained: float | None = None
     by_noise: float | None = None
     notes: tuple[str, ...] = ()
@@ -67,16 +66,16 @@ class Answer:
     @property
     def modelled(self) -> int:
         """How many samples, from the first on, the model is from."""
-        return self.healthy_until or len(self.record)
+        return self.healthy or len(self.record)
 
     @property
     def at_least(self) -> int:
         """Faults that act in any case: the count where there is one; else one where anything stands out, the mean included."""
-        if self.count is not None:
-            return self.count
+        if self.n_v is not None:
+            return self.n_v
         return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
 
     @property
     def moved(self) -> bool:
         """Whether the mean of the residual left that of the healthy samples."""
-        return self.healthy_until is not None and self.mean is not None and self.mean.shifted is True
+        return self.healthy is not None and self.mean is not None and self.mean.shifted is True

@@ -27,6 +27,7 @@ from faultspace.exact.limits.moesp import population_limits
 from faultspace.exact.structure.record import Structure, structure
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
+from ...base.arrays import Array
 from ..model.compression import EPS, compress
 from ..model.past_inputs import pi_moesp, pi_moesp_from_compression
 from ..rounding.conditioning import SMALL, ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
@@ -34,7 +35,7 @@ from .drawing import drawn, stable, upward
 from .exact_comparison import matched, poles, roots
 from .fault_vectors import FaultView
 from .making_fault_vectors import fault_vectors, noisy_vectors, unexciting_vectors
-from .rationals import Array, floats, matrix, scaled
+from .rationals import floats, matrix, scaled
 from .recipe_vectors import ConsistencyVector
 from .vectors import POINTS, IdentificationVector, StructureVector
 

@@ -10,12 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..data.validation import enough_samples, positive, signal
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

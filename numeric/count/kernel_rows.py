@@ -34,11 +34,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.stats
-from numpy.typing import NDArray
 
-from faultspace.numeric.space.one_row import WindowMoments, kernel_row, window_moments
-
-Array = NDArray[np.float64]
+from ...base.arrays import Array
+from ..space.one_row import WindowMoments, kernel_row, window_moments
 
 ALARM = 1.0
 CLEAR = 2.5

@@ -31,14 +31,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
-from faultspace.numeric.count.kernel_rows import LawLevel, kernel_row_test
-from faultspace.numeric.data.validation import positive, signal
-
-Array = NDArray[np.float64]
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
+from ..count.kernel_rows import LawLevel, kernel_row_test
+from ..data.validation import positive, signal
 
 DEFAULT_BLOCK_ROWS = 20
 LARGEST_DEGREE = 9

@@ -1,6 +1,6 @@
 """The pictures of `faultspace identify`, one a file.
 
-pictures     draws what an Answer holds into a folder; remarks on what could not be had
+pictures     draws what an Identification holds into a folder; remarks on what could not be had
 PICTURES     the names of the files
 
     singular-values   of PI-MOESP, with the order
@@ -22,11 +22,11 @@ import numpy as np
 
 from ..count.rank_gap import FaultDimension
 from ..signal import plots
-from ..signal.long_residuals import loudest
+from ..signal.residual_sizes import loudest
 
 if TYPE_CHECKING:
-    from ..result import Answer
-    from ..signal.long_reconstruction import FaultSignal
+    from ..result import Identification
+    from ..signal.reconstruction import Reconstruction
 
 PICTURES = (
     "singular-values.png", "window-ranks.png", "noise-levels.png", "zeros-and-poles.png", "outputs.png", "fault-signal.png",
@@ -37,7 +37,7 @@ TICKS = 7
 WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)
 
 
-def pictures(answer: Answer, folder: Path) -> list[str]:
+def pictures(answer: Identification, folder: Path) -> list[str]:
     """Draws what there is; without matplotlib the sentence that says so."""
     try:
         figure: Any = import_module("matplotlib.figure")
@@ -50,9 +50,9 @@ def pictures(answer: Answer, folder: Path) -> list[str]:
     return []
 
 
-def _drawings(answer: Answer) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
+def _drawings(answer: Identification) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
     """Name, size and what to do with a figure."""
-    model, dimension, rest, signal = answer.identification, answer.dimension, answer.residual, answer.signal
+    model, dimension, rest, signal = answer.model, answer.dimension, answer.residual, answer.signal
     order = model.order if model else None
     spectrum, ranks, levels, plane, outputs, faults = PICTURES
     drawings: list[tuple[str, tuple[float, float], Callable[[Any], Any]]] = [
@@ -72,8 +72,8 @@ def _drawings(answer: Answer) -> list[tuple[str, tuple[float, float], Callable[[
         simulated = y - rest.store.read(first, N)
         draw = plots.plot_measured_and_simulated
         drawings.append((outputs, WIDE, lambda figure: draw(y, simulated, names=names, first=first, ax=figure.add_subplot())))
-    if rest and signal:
-        near = loudest(rest.energies, len(signal.store), PICTURED)
+    if answer.sizes and signal:
+        near = loudest(answer.sizes.energies, len(signal.store), PICTURED)
         drawings.append((faults, TALL, lambda figure: _draw_signal(signal, near, figure)))
     return drawings
 
@@ -101,7 +101,7 @@ def _draw_levels(dimension: FaultDimension, ax: Any) -> None:
         ax.spines[side].set_visible(False)
 
 
-def _draw_signal(signal: FaultSignal, near: tuple[int, int], figure: Any) -> None:
+def _draw_signal(signal: Reconstruction, near: tuple[int, int], figure: Any) -> None:
     """The whole signal above, the samples `near` below."""
     N = len(signal.store)
     part = 1 if N <= MOST_DRAWN else -(-2 * N // MOST_DRAWN)
@@ -119,7 +119,7 @@ def _draw_signal(signal: FaultSignal, near: tuple[int, int], figure: Any) -> Non
     detail.set_title("detail, where the residual is loudest", loc="left")
 
 
-def _draw_stretch(signal: FaultSignal, rows: Any, first: int, step: float, ax: Any) -> None:
+def _draw_stretch(signal: Reconstruction, rows: Any, first: int, step: float, ax: Any) -> None:
     """Rows that stand for `step` samples each, from sample `first` on, with an axis that tells samples."""
     begin, end = (int(np.clip(round((edge - first) / step), 0, len(rows))) for edge in signal.trusted)
     plots.plot_fault_signal(rows, trusted=(begin, end), ax=ax)

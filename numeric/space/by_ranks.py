@@ -20,16 +20,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ..count.arguments import Arguments, arguments
 from ..count.windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
 from .by_likelihood import fault_space_by_least_squares, fault_space_by_likelihood
 from .error_bound import fault_space_error_bound
 from .largest import largest_fault_space
 from .result import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
-
-Array = NDArray[np.float64]
 
 # A singular value this far below the largest is rounding in the data, not noise: sensors are not that good.
 EXACT = 2e-12

@@ -16,13 +16,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ...base.arrays import Array
 
 if TYPE_CHECKING:
     from .uncertainty import SpaceUncertainty
-
-Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True)
 class FaultSpaceEstimate:

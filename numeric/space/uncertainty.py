@@ -16,13 +16,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.windows import ObservedCoordinates
 from .result import condition_maps, kernel_conditions
-
-Array = NDArray[np.float64]
 
 DRAWS = 4000
 _SEED = 20250519
