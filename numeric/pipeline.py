@@ -69,8 +69,8 @@ def identify(
 
     `order` is the number n of states, `block_rows` the samples of a window, `n_v` the number of faults, each found from the data where it
     is not stated; `healthy` says how many samples, from the first on, are without fault; `remove_means` takes the means off, of the healthy
-    samples where there are any. `on_progress(stage, done, total)` hears how far it has come. Raises InvalidData for data from which no
-    model can be had; what cannot be told after that is a note of the Identification.
+    samples where there are any. `on_progress(stage, done, total)` hears how far it has come. Raises InvalidInput for a file that cannot be
+    read, and InvalidData for data from which no model can be had; what cannot be told after that is a note of the Identification.
 
     >>> import numpy as np
     >>> from faultspace.numeric.model.models import StateSpaceModel

@@ -67,7 +67,20 @@ def split_names(given: Sequence[str]) -> list[str]:
 
 
 def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], tell: Tell | None = None) -> Record:
-    """The record in the file at `path`; `tell` hears how much of how much has been read. Raises InvalidInput."""
+    """The record in the file at `path`, whose channels `inputs` (n_u) and `outputs` (p) are named as in the module's docstring.
+
+    CSV and other text, Parquet, NPZ, NPY and MAT are read, one row a sample, in the file's units; `tell(done, total)` hears how much of how
+    much has been read. Raises InvalidInput, which says what was got, what is needed and what to try.
+
+    >>> import os, tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "data.csv")
+    ...     with open(path, "w") as stream:
+    ...         _ = stream.write("valve,level\\n0,1.5\\n1,2.5\\n")
+    ...     record = read_record(path, inputs=["valve"], outputs=["level"])
+    >>> record.y.tolist(), record.u.tolist()
+    ([[1.5], [2.5]], [[0.0], [1.0]])
+    """
     with in_file(path), ExitStack() as stack:
         chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
         for option, names in chosen.items():

@@ -32,11 +32,16 @@ def record_from(
     outputs: Sequence[str] | None = None,
     on_progress: Tell | None = None,
 ) -> Record:
-    """The record of y (N, p) and u (N, n_u): arrays, or data frames, whose columns give the names; or of y alone: a Record, the path of a
+    """The record of y (N, p) and u (N, n_u): arrays, or data frames, whose columns give the names, in any
+    units; or of y alone: a Record, the path of a
     file (then `inputs` and `outputs` choose its channels), a frame (likewise), or pieces (y, u) in the order of time, read once.
 
     `inputs` and `outputs` otherwise name the channels, u1, u2, ... and y1, y2, ... by default. Raises InvalidData for what holds no
-    record, and InvalidInput, which is one, for what cannot be read.
+    record, and InvalidInput for a file that cannot be read. It converts only, so that it has no source.
+
+    >>> record = record_from([[1.0], [2.0]], [[0.0], [1.0]], outputs=["level"])
+    >>> len(record), record.inputs, record.outputs
+    (2, ('u1',), ('level',))
     """
     if u is not None:
         if isinstance(y, Record | str | os.PathLike):

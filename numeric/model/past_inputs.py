@@ -409,7 +409,17 @@ def pi_moesp_experiments(
     past_rows: int | None = None,
     route: str | None = None,
 ) -> MoespModel:
-    """One model of several experiments (y, u) with the same channels, each with an own initial state: see `pi_moesp`."""
+    """One model of several experiments (y, u) with the same channels, each with an own initial state, by PI-MOESP [V93].
+
+    Each y (N_i, p) and u (N_i, n_u) may have its own length, all in the same units; arguments and result are those of `pi_moesp`. Raises
+    InvalidData as there, and where no experiment is given.
+
+    >>> import numpy as np
+    >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
+    >>> inputs = np.split(np.random.default_rng(1).standard_normal((300, 1)), [100])
+    >>> pi_moesp_experiments([(model.simulate(u), u) for u in inputs], block_rows=5).A.round(6).tolist()
+    [[0.5]]
+    """
     if len(experiments) == 0:
         raise InvalidData("no experiment: give at least one pair (y, u)")
     sources = [experiment(y, u) for y, u in experiments]

@@ -1,5 +1,6 @@
 """The pictures of `faultspace identify`, one a file.
 
+main_picture the one picture of `Identification.plot`
 pictures     draws what an Identification holds into a folder; remarks on what could not be had
 PICTURES     the names of the files
 
@@ -20,11 +21,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...base.errors import InvalidData
 from ..count.rank_gap import FaultDimension
 from ..signal import plots
 from ..signal.residual_sizes import loudest
 
 if TYPE_CHECKING:
+    from ..model.residuals import ResidualSignal
     from ..result import Identification
     from ..signal.reconstruction import Reconstruction
 
@@ -50,6 +53,30 @@ def pictures(answer: Identification, folder: Path) -> list[str]:
     return []
 
 
+def main_picture(answer: Identification, ax: Any = None) -> Any:
+    """The fault signal where there is one, else the last samples of the outputs, measured and simulated; into `ax`, which is returned.
+
+    Raises InvalidData where there is no model to draw anything of."""
+    if answer.residual is None:
+        raise InvalidData("there is no model, so that there is nothing to draw: state an order")
+    if ax is None:
+        ax = import_module("matplotlib.pyplot").figure(figsize=WIDE, layout="constrained").add_subplot()
+    if answer.signal is not None:
+        _draw_stretch(answer.signal, *_extremes(answer.signal), ax)
+        ax.set_title("Fault signal" if answer.signal.store.width == 1 else "Fault signals", loc="left")
+        return ax
+    y, simulated, first = _last_outputs(answer, answer.residual)
+    return plots.plot_measured_and_simulated(y, simulated, names=answer.record.outputs, first=first, ax=ax)
+
+
+def _last_outputs(answer: Identification, rest: ResidualSignal) -> tuple[Any, Any, int]:
+    """The last PICTURED samples of the outputs, measured and simulated, and the number of the first of them."""
+    N = len(answer.record)
+    first = max(N - PICTURED, 0)
+    y = answer.record.stretch(first, N)[0]
+    return y, y - rest.store.read(first, N), first
+
+
 def _drawings(answer: Identification) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
     """Name, size and what to do with a figure."""
     model, dimension, rest, signal = answer.model, answer.dimension, answer.residual, answer.signal
@@ -66,10 +93,8 @@ def _drawings(answer: Identification) -> list[tuple[str, tuple[float, float], Ca
         zeros = signal.zeros if signal else np.zeros(0)
         drawings.append((plane, SQUARE, lambda figure: plots.plot_zeros_and_poles(model.model.poles, zeros, ax=figure.add_subplot())))
     if rest:
-        N, names = len(answer.record), answer.record.outputs
-        first = max(N - PICTURED, 0)
-        y = answer.record.stretch(first, N)[0]
-        simulated = y - rest.store.read(first, N)
+        names = answer.record.outputs
+        y, simulated, first = _last_outputs(answer, rest)
         draw = plots.plot_measured_and_simulated
         drawings.append((outputs, WIDE, lambda figure: draw(y, simulated, names=names, first=first, ax=figure.add_subplot())))
     if answer.sizes and signal:
@@ -101,17 +126,20 @@ def _draw_levels(dimension: FaultDimension, ax: Any) -> None:
         ax.spines[side].set_visible(False)
 
 
-def _draw_signal(signal: Reconstruction, near: tuple[int, int], figure: Any) -> None:
-    """The whole signal above, the samples `near` below."""
+def _extremes(signal: Reconstruction) -> tuple[Any, int, float]:
+    """Rows to draw of the whole signal, the sample they begin with and the samples that each stands for."""
     N = len(signal.store)
     part = 1 if N <= MOST_DRAWN else -(-2 * N // MOST_DRAWN)
     if part == 1:
-        rows, step = signal.store.read(0, N), 1.0
-    else:
-        parts = (signal.store.read(first, first + part) for first in range(0, N, part))
-        rows, step = np.array([ends for rows in parts for ends in (rows.min(axis=0), rows.max(axis=0))]), part / 2
+        return signal.store.read(0, N), 0, 1.0
+    parts = (signal.store.read(first, first + part) for first in range(0, N, part))
+    return np.array([ends for rows in parts for ends in (rows.min(axis=0), rows.max(axis=0))]), 0, part / 2
+
+
+def _draw_signal(signal: Reconstruction, near: tuple[int, int], figure: Any) -> None:
+    """The whole signal above, the samples `near` below."""
     whole, detail = figure.subplots(2)
-    _draw_stretch(signal, rows, 0, step, whole)
+    _draw_stretch(signal, *_extremes(signal), whole)
     _draw_stretch(signal, signal.store.read(*near), near[0], 1.0, detail)
     whole.set_xlabel("")
     what = "Fault signal" if signal.store.width == 1 else "Fault signals"

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
+from ..count.arguments import not_zero
 from ..data.records import SampleStore, Tell, silent, stored
 from ..data.validation import signal
 from .smoother import Stretch, simulated, smoothed
@@ -121,6 +122,7 @@ def reconstruct_fault(
         return smoothed(store.read(start, stop), A, F, C, G, x0=state)
 
     tell("fault signal", 0, N)
+    not_zero(any(np.any(rows) for rows in store.pieces()))
     if x0 is not None or N <= LONGEST:
         found = _single(solve(0, N, x0), store, within)
     else:

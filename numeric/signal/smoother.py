@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ..count.arguments import fitting
+from ..count.arguments import shaped
 from ..count.windows import ObservedCoordinates, observed_coordinates
 from .zeros import FaultZeros, fault_zeros
 
@@ -78,7 +78,7 @@ def smoothed(
     Raises InvalidData for shapes that do not fit, values that are not finite, more faults than outputs, a fault
     without any effect, or a model so unstable that the record overflows.
     """
-    r, A, C = fitting(r, A, C)
+    r, A, C = shaped(r, A, C)
     F, G, start = _faults(len(A), len(C), F, G, x0)
     N, n, m = len(r), len(A), F.shape[1]
     growth = max((float(np.max(np.abs(np.linalg.eigvals(A)))) if n else 0.0), 1.0)

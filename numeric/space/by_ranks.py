@@ -45,12 +45,17 @@ __all__ = [
 
 
 def fault_space(r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None) -> FaultSpaceEstimate:
-    """The fault space of a residual r (N, p) for the model's A (n, n) and C (p, n).
+    """The fault space of a residual r (N, p), in the units of y, for the model's A (n, n) and C (p, n): problem (11) of [G25].
 
     `n_v` is the number of faults, found from the data when not given; `block_rows` is s, by default the least window
     that surely suffices. Answers that mean nothing (no null rows, window not longer than the lag) are returned as
     such, with `meaningful` False and a reason. Raises InvalidData for shapes that do not fit, values that are not
     finite, n_v outside 1..p, or fewer samples than the window needs.
+
+    >>> v = np.random.default_rng(1).standard_normal((100, 1))
+    >>> found = fault_space(np.hstack([v, 2 * v]), [[0.5]], [[1.0], [0.0]])
+    >>> found.n_z, bool(np.allclose(found.G[1], 2 * found.G[0]))
+    (1, True)
     """
     data = arguments(r, A, C, n_v, block_rows)
     ladder = _ladder(data)

@@ -119,6 +119,28 @@ def test_a_fault_signal_in_pieces_is_that_of_the_whole(G: list[list[float]], p: 
     assert abs(got.misfit - whole.misfit) < 1e-6
 
 
+def test_a_stretch_without_any_residual_is_a_stretch_without_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    v = np.zeros((30_000, 1))
+    v[20_000:24_000] = np.random.default_rng(5).standard_normal((4000, 1))
+    G = [[0.4], [0.0], [1.0]]
+    r = StateSpaceModel(made.A, made.F, made.C, G).simulate(v)
+    assert not np.any(r[:20_000])
+    monkeypatch.setattr(reconstruction, "LONGEST", 6000)
+    for given in (r, stored(r)):
+        assert np.allclose(reconstruct_fault(given, made.A, made.F, made.C, G).v, v, atol=1e-9)
+        with pytest.raises(InvalidData, match="zero throughout"):
+            reconstruct_fault(stored(0 * r) if given is not r else 0 * r, made.A, made.F, made.C, G)
+
+
+def test_a_known_state_is_used_on_a_long_record(monkeypatch: pytest.MonkeyPatch) -> None:
+    G, x0 = np.array([[0.4], [0.0], [1.0]]), np.array([5.0, -3.0, 2.0])
+    v = np.random.default_rng(6).standard_normal((9000, 1))
+    r = StateSpaceModel(made.A, made.F, made.C, G).simulate(v, x0)
+    monkeypatch.setattr(reconstruction, "LONGEST", 6000)
+    found = reconstruct_fault(r, made.A, made.F, made.C, G, x0=x0)
+    assert np.allclose(found.v, v, atol=1e-8) and np.allclose(found.x[0], x0) and np.allclose(found.simulated, r, atol=1e-8)
+
+
 def test_faults_of_a_part_of_the_record_are_looked_for_there() -> None:
     energies = np.ones(40)
     energies[30:33] = 5.0
