@@ -37,6 +37,7 @@ from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .data.records import Passes, Record, Tell, silent
 from .data.sources import Source, record_from
+from .findings import Findings
 from .model.past_inputs import MoespModel, OrderUndecided, pi_moesp
 from .model.residuals import ResidualSignal, residual
 from .result import Identification
@@ -86,6 +87,14 @@ def identify(
         raise InvalidData(f"n_v: got {n_v} for {record.p} outputs; at most as many can be told apart: state fewer")
     if healthy is not None and not 0 < healthy < len(record):
         raise InvalidData(f"healthy: got {healthy} for {len(record)} samples; some must follow: state fewer")
+    found = _findings(record, order, block_rows, n_v, healthy, remove_means, told)
+    return Identification(**vars(found))
+
+
+def _findings(
+    record: Record, order: int | None, block_rows: int | None, n_v: int | None, healthy: int | None, remove_means: bool, told: Tell
+) -> Findings:
+    """The chain of the module's docstring."""
     part = record if healthy is None else record.beginning(healthy)
     rows = block_rows if block_rows is not None else default_block_rows(len(part), record.p, record.n_u, order)
     try:
@@ -97,7 +106,7 @@ def identify(
     if remove_means:
         record, part = record.about(part.channels.mean), part.about_means()
     model, values, refusal = _model(part, order, rows, told)
-    answer = Identification(record, rows, remove_means, order is not None, values, model, notes=notes)
+    answer = Findings(record, rows, remove_means, order is not None, values, model, notes=notes)
     answer = replace(answer, n_v_given=n_v is not None, healthy=healthy)
     if model is None:
         return replace(answer, notes=(*notes, f"the order is undecided: {refusal}"))
@@ -121,7 +130,7 @@ def _residual(record: Record, model: MoespModel, tell: Tell) -> ResidualSignal:
     return replace(residual(data, None, model.model, x0=model.x0), covariance=model.residual_covariance)
 
 
-def _nothing_left(answer: Identification) -> str:
+def _nothing_left(answer: Findings) -> str:
     least = ROUNDING * largest(answer.record)
     sizes = ", ".join(f"{shorten(name)} {size:.2g}" for name, size in zip(answer.record.outputs, least, strict=True))
     hidden = ""
@@ -134,7 +143,7 @@ def _nothing_left(answer: Identification) -> str:
     return f"the model explains the outputs to rounding: nothing larger than {sizes} acts{hidden}"
 
 
-def _with_count(answer: Identification, faults: int | None, tell: Tell) -> Identification:
+def _with_count(answer: Findings, faults: int | None, tell: Tell) -> Findings:
     """How many faults act, from the residual beside the inputs."""
     record, sizes, notes = answer.record, answer.sizes, answer.notes
     assert sizes is not None
@@ -165,7 +174,7 @@ def _with_count(answer: Identification, faults: int | None, tell: Tell) -> Ident
     return replace(answer, n_v=faults, reason=f"{faults} given; {told}", counted_by="given")
 
 
-def _about_zero(answer: Identification, r: Array) -> Identification:
+def _about_zero(answer: Findings, r: Array) -> Findings:
     """Without healthy samples: the mean of the residual against zero, where it was not removed. It decides nothing, since a constant fault
     over a whole record cannot be told from an operating point."""
     if answer.n_v == 0:
@@ -182,7 +191,7 @@ def _about_zero(answer: Identification, r: Array) -> Identification:
     return replace(answer, mean=mean, notes=notes)
 
 
-def _against_healthy(answer: Identification, r: Array, tell: Tell) -> Identification:
+def _against_healthy(answer: Findings, r: Array, tell: Tell) -> Findings:
     """The count of `answer`'s residual r beside that against the samples stated to be without fault, of which the last HELD numbers are
     held, and beside the test of the mean."""
     record, rest, sizes, until = answer.record, answer.residual, answer.sizes, answer.healthy
@@ -207,7 +216,7 @@ def _against_healthy(answer: Identification, r: Array, tell: Tell) -> Identifica
     return _zero_or_not(answer)
 
 
-def _zero_or_not(answer: Identification) -> Identification:
+def _zero_or_not(answer: Findings) -> Findings:
     """0 is said only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
     if answer.n_v != 0 and not (answer.n_v is None and (answer.moved or answer.unexplained)):
         return answer

@@ -1,7 +1,6 @@
-"""What `identify` returns: the model, the residual, the count of faults, their space and signal, and what a user must know.
+"""What `identify` returns: the findings, with a face for people, programs and notebooks.
 
-Identification   the record; None stands for what was not asked because of what came before
-COUNTED_BY       what a count can rest on
+Identification   the findings with summary, plot, save and to_json
 """
 
 from __future__ import annotations
@@ -12,24 +11,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..base.arrays import Array
 from ..base.errors import InvalidInput, quote_path
-from .count.against_healthy import FaultsAgainstHealthy
-from .count.mean_shift import MeanShift
-from .count.rank_gap import FaultDimension
-from .data.records import Record, silent
-from .model.past_inputs import MoespModel
-from .model.residuals import ResidualSignal
-from .signal.reconstruction import Reconstruction
-from .signal.residual_sizes import ResidualSizes
-from .space.by_ranks import FaultSpaceEstimate
-
-COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
-"""What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
+from .data.records import silent
+from .findings import Findings
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Identification:
+class Identification(Findings):
     """What `identify` found. A field is None where it was not asked for, because of what came before.
 
     model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
@@ -48,34 +36,6 @@ class Identification:
     where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
     visible (p,): the standard deviation of a white fault at one output that would be seen.
     """
-
-    record: Record
-    block_rows: int
-    means_removed: bool
-    order_given: bool
-    singular_values: Array
-    model: MoespModel | None
-    residual: ResidualSignal | None = None
-    sizes: ResidualSizes | None = None
-    held: tuple[int, int] = (0, 0)
-    dimension: FaultDimension | None = None
-    n_v: int | None = None
-    n_v_given: bool = False
-    reason: str = ""
-    counted_by: str | None = None
-    healthy: int | None = None
-    counted_against: tuple[int, int] = (0, 0)
-    against: FaultsAgainstHealthy | None = None
-    mean: MeanShift | None = None
-    visible: Array | None = None
-    unexplained: bool = False
-    fault_space: FaultSpaceEstimate | None = None
-    pair: tuple[Array, Array] | None = None
-    signal: Reconstruction | None = None
-    explained: float | None = None
-    by_noise: float | None = None
-    notes: tuple[str, ...] = ()
-
     def __repr__(self) -> str:
         order = "undecided" if self.model is None else self.model.order
         n_v = "undecided" if self.n_v is None else self.n_v
@@ -119,20 +79,3 @@ class Identification:
         except OSError as error:
             raise InvalidInput(f"{quote_path(str(path))}: cannot be made ({error.strerror or error})") from None
         return write(self, path, data, silent)[0]
-
-    @property
-    def modelled(self) -> int:
-        """How many samples, from the first on, the model is from."""
-        return self.healthy or len(self.record)
-
-    @property
-    def at_least(self) -> int:
-        """Faults that act in any case: the count where there is one; else one where anything stands out, the mean included."""
-        if self.n_v is not None:
-            return self.n_v
-        return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
-
-    @property
-    def moved(self) -> bool:
-        """Whether the mean of the residual left that of the healthy samples."""
-        return self.healthy is not None and self.mean is not None and self.mean.shifted is True

@@ -1,4 +1,4 @@
-"""What `faultspace identify` writes of an Identification: JSON and the files of its folder.
+"""What `faultspace identify` writes of the Findings: JSON and the files of its folder.
 
 document     the JSON-ready dict of --json (schemas/identify.schema.json)
 write        all files, written elsewhere first and then renamed into place; says which, and what is missing and why
@@ -25,13 +25,13 @@ from .pictures import PICTURES, pictures
 from .summary import advice, fit, markdown, summary
 
 if TYPE_CHECKING:
-    from ..result import Identification
+    from ..findings import Findings
 
 MODEL, SPACE, SIGNAL, SUMMARY = "model.json", "fault-space.json", "fault-signal.csv", "summary.md"
 NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, *PICTURES)
 
 
-def document(answer: Identification, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
+def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
     """Everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `worded` rewrites notes and advice."""
     record, model = answer.record, answer.model
     result: dict[str, Any] = {
@@ -113,7 +113,7 @@ def document(answer: Identification, data: str, *, worded: Callable[[str], str] 
 
 
 def write(
-    answer: Identification, out: Path, data: str, tell: Tell, *, worded: Callable[[str], str] = str
+    answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callable[[str], str] = str
 ) -> tuple[list[str], list[str]]:
     """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `document`.
 
@@ -141,7 +141,7 @@ def write(
     return written, remarks
 
 
-def _tables(answer: Identification, folder: Path, tell: Tell) -> None:
+def _tables(answer: Findings, folder: Path, tell: Tell) -> None:
     if answer.model is not None:
         model = answer.model.model.to_json()
         model |= {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
@@ -170,7 +170,7 @@ def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, tell: Te
             tell("writing the fault signal", k, len(v))
 
 
-def _space(answer: Identification) -> dict[str, Any] | None:
+def _space(answer: Findings) -> dict[str, Any] | None:
     space = answer.fault_space
     if space is None:
         return None

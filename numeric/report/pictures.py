@@ -1,7 +1,7 @@
 """The pictures of `faultspace identify`, one a file.
 
 main_picture the one picture of `Identification.plot`
-pictures     draws what an Identification holds into a folder; remarks on what could not be had
+pictures     draws what the Findings holds into a folder; remarks on what could not be had
 PICTURES     the names of the files
 
     singular-values   of PI-MOESP, with the order
@@ -27,8 +27,8 @@ from ..signal import plots
 from ..signal.residual_sizes import loudest
 
 if TYPE_CHECKING:
+    from ..findings import Findings
     from ..model.residuals import ResidualSignal
-    from ..result import Identification
     from ..signal.reconstruction import Reconstruction
 
 PICTURES = (
@@ -40,7 +40,7 @@ TICKS = 7
 WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)
 
 
-def pictures(answer: Identification, folder: Path) -> list[str]:
+def pictures(answer: Findings, folder: Path) -> list[str]:
     """Draws what there is; without matplotlib the sentence that says so."""
     try:
         figure: Any = import_module("matplotlib.figure")
@@ -53,7 +53,7 @@ def pictures(answer: Identification, folder: Path) -> list[str]:
     return []
 
 
-def main_picture(answer: Identification, ax: Any = None) -> Any:
+def main_picture(answer: Findings, ax: Any = None) -> Any:
     """The fault signal where there is one, else the last samples of the outputs, measured and simulated; into `ax`, which is returned.
 
     Raises InvalidData where there is no model to draw anything of."""
@@ -69,7 +69,7 @@ def main_picture(answer: Identification, ax: Any = None) -> Any:
     return plots.plot_measured_and_simulated(y, simulated, names=answer.record.outputs, first=first, ax=ax)
 
 
-def _last_outputs(answer: Identification, rest: ResidualSignal) -> tuple[Any, Any, int]:
+def _last_outputs(answer: Findings, rest: ResidualSignal) -> tuple[Any, Any, int]:
     """The last PICTURED samples of the outputs, measured and simulated, and the number of the first of them."""
     N = len(answer.record)
     first = max(N - PICTURED, 0)
@@ -77,7 +77,7 @@ def _last_outputs(answer: Identification, rest: ResidualSignal) -> tuple[Any, An
     return y, y - rest.store.read(first, N), first
 
 
-def _drawings(answer: Identification) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
+def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
     """Name, size and what to do with a figure."""
     model, dimension, rest, signal = answer.model, answer.dimension, answer.residual, answer.signal
     order = model.order if model else None

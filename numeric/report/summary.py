@@ -1,4 +1,4 @@
-"""What `faultspace identify` says to people: an Identification as lines of Markdown, on the terminal and in summary.md.
+"""What `faultspace identify` says to people: the Findings as lines of Markdown, on the terminal and in summary.md.
 
 summary     the lines: model, faults, fault space, fault signal, notes, what to try next
 advice      what to try next, from what was found
@@ -19,14 +19,14 @@ from ...base.errors import quote_path
 from ..count.mean_shift import POWER
 
 if TYPE_CHECKING:
-    from ..result import Identification
+    from ..findings import Findings
 
 MOST_ROWS = 12
 DIGITS = 4
 CANDIDATES = 3
 
 
-def fit(answer: Identification) -> Array | None:
+def fit(answer: Findings) -> Array | None:
     """100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
     if answer.sizes is None:
         return None
@@ -35,7 +35,7 @@ def fit(answer: Identification) -> Array | None:
     return np.asarray(100 * (1 - answer.sizes.early_norm / np.where(spread > 0, spread, 1.0)))
 
 
-def summary(answer: Identification, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
+def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
     """The answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
@@ -79,7 +79,7 @@ def summary(answer: Identification, data: str, *, worded: Callable[[str], str] =
     yield from (f"- {worded(line)}" for line in advice(answer))
 
 
-def _why_the_order(answer: Identification) -> str:
+def _why_the_order(answer: Findings) -> str:
     model = answer.model
     assert model is not None
     gap = model.gap
@@ -93,7 +93,7 @@ def _why_the_order(answer: Identification) -> str:
     )
 
 
-def _healthy_lines(answer: Identification) -> Iterator[str]:
+def _healthy_lines(answer: Findings) -> Iterator[str]:
     """Both counts, where there are two."""
     against, alone = answer.against, answer.dimension
     if against is None:
@@ -104,13 +104,13 @@ def _healthy_lines(answer: Identification) -> Iterator[str]:
     yield f"from the residual alone: {_said(alone.n_v)} ({alone.reason}){taken}" if alone else f"from the residual alone: none{taken}"
 
 
-def _count(answer: Identification) -> str:
+def _count(answer: Findings) -> str:
     if answer.n_v is not None:
         return str(answer.n_v)
     return f"undecided, at least {answer.at_least}" if answer.at_least else "undecided"
 
 
-def _mean_lines(answer: Identification) -> Iterator[str]:
+def _mean_lines(answer: Findings) -> Iterator[str]:
     """The mean beside the rank: what moved it, by how much."""
     mean, sizes, record = answer.mean, answer.sizes, answer.record
     if mean is None or sizes is None:
@@ -125,7 +125,7 @@ def _mean_lines(answer: Identification) -> Iterator[str]:
     yield "mean by output: " + _several([f"{name} {d:.4g} +- {e:.2g}{sigma.format(size)}" for name, d, e, size in rows])
 
 
-def _visible_lines(answer: Identification) -> Iterator[str]:
+def _visible_lines(answer: Findings) -> Iterator[str]:
     """What would have been seen, where little or nothing was."""
     mean, outputs = answer.mean, answer.record.outputs
     if answer.healthy is None or mean is None:
@@ -141,7 +141,7 @@ def _said(number: int | None) -> str:
     return "undecided" if number is None else str(number)
 
 
-def _space_lines(answer: Identification) -> Iterator[str]:
+def _space_lines(answer: Findings) -> Iterator[str]:
     space = answer.fault_space
     if space is None:
         return
@@ -165,7 +165,7 @@ def _space_lines(answer: Identification) -> Iterator[str]:
     yield from (f"    {line}" for line in _matrix(space.basis))
 
 
-def _signal_lines(answer: Identification) -> Iterator[str]:
+def _signal_lines(answer: Findings) -> Iterator[str]:
     signal, space, record = answer.signal, answer.fault_space, answer.record
     if answer.explained is not None and answer.by_noise is not None:
         yield ""
@@ -193,7 +193,7 @@ def _signal_lines(answer: Identification) -> Iterator[str]:
     yield "its scale, sign and mixture go with the columns of F and G in the model file"
 
 
-def advice(answer: Identification) -> list[str]:
+def advice(answer: Findings) -> list[str]:
     """What to try next: about what is undecided first, and how to make sure of what is not."""
     model, record = answer.model, answer.record
     if model is None:

@@ -1,7 +1,7 @@
 """The last steps of `faultspace identify`: the fault space of what was counted, and one pair (F, G) out of it with its signal.
 
-with_space    an Identification with the fault space
-with_signal   an Identification with F, G and the signal, or a note why they are withheld: n_z is undecided, or the signal explains no
+with_space    the Findings with the fault space
+with_signal   the Findings with F, G and the signal, or a note why they are withheld: n_z is undecided, or the signal explains no
               more than it would of noise
 choose_pair   n_v columns (F, G) out of a fault space, whose signal is then reconstructed
 largest       the largest |y| of each output
@@ -24,7 +24,7 @@ from .reconstruction import Reconstruction, reconstruct_fault
 from .residual_sizes import loudest
 
 if TYPE_CHECKING:
-    from ..result import Identification
+    from ..findings import Findings
 
 ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
 MEANS_FROM = 1 << 14  # samples that means and shares are judged on: the regressors of a test are many times as many numbers
@@ -37,7 +37,7 @@ FROM_IDENTIFIED = (
 )
 
 
-def with_space(answer: Identification, tell: Tell) -> Identification:
+def with_space(answer: Findings, tell: Tell) -> Findings:
     """The space of all fault columns, on the samples that faults were counted on."""
     model, rest = answer.model, answer.residual
     if not answer.n_v or model is None or rest is None:
@@ -52,7 +52,7 @@ def with_space(answer: Identification, tell: Tell) -> Identification:
     return replace(answer, fault_space=space if answer.n_v_given else replace(space, reason=counted(space.reason)))
 
 
-def with_signal(answer: Identification, tell: Tell) -> Identification:
+def with_signal(answer: Findings, tell: Tell) -> Findings:
     """The signal of one choice of columns out of the space, over all samples, where there is ground for one."""
     model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
     if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:
@@ -80,7 +80,7 @@ def with_signal(answer: Identification, tell: Tell) -> Identification:
     return replace(answer, pair=(F, G), signal=signal, notes=notes)
 
 
-def _shares(answer: Identification, signal: Reconstruction, count: int) -> tuple[float, float]:
+def _shares(answer: Findings, signal: Reconstruction, count: int) -> tuple[float, float]:
     """What the signal explains of the residual that was counted on, and what so many signals could of noise; outputs in units of the
     healthy residual where there is one, else each in units of its own size."""
     rest, sizes, until = answer.residual, answer.sizes, answer.healthy
@@ -132,7 +132,7 @@ def largest(record: Record) -> Array:
     return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
 
 
-def beyond_rounding(answer: Identification) -> Array:
+def beyond_rounding(answer: Findings) -> Array:
     """The residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their rounding
     would be scaled up and counted as faults."""
     rest, sizes = answer.residual, answer.sizes
