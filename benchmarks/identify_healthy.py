@@ -53,8 +53,8 @@ def trial(random: np.random.Generator, until: int) -> tuple[str, bool | None, bo
     def told(added: Array | float) -> tuple[int | None, int, tuple[Array | None, Array | None]]:
         faulty = y.copy()
         faulty[until:, output] += added
-        answer = identify(recorded(faulty, u, outputs=OUTPUTS, inputs=INPUTS), order=3, healthy_until=until)
-        return answer.count, answer.at_least, (answer.mean.visible if answer.mean else None, answer.visible)
+        answer = identify(recorded(faulty, u, outputs=OUTPUTS, inputs=INPUTS), order=3, healthy=until)
+        return answer.n_v, answer.at_least, (answer.mean.visible if answer.mean else None, answer.visible)
 
     count, at_least, (constant, white) = told(0.0)
     verdict = "fault" if at_least else "undecided" if count is None else "zero"

@@ -1,37 +1,35 @@
-"""The reference method in floats: data in; system matrices, fault dimension, fault space and fault signal out.
+"""The reference method in floats: data in; model, number of faults, fault space and fault signal out.
 
-From data to model
-    pi_moesp.pi_moesp                  A, B, C, D from faulty data, past inputs as instruments; several experiments; an order or none
-    pi_moesp_chunks                    the same on a record read in pieces
-    compression                        what of the data the estimate needs, without ever holding the Hankel matrix; mergeable; by
-                                       displacement_gram or sequential_qr
-    input_matrices                     B, D and x0 for known A, C
-    models, distances                  state-space models; distances between subspaces and between models
-    po_moesp                           the past-output variant, kept for comparison
+    from faultspace.numeric import identify, pi_moesp, residual, fault_dimension, fault_space, reconstruct_fault
 
-From residual to faults
-    residuals.residual                 r = y - (response of the model to u), the initial state fitted
-    fault_dimension.fault_dimension    how many faults, or "undecided": hankel_ranks where r is exact to rounding, kernel_row_test in noise
-    fault_against_healthy              how many beyond what a record without faults shows (healthy_reference), and the direction of one
-    fault_space.fault_space            all fault columns [f; g] that explain the residual; noisy_fault_space by likelihood or least squares,
-                                       fault_space_uncertainty how far off; fault_space_error the rounding
-    toeplitz_factorisation             the published way to the fault space, for comparison
-    reconstruction.reconstruct_fault   the fault signal for a chosen pair (F, G); fault_zeros what limits it
+identify              the whole chain on arrays, data frames, a file, pieces or a record; an Identification
+read_record           a record from a file; record_from: from whatever holds one
+pi_moesp              A, B, C, D from faulty data, past inputs as instruments; pi_moesp_experiments: from several experiments
+po_moesp              with past outputs, for comparison
+residual              r = y - (response of the model to u), the initial state fitted or given
+fault_dimension       how many faults a residual shows, or "undecided"
+fault_space           all fault columns [f; g] that explain the residual
+reconstruct_fault     the fault signal for a chosen pair (F, G)
 
-How far rounding may carry the answers: conditioning, residual_conditioning. Pictures: plots, study_plots.
+`identify` calls these very functions, and so does the audit's reference. The folders:
 
-The paper's experiments
-    example_v                          its example
-    monte_carlo.monte_carlo              its study, as published and as corrected; study_systems, study_experiments,
-                                       study_cases, study_workers
+data          records, readers, checks of what comes in
+model         compression, PI-MOESP, PO-MOESP, B and D, the residual
+count         the number of faults: rank gaps, kernel rows, against a healthy record
+space         the fault space, by ranks or by likelihood, with its uncertainty
+signal        reconstruction, the zeros that limit it, plots
+rounding      how far rounding may carry the answers
+report        what the command writes and says
+study         the paper's example and its Monte Carlo study
+audit         anyone's implementation against exact ground truth; the one folder that imports the exact branch too
 
-The audit (numeric/audit, which imports the exact branch too): anyone's implementation against exact ground truth.
-
-Inside: input_checks, residual_arguments, residual_windows, kernel_likelihood, kernel_basis_likelihood, joint_kernel_basis,
-fault_space_estimate, tapered_moments, largest_root.
-
-Arrays are time-major, y before u. The room imports numpy and scipy and never `faultspace.exact`, so that the exact results can judge it.
+Arrays are time-major, y before u. The room imports numpy and scipy and never `faultspace.exact`, so that the exact results can judge it. A
+name is loaded when it is first asked for; `__init__.pyi` lists them with their modules.
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 if __name__ == "numeric":
     raise ImportError("this folder is no package of its own: write 'import faultspace.numeric'")

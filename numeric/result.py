@@ -1,82 +1,81 @@
-"""What `identify` returns: the model, the residual, the count of faults, their space and signal, and what a user must know.
+"""What `identify` returns: the findings, with a face for people, programs and notebooks.
 
-Answer        the record; None stands for what was not asked because of what came before
-COUNTED_BY    what a count can rest on
+Identification   the findings with summary, plot, save and to_json
 """
 
 from __future__ import annotations
 
+import html
+import os
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from .count.against_healthy import FaultsAgainstHealthy
-from .count.mean_shift import MeanShift
-from .count.rank_gap import FaultDimension
-from .data.records import Record
-from .model.past_inputs import Identification
-from .signal.long_reconstruction import FaultSignal
-from .signal.long_residuals import LongResidual
-from .space.by_ranks import FaultSpaceEstimate
-
-Array = NDArray[np.float64]
-COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
-"""What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
+from ..base.errors import InvalidInput, quote_path
+from .data.records import silent
+from .findings import Findings
 
 
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """What was found. None: not asked, because of what came before; `notes` says what a user must know, why an end was reached included.
+@dataclass(frozen=True, eq=False, repr=False)
+class Identification(Findings):
+    """What `identify` found. A field is None where it was not asked for, because of what came before.
 
-    singular_values of PI-MOESP; order_given: the order was stated by the user; held: the samples that faults were counted on; count: the
-    n_v taken (None: undecided), count_given: stated by the user, count_reason, counted_by: of COUNTED_BY what it rests on; healthy_until:
-    samples stated to be without fault, from the first on, `modelled` the part of the record that the model is from, healthy: the samples of
-    these that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
+    model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
+                     stays open, for which singular_values tell the choices
+    residual         r (N, p) in units of y, with x0 and its covariance; `sizes` of its channels
+    n_v, reason      the number of faults, None where it is undecided, and why; n_v_given: the caller stated it; counted_by: what it rests
+                     on, of COUNTED_BY; `at_least` faults act in any case
+    fault_space      the columns [f; g] that explain the residual: basis (n + p, n_z), orthonormal, and how sure it is
+    pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
+                     the signal explains, by_noise: what it would explain of noise
+    notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
+
+    order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
+    samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
+    ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
     where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
-    visible (p,): standard deviation of a white fault at one output that would be seen; pair: F (n, n_v), G (p, n_v) of `signal`;
-    explained: share of the residual that the signal explains, by_noise: what it would of noise.
+    visible (p,): the standard deviation of a white fault at one output that would be seen.
     """
+    def __repr__(self) -> str:
+        order = "undecided" if self.model is None else self.model.order
+        n_v = "undecided" if self.n_v is None else self.n_v
+        n_z = self.fault_space.n_z if self.fault_space is not None and self.fault_space.meaningful else None
+        found = "no signal" if self.signal is None else "with a signal"
+        return f"<Identification of {len(self.record)} samples: order {order}, n_v {n_v}, n_z {n_z}, {found}>"
 
-    record: Record
-    block_rows: int
-    means_removed: bool
-    order_given: bool
-    singular_values: Array
-    identification: Identification | None
-    residual: LongResidual | None = None
-    held: tuple[int, int] = (0, 0)
-    dimension: FaultDimension | None = None
-    count: int | None = None
-    count_given: bool = False
-    count_reason: str = ""
-    counted_by: str | None = None
-    healthy_until: int | None = None
-    healthy: tuple[int, int] = (0, 0)
-    against: FaultsAgainstHealthy | None = None
-    mean: MeanShift | None = None
-    visible: Array | None = None
-    unexplained: bool = False
-    space: FaultSpaceEstimate | None = None
-    pair: tuple[Array, Array] | None = None
-    signal: FaultSignal | None = None
-    explained: float | None = None
-    by_noise: float | None = None
-    notes: tuple[str, ...] = ()
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the summary."""
+        return f"<pre>{html.escape(self.summary())}</pre>"
 
-    @property
-    def modelled(self) -> int:
-        """How many samples, from the first on, the model is from."""
-        return self.healthy_until or len(self.record)
+    def summary(self, title: str = "Identification") -> str:
+        """What was found, for people: lines of Markdown under this title."""
+        from .report.summary import summary
 
-    @property
-    def at_least(self) -> int:
-        """Faults that act in any case: the count where there is one; else one where anything stands out, the mean included."""
-        if self.count is not None:
-            return self.count
-        return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
+        return "\n".join(summary(self, title))
 
-    @property
-    def moved(self) -> bool:
-        """Whether the mean of the residual left that of the healthy samples."""
-        return self.healthy_until is not None and self.mean is not None and self.mean.shifted is True
+    def to_json(self, data: str = "arrays") -> dict[str, Any]:
+        """Everything but the signals as a JSON-ready dict, by the schema identify.schema.json; `data` says where the record is from."""
+        from .report.files import document
+
+        return document(self, data)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the fault signal, or measured and simulated outputs where there is none, into the matplotlib axes `ax` (new ones where None
+        are given) and returns them. Raises InvalidData where there is no model, and ModuleNotFoundError without matplotlib."""
+        from .report.pictures import main_picture
+
+        return main_picture(self, ax)
+
+    def save(self, folder: str | os.PathLike[str], data: str = "arrays") -> list[str]:
+        """Writes model, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their names.
+
+        The summary also tells what could not be had, as pictures without matplotlib. Raises InvalidInput where it cannot be written into.
+        """
+        from .report.files import write
+
+        path = Path(folder)
+        try:
+            path.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise InvalidInput(f"{quote_path(str(path))}: cannot be made ({error.strerror or error})") from None
+        return write(self, path, data, silent)[0]

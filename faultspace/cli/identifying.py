@@ -16,6 +16,7 @@ from ..numeric.data.files import read_record
 from ..numeric.pipeline import identify
 from ..numeric.report import files as report
 from ..numeric.report.summary import summary
+from .argument_names import as_options
 from .consoles import answers, print_json
 from .failures import ANSWERED, say
 from .progress import evenly, working
@@ -54,15 +55,15 @@ def run(
                         record,
                         order=order,
                         block_rows=block_rows,
-                        faults=faults,
-                        healthy_until=healthy_until,
+                        n_v=faults,
+                        healthy=healthy_until,
                         remove_means=remove_means,
-                        tell=tell,
+                        on_progress=tell,
                     )
                 except InvalidData as error:
-                    raise InvalidInput(str(error)) from None
+                    raise InvalidInput(as_options(str(error))) from None
             tell("writing", 0, 0)
-            written, remarks = report.write(answer, out, data, tell)
+            written, remarks = report.write(answer, out, data, tell, worded=as_options)
     except BaseException:
         for folder in new:
             with suppress(OSError):
@@ -71,10 +72,10 @@ def run(
     for remark in remarks:
         say(remark)
     if as_json:
-        print_json(report.document(answer, data) | {"files": written})
+        print_json(report.document(answer, data, worded=as_options) | {"files": written})
         return ANSWERED
     console = answers()
-    for line in summary(answer, data):
+    for line in summary(answer, data, worded=as_options):
         console.print(Text(line, style="bold cyan" if line.startswith("#") else ""), soft_wrap=True)
     console.print(Text(f"\nwritten into {quote_path(str(out))}: {', '.join(written)}"), soft_wrap=True)
     return ANSWERED

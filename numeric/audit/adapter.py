@@ -30,12 +30,11 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from .records import Broken, Function, Refused
 
-Array = NDArray[np.float64]
 FUNCTIONS = ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct", "structure")
 
 

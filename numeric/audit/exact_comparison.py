@@ -19,7 +19,6 @@ from typing import Any
 
 import numpy as np
 from flint import fmpq, fmpq_poly
-from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from faultspace.exact.algebra import stability
@@ -29,9 +28,8 @@ from faultspace.exact.limits.lyapunov import solve
 from faultspace.exact.limits.moesp import markov_parameters
 from faultspace.exact.system.systems import from_float_exactly
 
+from ...base.arrays import Array
 from .records import Broken
-
-Array = NDArray[np.float64]
 
 
 def lifted(values: Any, name: str, shape: tuple[int, int]) -> Matrix:

@@ -23,9 +23,10 @@ from typing import Any
 import numpy as np
 import psutil
 
+from ...base.arrays import Array
 from ..model.models import StateSpaceModel
 from .programs import family, resident
-from .rationals import Array, floats, signs
+from .rationals import floats, signs
 from .records import Check, Function, Measurement, Severity
 from .vectors import FaultVector, IdentificationVector, shipped
 

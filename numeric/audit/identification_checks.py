@@ -12,16 +12,15 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from faultspace.exact.algebra.matrices import Matrix
 
+from ...base.arrays import Array
 from .exact_comparison import characteristic_polynomial, distances, lifted, markov, matched, poles, transfer
 from .rationals import floats, scaled
 from .records import Broken, Check, Function, Measurement, Severity
 from .vectors import POINTS, IdentificationVector, shipped
 
-Array = NDArray[np.float64]
 SCALES = (-12, -6, 6)  # powers of ten
 LONG = 20  # block rows of a long window
 RECOVERY = "the model is wrong although the data determine it: every prediction and every residual made with it"

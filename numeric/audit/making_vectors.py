@@ -32,6 +32,7 @@ from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
+from ...base.arrays import Array
 from ..model.compression import EPS, compress
 from ..model.past_inputs import pi_moesp, pi_moesp_from_compression
 from ..rounding.conditioning import SMALL, ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
@@ -39,7 +40,7 @@ from .drawing import drawn, stable, upward
 from .exact_comparison import matched, poles, roots
 from .fault_vectors import FaultView
 from .making_fault_vectors import fault_vectors, noisy_vectors, unexciting_vectors
-from .rationals import ROUNDING, Array, floats, matrix, scaled
+from .rationals import ROUNDING, floats, matrix, scaled
 from .recipe_vectors import ConsistencyVector
 from .vectors import FORMAT, KINDS, POINTS, IdentificationVector, StructureVector
 

@@ -14,11 +14,11 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from faultspace.exact.algebra.matrices import Matrix
 
-Array = NDArray[np.float64]
+from ...base.arrays import Array
+
 ROUNDING = "each rational to the nearest IEEE binary64, ties to even, once"
 
 

@@ -18,9 +18,10 @@ import scipy.signal
 
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
+from ...base.arrays import Array
 from ..model.models import StateSpaceModel
 from .exact_comparison import matched, poles
-from .rationals import Array, floats, matrix, signs
+from .rationals import floats, matrix, signs
 
 
 def _complexes(values: tuple[complex, ...]) -> list[list[float]]:

@@ -1,13 +1,14 @@
 """Our own numeric branch as an implementation: what `faultspace audit` tests when nothing is named, and a pattern for adapters.
 
+Its functions are the public ones of `faultspace.numeric`, those that `faultspace.identify` calls, with arrays as a record of one piece.
 Where a function of ours warns and goes on, the adapter refuses: A that the window does not determine, ranks that are not clear.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.hankel_ranks import rounding_ranks
 from ..count.rank_gap import fault_dimension as count
@@ -18,10 +19,9 @@ from ..model.past_inputs import UNDETERMINED, pi_moesp
 from ..model.residuals import residual as subtract
 from ..signal.reconstruction import reconstruct_fault
 from ..signal.zeros import fault_zeros
-from ..space.by_ranks import noise_free_fault_space
+from ..space.by_ranks import fault_space as space
 from .adapter import Structure
 
-Array = NDArray[np.float64]
 RANK = 1e-10  # of the largest singular value: ranks of small matrices with entries of a few digits
 
 
@@ -51,8 +51,8 @@ def fault_dimension(r: Array) -> int | None:
 
 
 def fault_space(r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Array:
-    """From the exact ranks of the windows."""
-    found = noise_free_fault_space(r, A, C, n_v=n_v, block_rows=block_rows)
+    """From the exact ranks of the windows, as the data have no noise."""
+    found = space(r, A, C, n_v=n_v, block_rows=block_rows)
     if not found.meaningful:
         raise InvalidData(found.reason)
     return found.basis

@@ -11,18 +11,17 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
+from ...base.arrays import Array
 from .fault_checks import as_number, space_off
 from .fault_vectors import FaultVector
 from .rationals import floats, matrix
 from .records import Check, Function, Kind, Measurement, Refused, Severity
 from .vectors import IdentificationVector, shipped
 
-Array = NDArray[np.float64]
 MISSING = "a missing sample goes into the estimate unnoticed"
 
 

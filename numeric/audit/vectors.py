@@ -25,8 +25,9 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
+from ...base.arrays import Array
 from .fault_vectors import FaultVector, UnexcitingVector
-from .rationals import Array, floats, fractions, matrix, scaled, signs
+from .rationals import floats, fractions, matrix, scaled, signs
 from .recipe_vectors import ConsistencyVector, NoisyVector
 
 FORMAT = "faultspace-audit-vectors/1"

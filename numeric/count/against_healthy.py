@@ -44,10 +44,10 @@ import scipy.linalg
 import scipy.optimize
 from numpy.typing import ArrayLike, NDArray
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.healthy_model import LEVEL, HealthyReference, Spectra, covering_spectra
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..count.healthy_model import LEVEL, HealthyReference, Spectra, covering_spectra
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 TURNED = 0.25

@@ -3,6 +3,7 @@
 Arguments    r (N, p), A (n, n), C (p, n), n_v or None, block_rows s, and the longest window that the record and the
 order suggest
 arguments    the check: InvalidData says what was got, what is needed, what to try
+fitting      r, A and C alone; shaped: the same for a stretch of r, which may be zero; not_zero: the refusal of an r that is
 """
 
 from __future__ import annotations
@@ -10,12 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..data.validation import enough_samples, positive, signal
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,20 @@ class Arguments:
 
 
 def fitting(r: ArrayLike, A: ArrayLike, C: ArrayLike) -> tuple[Array, Array, Array]:
-    """r (N, p), A (n, n), C (p, n) as float arrays. Raises InvalidData."""
+    """r (N, p), not zero throughout, A (n, n), C (p, n) as float arrays. Raises InvalidData."""
+    residual, A, C = shaped(r, A, C)
+    not_zero(bool(np.any(residual)))
+    return residual, A, C
+
+
+def not_zero(seen: bool) -> None:
+    """InvalidData where no sample of r was `seen` to differ from zero."""
+    if not seen:
+        raise InvalidData("r is zero throughout: nothing is to be learnt from it; has the fault been recorded at all?")
+
+
+def shaped(r: ArrayLike, A: ArrayLike, C: ArrayLike) -> tuple[Array, Array, Array]:
+    """The same for a stretch of r, which may be zero."""
     residual = signal(r, "r")
     A, C = (np.array(matrix, dtype=float, ndmin=2) for matrix in (A, C))
     p, n = residual.shape[1], A.shape[0]
@@ -52,8 +65,6 @@ def fitting(r: ArrayLike, A: ArrayLike, C: ArrayLike) -> tuple[Array, Array, Arr
         )
     if not (np.all(np.isfinite(A)) and np.all(np.isfinite(C))):
         raise InvalidData("A, C: got entries that are NaN or infinite; identify the model again or check its file")
-    if not np.any(residual):
-        raise InvalidData("r is zero throughout: nothing is to be learnt from it; has the fault been recorded at all?")
     return residual, A, C
 
 

@@ -22,10 +22,9 @@ import numpy as np
 import scipy.optimize
 from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from .against_healthy import FaultsAgainstHealthy
 from .healthy_model import HealthyReference
-
-Array = NDArray[np.float64]
 
 DRAWS = 4000
 """Divided by the number of outputs, which makes each of them dearer."""

@@ -23,9 +23,8 @@ from itertools import pairwise
 
 import numpy as np
 import scipy.linalg
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...base.arrays import Array
 
 ROUNDINGS = 64.0
 SPREAD = 30.0

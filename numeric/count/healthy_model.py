@@ -36,12 +36,12 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import ArrayLike, NDArray
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.largest_root import largest_root_quantile
-from faultspace.numeric.count.windows import channel_sizes
-from faultspace.numeric.data.validation import signal
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..count.largest_root import largest_root_quantile
+from ..count.windows import channel_sizes
+from ..data.validation import signal
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 LEVEL = 0.001

@@ -38,9 +38,8 @@ import numpy as np
 import scipy.stats
 from numpy.typing import NDArray
 
-from faultspace.numeric.count.one_row import WindowMoments, kernel_row, window_moments
-
-Array = NDArray[np.float64]
+from ...base.arrays import Array
+from .one_row import WindowMoments, kernel_row, window_moments
 
 ALARM = 1.0
 CLEAR = 2.5

@@ -20,9 +20,8 @@ from functools import lru_cache
 import numpy as np
 import scipy.optimize
 import scipy.special
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...base.arrays import Array
 
 NODES = 300
 

@@ -30,13 +30,12 @@ import numpy as np
 import scipy.fft
 import scipy.optimize
 import scipy.stats
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from .healthy_model import LEVEL, lagged, number_of_lags, residual_and_inputs
 from .windows import channel_sizes
-
-Array = NDArray[np.float64]
 
 POWER = 0.9
 """The chance with which a fault of the size that is told is found."""

@@ -26,12 +26,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.data.validation import signal
-
-Array = NDArray[np.float64]
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..data.validation import signal
 
 BANDS = 64
 SEGMENT = 2048

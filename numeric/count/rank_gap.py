@@ -31,14 +31,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
-from faultspace.numeric.count.kernel_rows import LawLevel, kernel_row_test
-from faultspace.numeric.data.validation import positive, signal
-
-Array = NDArray[np.float64]
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
+from ..count.kernel_rows import LawLevel, kernel_row_test
+from ..data.validation import positive, signal
 
 DEFAULT_BLOCK_ROWS = 20
 LARGEST_DEGREE = 9
@@ -79,13 +78,17 @@ class FaultDimension:
 
 
 def fault_dimension(r: ArrayLike, *, block_rows: int | None = None, u: ArrayLike | None = None) -> FaultDimension:
-    """The number of independent faults in a residual r (N, p), from its gaps up to s = block_rows.
+    """The number of independent faults in a residual r (N, p), in any units, from its gaps up to s = block_rows.
 
     Without `block_rows` it looks up to 20, less far for few samples or many channels. float32 data are judged by float32 rounding. For
     a residual of an identified model give its inputs `u` (N, n_u): the model's error is driven by u, and without u it counts as further
     faults where it stands out of the noise; with u the ranks are those of [U_s; R_s] less those of U_s. With a record from before the
     fault, `fault_dimension_against_healthy` sees more. Raises InvalidData for NaN, constant or too few samples and for u of
     another length. Source: [G25] proposition 3, repaired; thresholds [GVL13], [DS01].
+
+    >>> v = np.random.default_rng(1).standard_normal((200, 1))
+    >>> fault_dimension(np.hstack([v, 2 * v])).n_v
+    1
     """
     unit = _rounding_unit(r)
     data = signal(r, "r")

@@ -18,9 +18,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...base.arrays import Array
 
 EPS = float(np.finfo(float).eps)
 # Numbers held at a time while the Hankel matrix passes by.

@@ -32,11 +32,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidInput, in_file, shorten
 from .records import Record, RecordWriter
 from .text_tables import TextTable
 
-Array = NDArray[np.float64]
 Tell = Callable[[int, int], None]
 
 FORMATS = {

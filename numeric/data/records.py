@@ -1,5 +1,6 @@
 """A measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
 
+stored          a SampleStore of an array; silent: progress that nobody hears
 SampleStore     rows (N, k) of floats: in memory while they are few, beyond IN_MEMORY bytes in a temporary file
 Record          inputs and outputs in one store, their names, and what is known of every channel; iterating gives pieces (y, u)
 Moments         least and greatest values, means and deviations of rows that come in pieces
@@ -19,15 +20,15 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ...base.errors import InvalidInput
+from .validation import PIECE
 
-Array = NDArray[np.float64]
 Tell = Callable[[str, int, int], None]
 
 IN_MEMORY = 1 << 24
-PIECE = 1 << 14  # samples read at once
 NUMBER = 8  # bytes
 
 
@@ -67,6 +68,17 @@ class SampleStore:
         end = self._count if last is None else min(last, self._count)
         for start in range(first, end, PIECE):
             yield self.read(start, min(start + PIECE, end))
+
+
+def stored(rows: Array) -> SampleStore:
+    """A store of the rows (N, k)."""
+    store = SampleStore(rows.shape[1])
+    store.append(rows)
+    return store
+
+
+def silent(stage: str, done: int, total: int) -> None:
+    """Hears of progress and says nothing."""
 
 
 @dataclass(frozen=True)

@@ -19,11 +19,9 @@ from pathlib import Path
 from typing import TextIO
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidInput, shorten
-
-Array = NDArray[np.float64]
 
 SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab", " ": "blanks"}
 PIECE = 1 << 15

@@ -6,23 +6,24 @@ are read as float64; the caller's arrays are never written to. Data too long for
 two_dimensional     an array as (N, channels) without a copy, whatever its real type
 signal, signals     checked float64 arrays (N, p), or the pair y, u of equal length
 pieces              the checked float64 pieces (y, u) of one experiment, for data that should not be copied whole
+experiment          the checked pieces (y, u) of one experiment, from arrays or pieces, anew at each `iter`
 checked_piece       one such piece that the caller hands over
 enough_samples      a refusal of too few samples, with a hint at transposed data
 positive            a positive integer argument
 constant_channels   numbers of the channels that never change, from their least and greatest values
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from operator import index
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 
-FloatArray = NDArray[np.float64]
-PIECE = 1 << 15  # samples converted and checked at once
+PIECE = 1 << 14  # samples converted and checked at once
 
 
 def positive(value: Any, name: str) -> int:
@@ -60,7 +61,7 @@ def two_dimensional(values: ArrayLike, name: str) -> NDArray[Any]:
     return array
 
 
-def _finite(array: NDArray[Any], name: str, first: int) -> FloatArray:
+def _finite(array: NDArray[Any], name: str, first: int) -> Array:
     """`array` as float64; InvalidData that names the first sample (counted from `first`) and channel that is no finite number."""
     piece = np.asarray(array, dtype=np.float64)
     # A finite sum needs finite terms: the element-wise search runs only where the sum is not finite (or overflows).
@@ -79,7 +80,7 @@ def _finite(array: NDArray[Any], name: str, first: int) -> FloatArray:
     return piece
 
 
-def signal(values: ArrayLike, name: str = "y") -> FloatArray:
+def signal(values: ArrayLike, name: str = "y") -> Array:
     """A checked signal (N, channels) in float64: `values` themselves where they are float64, else a converted copy."""
     array = two_dimensional(values, name)
     converted = array.astype(np.float64, copy=False)
@@ -101,7 +102,7 @@ def _same_length(y: NDArray[Any], u: NDArray[Any]) -> None:
     raise InvalidData(f"y has {len(y)} samples (shape {y.shape}) and u has {len(u)} (shape {u.shape}); equal numbers are needed: {hint}")
 
 
-def signals(y: ArrayLike, u: ArrayLike) -> tuple[FloatArray, FloatArray]:
+def signals(y: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
     """Checked y (N, p) and u (N, n_u) of equal length."""
     outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
     _same_length(outputs, inputs)
@@ -117,7 +118,7 @@ def enough_samples(samples: int, needed: int, why: str, shape: tuple[int, ...] =
     raise InvalidData(f"{samples} samples are too few: {why} needs at least {needed}; {hint}")
 
 
-def pieces(y: ArrayLike, u: ArrayLike, size: int = PIECE) -> Iterator[tuple[FloatArray, FloatArray]]:
+def pieces(y: ArrayLike, u: ArrayLike, size: int = PIECE) -> Iterator[tuple[Array, Array]]:
     """The checked pieces of one experiment, `size` samples each but the last: float64 copies only as large as one piece."""
     outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
     _same_length(outputs, inputs)
@@ -126,13 +127,48 @@ def pieces(y: ArrayLike, u: ArrayLike, size: int = PIECE) -> Iterator[tuple[Floa
         yield _finite(outputs[part], "y", first), _finite(inputs[part], "u", first)
 
 
-def checked_piece(y: ArrayLike, u: ArrayLike, first: int) -> tuple[FloatArray, FloatArray]:
+def checked_piece(y: ArrayLike, u: ArrayLike, first: int) -> tuple[Array, Array]:
     """One piece (y, u) handed over by the caller, whose first sample has the number `first`."""
     outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
     _same_length(outputs, inputs)
     return _finite(outputs, "y", first), _finite(inputs, "u", first)
 
 
-def constant_channels(least: FloatArray, greatest: FloatArray) -> list[int]:
+class _Experiment:
+    """The checked pieces of one experiment, anew at each `iter`."""
+
+    def __init__(self, begin: Callable[[], Iterator[tuple[Array, Array]]]) -> None:
+        self._begin = begin
+
+    def __iter__(self) -> Iterator[tuple[Array, Array]]:
+        return self._begin()
+
+
+def experiment(y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLike | None) -> Iterable[tuple[Array, Array]]:
+    """The checked pieces (y, u) of one experiment, which can be read more than once: of arrays y (N, p), u (N, n_u), PIECE samples each;
+    where u is None, those that y gives at each `iter`, counted from its first sample.
+    """
+    if u is not None:
+        return _Experiment(lambda: pieces(cast(ArrayLike, y), u))
+    if isinstance(y, np.ndarray) or not isinstance(y, Iterable):
+        raise InvalidData(f"u is missing: got y of type {type(y).__name__} alone; pass u, or pieces (y, u), or a record")
+    if isinstance(y, Iterator):
+        raise InvalidData(
+            "the pieces can be read only once: pass a list, or an object whose `iter` begins anew, or use the compression alone"
+        )
+    chunks = cast(Iterable[tuple[ArrayLike, ArrayLike]], y)
+    return _Experiment(lambda: checked_pieces(chunks))
+
+
+def checked_pieces(chunks: Iterable[tuple[ArrayLike, ArrayLike]]) -> Iterator[tuple[Array, Array]]:
+    """Each piece (y, u) checked; samples are counted over all of them."""
+    first = 0
+    for y, u in chunks:
+        piece = checked_piece(y, u, first)
+        first += len(piece[0])
+        yield piece
+
+
+def constant_channels(least: Array, greatest: Array) -> list[int]:
     """Numbers (from 0) of the channels whose least and greatest values are equal."""
     return [int(channel) for channel in np.flatnonzero(least == greatest)]

@@ -25,14 +25,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.data.validation import FloatArray, checked_piece, enough_samples, pieces, positive, two_dimensional
-from faultspace.numeric.model.displacement_gram import DisplacementGram, factor_from_gram
-from faultspace.numeric.model.sequential_qr import SequentialQR, triangular
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..data.validation import checked_pieces, enough_samples, pieces, positive, two_dimensional
+from ..model.displacement_gram import DisplacementGram, factor_from_gram
+from ..model.sequential_qr import SequentialQR, triangular
 
 HARMLESS = 1e-11  # relative error of the Gram route up to which it is taken
 EPS = float(np.finfo(np.float64).eps)
-Pieces = Iterable[tuple[FloatArray, FloatArray]]
+Pieces = Iterable[tuple[Array, Array]]
 
 
 class Blocks(NamedTuple):
@@ -40,12 +41,12 @@ class Blocks(NamedTuple):
     Q2, Q3.
     """
 
-    l11: FloatArray
-    l21: FloatArray
-    l22: FloatArray
-    l31: FloatArray
-    l32: FloatArray
-    l33: FloatArray
+    l11: Array
+    l21: Array
+    l22: Array
+    l31: Array
+    l32: Array
+    l33: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +64,7 @@ class Compression:
     n_u: int
     samples: int
     columns: int
-    factor: FloatArray
+    factor: Array
     route: str
     condition: float
     rounding: float
@@ -88,7 +89,7 @@ def window_rows(n_u: int, p: int, past_rows: int, block_rows: int) -> NDArray[np
     return np.array([(lag, channel) for lags, channels in parts for lag in lags for channel in channels], dtype=np.intp)
 
 
-def scaled_condition(upper: FloatArray) -> float:
+def scaled_condition(upper: Array) -> float:
     """The condition of a triangular factor with its columns scaled to equal length; infinite where one vanishes."""
     lengths = np.linalg.norm(upper, axis=0)
     return float("inf") if np.any(lengths == 0) else float(np.linalg.cond(upper / lengths))
@@ -100,11 +101,11 @@ class _Shape(NamedTuple):
     past_rows: int
     block_rows: int
 
-    def compression(self, samples: int, columns: int, factor: FloatArray, route: str, condition: float, rounding: float) -> Compression:
+    def compression(self, samples: int, columns: int, factor: Array, route: str, condition: float, rounding: float) -> Compression:
         return Compression(self.block_rows, self.past_rows, self.p, self.n_u, samples, columns, factor, route, condition, rounding)
 
 
-def _joint(y: FloatArray, u: FloatArray, first: tuple[int, int]) -> FloatArray:
+def _joint(y: Array, u: Array, first: tuple[int, int]) -> Array:
     if (u.shape[1], y.shape[1]) != first:
         raise InvalidData(
             f"a piece has {u.shape[1]} inputs and {y.shape[1]} outputs where the first has {first[0]} and {first[1]}: all need the same"
@@ -117,7 +118,7 @@ def _enough(samples: int, shape: _Shape) -> None:
     enough_samples(samples, lags, f"a window of past_rows + block_rows = {shape.past_rows} + {shape.block_rows} samples")
 
 
-def _started(data: Iterator[tuple[FloatArray, FloatArray]], past_rows: int, block_rows: int) -> tuple[_Shape, FloatArray]:
+def _started(data: Iterator[tuple[Array, Array]], past_rows: int, block_rows: int) -> tuple[_Shape, Array]:
     """The shape told by the first piece, and that piece as a joint signal."""
     try:
         y, u = next(data)
@@ -207,16 +208,9 @@ def compress_chunks(
     """
     future, past = windows(block_rows, past_rows)
 
-    def checked() -> Iterator[tuple[FloatArray, FloatArray]]:
-        first = 0
-        for y, u in chunks:
-            piece = checked_piece(y, u, first)
-            first += len(piece[0])
-            yield piece
-
     if isinstance(chunks, Iterator):
-        return _by_route(None, checked(), past, future, route)
-    return _by_route(checked, None, past, future, route)
+        return _by_route(None, checked_pieces(chunks), past, future, route)
+    return _by_route(lambda: checked_pieces(chunks), None, past, future, route)
 
 
 def windows(block_rows: int, past_rows: int | None) -> tuple[int, int]:

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import LinAlgError, cholesky, eigh, solve_triangular
 
-from faultspace.numeric.data.validation import FloatArray
-from faultspace.numeric.model.sequential_qr import triangular
+from ...base.arrays import Array
+from ..model.sequential_qr import triangular
 
 GROUP_WIDTH = 64  # entries of a group of samples, about: wide enough for fast products, short enough for few wasted lags
 
@@ -45,7 +45,7 @@ class DisplacementGram:
         """Columns of the Hankel matrix so far."""
         return max(self.samples - self._lags + 1, 0)
 
-    def append(self, piece: FloatArray) -> None:
+    def append(self, piece: Array) -> None:
         """Take the next samples (T, channels)."""
         self.samples += len(piece)
         if len(self._head) < self._lags:
@@ -61,7 +61,7 @@ class DisplacementGram:
             self._products[distance] += grouped[:first_groups].T @ grouped[distance : distance + first_groups]
         self._kept = joint[first_groups * self._group :].copy()
 
-    def _first_row(self) -> FloatArray:
+    def _first_row(self) -> Array:
         """G[0, d], d = 0..lags-1, as an array (lags, channels, channels)."""
         lags, group, channels = self._lags, self._group, self._channels
         blocks = self._products.reshape(self._reach, group, channels, group, channels)
@@ -75,7 +75,7 @@ class DisplacementGram:
             row[lag] += self._kept[:rest].T @ self._kept[lag : lag + rest]
         return row
 
-    def gram(self) -> FloatArray:
+    def gram(self) -> Array:
         """G (lags * channels, lags * channels), rows ordered by lag, then channel. At least `lags` samples must have come."""
         lags, channels = self._lags, self._channels
         head, tail = self._head[: lags - 1], self._kept[len(self._kept) - lags + 1 :]
@@ -92,7 +92,7 @@ class DisplacementGram:
                 blocks[first + lag, :, first, :] = diagonal[first].T
         return blocks.reshape(lags * channels, lags * channels)
 
-    def cancellation(self, gram: FloatArray) -> float:
+    def cancellation(self, gram: Array) -> float:
         """How much larger a channel's greatest diagonal entry of G is than its least: what the end terms may have cancelled."""
         energies = np.diag(gram).reshape(self._lags, self._channels)
         least, greatest = energies.min(axis=0), energies.max(axis=0)
@@ -104,11 +104,11 @@ class DisplacementGram:
 class GramFactor(NamedTuple):
     """`factor` (k, k), or None where the input block is not positive definite in floats; `condition` of the scaled input block."""
 
-    factor: FloatArray | None
+    factor: Array | None
     condition: float
 
 
-def factor_from_gram(gram: FloatArray, inputs: int) -> GramFactor:
+def factor_from_gram(gram: Array, inputs: int) -> GramFactor:
     """The upper triangular R with R.T @ R = gram, whose first `inputs` rows belong to [Uf; Up].
 
     Only the input block is factored; the rest follows by triangular solves, since outputs without noise make the whole matrix singular.

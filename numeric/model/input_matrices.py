@@ -19,28 +19,28 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import lstsq, qr, solve_triangular
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.data.validation import FloatArray
-from faultspace.numeric.model.compression import Compression
-from faultspace.numeric.model.models import observability_matrix
-from faultspace.numeric.model.sequential_qr import append_rows
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..model.compression import Compression
+from ..model.models import observability_matrix
+from ..model.sequential_qr import append_rows
 
 ENTRIES = 1 << 18  # entries of the matrices built at once
 CONDENSED = 512  # length up to which block vectors are gathered before they are mapped
-Pieces = Iterable[tuple[FloatArray, FloatArray]]
+Pieces = Iterable[tuple[Array, Array]]
 
 
 @dataclass(frozen=True, eq=False)
 class InputMatrices:
     """B (n, n_u), D (p, n_u), one initial state (n,) an experiment where the data were read, and the condition of the scaled regression."""
 
-    B: FloatArray
-    D: FloatArray
-    initial_states: tuple[FloatArray, ...]
+    B: Array
+    D: Array
+    initial_states: tuple[Array, ...]
     condition: float
 
 
-def _least_squares(matrix: FloatArray, right: FloatArray) -> tuple[FloatArray, float]:
+def _least_squares(matrix: Array, right: Array) -> tuple[Array, float]:
     """The least-squares solution with columns scaled to equal length (shortest where rank is lacking), and the condition of the scaled
     matrix.
     """
@@ -51,7 +51,7 @@ def _least_squares(matrix: FloatArray, right: FloatArray) -> tuple[FloatArray, f
     return (solution.T / lengths).T, condition
 
 
-def by_moesp(compression: Compression, A: FloatArray, C: FloatArray) -> InputMatrices:
+def by_moesp(compression: Compression, A: Array, C: Array) -> InputMatrices:
     """MOESP's regression [V93] on the compression, for A (n, n) and C (p, n) with s p > n."""
     s, p, n_u, n = compression.block_rows, compression.p, compression.n_u, len(A)
     parts = compression.blocks()
@@ -70,7 +70,7 @@ def by_moesp(compression: Compression, A: FloatArray, C: FloatArray) -> InputMat
     return InputMatrices(solution[p:], solution[:p], (), condition)
 
 
-def growth(A: FloatArray, samples: int) -> float:
+def growth(A: Array, samples: int) -> float:
     """The largest modulus of an eigenvalue of A to the power `samples` (inf where it overflows), 0 without states."""
     radius = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
     with np.errstate(over="ignore"):
@@ -85,7 +85,7 @@ class _Regression:
     (CONDENSED), the factor of the vectors is gathered first and mapped once at the end, which costs far less than mapping every block.
     """
 
-    def __init__(self, A: FloatArray, C: FloatArray, n_u: int) -> None:
+    def __init__(self, A: Array, C: Array, n_u: int) -> None:
         (self.p, self.n), self.n_u = C.shape, n_u
         n, p = self.n, self.p
         self.width = n + n_u * n + n_u * p + 1
@@ -108,7 +108,7 @@ class _Regression:
         self._vectors_factor = np.zeros((self._length,) * 2 if self._condenses else (0, 0), order="F")
         self._factor = np.zeros((self.width, self.width), order="F")
 
-    def take(self, y: FloatArray, u: FloatArray) -> None:
+    def take(self, y: Array, u: Array) -> None:
         """The next samples: whole blocks, but for the end of the experiment."""
         whole = len(y) // self.block
         at_once = max(1, ENTRIES // (2 * self._length)) if self._condenses else self._mapped_at_once
@@ -125,7 +125,7 @@ class _Regression:
             filled = [np.concatenate([part[-rest:], np.zeros((self.block - rest, part.shape[1]))]) for part in (y, u)]
             self._map(self._vectors(filled[0], filled[1]), rest)
 
-    def factor(self) -> FloatArray:
+    def factor(self) -> Array:
         """The triangular factor of all rows taken; nothing can be taken afterwards."""
         if self._condenses:
             vectors = np.triu(self._vectors_factor)
@@ -134,7 +134,7 @@ class _Regression:
                 self._map(part, len(part) * self.block)
         return np.triu(self._factor)
 
-    def _vectors(self, y: FloatArray, u: FloatArray) -> FloatArray:
+    def _vectors(self, y: Array, u: Array) -> Array:
         """One row a block: states (x0's, then each input's), inputs, outputs, each channel's samples together."""
         count, n = len(y) // self.block, self.n
         states = np.empty((1 + self.n_u, count, n, n))
@@ -152,7 +152,7 @@ class _Regression:
         vectors[:, held:] = channels.transpose(1, 0, 2).reshape(count, -1)
         return vectors
 
-    def _map(self, vectors: FloatArray, samples: int) -> None:
+    def _map(self, vectors: Array, samples: int) -> None:
         """Append the rows that belong to block vectors (count, length), the first `samples` of them."""
         n, p, count = self.n, self.p, len(vectors)
         held = (1 + self.n_u) * n * n
@@ -174,7 +174,7 @@ class _Regression:
 
 def _full_batches(data: Pieces, size: int) -> Pieces:
     """The same samples in pieces of a multiple of `size`, but for the last."""
-    kept: list[tuple[FloatArray, FloatArray]] = []
+    kept: list[tuple[Array, Array]] = []
     length = 0
     for piece in data:
         kept.append(piece)
@@ -189,7 +189,7 @@ def _full_batches(data: Pieces, size: int) -> Pieces:
         yield y, u
 
 
-def by_output_error(experiments: Sequence[Pieces], A: FloatArray, C: FloatArray, n_u: int) -> InputMatrices:
+def by_output_error(experiments: Sequence[Pieces], A: Array, C: Array, n_u: int) -> InputMatrices:
     """The least sum of squared output errors over all samples of all experiments, for A (n, n), C (p, n) and n_u inputs.
 
     An experiment is an iterable of pieces y (T, p), u (T, n_u) of float64. InvalidData where the powers of A overflow.

@@ -14,20 +14,21 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.data.validation import FloatArray, signal
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..data.validation import signal
 
 FORMAT = "faultspace-model/1"
 BLOCK = 64  # samples simulated by one matrix product
 PIECE = 1 << 14  # samples simulated before the next are read
 
 
-def observability_matrix(A: FloatArray, C: FloatArray, rows: int) -> FloatArray:
+def observability_matrix(A: Array, C: Array, rows: int) -> Array:
     """O_rows (rows p, n), rows >= 1."""
     return np.concatenate(list(accumulate(repeat(A, rows - 1), lambda block, step: block @ step, initial=C)))
 
 
-def _matrix(values: ArrayLike, name: str) -> FloatArray:
+def _matrix(values: ArrayLike, name: str) -> Array:
     try:
         matrix = np.array(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
@@ -47,10 +48,10 @@ class StateSpaceModel:
     InvalidData where shapes do not fit or entries are not finite. n may be 0: arrays of shape (0, 0), (0, n_u), (p, 0) and (p, n_u).
     """
 
-    A: FloatArray
-    B: FloatArray
-    C: FloatArray
-    D: FloatArray
+    A: Array
+    B: Array
+    C: Array
+    D: Array
 
     def __init__(self, A: ArrayLike, B: ArrayLike, C: ArrayLike, D: ArrayLike) -> None:
         for name, values in zip("ABCD", (A, B, C, D), strict=True):
@@ -89,7 +90,7 @@ class StateSpaceModel:
         """Whether every pole lies strictly inside the unit circle."""
         return bool(np.all(np.abs(self.poles) < 1))
 
-    def markov(self, count: int) -> FloatArray:
+    def markov(self, count: int) -> Array:
         """D, CB, CAB, ..., as an array (count, p, n_u), count >= 0."""
         values = np.empty((max(count, 0), self.p, self.n_u))
         state = self.B
@@ -98,7 +99,7 @@ class StateSpaceModel:
             state = self.A @ state if k > 0 else state
         return values
 
-    def simulate(self, u: ArrayLike, x0: ArrayLike | None = None) -> FloatArray:
+    def simulate(self, u: ArrayLike, x0: ArrayLike | None = None) -> Array:
         """y (N, p) from u (N, n_u) and the state x0 (n,) at the first sample, zero unless given. An unstable model may overflow to inf."""
         inputs = signal(u, "u")
         if inputs.shape[1] != self.n_u:
@@ -157,7 +158,7 @@ class Simulator:
         start = np.zeros(model.n) if x0 is None else np.array(x0, dtype=np.float64)
         if start.shape != (model.n,) or not np.all(np.isfinite(start)):
             raise InvalidData(f"x0 must be {model.n} finite numbers, one a state (got shape {start.shape})")
-        self.state: FloatArray = start
+        self.state: Array = start
         self._model = model
         with np.errstate(over="ignore", invalid="ignore"):
             self._free = observability_matrix(model.A, model.C, BLOCK)
@@ -165,7 +166,7 @@ class Simulator:
             self._reach = observability_matrix(model.A.T, model.B.T, BLOCK)
             self._step = np.linalg.matrix_power(model.A, BLOCK)
 
-    def respond(self, u: FloatArray) -> FloatArray:
+    def respond(self, u: Array) -> Array:
         """y (T, p) for the next samples u (T, n_u)."""
         model, whole = self._model, len(u) // BLOCK
         y = np.empty((len(u), model.p))
@@ -186,7 +187,7 @@ class Simulator:
         return y
 
 
-def _toeplitz(markov: FloatArray) -> FloatArray:
+def _toeplitz(markov: Array) -> Array:
     """The lower block-triangular Toeplitz matrix T_s (s p, s n_u) of s Markov parameters."""
     count, p, n_u = markov.shape
     blocks = np.zeros((count, p, count, n_u))

@@ -16,31 +16,41 @@ least CLEAN and at least LEAD times every other ratio; else InvalidData lists th
 A would be undetermined at a clean gap (condition of O_(s-1) above UNDETERMINED): few faults without noise leave L32 rank-deficient, with a
 huge gap far beyond the order. The constants are set by hand.
 
-pi_moesp                    from y and u
+pi_moesp                    from y and u: arrays, or pieces that can be read more than once
+OrderUndecided              the refusal of an order that was left open, with the singular values
 pi_moesp_experiments        from several experiments
 pi_moesp_from_compression   from a compression alone
-Identification              the result: model, order, gap, singular values, x0, residual covariance, condition numbers, warnings
+MoespModel                  the result: model, order, gap, singular values, x0, residual covariance, condition numbers, warnings
 Gap, choose_order           the order rule
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.data.validation import PIECE, FloatArray, constant_channels, pieces, positive
-from faultspace.numeric.model.compression import EPS, Compression, Pieces, compress, merge
-from faultspace.numeric.model.input_matrices import by_moesp, by_output_error, growth
-from faultspace.numeric.model.models import Simulator, StateSpaceModel
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..data.validation import constant_channels, experiment, positive
+from ..model.compression import EPS, Compression, Pieces, compress, compress_chunks, merge
+from ..model.input_matrices import by_moesp, by_output_error, growth
+from ..model.models import Simulator, StateSpaceModel
 
 CLEAN = 3.0
 LEAD = 1.5
 UNDETERMINED = 1e8  # condition of O_(s-1) above which A is not determined: told of an order that was given, refused for one that was not
 EXCITED = 1e-13  # relative to its length and times the rows: what a direction of the inputs must exceed to be excited
 AMPLIFICATION = 1e6  # growth over the record up to which an unstable model is still fitted by output error: ten digits remain
+
+
+class OrderUndecided(InvalidData):
+    """No order could be chosen from data that are good enough for a model of a given order; `singular_values` are those of step 2."""
+
+    def __init__(self, message: str, singular_values: Array) -> None:
+        super().__init__(message)
+        self.singular_values = singular_values
 
 
 @dataclass(frozen=True)
@@ -55,7 +65,7 @@ class Gap:
 
 
 @dataclass(frozen=True, eq=False)
-class Identification:
+class MoespModel:
     """What was identified and how far to trust it.
 
     model: A (n, n), B (n, n_u), C (p, n), D (p, n_u), forwarded. singular_values: all of step 2, falling. gap: at the order taken.
@@ -67,36 +77,36 @@ class Identification:
 
     model: StateSpaceModel
     order: int
-    singular_values: FloatArray
+    singular_values: Array
     gap: Gap
-    initial_states: tuple[FloatArray, ...]
-    residual_covariance: FloatArray | None
+    initial_states: tuple[Array, ...]
+    residual_covariance: Array | None
     condition_numbers: dict[str, float]
     route: str
     warnings: tuple[str, ...]
 
     @property
-    def A(self) -> FloatArray:
+    def A(self) -> Array:
         """State matrix (n, n)."""
         return self.model.A
 
     @property
-    def B(self) -> FloatArray:
+    def B(self) -> Array:
         """Input matrix (n, n_u)."""
         return self.model.B
 
     @property
-    def C(self) -> FloatArray:
+    def C(self) -> Array:
         """Output matrix (p, n)."""
         return self.model.C
 
     @property
-    def D(self) -> FloatArray:
+    def D(self) -> Array:
         """Direct feedthrough (p, n_u)."""
         return self.model.D
 
     @property
-    def x0(self) -> FloatArray | None:
+    def x0(self) -> Array | None:
         """State (n,) at the first sample of the first experiment."""
         return self.initial_states[0] if self.initial_states else None
 
@@ -109,7 +119,7 @@ class Identification:
         return self.model.to_scipy()
 
 
-def choose_order(values: FloatArray, floor: float, most: int) -> Gap:
+def choose_order(values: Array, floor: float, most: int) -> Gap:
     """The rule of the module's docstring on falling singular values; `floor` is the rounding level, `most` the largest order allowed.
 
     Without any value above the floor, the order is 0.
@@ -131,7 +141,7 @@ def choose_order(values: FloatArray, floor: float, most: int) -> Gap:
     return Gap(best + 1, ratio, following + 1, runner_up, ratio >= CLEAN and ratio >= LEAD * runner_up)
 
 
-def gap_at(values: FloatArray, floor: float, order: int) -> Gap:
+def gap_at(values: Array, floor: float, order: int) -> Gap:
     """The gap at a given order, beside the largest elsewhere."""
     held = np.maximum(values, floor)
     ratios = held[:-1] / held[1:]
@@ -146,30 +156,30 @@ def gap_at(values: FloatArray, floor: float, order: int) -> Gap:
 class Range:
     """What step 2 gives: A, C in units of the scaled outputs, the scale (p,), and the account of the order."""
 
-    A: FloatArray
-    C: FloatArray
-    scale: FloatArray
-    values: FloatArray
+    A: Array
+    C: Array
+    scale: Array
+    values: Array
     gap: Gap
     condition: float
     warnings: tuple[str, ...]
 
 
-def output_scale(outputs: FloatArray, p: int, columns: int) -> FloatArray:
+def output_scale(outputs: Array, p: int, columns: int) -> Array:
     """Root mean square (p,) of each output, from the `columns` columns of its Hankel matrix up to a rotation; 1 for outputs that are
     zero.
     """
     energy = np.sum(outputs.reshape(-1, p, outputs.shape[1]) ** 2, axis=(0, 2))
-    scale: FloatArray = np.where(energy > 0, np.sqrt(energy / (outputs.shape[0] // p * columns)), 1.0)
+    scale: Array = np.where(energy > 0, np.sqrt(energy / (outputs.shape[0] // p * columns)), 1.0)
     return scale
 
 
-def _listed(values: FloatArray, count: int = 24) -> str:
+def _listed(values: Array, count: int = 24) -> str:
     shown = ", ".join(f"{value:.3g}" for value in values[:count])
     return shown + (f", ... ({len(values)} values)" if len(values) > count else "")
 
 
-def system_range(projected: FloatArray, scale: FloatArray, floor: float, order: int | None, instruments: int) -> Range:
+def system_range(projected: Array, scale: Array, floor: float, order: int | None, instruments: int) -> Range:
     """Order, A and C from the projected outputs (s p, any), rows scaled by `scale` (p,) per output.
 
     InvalidData where the order asked for cannot be had, or no order is asked for and there is no clean gap, or one that leaves A
@@ -180,17 +190,21 @@ def system_range(projected: FloatArray, scale: FloatArray, floor: float, order: 
     scaled = projected / np.tile(scale, s)[:, np.newaxis]
     left, values, _ = np.linalg.svd(scaled, full_matrices=False)
     most = min(p * (s - 1), instruments)
+
+    def undecided(message: str) -> InvalidData:
+        return OrderUndecided(message, values) if most else InvalidData(message)
+
     if order is None:
         gap = choose_order(values, floor, most)
         if gap.order == 0:
-            raise InvalidData(
+            raise undecided(
                 f"no dynamics are seen: no singular value ({_listed(values)}) that could be an order stands above the rounding level "
                 f"{floor:.2g}; the outputs may depend on the "
                 f"present input alone, or block_rows and past_rows are too small (orders up to {most} could be seen): raise them or "
                 "pass order="
             )
         if not gap.clean:
-            raise InvalidData(
+            raise undecided(
                 f"no clean gap in the singular values ({_listed(values)}): the largest is after {gap.order}, ratio {gap.ratio:.3g}, the "
                 "next after "
                 f"{gap.runner_up}, ratio {gap.runner_up_ratio:.3g}; a clean one is at least {CLEAN:g} and {LEAD:g} times the next. Pass "
@@ -226,7 +240,7 @@ def system_range(projected: FloatArray, scale: FloatArray, floor: float, order: 
     condition = float(shift_values[0] / shift_values[-1]) if shift_values[-1] > 0 else float("inf")
     if rank < n or condition > UNDETERMINED:
         if order is None:
-            raise InvalidData(
+            raise undecided(
                 f"the largest gap in the singular values ({_listed(values)}), after {n}, ratio {gap.ratio:.3g}, leaves A undetermined "
                 f"(O_(s-1) has condition {condition:.2g}): faults without noise make such gaps beyond the order, and so do block_rows at "
                 f"or below the lag (here {s}). Pass order=, that of a smaller gap, or take more block_rows"
@@ -267,10 +281,10 @@ def check_compression(compression: Compression) -> None:
         )
 
 
-def _spread(y: ArrayLike, u: ArrayLike) -> None:
+def _spread(source: Pieces) -> None:
     """InvalidData for a constant input, naming it: the commonest lack of excitation."""
     least = greatest = None
-    for _, part in pieces(y, u, PIECE):
+    for _, part in source:
         low, high = part.min(axis=0), part.max(axis=0)
         least = low if least is None else np.minimum(least, low)
         greatest = high if greatest is None else np.maximum(greatest, high)
@@ -283,7 +297,7 @@ def _spread(y: ArrayLike, u: ArrayLike) -> None:
         )
 
 
-def _instruments(past: FloatArray, apart: FloatArray) -> FloatArray:
+def _instruments(past: Array, apart: Array) -> Array:
     """Orthonormal directions (q n_u, k) among the past inputs' own (columns of `apart` = L22) that they excite; `past` is [L21 L22].
 
     Directions at the rounding level would be noise of the arithmetic, not instruments.
@@ -291,7 +305,7 @@ def _instruments(past: FloatArray, apart: FloatArray) -> FloatArray:
     lengths = np.linalg.norm(past, axis=1)
     lengths[lengths == 0] = 1.0
     _, strengths, directions = np.linalg.svd(apart / lengths[:, np.newaxis])
-    kept: FloatArray = directions[strengths > len(apart) * EXCITED].T
+    kept: Array = directions[strengths > len(apart) * EXCITED].T
     return kept
 
 
@@ -306,14 +320,14 @@ def _range_of(compression: Compression, order: int | None) -> Range:
     return system_range(projected, scale, floor, order, directions.shape[1])
 
 
-def _stability(A: FloatArray) -> tuple[str, ...]:
+def _stability(A: Array) -> tuple[str, ...]:
     radius = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
     if radius < 1:
         return ()
     return (f"the identified A is not stable: its largest eigenvalue has modulus {radius:.6g}; it is reported as it was found",)
 
 
-def _residual_covariance(experiments: Sequence[Pieces], model: StateSpaceModel, states: tuple[FloatArray, ...]) -> FloatArray:
+def _residual_covariance(experiments: Sequence[Pieces], model: StateSpaceModel, states: tuple[Array, ...]) -> Array:
     total, samples = np.zeros((model.p, model.p)), 0
     for data, x0 in zip(experiments, states, strict=True):
         simulator = Simulator(model, x0)
@@ -323,23 +337,23 @@ def _residual_covariance(experiments: Sequence[Pieces], model: StateSpaceModel, 
             samples += len(r)
     # Parameters an output: B and x0 are shared by the p outputs.
     fitted = model.n_u + (model.n * model.n_u + model.n * len(states)) / model.p
-    result: FloatArray = total / max(samples - fitted, 1.0)
+    result: Array = total / max(samples - fitted, 1.0)
     return result
 
 
-def complete(found: Range, compression: Compression, experiments: Callable[[], Sequence[Pieces]] | None) -> Identification:
+def complete(found: Range, compression: Compression, experiments: Sequence[Pieces] | None) -> MoespModel:
     """B, D, x0 and the rest of the record, by output error where there are data and A allows it, else by MOESP's regression."""
     A, scale = found.A, found.scale[:, np.newaxis]
     C = found.C * scale
     warnings = found.warnings + _stability(A)
     amplification = growth(A, compression.samples)
-    covariance: FloatArray | None = None
+    covariance: Array | None = None
     if experiments is not None and amplification <= AMPLIFICATION:
-        scaled = [((y / found.scale, u) for y, u in data) for data in experiments()]
+        scaled = [((y / found.scale, u) for y, u in data) for data in experiments]
         inputs = by_output_error(scaled, A, found.C, compression.n_u)
         D = inputs.D * scale
         model = StateSpaceModel(A, inputs.B, C, D)
-        covariance = _residual_covariance(experiments(), model, inputs.initial_states)
+        covariance = _residual_covariance(experiments, model, inputs.initial_states)
     else:
         if experiments is not None:
             warnings += (
@@ -351,22 +365,40 @@ def complete(found: Range, compression: Compression, experiments: Callable[[], S
     if inputs.condition > 1e8:
         warnings += (f"the regression for B and D has condition {inputs.condition:.2g}: they are poorly determined",)
     conditions = {"inputs": compression.condition, "observability": found.condition, "input matrices": inputs.condition}
-    return Identification(
+    return MoespModel(
         model, found.gap.order, found.values, found.gap, inputs.initial_states, covariance, conditions, compression.route, warnings
     )
 
 
 def pi_moesp(
-    y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows: int, past_rows: int | None = None, route: str | None = None
-) -> Identification:
-    """The model of one experiment [V93].
+    y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
+    u: ArrayLike | None = None,
+    *,
+    order: int | None = None,
+    block_rows: int,
+    past_rows: int | None = None,
+    route: str | None = None,
+) -> MoespModel:
+    """The model of one experiment, by PI-MOESP [V93].
 
-    y (N, p), u (N, n_u): arrays or memory maps, unmodified; extra memory does not grow with N. `order` n is chosen by the gap where not
-    given; block_rows s must exceed the lag, p (s - 1) >= n; past_rows defaults to block_rows, past_rows n_u >= n. `route` as in `compress`.
-    InvalidData where the data or arguments cannot give a model, or the order is left open and there is no clean gap or one that leaves A
-    undetermined.
+    y (N, p) and u (N, n_u) are arrays or memory maps, in any units, and are not modified; without u, y gives the consecutive pieces
+    (y, u) of the experiment anew at each `iter`, as a list or a record does. An array is read in the same pieces; extra memory does not
+    grow with N. The `order` n is chosen by the gap where it is not given; block_rows s must exceed the lag, p (s - 1) >= n; past_rows is
+    block_rows where it is not given, past_rows n_u >= n; `route` is as in `compress`. Raises InvalidData where the data or arguments
+    cannot give a model or can be read only once, and OrderUndecided where the order is left open and there is no clean gap or one that
+    leaves A undetermined.
+
+    >>> import numpy as np
+    >>> u = np.random.default_rng(1).standard_normal((300, 1))
+    >>> y = np.zeros((300, 1))
+    >>> for k in range(299):
+    ...     y[k + 1] = 0.5 * y[k] + u[k]
+    >>> found = pi_moesp(y, u, block_rows=5)
+    >>> found.order, found.A.round(6).tolist()
+    (1, [[0.5]])
     """
-    return pi_moesp_experiments([(y, u)], order=order, block_rows=block_rows, past_rows=past_rows, route=route)
+    source = experiment(y, u)
+    return _modelled([source], _compressed(y, u, source, block_rows, past_rows, route), order)
 
 
 def pi_moesp_experiments(
@@ -376,20 +408,47 @@ def pi_moesp_experiments(
     block_rows: int,
     past_rows: int | None = None,
     route: str | None = None,
-) -> Identification:
-    """One model of several experiments (y, u) with the same channels, each with an own initial state: see `pi_moesp`."""
+) -> MoespModel:
+    """One model of several experiments (y, u) with the same channels, each with an own initial state, by PI-MOESP [V93].
+
+    Each y (N_i, p) and u (N_i, n_u) may have its own length, all in the same units; arguments and result are those of `pi_moesp`. Raises
+    InvalidData as there, and where no experiment is given.
+
+    >>> import numpy as np
+    >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
+    >>> inputs = np.split(np.random.default_rng(1).standard_normal((300, 1)), [100])
+    >>> pi_moesp_experiments([(model.simulate(u), u) for u in inputs], block_rows=5).A.round(6).tolist()
+    [[0.5]]
+    """
     if len(experiments) == 0:
         raise InvalidData("no experiment: give at least one pair (y, u)")
-    compression = merge(*(compress(y, u, block_rows=block_rows, past_rows=past_rows, route=route) for y, u in experiments))
+    sources = [experiment(y, u) for y, u in experiments]
+    compressions = [
+        _compressed(y, u, source, block_rows, past_rows, route) for (y, u), source in zip(experiments, sources, strict=True)
+    ]
+    return _modelled(sources, merge(*compressions), order)
+
+
+def _compressed(
+    y: Any, u: ArrayLike | None, source: Pieces, block_rows: int, past_rows: int | None, route: str | None
+) -> Compression:
+    """Of arrays, which tell their shapes beforehand, or of pieces."""
+    if u is not None:
+        return compress(y, u, block_rows=block_rows, past_rows=past_rows, route=route)
+    return compress_chunks(source, block_rows=block_rows, past_rows=past_rows, route=route)
+
+
+def _modelled(sources: Sequence[Pieces], compression: Compression, order: int | None) -> MoespModel:
+    """The model of all experiments from their merged compression; a lack of excitation is told by the constant input, if there is one."""
     try:
         check_compression(compression)
     except InvalidData:
-        if len(experiments) == 1:
-            _spread(*experiments[0])
+        if len(sources) == 1:
+            _spread(sources[0])
         raise
-    return complete(_range_of(compression, order), compression, lambda: [pieces(y, u) for y, u in experiments])
+    return complete(_range_of(compression, order), compression, sources)
 
 
-def pi_moesp_from_compression(compression: Compression, *, order: int | None = None) -> Identification:
+def pi_moesp_from_compression(compression: Compression, *, order: int | None = None) -> MoespModel:
     """The model from a compression alone, with B and D by MOESP's own regression [V93]; no initial state and no residual covariance."""
     return complete(_range_of(compression, order), compression, None)

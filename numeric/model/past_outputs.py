@@ -10,17 +10,25 @@ po_moesp        from y and u to the same record as `pi_moesp`
 import numpy as np
 from numpy.typing import ArrayLike
 
-from faultspace.numeric.data.validation import enough_samples, pieces, two_dimensional
-from faultspace.numeric.model.compression import EPS, Compression, scaled_condition, window_rows, windows
-from faultspace.numeric.model.past_inputs import Identification, check_compression, complete, system_range
-from faultspace.numeric.model.sequential_qr import SequentialQR
+from ..data.validation import enough_samples, experiment, pieces, two_dimensional
+from ..model.compression import EPS, Compression, scaled_condition, window_rows, windows
+from ..model.past_inputs import MoespModel, check_compression, complete, system_range
+from ..model.sequential_qr import SequentialQR
 
 
-def po_moesp(y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows: int, past_rows: int | None = None) -> Identification:
-    """The model of one experiment by past inputs and outputs.
+def po_moesp(y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows: int, past_rows: int | None = None) -> MoespModel:
+    """The model of one experiment by past inputs and outputs [VV07, ch. 9]; biased where a fault or a disturbance is coloured.
 
-    y (N, p), u (N, n_u), unmodified; arguments, order rule and result as `pi_moesp`, with p block_rows > order and singular values of
-    the unscaled factor. InvalidData as there.
+    y (N, p) and u (N, n_u) are arrays in any units, and are not modified; arguments, order rule and result are those of `pi_moesp`, with
+    p block_rows > order and singular values of the unscaled factor. Raises InvalidData as there.
+
+    >>> import numpy as np
+    >>> u = np.random.default_rng(1).standard_normal((300, 1))
+    >>> y = np.zeros((300, 1))
+    >>> for k in range(299):
+    ...     y[k + 1] = 0.5 * y[k] + u[k]
+    >>> po_moesp(y, u, order=1, block_rows=5).A.round(6).tolist()
+    [[0.5]]
     """
     future, past = windows(block_rows, past_rows)
     outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
@@ -45,4 +53,4 @@ def po_moesp(y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows
     check_compression(compression)
     floor = 10 * EPS * float(np.linalg.norm(lower[last:])) * np.sqrt(float(future * p))
     found = system_range(projected, np.ones(p), floor, order, past * (n_u + p))
-    return complete(found, compression, lambda: [pieces(outputs, inputs)])
+    return complete(found, compression, [experiment(outputs, inputs)])

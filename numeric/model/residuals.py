@@ -17,52 +17,75 @@ given x0 nothing is left to choose, and they are refused.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy.linalg
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.data.validation import signals
-from faultspace.numeric.model.models import Simulator, StateSpaceModel
-
-Array = NDArray[np.float64]
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..data.records import SampleStore, stored
+from ..data.validation import experiment
+from .models import Simulator, StateSpaceModel
 
 GROWTH = 1e4
 """Largest growth over the record with which a mode is still simulated forward: it costs four digits of sixteen."""
+FORWARD = 1e6
+"""Largest growth over the record with which a mode is simulated forward from a state that is given: ten digits remain."""
 CHUNK = 1024
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ResidualSignal:
-    """`r` (N, p); `x0` (n,) the state at the first sample; `covariance` (p, p) of r about zero, fitted degrees of freedom taken off;
-    `x0_covariance` (n, n), zero when x0 was given; `observed` the number of state directions that the record determines;
-    `backward` the number of growing modes that were run backward; `notes` what a user should know."""
+    """r (N, p) in `store`, in the units of y; `x0` (n,) the state at the first sample, `fitted` whether it was fitted to this record;
+    `covariance` (p, p) of r about zero, fitted degrees of freedom taken off; `x0_covariance` (n, n), zero when x0 was given; `observed` the
+    number of state directions that the record determines; `backward` the number of growing modes that were run backward; `notes` what a
+    user should know."""
 
-    r: Array
+    store: SampleStore
     x0: Array
+    fitted: bool
     covariance: Array
     x0_covariance: Array
     observed: int
     backward: int
     notes: tuple[str, ...]
 
+    @cached_property
+    def r(self) -> Array:
+        """The residual (N, p), all of it in memory."""
+        return self.store.read(0, len(self.store))
+
 
 def residual(
-    y: ArrayLike, u: ArrayLike, model: StateSpaceModel, *, x0: ArrayLike | None = None
+    y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
+    u: ArrayLike | None,
+    model: StateSpaceModel,
+    *,
+    x0: ArrayLike | None = None,
 ) -> ResidualSignal:
-    """r = y - (model's response to u), y (N, p), u (N, n_u); the initial state is fitted unless `x0` (n,) is given.
+    """r = y - (the model's response to u); the initial state is fitted by least squares [GVL13] unless `x0` (n,) is given.
 
-    The covariance of x0 holds for a stationary r, with autocovariances up to lag N^(1/3) under Bartlett weights [NW87]; the model is
-    taken as exact. Raises InvalidData for NaN, unequal lengths, channels that do not fit the model, fewer than n samples,
-    and for a given x0 with a model whose modes grow by more than 1e4 over the record.
+    y (N, p) and u (N, n_u) are arrays in the model's units; where u is None, y gives the consecutive pieces (y, u) of the record at each
+    `iter`. With x0 given, the record is read once, piece by piece, and none of it is held; the fit of x0 holds it. The covariance of x0
+    holds for a stationary r, with autocovariances up to lag N^(1/3) under Bartlett weights [NW87]; the model is taken as exact.
+    Raises InvalidData for NaN, unequal lengths, channels that do not fit the
+    model, fewer than n samples, and for a given x0 with a model whose modes grow by more than FORWARD over the record.
+
+    >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
+    >>> u = np.ones((4, 1))
+    >>> residual(model.simulate(u) + 0.25, u, model, x0=[0.0]).r.ravel().tolist()
+    [0.25, 0.25, 0.25, 0.25]
     """
-    outputs, inputs = signals(y, u)
-    _check(outputs, inputs, model)
+    source = experiment(y, u)
     if x0 is not None:
-        return _with_given_state(outputs, inputs, model, x0)
+        return _with_given_state(source, model, x0)
+    gathered = list(source)
+    outputs, inputs = (np.concatenate([piece[i] for piece in gathered]) for i in (0, 1))
+    _check(outputs.shape, inputs.shape, model)
     parts = split(model, len(outputs))
     error = outputs - parts.forced(inputs)
     theta, directions, observed = _fit(parts, error)
@@ -77,8 +100,9 @@ def residual(
         notes.append(f"the record determines {observed} of {model.n} state directions; x0 is zero along the others")
     freedom = max(len(r) - observed / model.p, 1.0)
     return ResidualSignal(
-        r=r,
+        store=stored(r),
         x0=parts.first_state(theta, inputs),
+        fitted=True,
         covariance=r.T @ r / freedom,
         x0_covariance=to_x0 @ _state_covariance(parts, r, directions) @ to_x0.T,
         observed=observed,
@@ -87,32 +111,47 @@ def residual(
     )
 
 
-def _check(y: Array, u: Array, model: StateSpaceModel) -> None:
-    """Refuse data that do not fit the model."""
-    if y.shape[1] != model.p or u.shape[1] != model.n_u:
-        turned = "; y looks transposed, pass y.T" if y.shape[0] == model.p else ""
+def _fits(y: tuple[int, ...], u: tuple[int, ...], model: StateSpaceModel) -> None:
+    """Refuse channels that do not fit the model."""
+    if y[1] != model.p or u[1] != model.n_u:
+        turned = "; y looks transposed, pass y.T" if y[0] == model.p else ""
         raise InvalidData(
-            f"y has {y.shape[1]} columns and u has {u.shape[1]}, the model has {model.p} outputs and {model.n_u} inputs: "
+            f"y has {y[1]} columns and u has {u[1]}, the model has {model.p} outputs and {model.n_u} inputs: "
             f"one column a channel is needed{turned}"
         )
-    if len(y) * model.p <= model.n:
+
+
+def _check(y: tuple[int, ...], u: tuple[int, ...], model: StateSpaceModel) -> None:
+    """Refuse data that do not fit the model, or are too few."""
+    _fits(y, u, model)
+    if y[0] * model.p <= model.n:
         raise InvalidData(
-            f"{len(y)} samples of {model.p} outputs cannot fix {model.n} initial states: more than {model.n / model.p:g} samples are "
+            f"{y[0]} samples of {model.p} outputs cannot fix {model.n} initial states: more than {model.n / model.p:g} samples are "
             f"needed; give more samples, or x0"
         )
 
 
-def _with_given_state(y: Array, u: Array, model: StateSpaceModel, x0: ArrayLike) -> ResidualSignal:
-    """The residual from a known initial state."""
-    state = np.array(x0, dtype=np.float64).reshape(-1)
-    growing = int(np.sum(np.abs(model.poles) > _radius(len(y))))
+def _with_given_state(source: Iterable[tuple[Array, Array]], model: StateSpaceModel, x0: ArrayLike) -> ResidualSignal:
+    """The residual from a known initial state, piece by piece."""
+    simulator = Simulator(model, np.array(x0, dtype=np.float64).reshape(-1))
+    state, store, squares = simulator.state.copy(), SampleStore(model.p), np.zeros((model.p, model.p))
+    u_width = 0
+    for y, u in source:
+        _fits(y.shape, u.shape, model)
+        r = y - simulator.respond(u)
+        with np.errstate(over="ignore", invalid="ignore"):  # a model that grows so much is refused below
+            squares += r.T @ r
+        store.append(r)
+        u_width = u.shape[1]
+    samples = len(store)
+    _check((samples, model.p), (samples, u_width or model.n_u), model)
+    growing = int(np.sum(np.abs(model.poles) > FORWARD ** (1.0 / samples)))
     if growing:
         raise InvalidData(
-            f"the model has {growing} mode(s) that grow by more than {GROWTH:g} over {len(y)} samples: simulating from a given x0 would "
+            f"the model has {growing} mode(s) that grow by more than {FORWARD:g} over {samples} samples: simulating from a given x0 would "
             f"amplify rounding as much; leave x0 out (the growing modes are then run backward), or cut the record into shorter experiments"
         )
-    r = y - model.simulate(u, state)
-    return ResidualSignal(r, state, r.T @ r / len(r), np.zeros((model.n, model.n)), model.n, 0, ())
+    return ResidualSignal(store, state, False, squares / samples, np.zeros((model.n, model.n)), model.n, 0, ())
 
 
 def _radius(samples: int) -> float:

@@ -12,31 +12,31 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from faultspace.numeric.data.validation import FloatArray
+from ...base.arrays import Array
 
 PANEL = 16  # reflections applied together
 ENTRIES = 1 << 17  # entries of a block of columns: one that stays in the cache is several times faster
 
 
-def _nonnegative(factor: FloatArray) -> FloatArray:
+def _nonnegative(factor: Array) -> Array:
     """The factor with rows turned so that its diagonal is nonnegative: R is then unique where H has full row rank."""
     upper = np.triu(factor)
-    turned: FloatArray = np.where(np.diag(upper) < 0, -1.0, 1.0)[:, np.newaxis] * upper
+    turned: Array = np.where(np.diag(upper) < 0, -1.0, 1.0)[:, np.newaxis] * upper
     return turned
 
 
-def append_rows(factor: FloatArray, block: FloatArray) -> FloatArray:
+def append_rows(factor: Array, block: Array) -> Array:
     """The factor of [factor; block], block of any number of rows; both may be overwritten. LAPACK's tpqrt knows that `factor` is
     triangular.
     """
     width = factor.shape[1]
     updated, _, _, info = lapack.dtpqrt(0, min(PANEL, width), factor, block, overwrite_a=1, overwrite_b=1)
     assert info == 0, info
-    result: FloatArray = updated
+    result: Array = updated
     return result
 
 
-def triangular(*stacked: FloatArray) -> FloatArray:
+def triangular(*stacked: Array) -> Array:
     """R (k, k), upper triangular with nonnegative diagonal, with R.T @ R = the sum of S.T @ S over the given S (any, k)."""
     factor = np.zeros((stacked[0].shape[1],) * 2, order="F")
     for block in stacked:
@@ -59,7 +59,7 @@ class SequentialQR:
         self._kept = np.empty((channels, 0))
         self.columns = 0
 
-    def append(self, piece: FloatArray) -> None:
+    def append(self, piece: Array) -> None:
         """Take the next samples (T, channels); columns across the edge of two pieces are seen."""
         # Channel-major: each row of the block is then one contiguous copy.
         joint = np.concatenate([self._kept, piece.T], axis=1)
@@ -73,6 +73,6 @@ class SequentialQR:
         self.columns += columns
         self._kept = joint[:, columns:].copy()
 
-    def factor(self) -> FloatArray:
+    def factor(self) -> Array:
         """R (k, k) so far; fewer columns than rows leave zero rows."""
         return _nonnegative(self._factor)

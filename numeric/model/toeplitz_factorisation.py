@@ -14,14 +14,12 @@ of the coefficients Q that is fixed and not that of [f; g]. It grows with (p s^2
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.windows import hankel_factor
 from ..space.result import orthonormal
 from .models import observability_matrix
-
-Array = NDArray[np.float64]
 
 
 def toeplitz_factorisation(r: Array, A: Array, C: Array, *, block_rows: int, rank: int, n_z: int) -> Array:

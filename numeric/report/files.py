@@ -1,4 +1,4 @@
-"""What `faultspace identify` writes of an Answer: JSON and the files of its folder.
+"""What `faultspace identify` writes of the Findings: JSON and the files of its folder.
 
 document     the JSON-ready dict of --json (schemas/identify.schema.json)
 write        all files, written elsewhere first and then renamed into place; says which, and what is missing and why
@@ -10,11 +10,12 @@ from __future__ import annotations
 import json
 import os
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...base.errors import InvalidInput, quote_path
 from ..count.mean_shift import POWER
@@ -24,17 +25,15 @@ from .pictures import PICTURES, pictures
 from .summary import advice, fit, markdown, summary
 
 if TYPE_CHECKING:
-    from ..result import Answer
-
-Array = NDArray[np.float64]
+    from ..findings import Findings
 
 MODEL, SPACE, SIGNAL, SUMMARY = "model.json", "fault-space.json", "fault-signal.csv", "summary.md"
 NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, *PICTURES)
 
 
-def document(answer: Answer, data: str) -> dict[str, Any]:
-    """Everything in JSON: null where there is no answer, complex numbers as [real, imaginary]."""
-    record, model = answer.record, answer.identification
+def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
+    """Everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `worded` rewrites notes and advice."""
+    record, model = answer.record, answer.model
     result: dict[str, Any] = {
         "data": data,
         "samples": len(record),
@@ -45,14 +44,14 @@ def document(answer: Answer, data: str) -> dict[str, Any]:
         "order": model.order if model else None,
         "order_given": answer.order_given,
         "singular_values": _plain(answer.singular_values),
-        "n_v": answer.count,
+        "n_v": answer.n_v,
         "n_v_at_least": answer.at_least,
-        "n_v_given": answer.count_given,
-        "n_v_reason": answer.count_reason,
+        "n_v_given": answer.n_v_given,
+        "n_v_reason": answer.reason,
         "n_v_from": answer.counted_by,
-        "healthy_until": answer.healthy_until,
-        "notes": list(answer.notes),
-        "next": advice(answer),
+        "healthy_until": answer.healthy,
+        "notes": [worded(note) for note in answer.notes],
+        "next": [worded(line) for line in advice(answer)],
     }
     if model:
         result |= {
@@ -81,12 +80,12 @@ def document(answer: Answer, data: str) -> dict[str, Any]:
             "n_v": answer.against.n_v,
             "at_least": answer.against.at_least,
             "reason": answer.against.reason,
-            "healthy": list(answer.healthy),
+            "healthy": list(answer.counted_against),
             "visible": _plain(answer.against.visible),
         }
     mean = answer.mean
     result["mean_shift"] = mean and {
-        "against": "zero" if answer.healthy_until is None else "healthy samples",
+        "against": "zero" if answer.healthy is None else "healthy samples",
         "shifted": mean.shifted,
         "reason": mean.reason,
         "level": mean.level,
@@ -96,7 +95,7 @@ def document(answer: Answer, data: str) -> dict[str, Any]:
         "deviations": _plain(mean.deviations),
         "outputs": [answer.record.outputs[i] for i in mean.channels],
     }
-    if answer.healthy_until is not None and mean:
+    if answer.healthy is not None and mean:
         result["visible"] = {"power": POWER, "level": mean.level, "constant": _plain(mean.visible), "white": _plain(answer.visible)}
     result["fault_space"] = _space(answer)
     result["explained"] = _plain(answer.explained)
@@ -113,15 +112,20 @@ def document(answer: Answer, data: str) -> dict[str, Any]:
     return result
 
 
-def write(answer: Answer, out: Path, data: str, tell: Tell) -> tuple[list[str], list[str]]:
-    """Writes the files into the folder `out`; their names, and remarks on what could not be had. Raises InvalidInput."""
+def write(
+    answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callable[[str], str] = str
+) -> tuple[list[str], list[str]]:
+    """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `document`.
+
+    Raises InvalidInput where the folder cannot be written into.
+    """
     remarks: list[str] = []
     try:
         with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
             folder = Path(name)
             _tables(answer, folder, tell)
             remarks += pictures(answer, folder)
-            lines = [*summary(answer, data)]
+            lines = [*summary(answer, data, worded=worded)]
             if remarks:
                 lines += ["", "## Missing", *(f"- {remark}" for remark in remarks)]
             (folder / SUMMARY).write_text(markdown(lines), encoding="utf-8")
@@ -137,9 +141,9 @@ def write(answer: Answer, out: Path, data: str, tell: Tell) -> tuple[list[str], 
     return written, remarks
 
 
-def _tables(answer: Answer, folder: Path, tell: Tell) -> None:
-    if answer.identification is not None:
-        model = answer.identification.model.to_json()
+def _tables(answer: Findings, folder: Path, tell: Tell) -> None:
+    if answer.model is not None:
+        model = answer.model.model.to_json()
         model |= {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
         if answer.pair is not None:
             F, G = answer.pair
@@ -166,8 +170,8 @@ def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, tell: Te
             tell("writing the fault signal", k, len(v))
 
 
-def _space(answer: Answer) -> dict[str, Any] | None:
-    space = answer.space
+def _space(answer: Findings) -> dict[str, Any] | None:
+    space = answer.fault_space
     if space is None:
         return None
     return {

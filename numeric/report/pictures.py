@@ -1,6 +1,7 @@
 """The pictures of `faultspace identify`, one a file.
 
-pictures     draws what an Answer holds into a folder; remarks on what could not be had
+main_picture the one picture of `Identification.plot`
+pictures     draws what the Findings holds into a folder; remarks on what could not be had
 PICTURES     the names of the files
 
     singular-values   of PI-MOESP, with the order
@@ -20,13 +21,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...base.errors import InvalidData
 from ..count.rank_gap import FaultDimension
 from ..signal import plots
-from ..signal.long_residuals import loudest
+from ..signal.residual_sizes import loudest
 
 if TYPE_CHECKING:
-    from ..result import Answer
-    from ..signal.long_reconstruction import FaultSignal
+    from ..findings import Findings
+    from ..model.residuals import ResidualSignal
+    from ..signal.reconstruction import Reconstruction
 
 PICTURES = (
     "singular-values.png", "window-ranks.png", "noise-levels.png", "zeros-and-poles.png", "outputs.png", "fault-signal.png",
@@ -37,7 +40,7 @@ TICKS = 7
 WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)
 
 
-def pictures(answer: Answer, folder: Path) -> list[str]:
+def pictures(answer: Findings, folder: Path) -> list[str]:
     """Draws what there is; without matplotlib the sentence that says so."""
     try:
         figure: Any = import_module("matplotlib.figure")
@@ -50,9 +53,33 @@ def pictures(answer: Answer, folder: Path) -> list[str]:
     return []
 
 
-def _drawings(answer: Answer) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
+def main_picture(answer: Findings, ax: Any = None) -> Any:
+    """The fault signal where there is one, else the last samples of the outputs, measured and simulated; into `ax`, which is returned.
+
+    Raises InvalidData where there is no model to draw anything of."""
+    if answer.residual is None:
+        raise InvalidData("there is no model, so that there is nothing to draw: state an order")
+    if ax is None:
+        ax = import_module("matplotlib.pyplot").figure(figsize=WIDE, layout="constrained").add_subplot()
+    if answer.signal is not None:
+        _draw_stretch(answer.signal, *_extremes(answer.signal), ax)
+        ax.set_title("Fault signal" if answer.signal.store.width == 1 else "Fault signals", loc="left")
+        return ax
+    y, simulated, first = _last_outputs(answer, answer.residual)
+    return plots.plot_measured_and_simulated(y, simulated, names=answer.record.outputs, first=first, ax=ax)
+
+
+def _last_outputs(answer: Findings, rest: ResidualSignal) -> tuple[Any, Any, int]:
+    """The last PICTURED samples of the outputs, measured and simulated, and the number of the first of them."""
+    N = len(answer.record)
+    first = max(N - PICTURED, 0)
+    y = answer.record.stretch(first, N)[0]
+    return y, y - rest.store.read(first, N), first
+
+
+def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
     """Name, size and what to do with a figure."""
-    model, dimension, rest, signal = answer.identification, answer.dimension, answer.residual, answer.signal
+    model, dimension, rest, signal = answer.model, answer.dimension, answer.residual, answer.signal
     order = model.order if model else None
     spectrum, ranks, levels, plane, outputs, faults = PICTURES
     drawings: list[tuple[str, tuple[float, float], Callable[[Any], Any]]] = [
@@ -66,14 +93,12 @@ def _drawings(answer: Answer) -> list[tuple[str, tuple[float, float], Callable[[
         zeros = signal.zeros if signal else np.zeros(0)
         drawings.append((plane, SQUARE, lambda figure: plots.plot_zeros_and_poles(model.model.poles, zeros, ax=figure.add_subplot())))
     if rest:
-        N, names = len(answer.record), answer.record.outputs
-        first = max(N - PICTURED, 0)
-        y = answer.record.stretch(first, N)[0]
-        simulated = y - rest.store.read(first, N)
+        names = answer.record.outputs
+        y, simulated, first = _last_outputs(answer, rest)
         draw = plots.plot_measured_and_simulated
         drawings.append((outputs, WIDE, lambda figure: draw(y, simulated, names=names, first=first, ax=figure.add_subplot())))
-    if rest and signal:
-        near = loudest(rest.energies, len(signal.store), PICTURED)
+    if answer.sizes and signal:
+        near = loudest(answer.sizes.energies, len(signal.store), PICTURED)
         drawings.append((faults, TALL, lambda figure: _draw_signal(signal, near, figure)))
     return drawings
 
@@ -101,17 +126,20 @@ def _draw_levels(dimension: FaultDimension, ax: Any) -> None:
         ax.spines[side].set_visible(False)
 
 
-def _draw_signal(signal: FaultSignal, near: tuple[int, int], figure: Any) -> None:
-    """The whole signal above, the samples `near` below."""
+def _extremes(signal: Reconstruction) -> tuple[Any, int, float]:
+    """Rows to draw of the whole signal, the sample they begin with and the samples that each stands for."""
     N = len(signal.store)
     part = 1 if N <= MOST_DRAWN else -(-2 * N // MOST_DRAWN)
     if part == 1:
-        rows, step = signal.store.read(0, N), 1.0
-    else:
-        parts = (signal.store.read(first, first + part) for first in range(0, N, part))
-        rows, step = np.array([ends for rows in parts for ends in (rows.min(axis=0), rows.max(axis=0))]), part / 2
+        return signal.store.read(0, N), 0, 1.0
+    parts = (signal.store.read(first, first + part) for first in range(0, N, part))
+    return np.array([ends for rows in parts for ends in (rows.min(axis=0), rows.max(axis=0))]), 0, part / 2
+
+
+def _draw_signal(signal: Reconstruction, near: tuple[int, int], figure: Any) -> None:
+    """The whole signal above, the samples `near` below."""
     whole, detail = figure.subplots(2)
-    _draw_stretch(signal, rows, 0, step, whole)
+    _draw_stretch(signal, *_extremes(signal), whole)
     _draw_stretch(signal, signal.store.read(*near), near[0], 1.0, detail)
     whole.set_xlabel("")
     what = "Fault signal" if signal.store.width == 1 else "Fault signals"
@@ -119,7 +147,7 @@ def _draw_signal(signal: FaultSignal, near: tuple[int, int], figure: Any) -> Non
     detail.set_title("detail, where the residual is loudest", loc="left")
 
 
-def _draw_stretch(signal: FaultSignal, rows: Any, first: int, step: float, ax: Any) -> None:
+def _draw_stretch(signal: Reconstruction, rows: Any, first: int, step: float, ax: Any) -> None:
     """Rows that stand for `step` samples each, from sample `first` on, with an axis that tells samples."""
     begin, end = (int(np.clip(round((edge - first) / step), 0, len(rows))) for edge in signal.trusted)
     plots.plot_fault_signal(rows, trusted=(begin, end), ax=ax)

@@ -1,4 +1,4 @@
-"""What `faultspace identify` says to people: an Answer as lines of Markdown, on the terminal and in summary.md.
+"""What `faultspace identify` says to people: the Findings as lines of Markdown, on the terminal and in summary.md.
 
 summary     the lines: model, faults, fault space, fault signal, notes, what to try next
 advice      what to try next, from what was found
@@ -8,37 +8,36 @@ markdown    the lines as a file: blank lines around headings, code and lists
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ...base.errors import quote_path
 from ..count.mean_shift import POWER
 
 if TYPE_CHECKING:
-    from ..result import Answer
-
-Array = NDArray[np.float64]
+    from ..findings import Findings
 
 MOST_ROWS = 12
 DIGITS = 4
 CANDIDATES = 3
 
 
-def fit(answer: Answer) -> Array | None:
+def fit(answer: Findings) -> Array | None:
     """100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
-    if answer.residual is None:
+    if answer.sizes is None:
         return None
-    record = answer.record if answer.healthy_until is None else answer.record.beginning(answer.healthy_until)
+    record = answer.record if answer.healthy is None else answer.record.beginning(answer.healthy)
     spread = np.sqrt(len(record)) * record.channels.deviation[record.n_u :]
-    return np.asarray(100 * (1 - answer.residual.early_norm / np.where(spread > 0, spread, 1.0)))
+    return np.asarray(100 * (1 - answer.sizes.early_norm / np.where(spread > 0, spread, 1.0)))
 
 
-def summary(answer: Answer, data: str) -> Iterator[str]:
-    """The answer for people, as lines of Markdown."""
-    record, model = answer.record, answer.identification
+def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
+    """The answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
+    record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
     yield f"{len(record)} samples, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
     yield f"windows of {answer.block_rows} samples{', means removed' if answer.means_removed else ''}"
@@ -56,14 +55,14 @@ def summary(answer: Answer, data: str) -> Iterator[str]:
         if shown is not None:
             pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, shown, strict=True)]
             left = "what is left is faults, noise and the model's error"
-            if answer.healthy_until is not None:
-                yield f"identified from the samples 0 to {answer.healthy_until - 1}, stated to be without fault"
+            if answer.healthy is not None:
+                yield f"identified from the samples 0 to {answer.healthy - 1}, stated to be without fault"
                 left = "what is left is noise and the model's error"
             yield f"fit, initial state included: {_several(pairs)}; {left}"
         yield ""
         yield "## Faults"
         yield f"number of independent faults n_v: **{_count(answer)}**"
-        yield f"why: {answer.count_reason}"
+        yield f"why: {answer.reason}"
         yield from _healthy_lines(answer)
         yield from _mean_lines(answer)
         yield from _visible_lines(answer)
@@ -74,14 +73,14 @@ def summary(answer: Answer, data: str) -> Iterator[str]:
     if answer.notes:
         yield ""
         yield "## Notes"
-        yield from (f"- {note}" for note in answer.notes)
+        yield from (f"- {worded(note)}" for note in answer.notes)
     yield ""
     yield "## What to try next"
-    yield from (f"- {line}" for line in advice(answer))
+    yield from (f"- {worded(line)}" for line in advice(answer))
 
 
-def _why_the_order(answer: Answer) -> str:
-    model = answer.identification
+def _why_the_order(answer: Findings) -> str:
+    model = answer.model
     assert model is not None
     gap = model.gap
     how = "as given" if answer.order_given else "by the gap in the singular values"
@@ -94,42 +93,42 @@ def _why_the_order(answer: Answer) -> str:
     )
 
 
-def _healthy_lines(answer: Answer) -> Iterator[str]:
+def _healthy_lines(answer: Findings) -> Iterator[str]:
     """Both counts, where there are two."""
     against, alone = answer.against, answer.dimension
     if against is None:
         return
-    first, until = answer.healthy
+    first, until = answer.counted_against
     taken = f"; taken: {answer.counted_by}" if answer.counted_by else ""
     yield f"against the healthy samples {first} to {until - 1}: {_said(against.n_v)} ({against.reason})"
     yield f"from the residual alone: {_said(alone.n_v)} ({alone.reason}){taken}" if alone else f"from the residual alone: none{taken}"
 
 
-def _count(answer: Answer) -> str:
-    if answer.count is not None:
-        return str(answer.count)
+def _count(answer: Findings) -> str:
+    if answer.n_v is not None:
+        return str(answer.n_v)
     return f"undecided, at least {answer.at_least}" if answer.at_least else "undecided"
 
 
-def _mean_lines(answer: Answer) -> Iterator[str]:
+def _mean_lines(answer: Findings) -> Iterator[str]:
     """The mean beside the rank: what moved it, by how much."""
-    mean, rest, record = answer.mean, answer.residual, answer.record
-    if mean is None or rest is None:
+    mean, sizes, record = answer.mean, answer.sizes, answer.record
+    if mean is None or sizes is None:
         return
-    against = "zero" if answer.healthy_until is None else "that of the healthy samples"
+    against = "zero" if answer.healthy is None else "that of the healthy samples"
     yield f"mean of the residual against {against}: {mean.reason}"
     if not mean.shifted or mean.shift is None or mean.deviations is None:
         return
-    noise = np.sqrt(answer.modelled) / np.where(rest.early_norm > 0, rest.early_norm, np.inf)
+    noise = np.sqrt(answer.modelled) / np.where(sizes.early_norm > 0, sizes.early_norm, np.inf)
     rows = zip(record.outputs, mean.shift, mean.deviations, mean.shift * noise, strict=True)
-    sigma = "" if answer.healthy_until is None else " ({:.3g} times the size of its healthy residual)"
+    sigma = "" if answer.healthy is None else " ({:.3g} times the size of its healthy residual)"
     yield "mean by output: " + _several([f"{name} {d:.4g} +- {e:.2g}{sigma.format(size)}" for name, d, e, size in rows])
 
 
-def _visible_lines(answer: Answer) -> Iterator[str]:
+def _visible_lines(answer: Findings) -> Iterator[str]:
     """What would have been seen, where little or nothing was."""
     mean, outputs = answer.mean, answer.record.outputs
-    if answer.healthy_until is None or mean is None:
+    if answer.healthy is None or mean is None:
         return
     kinds = [("a constant at one output", mean.visible), ("a white signal at one output, deviation", answer.visible)]
     for kind, sizes in kinds:
@@ -142,8 +141,8 @@ def _said(number: int | None) -> str:
     return "undecided" if number is None else str(number)
 
 
-def _space_lines(answer: Answer) -> Iterator[str]:
-    space = answer.space
+def _space_lines(answer: Findings) -> Iterator[str]:
+    space = answer.fault_space
     if space is None:
         return
     yield ""
@@ -166,12 +165,12 @@ def _space_lines(answer: Answer) -> Iterator[str]:
     yield from (f"    {line}" for line in _matrix(space.basis))
 
 
-def _signal_lines(answer: Answer) -> Iterator[str]:
-    signal, space, record = answer.signal, answer.space, answer.record
+def _signal_lines(answer: Findings) -> Iterator[str]:
+    signal, space, record = answer.signal, answer.fault_space, answer.record
     if answer.explained is not None and answer.by_noise is not None:
         yield ""
         yield "## Fault signal"
-        on = " after the healthy samples" if answer.healthy_until is not None else ""
+        on = " after the healthy samples" if answer.healthy is not None else ""
         yield (
             f"explained of the residual{on}: {100 * answer.explained:.4g} %, where mere noise of its spectra could give up to "
             f"{100 * answer.by_noise:.3g} %{'' if signal is not None else ': **withheld**, with F and G'}"
@@ -194,41 +193,41 @@ def _signal_lines(answer: Answer) -> Iterator[str]:
     yield "its scale, sign and mixture go with the columns of F and G in the model file"
 
 
-def advice(answer: Answer) -> list[str]:
+def advice(answer: Findings) -> list[str]:
     """What to try next: about what is undecided first, and how to make sure of what is not."""
-    model, record = answer.identification, answer.record
+    model, record = answer.model, answer.record
     if model is None:
         return [
-            f"--order K: the largest ratios of neighbouring singular values are {_candidates(answer.singular_values)}",
-            f"--block-rows {2 * answer.block_rows} or {max(answer.block_rows // 2, 2)}: an order is right when it does not change",
+            f"order=K: the largest ratios of neighbouring singular values are {_candidates(answer.singular_values)}",
+            f"block_rows={2 * answer.block_rows} or {max(answer.block_rows // 2, 2)}: an order is right when it does not change",
             "more samples, or an input that excites more: noise moves the singular values together",
         ]
     lines = []
     if not model.model.is_stable:
-        lines.append("the model is not stable: a lower --order, --remove-means, or a record without drift, unless the plant is unstable")
-    if answer.count is None:
-        lines.append("--faults K, where the number of faults is known; the space and the signal then follow")
-        if answer.healthy_until is None:
-            lines.append("--healthy-until K, where the record begins with K samples without fault: what they show is not counted")
+        lines.append("the model is not stable: a lower order=, remove_means=True, or a record without drift, unless the plant is unstable")
+    if answer.n_v is None:
+        lines.append("n_v=K, where the number of faults is known; the space and the signal then follow")
+        if answer.healthy is None:
+            lines.append("healthy=K, where the record begins with K samples without fault: what they show is not counted")
         if record.p == 1:
             lines.append("more outputs: with one, a fault cannot be told from noise")
         else:
-            lines.append("more samples, larger --block-rows, or more outputs than faults; constant or sinusoidal faults count as fewer")
+            lines.append("more samples, larger block_rows=, or more outputs than faults; constant or sinusoidal faults count as fewer")
         if answer.moved:
             lines.append("for a constant fault: the outputs whose means moved, above, and by how much; record where it sets in or varies")
-    elif answer.count == 0:
+    elif answer.n_v == 0:
         lines.append("nothing about faults: record while one acts")
-    elif answer.space is None or not answer.space.meaningful:
+    elif answer.fault_space is None or not answer.fault_space.meaningful:
         lines.append("more outputs than independent faults: as many faults as outputs leave no relation to find F and G from")
     else:
-        if not answer.space.decided:
+        if not answer.fault_space.decided:
             lines.append("more samples: the dimension of the fault space is a near thing; F, G and the signal follow where it is decided")
         if answer.explained is not None and answer.signal is None:
-            lines.append("another --order or --faults: the signal explains no more of the residual than it would of noise")
+            lines.append("another order= or n_v=: the signal explains no more of the residual than it would of noise")
         if answer.signal is not None and answer.signal.trusted[0] >= answer.signal.trusted[1]:
             lines.append("an output that sees the fault sooner, or another one: no sample of the signal is determined by these")
     other = answer.block_rows + max(answer.block_rows // 2, 2)
-    lines.append(f"--block-rows {other}: order, n_v and n_z should stay as they are")
+    lines.append(f"block_rows={other}: order, n_v and n_z should stay as they are")
     if answer.pair is not None:
         lines.append(
             "faultspace inspect model.json --floats-exactly: indices and delays of these very floats; it can confirm no zeros, because "

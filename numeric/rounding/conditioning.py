@@ -31,10 +31,10 @@ from typing import Any
 
 import numpy as np
 
-from faultspace.numeric.data.validation import FloatArray
-from faultspace.numeric.model.compression import EPS, Compression
-from faultspace.numeric.model.models import BLOCK, StateSpaceModel, observability_matrix
-from faultspace.numeric.model.past_inputs import Identification, output_scale
+from ...base.arrays import Array
+from ..model.compression import EPS, Compression
+from ..model.models import BLOCK, StateSpaceModel, observability_matrix
+from ..model.past_inputs import MoespModel, output_scale
 
 UNIT = EPS / 2
 SMALL = 10.0
@@ -63,11 +63,11 @@ class Setting:
     """
 
     compression: Compression
-    input_scale: FloatArray
-    scale: FloatArray
-    lower: FloatArray
-    U: FloatArray
-    values: FloatArray
+    input_scale: Array
+    scale: Array
+    lower: Array
+    U: Array
+    values: Array
     model: StateSpaceModel
 
     @property
@@ -75,7 +75,7 @@ class Setting:
         """Order."""
         return self.model.n
 
-    def part(self, rows: str, columns: str) -> FloatArray:
+    def part(self, rows: str, columns: str) -> Array:
         """A block of L by the letters f, p, y of its rows and columns."""
         s, q = self.compression.block_rows * self.compression.n_u, self.compression.inputs
         spans = {"f": slice(0, s), "p": slice(s, q), "y": slice(q, None), "u": slice(0, q)}
@@ -90,12 +90,12 @@ def _frobenius(matrix: Any) -> float:
     return float(np.linalg.norm(matrix))
 
 
-def _least(matrix: FloatArray) -> float:
+def _least(matrix: Array) -> float:
     """The least singular value of a matrix with at least as many rows as columns, else of its transpose."""
     return float(np.linalg.svd(matrix, compute_uv=False)[-1])
 
 
-def setting(compression: Compression, found: Identification) -> Setting:
+def setting(compression: Compression, found: MoespModel) -> Setting:
     """The setting of a model found from this compression by `pi_moesp` or `pi_moesp_from_compression`."""
     s, q, p, n_u = compression.block_rows, compression.past_rows, compression.p, compression.n_u
     parts = compression.blocks()
@@ -176,8 +176,8 @@ class ModelError:
     """Bounds on |dA|, |dB|, |dC|, |dD| of `model`, all in scaled channels and the basis U; `range` is the bound on |D|."""
 
     model: StateSpaceModel
-    input_scale: FloatArray
-    scale: FloatArray
+    input_scale: Array
+    scale: Array
     range: float
     A: float
     B: float
@@ -185,7 +185,7 @@ class ModelError:
     D: float
 
     @property
-    def poles(self) -> FloatArray:
+    def poles(self) -> Array:
         """A bound for each pole, in the order of numpy.linalg.eigvals(model.A): infinite for a multiple one."""
         values, right = np.linalg.eig(self.model.A)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -198,7 +198,7 @@ class ModelError:
         return np.asarray(conditions * (self.A + SMALL * len(values) * EPS * _frobenius(self.model.A)))
 
     @property
-    def characteristic_polynomial(self) -> FloatArray:
+    def characteristic_polynomial(self) -> Array:
         """A bound for each coefficient of z^(n-1), ..., z, 1 in det(zI - A)."""
         A, n = self.model.A, self.model.n
         bounds, adjugate = np.empty(n), np.eye(n)
@@ -208,7 +208,7 @@ class ModelError:
             adjugate = product - np.trace(product) / (k + 1) * np.eye(n)
         return bounds
 
-    def markov(self, count: int) -> FloatArray:
+    def markov(self, count: int) -> Array:
         """A bound for every entry of the Markov parameters D, CB, ..., (count, p, n_u), in the data's own units."""
         A, B, C = self.model.A, self.model.B, self.model.C
         bounds = np.empty(count)
@@ -226,7 +226,7 @@ class ModelError:
         units = self.scale[:, np.newaxis] / self.input_scale
         return np.asarray(bounds[:, np.newaxis, np.newaxis] * units)
 
-    def transfer(self, z: complex) -> FloatArray:
+    def transfer(self, z: complex) -> Array:
         """A bound for every entry of D + C (zI - A)^-1 B, (p, n_u), in the data's own units."""
         resolvent = np.linalg.inv(z * np.eye(self.model.n) - self.model.A)
         before, after = float(np.linalg.norm(self.model.C @ resolvent, 2)), float(np.linalg.norm(resolvent @ self.model.B, 2))
@@ -245,7 +245,7 @@ def _shift_error(where: Setting, moved: float) -> float:
     return float(amplified * np.hypot(1.0, _norm(A)) * moved + amplified**2 * rest * moved)
 
 
-def _powers(model: StateSpaceModel, count: int) -> tuple[FloatArray, FloatArray]:
+def _powers(model: StateSpaceModel, count: int) -> tuple[Array, Array]:
     """|A^k| and |C A^k| for k = 0 .. count - 1."""
     states, outputs, power = np.empty(count), np.empty(count), np.eye(model.n)
     for k in range(count):
@@ -310,7 +310,7 @@ def moesp_error(where: Setting, backward: BackwardError, moved: float) -> ModelE
 
 
 def output_error_error(
-    where: Setting, moved: float, experiments: Sequence[tuple[FloatArray, FloatArray]], *, relative: float = UNIT
+    where: Setting, moved: float, experiments: Sequence[tuple[Array, Array]], *, relative: float = UNIT
 ) -> ModelError:
     """The model whose B and D come from output error (`pi_moesp`, or `pi_moesp_experiments` with these y (N, p), u (N, n_u)).
 
@@ -361,7 +361,7 @@ def output_error_error(
     return ModelError(model, where.input_scale, where.scale, moved, dA, dB, dC, d_phi / float(shared[n * n_u :].min()))
 
 
-def _regressor(model: StateSpaceModel, u: FloatArray) -> tuple[FloatArray, float]:
+def _regressor(model: StateSpaceModel, u: Array) -> tuple[Array, float]:
     """Phi (N p, n + n n_u + p n_u) with y = Phi [x0, B by columns, D by rows], and the Frobenius norm of the states behind it."""
     n, p, n_u, N = model.n, model.p, u.shape[1], len(u)
     Phi, energy = np.zeros((N, p, n + n * n_u + p * n_u)), 0.0

@@ -18,14 +18,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from faultspace.numeric.model.compression import EPS
-from faultspace.numeric.model.models import BLOCK, StateSpaceModel, observability_matrix
-from faultspace.numeric.rounding.conditioning import SMALL, UNIT, reflections_error
-from faultspace.numeric.signal.reconstruction import Reconstruction
+from ...base.arrays import Array
+from ..model.compression import EPS
+from ..model.models import BLOCK, StateSpaceModel, observability_matrix
+from ..rounding.conditioning import SMALL, UNIT, reflections_error
+from ..signal.reconstruction import Reconstruction
 
-Array = NDArray[np.float64]
 DETERMINED = 1e-10  # of the largest singular value of [O_N T_N]: below it a direction is one that no sample shows
 
 

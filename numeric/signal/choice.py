@@ -1,7 +1,8 @@
 """The last steps of `faultspace identify`: the fault space of what was counted, and one pair (F, G) out of it with its signal.
 
-with_space    an Answer with the fault space
-with_signal   an Answer with F, G and the signal, or a note why they are withheld: n_z undecided, or the signal explains no more than noise
+with_space    the Findings with the fault space
+with_signal   the Findings with F, G and the signal, or a note why they are withheld: n_z is undecided, or the signal explains no
+              more than it would of noise
 choose_pair   n_v columns (F, G) out of a fault space, whose signal is then reconstructed
 largest       the largest |y| of each output
 beyond_rounding   the residual that faults are counted on, outputs that the model explains to rounding set to zero
@@ -13,20 +14,17 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..data.records import Record, Tell
 from ..space.by_ranks import FaultSpaceEstimate, fault_space
 from .explained_share import noise_share
-from .long_reconstruction import FaultSignal, reconstructed
-from .long_residuals import loudest
-from .reconstruction import reconstruct_fault
+from .reconstruction import Reconstruction, reconstruct_fault
+from .residual_sizes import loudest
 
 if TYPE_CHECKING:
-    from ..result import Answer
-
-Array = NDArray[np.float64]
+    from ..findings import Findings
 
 ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
 MEANS_FROM = 1 << 14  # samples that means and shares are judged on: the regressors of a test are many times as many numbers
@@ -39,33 +37,33 @@ FROM_IDENTIFIED = (
 )
 
 
-def with_space(answer: Answer, tell: Tell) -> Answer:
+def with_space(answer: Findings, tell: Tell) -> Findings:
     """The space of all fault columns, on the samples that faults were counted on."""
-    model, rest = answer.identification, answer.residual
-    if not answer.count or model is None or rest is None:
+    model, rest = answer.model, answer.residual
+    if not answer.n_v or model is None or rest is None:
         return answer
     tell("fault space", 0, 0)
     try:
-        space = fault_space(beyond_rounding(answer), model.A, model.C, n_v=answer.count)
+        space = fault_space(beyond_rounding(answer), model.A, model.C, n_v=answer.n_v)
     except InvalidData as error:
         return replace(answer, notes=(*answer.notes, f"no fault space: {error}"))
     if space.method == "likelihood":
         answer = replace(answer, notes=(*answer.notes, FROM_IDENTIFIED))
-    return replace(answer, space=space if answer.count_given else replace(space, reason=counted(space.reason)))
+    return replace(answer, fault_space=space if answer.n_v_given else replace(space, reason=counted(space.reason)))
 
 
-def with_signal(answer: Answer, tell: Tell) -> Answer:
+def with_signal(answer: Findings, tell: Tell) -> Findings:
     """The signal of one choice of columns out of the space, over all samples, where there is ground for one."""
-    model, rest, space, count = answer.identification, answer.residual, answer.space, answer.count
-    if model is None or rest is None or space is None or not count or not space.meaningful or space.n_z < count:
+    model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
+    if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:
         return answer
     if not space.decided:
         return replace(answer, notes=(*answer.notes, "F, G and the fault signal are withheld: n_z is undecided, see the fault space"))
     tell("choosing F and G", 0, 0)
-    part = rest.store.read(*loudest(rest.energies, len(answer.record), TRIED_ON))
+    part = rest.store.read(*loudest(sizes.energies, len(answer.record), TRIED_ON))
     F, G = choose_pair(part, model.A, model.C, space, count)
     try:
-        signal = reconstructed(rest.store, model.A, F, model.C, G, "fault signal", tell, judged=answer.held)
+        signal = reconstruct_fault(rest.store, model.A, F, model.C, G, judged=answer.held, on_progress=tell)
     except InvalidData as error:
         return replace(answer, notes=(*answer.notes, f"no fault signal: {error}"))
     notes = answer.notes
@@ -82,13 +80,13 @@ def with_signal(answer: Answer, tell: Tell) -> Answer:
     return replace(answer, pair=(F, G), signal=signal, notes=notes)
 
 
-def _shares(answer: Answer, signal: FaultSignal, count: int) -> tuple[float, float]:
+def _shares(answer: Findings, signal: Reconstruction, count: int) -> tuple[float, float]:
     """What the signal explains of the residual that was counted on, and what so many signals could of noise; outputs in units of the
     healthy residual where there is one, else each in units of its own size."""
-    rest, until = answer.residual, answer.healthy_until
-    assert rest is not None
-    healthy = until is not None and not np.all(rest.early_peak <= ROUNDING * largest(answer.record))
-    units = rest.early_norm if healthy else np.sqrt(signal.whole)
+    rest, sizes, until = answer.residual, answer.sizes, answer.healthy
+    assert rest is not None and sizes is not None
+    healthy = until is not None and not np.all(sizes.early_peak <= ROUNDING * largest(answer.record))
+    units = sizes.early_norm if healthy else np.sqrt(signal.whole)
     units = np.where(units > 0.0, units, 1.0)
     start = max((until or 0) - MEANS_FROM, 0)
     noise = rest.store.read(start, until or 0) if healthy else rest.store.read(*answer.held)
@@ -134,9 +132,9 @@ def largest(record: Record) -> Array:
     return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
 
 
-def beyond_rounding(answer: Answer) -> Array:
+def beyond_rounding(answer: Findings) -> Array:
     """The residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their rounding
     would be scaled up and counted as faults."""
-    rest = answer.residual
-    assert rest is not None
-    return np.asarray(rest.store.read(*answer.held) * (rest.peak > ROUNDING * largest(answer.record)))
+    rest, sizes = answer.residual, answer.sizes
+    assert rest is not None and sizes is not None
+    return np.asarray(rest.store.read(*answer.held) * (sizes.peak > ROUNDING * largest(answer.record)))

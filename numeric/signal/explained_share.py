@@ -13,13 +13,12 @@ MANY_TAPERS tapers, which makes the largest eigenvalues larger, and so the bound
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.healthy_model import MANY_TAPERS, spectra
 from ..data.validation import signal
-
-Array = NDArray[np.float64]
 
 
 def noise_share(r: ArrayLike, n_v: int, units: Array, *, healthy: bool) -> float:

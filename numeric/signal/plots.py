@@ -20,11 +20,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from faultspace.base.errors import InvalidData
-from faultspace.numeric.count.rank_gap import FaultDimension
-from faultspace.numeric.data.validation import signal
-
-Array = NDArray[np.float64]
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..count.rank_gap import FaultDimension
+from ..data.validation import signal
 
 BLUE, ORANGE, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#777777"
 MOST_POINTS = 3000

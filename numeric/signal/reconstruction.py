@@ -1,285 +1,199 @@
-"""The fault signal from the residual: v and x such that the simulated residual equals the given one.
+"""The fault signal of a residual of any length: the smoother on the whole, or on pieces that overlap.
 
-    reconstruct_fault   the smoother for r, A, F, C, G, with the initial state known or not
-    Reconstruction      v, x, simulated, delay, zeros, the samples to be trusted, and why not the others
-    linear_recursion    x(k+1) = A x(k) + drive(k) in about 2 sqrt(N) steps
-    delay               v(k) is first seen in r(k + delay): at the end of the record some samples of v are not
-                        determined and come out small
-    trusted             samples of v that no zero and no delay disturbs
+    reconstruct_fault   v of every sample, for r in memory or in a store
+    Reconstruction      it, with delay, zeros, the samples to be trusted and how well it explains the residual
 
-The least squares problem min sum |r - C x - G v|^2 + eps^2 |v|^2 is solved for the whole record at once in time
-proportional to N: backward, the cost still to come is |S_k x - t_k|^2, a QR step each; forward, v(k) = K_k x(k) +
-c_k. S and K do not depend on the data and settle after a few steps. eps makes the forward recursion stable whatever
-the zeros; its bias is removed by solving again for what is left over, with the same gains (iterated regularisation).
-
-What no method can do: a finite zero q hides the trajectories q^k. Inside the unit circle and with x(0) unknown, they
-disturb the first samples, dying out like |q|^k; outside, the last ones, like |q|^-(N-k), although the future of r
-was used; on the circle, all of them. Source: [HP98], [MZ10], [K11].
+A residual of at most LONGEST samples is one piece. Of a longer one, what is unknown at the edges of a piece (its initial state; through
+zeros outside the unit circle the future) fades at a known rate: of each piece the middle is kept, and `mismatch` tells by how much
+neighbours differ where they meet. Where nothing fades (a zero on the unit circle, faults that r does not determine), where it fades too
+slowly for pieces of LONGEST samples, and where the initial state is given, the whole residual is held in memory.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...base.errors import InvalidData
-from ..count.arguments import fitting
-from ..count.windows import ObservedCoordinates, observed_coordinates
-from .zeros import FaultZeros, fault_zeros
+from ...base.arrays import Array
+from ..count.arguments import not_zero
+from ..data.records import SampleStore, Tell, silent, stored
+from ..data.validation import signal
+from .smoother import Stretch, simulated, smoothed
 
-Array = NDArray[np.float64]
-
-# Weight of v beside r, both of unit size: small enough to hide, large enough that rounding / REGULARISATION is still
-# small.
-REGULARISATION = 1e-5
-REFINEMENTS = 20
-# A zero's disturbance is trusted to be gone when it has shrunk to this.
-FADED = 1e-6
-# Steps after which gains that have not settled are used as they are (zeros on the unit circle); refinement makes up
-# for it.
-MOST_GAINS = 5000
-SETTLED = 1e-13
+LONGEST = 1 << 16
+LEAST_MARGIN = 1 << 10  # samples left out at an inner edge, at least: the smoother forgets noise in far fewer
+COMPARED = 64
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Reconstruction:
-    """v (N, m), x (N, n) with x(k+1) = A x + F v, and simulated = C x + G v (N, p).
+    """v (N, n_v) in `store`, with x(k+1) = A x + F v and `simulated` = C x + G v.
 
-    delay            samples until v(k) is seen, from a known x(0), or from an unknown one if such a delay exists;
-                     None where the system is not left-invertible, so that v is not determined at all
+    delay            samples until v(k) is seen, from a known x(0), or from an unknown one if such a delay exists; None where the system
+                     is not left-invertible, so that v is not determined at all
     trusted          (first, last): v[first:last] is disturbed by no zero and no delay; empty where first >= last
     zeros            finite zeros of (A, F, C, G)
     left_invertible  whether v is determined by r and x(0) in principle
     misfit           |r - simulated| / |r|
     reason           what is determined and what is not, in words
+    mismatch         the largest difference of neighbouring pieces where they meet, relative to the size of v there; 0 for one piece
+    left, whole      (p,): sums of squares of r - simulated and of r in each output, over the samples that were asked for
+    x0               (n,): the state at the first sample
     """
 
-    v: Array
-    x: Array
-    simulated: Array
+    store: SampleStore
     delay: int | None
     trusted: tuple[int, int]
     zeros: NDArray[np.complex128]
     left_invertible: bool
     misfit: float
     reason: str
+    mismatch: float
+    left: Array
+    whole: Array
+    x0: Array
+    pair: tuple[Array, Array, Array, Array]
+
+    @cached_property
+    def v(self) -> Array:
+        """The signal (N, n_v), all of it in memory."""
+        return self.store.read(0, len(self.store))
+
+    @cached_property
+    def _simulated(self) -> tuple[Array, Array]:
+        return simulated(*self.pair, self.x0, self.v)
+
+    @property
+    def x(self) -> Array:
+        """The states (N, n) that v drives from x0, all of them in memory."""
+        return self._simulated[0]
+
+    @property
+    def simulated(self) -> Array:
+        """C x + G v (N, p), all of it in memory."""
+        return self._simulated[1]
 
     @property
     def fit(self) -> float:
         """1 - misfit: one where the simulated residual equals the given one."""
         return 1.0 - self.misfit
 
+    def explained(self, units: Array) -> float:
+        """The share of r that the signal explains, in squares, the outputs in these units (p,)."""
+        whole = float(np.sum(self.whole / units**2))
+        return 1.0 - float(np.sum(self.left / units**2)) / whole if whole else 0.0
+
 
 def reconstruct_fault(
-    r: ArrayLike, A: ArrayLike, F: ArrayLike, C: ArrayLike, G: ArrayLike, *, x0: ArrayLike | None = None
+    r: ArrayLike | SampleStore,
+    A: ArrayLike,
+    F: ArrayLike,
+    C: ArrayLike,
+    G: ArrayLike,
+    *,
+    x0: ArrayLike | None = None,
+    judged: tuple[int, int] | None = None,
+    on_progress: Tell | None = None,
 ) -> Reconstruction:
-    """v and x from r (N, p) for A (n, n), F (n, m), C (p, n), G (p, m); x0 (n,) if the initial state is known.
+    """The signal v of the faults F, G whose simulated residual equals r, by the smoother of [HP98], [MZ10].
 
-    Raises InvalidData for shapes that do not fit, values that are not finite, more faults than outputs, a fault
-    without any effect, or a model so unstable that the record overflows.
+    r (N, p) is an array or a store, in the units of y; A (n, n), F (n, n_v), C (p, n), G (p, n_v); v comes in units of r over those of
+    G. x0 (n,) is the initial state, where it is known. `judged` are the samples (first, last) of `left` and `whole`, by default all;
+    `on_progress(stage, done, total)` hears how far it has come. Raises InvalidData for shapes that do not fit, values that are not
+    finite, more faults than outputs, a fault without any effect, or a model so unstable that the record overflows.
+
+    >>> import numpy as np
+    >>> v = np.sin(np.arange(50.0))[:, np.newaxis]
+    >>> r = np.hstack([v, 2 * v])
+    >>> found = reconstruct_fault(r, [[0.5]], [[0.0]], [[1.0], [0.0]], [[1.0], [2.0]])
+    >>> found.delay, bool(np.allclose(found.v, v))
+    (0, True)
     """
-    r, A, C = fitting(r, A, C)
-    F, G, start = _faults(len(A), len(C), F, G, x0)
-    N, n, m = len(r), len(A), F.shape[1]
-    growth = max((float(np.max(np.abs(np.linalg.eigvals(A)))) if n else 0.0), 1.0)
-    if N * np.log10(growth) > 100:
-        raise InvalidData(
-            f"A: has an eigenvalue of modulus {growth:.4g}, which grows to 1e{N * np.log10(growth):.0f} over {N} "
-            "samples; reconstruct from shorter pieces of the record or take a stable model"
-        )
-    coordinates = observed_coordinates(r, A, C, n + 1)
-    columns = np.vstack([coordinates.T @ F, G / coordinates.scale[:, None]])
-    sizes = np.linalg.norm(columns, axis=0)
-    if np.any(sizes == 0):
-        raise InvalidData(
-            f"F, G: fault {int(np.argmin(sizes))} has a zero column in both, so that r cannot tell its signal; "
-            "leave it out"
-        )
-    columns = columns / sizes
-    limits = fault_zeros(coordinates.A, columns[:n], coordinates.C, columns[n:])
-    smoother = _Smoother(coordinates, columns[:n], columns[n:], N)
-    v, x_start = _refined(smoother, r / coordinates.scale, None if start is None else coordinates.T @ start)
-    v = v / sizes
-    initial = np.asarray(np.linalg.solve(coordinates.T, x_start)) if start is None else start
-    x, simulated = _simulated(A, F, C, G, initial, v)
-    size = float(np.linalg.norm(r))
-    misfit = float(np.linalg.norm(r - simulated)) / size if size else 0.0
-    delay = (
-        limits.delay_known_state
-        if start is not None or limits.delay_unknown_state is None
-        else limits.delay_unknown_state
+    tell = on_progress or silent
+    store = r if isinstance(r, SampleStore) else stored(signal(r, "r"))
+    N = len(store)
+    within = judged or (0, N)
+
+    def solve(start: int, stop: int, state: ArrayLike | None = None) -> Stretch:
+        return smoothed(store.read(start, stop), A, F, C, G, x0=state)
+
+    tell("fault signal", 0, N)
+    not_zero(any(np.any(rows) for rows in store.pieces()))
+    if x0 is not None or N <= LONGEST:
+        found = _single(solve(0, N, x0), store, within)
+    else:
+        begin = solve(0, LONGEST)
+        margin = max(begin.trusted[0], LONGEST - begin.trusted[1], LEAST_MARGIN)
+        lost = begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST
+        found = _single(solve(0, N), store, within) if lost else _joined(begin, solve, store, margin, within, tell)
+    tell("fault signal", N, N)
+    return found
+
+
+def _joined(
+    begin: Stretch, solve: Callable[[int, int], Stretch], r: SampleStore, margin: int, within: tuple[int, int], tell: Tell
+) -> Reconstruction:
+    """The middles of the pieces that `solve` gives, one after the other."""
+    N = len(r)
+    v, left, mismatch = SampleStore(begin.v.shape[1]), 0.0, 0.0
+    parts = np.zeros((2, r.width))
+    start, piece = 0, begin
+    while True:
+        end = start + len(piece.v)
+        kept = N if end == N else end - margin
+        part = slice(len(v) - start, kept - start)
+        given = r.read(start, end)[part]
+        error = given - piece.simulated[part]
+        left += float(np.sum(error**2))
+        parts += _squares(error, given, len(v), within)
+        v.append(piece.v[part])
+        tell("fault signal", kept, N)
+        if end == N:
+            break
+        before = piece.v[kept - start : kept - start + COMPARED]
+        start = min(kept - margin, N - LONGEST)
+        piece = solve(start, start + LONGEST)
+        after = piece.v[kept - start : kept - start + COMPARED]
+        size = float(np.linalg.norm(after))
+        mismatch = max(mismatch, float(np.linalg.norm(after - before)) / size if size else 0.0)
+    whole = float(sum(np.sum(part**2) for part in r.pieces()))
+    trusted = begin.trusted[0], N - (len(piece.v) - piece.trusted[1])
+    misfit = float(np.sqrt(left / whole)) if whole else 0.0
+    return _reconstruction(v, begin, trusted, misfit, mismatch, parts)
+
+
+def _single(whole: Stretch, r: SampleStore, within: tuple[int, int]) -> Reconstruction:
+    given = r.read(0, len(whole.v))
+    parts = _squares(given - whole.simulated, given, 0, within)
+    return _reconstruction(stored(whole.v), whole, whole.trusted, whole.misfit, 0.0, parts)
+
+
+def _reconstruction(
+    v: SampleStore, first: Stretch, trusted: tuple[int, int], misfit: float, mismatch: float, parts: Array
+) -> Reconstruction:
+    """What is known of the signal from its first piece, and what was gathered over all of them."""
+    left, whole = parts
+    return Reconstruction(
+        store=v,
+        delay=first.delay,
+        trusted=trusted,
+        zeros=first.zeros,
+        left_invertible=first.left_invertible,
+        misfit=misfit,
+        reason=first.reason,
+        mismatch=mismatch,
+        left=left,
+        whole=whole,
+        x0=first.x0,
+        pair=first.pair,
     )
-    trusted, reason = _limits(N, m, limits, delay, start is not None)
-    return Reconstruction(v, x, simulated, delay, trusted, limits.zeros, limits.left_invertible, misfit, reason)
 
 
-def _faults(n: int, p: int, F: ArrayLike, G: ArrayLike, x0: ArrayLike | None) -> tuple[Array, Array, Array | None]:
-    F, G = (np.array(matrix, dtype=float, ndmin=2) for matrix in (F, G))
-    m = G.shape[1]
-    if F.shape != (n, m) or G.shape != (p, m):
-        raise InvalidData(
-            f"F, G: got shapes {F.shape} and {G.shape}; needed ({n}, n_v) and ({p}, n_v), columns even for one fault"
-        )
-    if not (np.all(np.isfinite(F)) and np.all(np.isfinite(G))):
-        raise InvalidData("F, G: got entries that are NaN or infinite")
-    if not 1 <= m <= p:
-        raise InvalidData(
-            f"F, G: got {m} faults for {p} outputs; needed 1 <= n_v <= p. "
-            "Choose n_v columns of a fault space, as [F P; G P]"
-        )
-    if x0 is None:
-        return F, G, None
-    start = np.array(x0, dtype=float).reshape(-1)
-    if start.shape != (n,) or not np.all(np.isfinite(start)):
-        raise InvalidData(
-            f"x0: got {start.shape[0]} entries; needed {n} finite ones, or None if the initial state is not known"
-        )
-    return F, G, start
-
-
-@dataclass(frozen=True)
-class _Gains:
-    """v = from_r r + from_t t - from_x x; the cost to come before this sample: |S x - (t_from_r r + t_from_t t)|^2."""
-
-    from_x: Array
-    from_r: Array
-    from_t: Array
-    S: Array
-    t_from_r: Array
-    t_from_t: Array
-
-
-class _Smoother:
-    """The gains for N samples, counted from the end; they repeat once S has settled."""
-
-    def __init__(self, coordinates: ObservedCoordinates, F: Array, G: Array, samples: int) -> None:
-        self.A, self.F, self.C, self.G = coordinates.A, F, coordinates.C, G
-        self.gains: list[_Gains] = []
-        n = len(F)
-        S = np.zeros((n, n))
-        for _ in range(min(samples, MOST_GAINS)):
-            self.gains.append(self._before(S))
-            change = np.max(np.abs(self.gains[-1].S - S), axis=1, initial=0.0)
-            sizes = np.max(np.abs(S), axis=1, initial=0.0)
-            S = self.gains[-1].S
-            if np.all(change <= SETTLED * np.maximum(sizes, 1e-3 * REGULARISATION)):
-                break
-
-    def _before(self, S: Array) -> _Gains:
-        """Eliminate v from eps v = 0, G v = r - C x, S F v = t - S A x by QR; what is left is about x alone."""
-        n, m = self.F.shape
-        p = self.C.shape[0]
-        of_v = np.vstack([REGULARISATION * np.eye(m), self.G, S @ self.F])
-        of_x = np.vstack([np.zeros((m, n)), self.C, S @ self.A])
-        Q, R = np.linalg.qr(np.hstack([of_v, of_x]))
-        signs = np.where(np.diag(R) < 0, -1.0, 1.0)
-        Q, R = Q * signs, R * signs[:, None]
-        top = np.linalg.solve(R[:m, :m], np.hstack([R[:m, m:], Q[m:, :m].T]))
-        below = Q[m:, m:].T
-        return _Gains(top[:, :n], top[:, n : n + p], top[:, n + p :], R[m:, m:], below[:, :p], below[:, p:])
-
-    def solve(self, r: Array, start: Array | None) -> tuple[Array, Array]:
-        """v (N, m) and x(0) for r (N, p), regularised."""
-        N = len(r)
-        n, m = self.F.shape
-        steady, settling = self.gains[-1], min(len(self.gains), N)
-        # t[k] belongs to the cost from sample k on; t[N] = 0.
-        t = np.zeros((N + 1, n))
-        for j in range(settling):
-            k, gain = N - 1 - j, self.gains[j]
-            t[k] = gain.t_from_r @ r[k] + gain.t_from_t @ t[k + 1]
-        drive, step = r[: N - settling] @ steady.t_from_r.T, steady.t_from_t
-        t[: N - settling + 1] = linear_recursion(step, drive[::-1], t[N - settling])[::-1]
-        x = np.linalg.lstsq(self.gains[settling - 1].S, t[0], rcond=None)[0] if start is None else start
-        x0 = x
-        v = np.zeros((N, m))
-        given = r @ steady.from_r.T + t[1:] @ steady.from_t.T
-        closed, push = self.A - self.F @ steady.from_x, given @ self.F.T
-        states = linear_recursion(closed, push[: N - settling], x)
-        x = states[-1]
-        v[: N - settling] = given[: N - settling] - states[:-1] @ steady.from_x.T
-        for k in range(N - settling, N):
-            gain = self.gains[N - 1 - k]
-            v[k] = gain.from_r @ r[k] + gain.from_t @ t[k + 1] - gain.from_x @ x
-            x = self.A @ x + self.F @ v[k]
-        return v, x0
-
-
-def _refined(smoother: _Smoother, r: Array, start: Array | None) -> tuple[Array, Array]:
-    """The solution plus the solutions for what it leaves over, until that stops shrinking."""
-    v, x0 = smoother.solve(r, start)
-    matrices = smoother.A, smoother.F, smoother.C, smoother.G
-    left = r - _simulated(*matrices, x0, v)[1]
-    for _ in range(REFINEMENTS):
-        more, shift = smoother.solve(left, None if start is None else np.zeros_like(x0))
-        tried = r - _simulated(*matrices, x0 + shift, v + more)[1]
-        if not np.linalg.norm(tried) < np.linalg.norm(left):
-            break
-        enough = np.linalg.norm(tried) > 0.9 * np.linalg.norm(left)
-        v, x0, left = v + more, x0 + shift, tried
-        if enough:
-            break
-    return v, x0
-
-
-def _simulated(A: Array, F: Array, C: Array, G: Array, x0: Array, v: Array) -> tuple[Array, Array]:
-    x = linear_recursion(A, v @ F.T, x0)[:-1]
-    return x, x @ C.T + v @ G.T
-
-
-def linear_recursion(A: Array, drive: Array, start: Array) -> Array:
-    """x (N + 1, n) with x(0) = start, x(k+1) = A x(k) + drive(k), for drive (N, n).
-
-    Blocks of about sqrt(N) samples run side by side from zero; then their starts one after the other: 2 sqrt(N) steps.
-    """
-    N, n = drive.shape
-    size = max(int(np.sqrt(N)), 1)
-    count = -(-N // size)
-    padded = np.zeros((count * size, n))
-    padded[:N] = drive
-    blocks = padded.reshape(count, size, n)
-    local, powers = np.zeros((count, size + 1, n)), np.empty((size + 1, n, n))
-    powers[0] = np.eye(n)
-    for k in range(size):
-        local[:, k + 1] = local[:, k] @ A.T + blocks[:, k]
-        powers[k + 1] = A @ powers[k]
-    starts = np.empty((count + 1, n))
-    starts[0] = start
-    for b in range(count):
-        starts[b + 1] = powers[size] @ starts[b] + local[b, size]
-    x = local[:, :size] + np.einsum("kij,bj->bki", powers[:size], starts[:-1])
-    # The last start is x(N) where the blocks fit exactly; where they do not, it lies beyond.
-    return np.vstack([x.reshape(count * size, n), starts[-1:]])[: N + 1]
-
-
-def _limits(N: int, m: int, limits: FaultZeros, delay: int | None, known: bool) -> tuple[tuple[int, int], str]:
-    """The samples that nothing disturbs, and the sentence about the others."""
-    zeros, tail = limits.zeros, limits.delay_known_state
-    if delay is None or tail is None:
-        return (0, 0), f"not left-invertible: other signals of {m} faults give the same residual; v is one, a small one"
-    if delay >= N:
-        return (0, 0), f"{N} samples are no more than the delay of {delay}: v is not determined"
-    sizes = np.abs(zeros)
-    shown = ", ".join(f"{size:.4g}" for size in sizes)
-    # At the end of a long record the state is known from the past, so that the shorter delay counts there.
-    first, last = 0, N - tail
-    said = [f"v is seen after {delay} samples" + (f", the last {tail} are not determined" if tail else "")]
-    inside, outside = sizes[sizes < 1], sizes[sizes > 1]
-    if inside.size and not known:
-        first = min(_fading(float(inside.max()), N), N)
-        said.append(f"zeros inside the unit circle leave the first {first} samples to the unknown initial state")
-    if outside.size:
-        lost = min(_fading(1 / float(outside.min()), N), N)
-        last = max(last - lost, 0)
-        said.append(f"zeros outside the unit circle leave the last {lost} uncertain, although the future was used")
-    if np.any(np.isclose(sizes, 1, atol=1e-6, rtol=0)):
-        said.append(f"a zero on the unit circle disturbs every sample (moduli {shown})")
-        return (0, 0), "; ".join(said)
-    return (first, last), "; ".join(said) + (f" (moduli of the zeros: {shown})" if zeros.size else "")
-
-
-def _fading(rate: float, most: int) -> int:
-    """Samples until rate^k has fallen to FADED."""
-    return 1 if rate == 0 else min(int(np.ceil(np.log(FADED) / np.log(rate))), most)
+def _squares(error: Array, given: Array, start: int, within: tuple[int, int]) -> Array:
+    """Sums of squares (2, p) of both over those samples `within`; the first one is sample `start`."""
+    first, last = (min(max(edge - start, 0), len(given)) for edge in within)
+    return np.stack([np.sum(rows[first:last] ** 2, axis=0) for rows in (error, given)])

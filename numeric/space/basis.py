@@ -26,9 +26,9 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from .tapered_moments import CrossMoments
 
-Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 NOISE_ORDER = 10

@@ -32,8 +32,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.arguments import Arguments, arguments
 from ..count.one_row import kernel_row
@@ -44,8 +45,6 @@ from .result import FaultSpaceEstimate, condition_maps, everything, kernel_condi
 from .start import complement, joint_basis
 from .tapered_moments import CrossMoments, tapered_moments
 from .uncertainty import space_uncertainty
-
-Array = NDArray[np.float64]
 
 # Nats a sample: what a longer row may gain by absorbing noise colour, what it must gain to be called clearly needed,
 # and

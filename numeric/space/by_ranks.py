@@ -20,16 +20,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.arrays import Array
 from ..count.arguments import Arguments, arguments
 from ..count.windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
 from .by_likelihood import fault_space_by_least_squares, fault_space_by_likelihood
 from .error_bound import fault_space_error_bound
 from .largest import largest_fault_space
 from .result import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
-
-Array = NDArray[np.float64]
 
 # A singular value this far below the largest is rounding in the data, not noise: sensors are not that good.
 EXACT = 2e-12
@@ -46,12 +45,17 @@ __all__ = [
 
 
 def fault_space(r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None) -> FaultSpaceEstimate:
-    """The fault space of a residual r (N, p) for the model's A (n, n) and C (p, n).
+    """The fault space of a residual r (N, p), in the units of y, for the model's A (n, n) and C (p, n): problem (11) of [G25].
 
     `n_v` is the number of faults, found from the data when not given; `block_rows` is s, by default the least window
     that surely suffices. Answers that mean nothing (no null rows, window not longer than the lag) are returned as
     such, with `meaningful` False and a reason. Raises InvalidData for shapes that do not fit, values that are not
     finite, n_v outside 1..p, or fewer samples than the window needs.
+
+    >>> v = np.random.default_rng(1).standard_normal((100, 1))
+    >>> found = fault_space(np.hstack([v, 2 * v]), [[0.5]], [[1.0], [0.0]])
+    >>> found.n_z, bool(np.allclose(found.G[1], 2 * found.G[0]))
+    (1, True)
     """
     data = arguments(r, A, C, n_v, block_rows)
     ladder = _ladder(data)

@@ -22,11 +22,9 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
-
-Array = NDArray[np.float64]
 
 # Columns of unit length with a singular value below this are taken for dependent.
 DEPENDENT = 1e-12

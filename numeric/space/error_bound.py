@@ -18,12 +18,10 @@ Wedin's bound with the least gap and the largest condition number instead is som
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ..count.windows import EPS, ObservedCoordinates
 from .result import condition_maps, kernel_conditions
-
-Array = NDArray[np.float64]
 
 # Rounding errors of a product or a factorisation in units of EPS times its size.
 ROUNDINGS = 10.0

@@ -19,11 +19,9 @@ from __future__ import annotations
 from itertools import accumulate, pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ..count.windows import EPS
-
-Array = NDArray[np.float64]
 
 HALF_THE_DIGITS = float(np.sqrt(EPS))
 

@@ -16,11 +16,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
-
-Array = NDArray[np.float64]
 
 DRAWS = 4000
 _SEED = 20250519

@@ -13,14 +13,12 @@ from itertools import combinations_with_replacement, islice
 
 import numpy as np
 import scipy.linalg
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ..count.windows import EPS, ObservedCoordinates
 from .basis import KernelBasis, kernel_basis
 from .result import condition_maps
 from .tapered_moments import CrossMoments
-
-Array = NDArray[np.float64]
 
 # Splits tried, and the nats a sample by which the joint level may lie above that of single rows before another is.
 SPLITS = 6

@@ -19,10 +19,10 @@ import numpy as np
 import scipy.signal
 from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.one_row import WindowMoments
 
-Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 BANDS = 64

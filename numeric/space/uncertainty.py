@@ -13,12 +13,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ..count.windows import ObservedCoordinates
 from .result import SpaceUncertainty, condition_maps, kernel_conditions
-
-Array = NDArray[np.float64]
 
 
 def space_uncertainty(

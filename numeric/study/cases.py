@@ -17,8 +17,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..model.models import StateSpaceModel, observability_matrix
 from ..model.past_inputs import pi_moesp
@@ -30,7 +30,6 @@ from ..space.result import orthonormal
 from .experiments import NOISE_GAIN, Experiment, experiment, response
 from .systems import MOST_ZEROS, N_V, N_X, P, StudySystem, study_system
 
-Array = NDArray[np.float64]
 Estimator = Callable[[Array, StateSpaceModel, int], Array]
 
 PUBLISHED_WINDOW, CORRECTED_WINDOW = 5, N_X + 1

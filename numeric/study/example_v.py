@@ -23,8 +23,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ..count.rank_gap import FaultDimension, fault_dimension
 from ..count.windows import hankel_factor
 from ..model.models import StateSpaceModel, observability_matrix
@@ -33,8 +33,6 @@ from ..model.toeplitz_factorisation import toeplitz_factorisation
 from ..space.by_ranks import noise_free_fault_space
 from ..space.distances import two_sided_error
 from ..space.result import kernel_conditions
-
-Array = NDArray[np.float64]
 
 SAMPLES, BLOCK_ROWS, ORDER = 1001, 30, 3
 TRUE_WINDOW, IDENTIFIED_WINDOW = 20, 5

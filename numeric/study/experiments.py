@@ -17,13 +17,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.signal
-from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ..data.validation import positive
 from ..model.models import StateSpaceModel
 from .systems import N_U, N_X, P, StudySystem
-
-Array = NDArray[np.float64]
 
 SAMPLES = 1001
 LOW_PASS = (0.17, 0.5, 0.5, 0.17), (1.0, 0.0, 0.33, 0.0)

@@ -31,10 +31,10 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
+from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..model.models import StateSpaceModel
 
-Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 N_X, N_U, P, N_V = 5, 1, 3, 2

@@ -165,8 +165,8 @@ def test_noise_free_data_count_faults_without_the_error_of_the_model() -> None:
     answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
     assert answer.residual is not None and answer.dimension is not None
     assert fault_dimension(answer.residual.store.read(0, 2000)).n_v != 1  # what the residual alone would say
-    assert (answer.count, answer.dimension.regime) == (1, "rounding")
-    assert answer.space is not None and "given" not in answer.space.reason and "as counted" in answer.space.reason
+    assert (answer.n_v, answer.dimension.regime) == (1, "rounding")
+    assert answer.fault_space is not None and "given" not in answer.fault_space.reason and "as counted" in answer.fault_space.reason
 
 
 def test_a_space_with_zeros_gives_a_pair_that_explains_the_residual() -> None:
@@ -184,8 +184,8 @@ def test_without_a_fault_there_is_none() -> None:
     u = np.random.default_rng(4).standard_normal((1000, 2))
     y = StateSpaceModel(made.A, made.B, made.C, made.D).simulate(u)
     answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS))
-    assert answer.identification is not None and answer.identification.order == 3
-    assert answer.count == 0 and answer.space is None and answer.signal is None
+    assert answer.model is not None and answer.model.order == 3
+    assert answer.n_v == 0 and answer.fault_space is None and answer.signal is None
 
 
 def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: Path) -> None:
@@ -288,7 +288,7 @@ def test_an_order_that_leaves_the_model_open_is_not_taken() -> None:
     driven = StateSpaceModel(made.A, np.hstack([made.B, made.F]), made.C, np.zeros((3, 3)))
     # Without noise the largest gap lies where the faults end, far beyond the order.
     answer = identifying.identify(recorded(driven.simulate(np.hstack([u, v])), u, outputs=made.OUTPUTS, inputs=made.INPUTS))
-    assert answer.identification is None and any("leaves A undetermined" in note for note in answer.notes)
+    assert answer.model is None and any("leaves A undetermined" in note for note in answer.notes)
     assert any("at 3" in line for line in advice(answer))
 
 
@@ -299,7 +299,7 @@ def test_an_unstable_model_is_answered_and_told() -> None:
     B, C = np.ones((2, 1)), np.array([[1.0, 1.0], [0.0, 1.0], [1.0, -1.0]])
     y = StateSpaceModel(A, np.hstack([B, [[0.3], [0.8]]]), C, np.zeros((3, 2))).simulate(np.hstack([u, v]))
     answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=("u",)), order=2)
-    assert answer.identification is not None and not answer.identification.model.is_stable and answer.residual is not None
+    assert answer.model is not None and not answer.model.model.is_stable and answer.residual is not None
     assert any("run backward" in note for note in answer.notes) and any("not stable" in line for line in advice(answer))
     valid("identify", report.document(answer, "y") | {"files": []})
 

@@ -22,7 +22,7 @@ from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.pipeline import identify
 from faultspace.numeric.report import files as report
 from faultspace.numeric.report.summary import summary
-from faultspace.numeric.result import Answer
+from faultspace.numeric.result import Identification
 from faultspace.numeric.space.largest import largest_fault_space
 from tests.end_to_end.identify_runs import valid
 
@@ -43,14 +43,14 @@ def clean(u: Array, A: Array = made.A) -> Array:
 
 def answered(
     y: Array, u: Array, *, until: int = START, outputs: tuple[str, ...] = made.OUTPUTS, **options: Any
-) -> tuple[Answer, dict[str, Any], str]:
+) -> tuple[Identification, dict[str, Any], str]:
     """The answer, its document, which the schema accepts, and what people read."""
-    answer = identify(recorded(y, u, outputs=outputs, inputs=made.INPUTS), order=3, healthy_until=until, **options)
+    answer = identify(recorded(y, u, outputs=outputs, inputs=made.INPUTS), order=3, healthy=until, **options)
     document = valid("identify", report.document(answer, "record") | {"files": []})
-    space = answer.space
+    space = answer.fault_space
     if space is not None and space.meaningful and space.n_v is not None:
-        assert answer.identification is not None
-        assert space.n_z <= largest_fault_space(answer.identification.A, answer.identification.C, space.n_v)
+        assert answer.model is not None
+        assert space.n_z <= largest_fault_space(answer.model.A, answer.model.C, space.n_v)
     assert (answer.pair is None) == (answer.signal is None)
     assert answer.signal is None or (space is not None and space.decided)
     return answer, document, "\n".join(summary(answer, "record"))
@@ -88,7 +88,7 @@ def test_no_fault_is_told_as_zero(name: str, means: bool) -> None:
     y[START:] += FAULTS[name](np.arange(N - START), draw) * LEVELS
     units = np.array([1e-6, 1.0, 1e6])
     answer, document, told = answered(y * units + 100.0 * units * means, u, remove_means=means)
-    assert answer.count != 0 and answer.at_least >= 1, told
+    assert answer.n_v != 0 and answer.at_least >= 1, told
     assert document["n_v_at_least"] >= 1 and "n_v: **0**" not in told
 
 
@@ -143,8 +143,8 @@ HEALTHY = {
 def test_no_healthy_record_is_told_as_faulty(name: str, seed: int) -> None:
     y, u = HEALTHY[name](np.random.default_rng((seed, *name.encode())))
     answer, document, told = answered(y * [1e6, 1.0, 1e-6], u)
-    assert answer.at_least == 0 and answer.count in (0, None), told
-    if answer.count == 0:
+    assert answer.at_least == 0 and answer.n_v in (0, None), told
+    if answer.n_v == 0:
         assert document["visible"]["constant"] is not None and "seen with a chance of 0.9" in told
 
 
@@ -158,7 +158,7 @@ def test_a_dead_sensor_that_was_mostly_noise_is_no_zero(noise_level: float) -> N
     y = clean(u) + noise(draw, N) / LEVELS * [0.3, 0.1, noise_level]
     y[START:, 2] = 0.0
     answer, _, told = answered(y, u)
-    assert answer.count is None and "stuck or dead" in told, told
+    assert answer.n_v is None and "stuck or dead" in told, told
 
 
 def test_a_sensor_that_only_hums_since_it_died_is_no_zero() -> None:
@@ -167,7 +167,7 @@ def test_a_sensor_that_only_hums_since_it_died_is_no_zero() -> None:
     y = clean(u) + noise(draw, N) / LEVELS * [0.3, 0.1, 20.0]
     y[START:, 2] = 0.01 * draw.standard_normal(N - START)
     answer, _, told = answered(y, u)
-    assert answer.count is None and "smaller than while healthy" in told, told
+    assert answer.n_v is None and "smaller than while healthy" in told, told
 
 
 @pytest.mark.parametrize("length", [1, 3])
@@ -177,7 +177,7 @@ def test_a_short_spike_in_a_long_record_is_no_zero(length: int) -> None:
     y = clean(u) + noise(draw, 20000)
     y[15000 : 15000 + length, 1] += 20.0 * LEVELS[1]
     answer, _, told = answered(y, u, until=2000)
-    assert answer.count is None and "times its healthy peak" in told, told
+    assert answer.n_v is None and "times its healthy peak" in told, told
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -194,16 +194,16 @@ def test_much_louder_inputs_make_no_fault_of_the_error_of_the_model(seed: int) -
 def test_an_outlier_beyond_all_numbers_is_no_crash(sample: int, size: float) -> None:
     y, u = biased(15, START)
     y[sample, 1] = size
-    assert answered(y, u)[0].count != 0
+    assert answered(y, u)[0].n_v != 0
 
 
 def test_an_output_without_noise_makes_no_faults_of_the_noise_of_others() -> None:
     y, u = biased(16, N)
     y = np.hstack([y, u[:, :1]])
     names = (*made.OUTPUTS, "copy")
-    assert identify(recorded(y, u, outputs=names, inputs=made.INPUTS), order=3).count is None
+    assert identify(recorded(y, u, outputs=names, inputs=made.INPUTS), order=3).n_v is None
     y[START:, 2] += 20.0 * LEVELS[2] * np.random.default_rng(17).standard_normal(N - START)
-    assert answered(y, u, outputs=names)[0].count in (1, None)
+    assert answered(y, u, outputs=names)[0].n_v in (1, None)
 
 
 # Where the records end, and what is stated wrongly
@@ -221,7 +221,7 @@ def biased(seed: int, first: int, samples: int = N) -> tuple[Array, Array]:
 def test_a_bias_beside_few_samples_is_seen_or_undecided(until: int) -> None:
     y, u = biased(until, until)
     answer, _, told = answered(y, u, until=until)
-    assert answer.count != 0, told
+    assert answer.n_v != 0, told
     if 50 <= until <= N - 2:
         assert answer.moved and answer.at_least == 1, told
 
@@ -229,13 +229,13 @@ def test_a_bias_beside_few_samples_is_seen_or_undecided(until: int) -> None:
 @pytest.mark.parametrize("first", [100, 400, 700])
 def test_a_fault_among_the_healthy_samples_gives_no_zero(first: int) -> None:
     answer, _, told = answered(*biased(first, first))
-    assert answer.count != 0, told
+    assert answer.n_v != 0, told
 
 
 def test_a_drift_through_all_samples_gives_no_zero() -> None:
     y, u = biased(5, N)
     answer, _, told = answered(y + np.outer(np.linspace(0.0, 5.0, N), LEVELS), u)
-    assert answer.count != 0 and "mean" in answer.count_reason, told
+    assert answer.n_v != 0 and "mean" in answer.reason, told
 
 
 @pytest.mark.parametrize("value", ["stuck", "dead"])
@@ -249,7 +249,7 @@ def test_an_output_that_is_still_after_the_healthy_samples_is_a_fault(value: str
 def test_a_channel_that_is_still_while_healthy_is_refused_with_the_reason(channel: str) -> None:
     y, u = biased(6, N)
     (u if channel == "input" else y)[:START, 0] = 1.0
-    with pytest.raises(InvalidData, match="--healthy-until: the model is from these samples alone"):
+    with pytest.raises(InvalidData, match="healthy: the model is from these samples alone"):
         answered(y, u)
 
 
@@ -261,7 +261,7 @@ def test_without_noise_what_the_healthy_samples_do_not_show_is_a_fault(kind: str
     if kind != "none":
         y[START:, 0] += 1.0 if kind == "bias" else draw.standard_normal(N - START)
     answer, _, told = answered(y, u)
-    assert (answer.count == 0) == (kind == "none"), told
+    assert (answer.n_v == 0) == (kind == "none"), told
     assert answer.at_least == (0 if kind == "none" else 1), told
 
 
@@ -273,7 +273,7 @@ def test_numbers_of_single_precision_are_answered() -> None:
 def test_without_healthy_samples_a_mean_is_told_and_not_judged() -> None:
     y, u = biased(9, 0)
     answer = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
-    assert answer.count is None and any("an operating point, or a constant fault" in note for note in answer.notes)
+    assert answer.n_v is None and any("an operating point, or a constant fault" in note for note in answer.notes)
     assert valid("identify", report.document(answer, "record") | {"files": []})["mean_shift"]["against"] == "zero"
     still = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3, remove_means=True)
     assert still.mean is None and not still.moved

@@ -20,7 +20,7 @@ from scipy.io import savemat
 
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidInput
-from faultspace.numeric import pipeline as identifying
+from faultspace.cli import identifying
 from faultspace.numeric.data import files as data_files
 from faultspace.numeric.data.files import read_record, split_names
 from faultspace.numeric.model.models import StateSpaceModel

@@ -21,26 +21,20 @@ from faultspace import example_data as made
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import pipeline as identifying
 from faultspace.numeric.data import records
-from faultspace.numeric.data.records import Passes, Record, RecordWriter, SampleStore, recorded
-from faultspace.numeric.model.chunks import pi_moesp_from_chunks
-from faultspace.numeric.model.compression import compress_chunks
+from faultspace.numeric.data.records import Passes, Record, RecordWriter, SampleStore, recorded, stored
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.model.residuals import residual
-from faultspace.numeric.signal import long_reconstruction
-from faultspace.numeric.signal.long_reconstruction import reconstructed
-from faultspace.numeric.signal.long_residuals import PART, loudest, residual_of
+from faultspace.numeric.signal import reconstruction
 from faultspace.numeric.signal.reconstruction import reconstruct_fault
+from faultspace.numeric.signal.residual_sizes import PART, loudest, residual_sizes
+from faultspace.numeric.signal.smoother import smoothed
 from tests.end_to_end.commands import ROOT, environment
 from tests.end_to_end.identify_runs import CHANNELS
 
 Array = NDArray[np.float64]
 
 N = 40_000
-
-
-def silent(stage: str, done: int, total: int) -> None:
-    """Nothing is told."""
 
 
 @pytest.fixture
@@ -85,19 +79,22 @@ def test_model_and_residual_are_those_of_the_arrays(long_record: tuple[Array, Ar
     whole = pi_moesp(y, u, block_rows=15)
     told: list[str] = []
     data = Passes(record, "model", lambda stage, done, total: told.append(f"{stage} {done}/{total}"))
-    found = pi_moesp_from_chunks(compress_chunks(data, block_rows=15), data)
+    found = pi_moesp(data, block_rows=15)
     assert found.order == whole.order == 3
-    assert np.allclose(found.model.markov(10), whole.model.markov(10), atol=1e-9)
+    assert all(np.array_equal(getattr(found, name), getattr(whole, name)) for name in ("A", "B", "C", "D", "x0", "singular_values"))
     assert f"model, pass 1 {N}/{N}" in told and f"model, pass 3 {N}/{N}" in told
-    rest, wanted = residual_of(record, found, "residual", silent), residual(y, u, whole.model)
+    rest, wanted = residual(record, None, found.model, x0=found.x0), residual(y, u, whole.model)
+    assert np.array_equal(residual(y, u, found.model, x0=found.x0).r, rest.r)
+    assert np.array_equal(residual(record, None, found.model).r, wanted.r)
+    sizes = residual_sizes(rest.store, N)
     r = rest.store.read(0, N)
     assert np.allclose(r[0], y[0] - found.C @ rest.x0 - found.D @ u[0])
     assert np.allclose(r[100:], wanted.r[100:], atol=1e-9)  # before, the initial states differ by the weights of the outputs
     assert np.all(np.abs(rest.x0 - wanted.x0) < 5 * np.sqrt(np.diag(wanted.x0_covariance)))
-    assert np.allclose(rest.norm, np.linalg.norm(r, axis=0)) and np.allclose(rest.peak, np.abs(r).max(axis=0))
+    assert np.allclose(sizes.norm, np.linalg.norm(r, axis=0)) and np.allclose(sizes.peak, np.abs(r).max(axis=0))
     assert np.allclose(rest.covariance, wanted.covariance, rtol=1e-3)
     with pytest.raises(InvalidData, match="only once"):
-        pi_moesp_from_chunks(compress_chunks(data, block_rows=15), iter(record))
+        pi_moesp(iter(record), block_rows=15)
 
 
 @pytest.mark.parametrize("G", [[[0.4], [0.0], [1.0]], [[1.0], [0.0], [0.0]], [[0.0], [0.0], [0.0]]], ids=["generic", "one", "delayed"])
@@ -108,16 +105,38 @@ def test_a_fault_signal_in_pieces_is_that_of_the_whole(G: list[list[float]], p: 
     draw = np.random.default_rng(2)
     v = draw.standard_normal((N, 1))
     r = StateSpaceModel(made.A, made.F, C, G_p).simulate(v) + 1e-3 * draw.standard_normal((N, p))
-    whole = reconstruct_fault(r, made.A, made.F, C, G_p)
-    monkeypatch.setattr(long_reconstruction, "LONGEST", 6000)
-    store = SampleStore(p)
-    store.append(r)
-    got = reconstructed(store, made.A, made.F, C, G_p, "signal", silent)
+    whole = smoothed(r, made.A, made.F, C, G_p)
+    monkeypatch.setattr(reconstruction, "LONGEST", 6000)
+    got = reconstruct_fault(stored(r), made.A, made.F, C, G_p)
+    of_array = reconstruct_fault(r, made.A, made.F, C, G_p)
+    assert np.array_equal(of_array.v, got.v) and of_array.misfit == got.misfit and of_array.mismatch == got.mismatch > 0
     first, last = whole.trusted
     assert got.trusted == whole.trusted and len(got.store) == N and last - first > N - 1000
     difference = np.linalg.norm(got.store.read(first, last) - whole.v[first:last]) / np.linalg.norm(whole.v[first:last])
     assert difference < 1e-4 and got.mismatch < 1e-4  # the refinement of the regularised solution stops at different points
     assert abs(got.misfit - whole.misfit) < 1e-6
+
+
+def test_a_stretch_without_any_residual_is_a_stretch_without_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    v = np.zeros((30_000, 1))
+    v[20_000:24_000] = np.random.default_rng(5).standard_normal((4000, 1))
+    G = [[0.4], [0.0], [1.0]]
+    r = StateSpaceModel(made.A, made.F, made.C, G).simulate(v)
+    assert not np.any(r[:20_000])
+    monkeypatch.setattr(reconstruction, "LONGEST", 6000)
+    for given in (r, stored(r)):
+        assert np.allclose(reconstruct_fault(given, made.A, made.F, made.C, G).v, v, atol=1e-9)
+        with pytest.raises(InvalidData, match="zero throughout"):
+            reconstruct_fault(stored(0 * r) if given is not r else 0 * r, made.A, made.F, made.C, G)
+
+
+def test_a_known_state_is_used_on_a_long_record(monkeypatch: pytest.MonkeyPatch) -> None:
+    G, x0 = np.array([[0.4], [0.0], [1.0]]), np.array([5.0, -3.0, 2.0])
+    v = np.random.default_rng(6).standard_normal((9000, 1))
+    r = StateSpaceModel(made.A, made.F, made.C, G).simulate(v, x0)
+    monkeypatch.setattr(reconstruction, "LONGEST", 6000)
+    found = reconstruct_fault(r, made.A, made.F, made.C, G, x0=x0)
+    assert np.allclose(found.v, v, atol=1e-8) and np.allclose(found.x[0], x0) and np.allclose(found.simulated, r, atol=1e-8)
 
 
 def test_faults_of_a_part_of_the_record_are_looked_for_there() -> None:
@@ -139,7 +158,7 @@ def test_a_late_fault_is_counted_and_the_stretch_is_told(monkeypatch: pytest.Mon
     answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
     first, last = answer.held
     assert last - first == 6000 and 28_900 < first < 31_100
-    assert answer.count == 1 and any(f"on samples {first} to {last - 1}" in note for note in answer.notes)
+    assert answer.n_v == 1 and any(f"on samples {first} to {last - 1}" in note for note in answer.notes)
     assert answer.signal is not None
     assert abs(np.corrcoef(answer.signal.store.read(30_000, 36_000)[:, 0], v[30_000:36_000, 0])[0, 1]) > 0.98
 
@@ -151,8 +170,8 @@ import sys
 from faultspace.cli import command_line
 from faultspace.numeric import pipeline
 from faultspace.numeric.data import records
-from faultspace.numeric.signal import long_reconstruction
-pipeline.HELD, records.IN_MEMORY, long_reconstruction.LONGEST = 1 << 16, {in_memory}, 1 << 13
+from faultspace.numeric.signal import reconstruction
+pipeline.HELD, records.IN_MEMORY, reconstruction.LONGEST = 1 << 16, {in_memory}, 1 << 13
 code = command_line.main(sys.argv[1:])
 with open("/proc/self/status") as status:
     print(code, *[line.split()[1] for line in status if line.startswith("VmHWM")], file=sys.stderr)

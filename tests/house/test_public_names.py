@@ -23,7 +23,7 @@ ROOMS = ("faultspace", "faultspace.exact", "faultspace.numeric", "faultspace.pro
 PUBLIC = {room: tuple(getattr(importlib.import_module(room), "__all__", ())) for room in ROOMS}
 CALLED = [name for name in PUBLIC["faultspace"] if name != "errors"]
 # Whose docstrings another change is still to write.
-WAITING = {"identify"}
+WAITING: set[str] = set()
 # Not from the literature: they read, check and judge what the others make.
 OF_OUR_OWN = {"System", "read_record", "certify", "check"}
 HEAVY = ("numpy", "scipy", "sympy", "flint", "mpmath", "pandas", "matplotlib")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
 from faultspace.numeric.count.healthy_model import healthy_reference
-from faultspace.numeric.model.past_inputs import Identification, pi_moesp
+from faultspace.numeric.model.past_inputs import MoespModel, pi_moesp
 from faultspace.numeric.model.residuals import residual
 
 Array = NDArray[np.float64]
@@ -43,7 +43,7 @@ def fault(samples: int, first: int, pole: float, seed: int) -> Array:
     return np.asarray(v / v[first:].std())
 
 
-def identified(y: Array, u: Array) -> tuple[Identification, Array]:
+def identified(y: Array, u: Array) -> tuple[MoespModel, Array]:
     """The model from the record itself and its residual."""
     found = pi_moesp(y, u, order=ORDER, block_rows=BLOCK_ROWS)
     return found, residual(y, u, found.model).r

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.count.rank_gap import fault_dimension
 from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.model.residuals import residual, split
+from faultspace.numeric.model.residuals import FORWARD, residual, split
 
 
 def state_space(A: ArrayLike, B: ArrayLike, C: ArrayLike, D: ArrayLike) -> StateSpaceModel:
@@ -160,3 +160,29 @@ def test_bad_data_are_refused_with_a_reason(change, says) -> None:  # type: igno
     with pytest.raises(InvalidData, match=says):
         y, u = change(y, u)
         residual(y, u, model)
+
+
+def test_a_given_state_is_simulated_forward_up_to_the_growth_that_is_said() -> None:
+    samples, draw = 200, np.random.default_rng(11)
+    y, u = draw.standard_normal((samples, 1)), draw.standard_normal((samples, 1))
+    for growth, refused in ((0.9 * FORWARD, False), (1.1 * FORWARD, True), (1e200, True), (np.inf, True)):
+        pole = growth ** (1 / samples) if np.isfinite(growth) else 1e10
+        model = StateSpaceModel([[pole]], [[1.0]], [[1.0]], [[0.0]])
+        if refused:
+            with pytest.raises(InvalidData, match="1 mode"):
+                residual(y, u, model, x0=[1.0])
+        else:
+            assert np.array_equal(residual([(y, u)], None, model, x0=[1.0]).r, y - model.simulate(u, [1.0]))
+
+
+def test_pieces_are_read_as_the_array() -> None:
+    model = model_with_radius(0.9)
+    draw = np.random.default_rng(12)
+    y, u = draw.standard_normal((500, 3)), draw.standard_normal((500, 2))
+    pieces = [(y[:100], u[:100]), (y[100:101], u[100:101]), (y[101:], u[101:])]
+    assert np.array_equal(residual(pieces, None, model).r, residual(y, u, model).r)
+    assert np.allclose(residual(pieces, None, model, x0=np.ones(model.n)).r, residual(y, u, model, x0=np.ones(model.n)).r, atol=1e-12)
+    with pytest.raises(InvalidData, match="3 outputs"):
+        residual([*pieces, (y[:5, :2], u[:5])], None, model, x0=np.ones(model.n))
+    with pytest.raises(InvalidData, match="only once"):
+        residual(iter(pieces), None, model)

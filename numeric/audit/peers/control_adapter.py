@@ -10,12 +10,10 @@ import warnings
 from typing import Any
 
 import control
-import numpy as np
-from numpy.typing import NDArray
 
+from ....base.arrays import Array
 from ..records import Refused
 
-Array = NDArray[np.float64]
 LONGEST = 100
 
 

@@ -9,12 +9,11 @@ from typing import Any
 
 import ctrlsys
 import numpy as np
-from numpy.typing import NDArray
 
+from ....base.arrays import Array
 from ..adapter import Structure
 from ._slicot import structure_of
 
-Array = NDArray[np.float64]
 SINGULAR = (3, 4, 5)  # of ib01ad: all singular values zero, a rank-deficient least-squares problem: SLICOT's way to decline
 
 

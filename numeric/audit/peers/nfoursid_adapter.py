@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pandas
 from nfoursid.nfoursid import NFourSID
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ....base.arrays import Array
 
 
 def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:

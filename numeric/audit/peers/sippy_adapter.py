@@ -13,11 +13,9 @@ import io
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
 from sippy_unipi import system_identification
 
-Array = NDArray[np.float64]
+from ....base.arrays import Array
 
 
 def _identified(y: Array, u: Array, order: int, block_rows: int, **options: bool) -> tuple[Any, Any, Any, Any]:

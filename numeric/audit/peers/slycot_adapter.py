@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
 import slycot
-from numpy.typing import NDArray
 
+from ....base.arrays import Array
 from ..adapter import Structure
 from ._slicot import structure_of
-
-Array = NDArray[np.float64]
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:

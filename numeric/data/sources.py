@@ -1,0 +1,122 @@
+"""Whatever holds a record, as a Record: arrays, data frames, files, pieces that come one after the other.
+
+record_from     the Record of arrays, frames, a path, pieces (y, u) or a Record
+Source          what the first argument may be
+
+Everything is written into the store of a Record and read from there, in the same pieces: an array is a record of one piece, so that the
+same numbers give the same answer to the last bit however they come.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...base.errors import InvalidData
+from .files import read_record
+from .records import Record, RecordWriter, Tell, silent
+from .validation import checked_pieces, two_dimensional
+
+Source = ArrayLike | str | os.PathLike[str] | Record | Iterable[tuple[ArrayLike, ArrayLike]]
+
+
+def record_from(
+    y: Any,
+    u: Any = None,
+    *,
+    inputs: Sequence[str] | None = None,
+    outputs: Sequence[str] | None = None,
+    on_progress: Tell | None = None,
+) -> Record:
+    """The record of y (N, p) and u (N, n_u): arrays, or data frames, whose columns give the names, in any
+    units; or of y alone: a Record, the path of a
+    file (then `inputs` and `outputs` choose its channels), a frame (likewise), or pieces (y, u) in the order of time, read once.
+
+    `inputs` and `outputs` otherwise name the channels, u1, u2, ... and y1, y2, ... by default. Raises InvalidData for what holds no
+    record, and InvalidInput for a file that cannot be read. It converts only, so that it has no source.
+
+    >>> record = record_from([[1.0], [2.0]], [[0.0], [1.0]], outputs=["level"])
+    >>> len(record), record.inputs, record.outputs
+    (2, ('u1',), ('level',))
+    """
+    if u is not None:
+        if isinstance(y, Record | str | os.PathLike):
+            raise InvalidData(f"u: got one beside y of type {type(y).__name__}, which holds the inputs already: leave u out")
+        names = outputs or _columns(y), inputs or _columns(u)
+        single = two_dimensional(_values(y), "y").dtype == np.float32
+        return _written([(_values(y), _values(u))], names, single)
+    if isinstance(y, Record):
+        if inputs is not None or outputs is not None:
+            raise InvalidData("inputs, outputs: a record has its channels' names already: leave them out")
+        return y
+    if isinstance(y, str | os.PathLike):
+        if inputs is None or outputs is None:
+            raise InvalidData("inputs, outputs: a file needs the names of both: pass inputs=[...], outputs=[...]")
+        name = os.fspath(y)
+        tell = on_progress or silent
+        return read_record(name, inputs=inputs, outputs=outputs, tell=lambda done, total: tell(f"reading {name}", done, total))
+    if _columns(y) is not None:
+        if inputs is None or outputs is None:
+            raise InvalidData("u is missing: pass it, or name the columns of the frame that are inputs and outputs")
+        return record_from(_chosen(y, outputs), _chosen(y, inputs))
+    if isinstance(y, np.ndarray) or not isinstance(y, Iterable):
+        raise InvalidData(f"u is missing: got y of type {type(y).__name__} alone; pass u, or pieces (y, u), a path or a record")
+    return _written(cast(Iterable[tuple[ArrayLike, ArrayLike]], y), (outputs, inputs), False)
+
+
+def _written(
+    chunks: Iterable[tuple[ArrayLike, ArrayLike]], names: tuple[Sequence[str] | None, Sequence[str] | None], single: bool
+) -> Record:
+    writer, widths = None, (0, 0)
+    for y, u in checked_pieces(_pairs(chunks)):
+        if writer is None:
+            widths = (y.shape[1], u.shape[1])
+            writer = RecordWriter(sum(widths))
+        if widths != (y.shape[1], u.shape[1]):
+            raise InvalidData(
+                f"a piece has {u.shape[1]} inputs and {y.shape[1]} outputs where the first has {widths[1]} and {widths[0]}: all need the "
+                "same"
+            )
+        writer.append(np.hstack([u, y]))
+    if writer is None:
+        raise InvalidData("no data: the iterable of pieces (y, u) is empty")
+    outputs, inputs = (
+        list(given) if given is not None else [f"{letter}{i + 1}" for i in range(width)]
+        for given, letter, width in zip(names, "yu", widths, strict=True)
+    )
+    for what, given, width in (("outputs", outputs, widths[0]), ("inputs", inputs, widths[1])):
+        if len(given) != width:
+            raise InvalidData(f"{what}: got {len(given)} names for {width} channels")
+    return writer.record(outputs=outputs, inputs=inputs, format="arrays", single=single)
+
+
+def _pairs(chunks: Iterable[Any]) -> Iterable[tuple[ArrayLike, ArrayLike]]:
+    for number, chunk in enumerate(chunks):
+        if not isinstance(chunk, tuple | list) or len(chunk) != 2:
+            raise InvalidData(f"piece {number} is of type {type(chunk).__name__}, where a pair (y, u) is needed; or is u missing?")
+        yield _values(chunk[0]), _values(chunk[1])
+
+
+def _columns(values: Any) -> list[str] | None:
+    """The names of a frame's columns, or of a series; None for what has none."""
+    if hasattr(values, "columns") and hasattr(values, "to_numpy"):
+        return [str(name) for name in values.columns]
+    if hasattr(values, "name") and hasattr(values, "to_numpy"):
+        return None if values.name is None else [str(values.name)]
+    return None
+
+
+def _values(values: Any) -> Any:
+    return values.to_numpy() if hasattr(values, "to_numpy") else values
+
+
+def _chosen(frame: Any, names: Sequence[str]) -> Any:
+    there = _columns(frame) or []
+    missing = [name for name in names if name not in there]
+    if missing or not names:
+        raise InvalidData(f"the frame has no column {missing[0] if missing else 'chosen'}; it has {', '.join(there[:12])}")
+    return frame[list(names)]

@@ -1,0 +1,150 @@
+"""However a record comes, as arrays, frames, a file, pieces or a Record, `identify` gives the same answer to the last bit."""
+
+from __future__ import annotations
+
+import importlib
+import json
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from faultspace import example_data as made
+from faultspace.base.arrays import Array
+from faultspace.base.errors import InvalidData, InvalidInput
+from faultspace.numeric import identify, pi_moesp, read_record, residual
+
+N = 2500
+
+
+@pytest.fixture(scope="module")
+def data() -> tuple[Array, Array]:
+    record = made.faulty_record(N)
+    return record.y, record.u
+
+
+def by_file(y: Array, u: Array, folder: Path) -> Any:
+    np.savez(folder / "data.npz", y=y, u=u)
+    return identify(folder / "data.npz", inputs=["u"], outputs=["y"], order=3)
+
+
+def by_read_record(y: Array, u: Array, folder: Path) -> Any:
+    np.savez(folder / "data.npz", y=y, u=u)
+    return identify(read_record(str(folder / "data.npz"), inputs=["u"], outputs=["y"]), order=3)
+
+
+def by_chunks(y: Array, u: Array, folder: Path) -> Any:
+    edges = [0, 1, 700, 701, N]
+
+    def pieces() -> Iterator[tuple[Array, Array]]:
+        for first, last in pairwise(edges):
+            yield y[first:last], u[first:last]
+
+    return identify(pieces(), order=3)
+
+
+def by_frames(y: Array, u: Array, folder: Path) -> Any:
+    pandas = pytest.importorskip("pandas")
+    return identify(pandas.DataFrame(y, columns=list(made.OUTPUTS)), pandas.DataFrame(u, columns=list(made.INPUTS)), order=3)
+
+
+def by_one_frame(y: Array, u: Array, folder: Path) -> Any:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(np.hstack([y, u]), columns=[*made.OUTPUTS, *made.INPUTS])
+    return identify(frame, inputs=made.INPUTS, outputs=made.OUTPUTS, order=3)
+
+
+def by_lists(y: Array, u: Array, folder: Path) -> Any:
+    return identify(y.tolist(), np.asfortranarray(u), order=3)
+
+
+WAYS = [by_file, by_read_record, by_chunks, by_frames, by_one_frame, by_lists]
+
+
+@pytest.fixture(scope="module")
+def wanted(data: tuple[Array, Array]) -> Any:
+    return identify(*data, order=3)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_every_way_gives_the_same_bytes(
+    way: Callable[[Array, Array, Path], Any], data: tuple[Array, Array], wanted: Any, tmp_path: Path
+) -> None:
+    found = way(*data, tmp_path)
+    for name in ("A", "B", "C", "D", "x0", "residual_covariance", "singular_values"):
+        assert getattr(found.model, name).tobytes() == getattr(wanted.model, name).tobytes()
+    assert (found.n_v, found.fault_space.n_z) == (wanted.n_v, wanted.fault_space.n_z) == (1, 1)
+    assert found.fault_space.basis.tobytes() == wanted.fault_space.basis.tobytes()
+    assert found.residual.r.tobytes() == wanted.residual.r.tobytes() and found.signal.v.tobytes() == wanted.signal.v.tobytes()
+
+
+def test_frames_and_arguments_name_the_channels(data: tuple[Array, Array], tmp_path: Path) -> None:
+    assert by_frames(*data, tmp_path).record.names == (*made.INPUTS, *made.OUTPUTS)
+    found = by_chunks(*data, tmp_path)
+    assert found.record.names == ("u1", "u2", "y1", "y2", "y3") and f"{N} samples, inputs u1, u2" in found.summary()
+
+
+def test_identify_calls_the_functions_that_are_public(data: tuple[Array, Array], wanted: Any) -> None:
+    y, u = data
+    found = pi_moesp(y, u, order=3, block_rows=wanted.block_rows)
+    assert found.A.tobytes() == wanted.model.A.tobytes() and found.B.tobytes() == wanted.model.B.tobytes()
+    assert residual(y, u, found.model, x0=found.x0).r.tobytes() == wanted.residual.r.tobytes()
+
+
+@pytest.mark.parametrize("changed", ["y", "u"])
+def test_one_changed_bit_is_seen(changed: str, data: tuple[Array, Array], wanted: Any) -> None:
+    y, u = (values.copy() for values in data)
+    (y if changed == "y" else u)[1000, 0] *= 1 + 1e-12
+    assert pi_moesp(y, u, order=3, block_rows=wanted.block_rows).A.tobytes() != wanted.model.A.tobytes()
+
+
+REFUSED: list[tuple[Callable[[Array, Array], Any], str]] = [
+    (lambda y, u: identify(y), "u is missing"),
+    (lambda y, u: identify(y.tolist()), "a pair"),
+    (lambda y, u: identify(iter([])), "is empty"),
+    (lambda y, u: identify(iter([(y, u), (y[:, :2], u)])), "all need the same"),
+    (lambda y, u: identify(iter([(y, u), (y * np.nan, u)])), f"NaN at sample {N}"),
+    (lambda y, u: identify(y, u[:-1]), "equal numbers"),
+    (lambda y, u: identify(y, u, outputs=["a", "b"]), "2 names for 3"),
+    (lambda y, u: identify("data.csv"), "names of both"),
+    (lambda y, u: identify("data.csv", u), "leave u out"),
+    (lambda y, u: identify(y, u, n_v=4), "n_v: got 4 for 3 outputs"),
+    (lambda y, u: identify(y, u, healthy=N), "healthy: got"),
+    (lambda y, u: pi_moesp(y, block_rows=5), "u is missing"),
+    (lambda y, u: pi_moesp(iter([(y, u)]), block_rows=5), "only once"),
+]
+
+
+@pytest.mark.parametrize(("call", "says"), REFUSED)
+def test_what_holds_no_record_is_refused(call: Callable[[Array, Array], Any], says: str, data: tuple[Array, Array]) -> None:
+    with pytest.raises(InvalidData, match=says):
+        call(*data)
+
+
+def test_the_record_shows_itself(wanted: Any, tmp_path: Path) -> None:
+    assert repr(wanted) == f"<Identification of {N} samples: order 3, n_v 1, n_z 1, with a signal>"
+    assert wanted._repr_html_().startswith("<pre># ") and "<script" not in wanted._repr_html_()
+    assert "--" not in "\n".join([*wanted.notes, wanted.summary().partition("What to try next")[2]]).replace("--floats-exactly", "")
+    document = wanted.to_json()
+    assert json.loads(json.dumps(document))["n_v"] == 1
+    names = wanted.save(tmp_path / "new" / "folder")
+    assert {"model.json", "fault-signal.csv", "summary.md"} <= set(names)
+    assert {path.name for path in (tmp_path / "new" / "folder").iterdir()} == set(names)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InvalidInput, match="cannot be made"):
+        wanted.save(tmp_path / "file")
+
+
+def test_the_record_draws_its_signal_into_the_axes_given(wanted: Any) -> None:
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    ax = figure.add_subplot()
+    assert wanted.plot(ax) is ax and len(ax.lines[0].get_ydata()) == N
+    importlib.import_module("matplotlib").use("Agg")
+    assert wanted.plot().get_title(loc="left") == "Fault signal"
+    undecided = identify(np.random.default_rng(1).standard_normal((300, 2)), np.random.default_rng(2).standard_normal((300, 1)))
+    assert undecided.model is None and "order undecided" in repr(undecided)
+    with pytest.raises(InvalidData, match="nothing to draw"):
+        undecided.plot()
