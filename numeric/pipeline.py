@@ -31,6 +31,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
+from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest, with_signal, with_space
 from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
 from .count.healthy_model import healthy_reference
@@ -43,7 +44,6 @@ from .findings import Findings
 from .model.past_inputs import MoespModel, OrderUndecided, pi_moesp
 from .model.residuals import ResidualSignal, residual
 from .result import Identification
-from .signal.choice import MEANS_FROM, ROUNDING, beyond_rounding, largest, with_signal, with_space
 from .signal.residual_sizes import loudest, residual_sizes
 
 DEFAULT_WINDOW = 20
@@ -77,6 +77,7 @@ def identify(
     read, and InvalidData for data from which no model can be had; what cannot be told after that is a note of the Identification.
 
     >>> import numpy as np
+    >>> from faultspace.numeric import identify
     >>> from faultspace.numeric.model.models import StateSpaceModel
     >>> u = np.random.default_rng(1).standard_normal((400, 1))
     >>> y = StateSpaceModel([[0.5]], [[1.0]], [[1.0], [2.0]], [[0.0], [1.0]]).simulate(u)

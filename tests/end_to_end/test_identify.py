@@ -19,6 +19,7 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace import example_data as made
+from faultspace.numeric import choice as identification_signal
 from faultspace.numeric import pipeline as identifying
 from faultspace.numeric.count.rank_gap import fault_dimension
 from faultspace.numeric.data.files import read_record
@@ -27,7 +28,6 @@ from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.report import files as report
 from faultspace.numeric.report.pictures import PICTURES
 from faultspace.numeric.report.summary import advice
-from faultspace.numeric.signal import choice as identification_signal
 from faultspace.numeric.signal.reconstruction import reconstruct_fault
 from faultspace.numeric.space.by_ranks import fault_space
 from faultspace.numeric.space.distances import containment_distance, subspace_distance

@@ -22,7 +22,7 @@ FOLDERS = ("exact", "numeric", "proofs")
 Graph = dict[str, set[str]]
 ROOT = Path(__file__).resolve().parents[2]
 # (importing module, imported module); nothing may be added here
-LEFT = {("faultspace.numeric.signal.choice", "faultspace.numeric.result")}
+LEFT: set[tuple[str, str]] = set()
 
 
 @dataclass(frozen=True)

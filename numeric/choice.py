@@ -11,20 +11,17 @@ beyond_rounding   the residual that faults are counted on, outputs that the mode
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...base.arrays import Array
-from ...base.errors import InvalidData
-from ..data.records import Record, Tell
-from ..space.by_ranks import FaultSpaceEstimate, fault_space
-from .explained_share import noise_share
-from .reconstruction import Reconstruction, reconstruct_fault
-from .residual_sizes import loudest
-
-if TYPE_CHECKING:
-    from ..findings import Findings
+from ..base.arrays import Array
+from ..base.errors import InvalidData
+from .data.records import Record, Tell
+from .findings import Findings
+from .signal.explained_share import noise_share
+from .signal.reconstruction import Reconstruction, reconstruct_fault
+from .signal.residual_sizes import loudest
+from .space.by_ranks import FaultSpaceEstimate, fault_space
 
 ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
 MEANS_FROM = 1 << 14  # samples that means and shares are judged on: the regressors of a test are many times as many numbers
