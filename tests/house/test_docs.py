@@ -11,6 +11,7 @@ import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
 README_LINES = 120
+PAGES = [*sorted(DOCS.glob("*.md")), DOCS.parent / "README.md", DOCS.parent / "CONTRIBUTING.md"]
 
 
 @pytest.fixture(scope="module")
@@ -46,14 +47,14 @@ def links(page: Path) -> list[str]:
     return [link for link in found if "://" not in link]
 
 
-@pytest.mark.parametrize("page", [*sorted(DOCS.glob("*.md")), *(DOCS.parent / name for name in ("README.md", "CONTRIBUTING.md"))], ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_every_link_leads_somewhere(page: Path) -> None:
     broken = [link for link in links(page) if not (page.parent / link).exists()]
     assert broken == []
 
 
 def files_named(text: str) -> list[str]:
-    """The files and folders of the tree that a page names as code: with a slash or the name of a file at the top, no pattern, no command."""
+    """The files and folders of the tree that a page names as code, with a slash in them; patterns and commands are none."""
     return [name for name in re.findall(r"`([\w./-]+)`", text) if "/" in name and not re.search(r"[A-Z]{4}_", name)]
 
 
