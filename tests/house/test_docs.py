@@ -11,6 +11,7 @@ import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
 README_LINES = 120
+PAGES = [*sorted(DOCS.glob("*.md")), DOCS.parent / "README.md", DOCS.parent / "CONTRIBUTING.md"]
 
 
 @pytest.fixture(scope="module")
@@ -46,10 +47,23 @@ def links(page: Path) -> list[str]:
     return [link for link in found if "://" not in link]
 
 
-@pytest.mark.parametrize("page", [*sorted(DOCS.glob("*.md")), DOCS.parent / "README.md"], ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_every_link_leads_somewhere(page: Path) -> None:
     broken = [link for link in links(page) if not (page.parent / link).exists()]
     assert broken == []
+
+
+def files_named(text: str) -> list[str]:
+    """The files and folders of the tree that a page names as code, with a slash in them; patterns and commands are none."""
+    return [name for name in re.findall(r"`([\w./-]+)`", text) if "/" in name and not re.search(r"[A-Z]{4}_", name)]
+
+
+def test_contributing_names_files_that_exist() -> None:
+    root = DOCS.parent
+    named = files_named((root / "CONTRIBUTING.md").read_text("utf-8"))
+    assert len(named) > 30
+    assert [name for name in named if not (root / name).exists()] == []
+    assert files_named("`numeric/no_such_file.py` `verify` `numeric/audit/peers/NAME_adapter.py`") == ["numeric/no_such_file.py"]
 
 
 def test_the_readme_is_short() -> None:
