@@ -52,9 +52,7 @@ def expanded(pencil: Exceptional) -> int:
     def minor(rows: tuple[int, ...], cols: tuple[int, ...]) -> sympy.polys.rings.PolyElement:
         if not rows:
             return ring(1)
-        parts = (
-            (-1) ** k * entries[rows[k] * width + cols[0]] * minor(rows[:k] + rows[k + 1 :], cols[1:]) for k in range(len(rows))
-        )
+        parts = ((-1) ** k * entries[rows[k] * width + cols[0]] * minor(rows[:k] + rows[k + 1 :], cols[1:]) for k in range(len(rows)))
         return sum(parts, ring(0))
 
     total = ring(0)

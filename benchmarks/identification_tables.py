@@ -86,7 +86,6 @@ def notes(run: Run) -> list[str]:
     return lines
 
 
-
 def _time(cell: Cell) -> str:
     match cell.outcome:
         case "finished":

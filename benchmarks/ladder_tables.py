@@ -76,7 +76,6 @@ def notes(run: Run) -> list[str]:
     return lines
 
 
-
 def _seconds(value: float) -> str:
     if value == 0:
         return "< 0.01"  # Singular's clock has ticks of 10 ms

@@ -1,8 +1,8 @@
 """Tables of a benchmark, on a terminal and in Markdown.
 
-    Sheet       a title, a head, rows of texts
-    markdown    sheets and notes as Markdown
-    show        sheets and notes on a terminal
+Sheet       a title, a head, rows of texts
+markdown    sheets and notes as Markdown
+show        sheets and notes on a terminal
 """
 
 from __future__ import annotations

@@ -36,6 +36,7 @@ class Identification(Findings):
     where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
     visible (p,): the standard deviation of a white fault at one output that would be seen.
     """
+
     def __repr__(self) -> str:
         order = "undecided" if self.model is None else self.model.order
         n_v = "undecided" if self.n_v is None else self.n_v

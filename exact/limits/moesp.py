@@ -217,4 +217,3 @@ def _lines(name: str, matrix: Matrix) -> Iterator[tuple[str, str]]:
 
 def _polynomial(coefficients: Sequence[object]) -> str:
     return polynomial([QQ.element(c) for c in coefficients], QQ)
-

@@ -198,9 +198,7 @@ def System(
     nu = _dimension("n_u", None, (B, 1), (D, 1))
     if nu > MAX_DIMENSION:
         raise InvalidInput(f"n_u: got {nu}, at most {MAX_DIMENSION} is supported")
-    return FaultySystem(
-        system, Matrix.of(B, field, shape=(system.n, nu), where="B"), Matrix.of(D, field, shape=(system.p, nu), where="D")
-    )
+    return FaultySystem(system, Matrix.of(B, field, shape=(system.n, nu), where="B"), Matrix.of(D, field, shape=(system.p, nu), where="D"))
 
 
 def counted(count: int, word: str) -> str:

@@ -37,4 +37,3 @@ def run(names: tuple[str, str], *, as_json: bool, expected: str | None, word: bo
         say(f"{both}: got {verdict}, expected {expected}")
         return NOT_AS_EXPECTED
     return ANSWERED
-

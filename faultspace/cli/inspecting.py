@@ -33,4 +33,3 @@ def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
         return Answer(system.sizes, found)
 
     return answer_each(names, answer, as_json=as_json)
-

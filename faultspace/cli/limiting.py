@@ -24,4 +24,3 @@ def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
         return Answer(experiment.sizes, found)
 
     return answer_each(names, answer, as_json=as_json)
-

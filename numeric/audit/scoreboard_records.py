@@ -1,8 +1,8 @@
 """The records of scoreboard.json: what was audited, with what result.
 
-    Board      all implementations that `python -m faultspace.numeric.audit.scoreboard --out DIR` has audited
-    Audited    one implementation: name, version, seconds, a Tally for every slug of a function that it offers
-    Tally      one slug and function: how many checks were asked and failed, the worst record
+Board      all implementations that `python -m faultspace.numeric.audit.scoreboard --out DIR` has audited
+Audited    one implementation: name, version, seconds, a Tally for every slug of a function that it offers
+Tally      one slug and function: how many checks were asked and failed, the worst record
 """
 
 from __future__ import annotations

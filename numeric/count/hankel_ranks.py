@@ -69,9 +69,7 @@ def hankel_values(r: Array, windows: int) -> tuple[Array, ...]:
     """Singular values of R_1 .. R_windows, all over the N - windows + 1 columns of the longest."""
     p = r.shape[1]
     triangle = hankel_triangle(r, windows)
-    return tuple(
-        scipy.linalg.svdvals(triangle[: s * p, : s * p], check_finite=False) for s in range(1, windows + 1)
-    )
+    return tuple(scipy.linalg.svdvals(triangle[: s * p, : s * p], check_finite=False) for s in range(1, windows + 1))
 
 
 def ranks_at(values: tuple[Array, ...], thresholds: tuple[float, ...], columns: int, *, deficient: bool) -> HankelRanks:

@@ -143,9 +143,7 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
     )
 
 
-def mean_shift(
-    r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u: ArrayLike | None, *, level: float = LEVEL
-) -> MeanShift:
+def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u: ArrayLike | None, *, level: float = LEVEL) -> MeanShift:
     """Whether the mean of r (M, p), with inputs u (M, n_u), has left that of the healthy residual (K, p) with its inputs.
 
     `level` (0, 1): probability of finding a shift where there is none. What the healthy record cannot bear is an undecided answer, never an

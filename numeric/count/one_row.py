@@ -56,9 +56,7 @@ class WindowMoments:
     def of_degree(self, degree: int) -> WindowMoments:
         """The moments of the shorter window: the same samples, so levels of different degrees are comparable."""
         size = self.channels * (degree + 1)
-        return WindowMoments(
-            self.moments[:, :size, :size], self.counts, self.angles, self.channels, degree, self.samples
-        )
+        return WindowMoments(self.moments[:, :size, :size], self.counts, self.angles, self.channels, degree, self.samples)
 
     def mixed(self, mix: Array) -> WindowMoments:
         """The moments of the signal r @ mix, mix of shape (p, k) with orthonormal columns."""

@@ -203,9 +203,7 @@ class RecordWriter:
 
     def record(self, *, outputs: Sequence[str], inputs: Sequence[str], format: str, single: bool = False) -> Record:
         """What has been taken."""
-        return Record(
-            self.store, tuple(outputs), tuple(inputs), format, self._known.channels(), np.zeros(self.store.width), single
-        )
+        return Record(self.store, tuple(outputs), tuple(inputs), format, self._known.channels(), np.zeros(self.store.width), single)
 
 
 def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequence[str]) -> Record:

@@ -135,7 +135,7 @@ class StateSpaceModel:
         """The model of `to_json`. InvalidData for another format, missing keys or shapes that do not fit."""
         if not isinstance(record, Mapping) or record.get("format") != FORMAT:
             got = record.get("format") if isinstance(record, Mapping) else type(record).__name__
-            raise InvalidData(f"a model has \"format\": \"{FORMAT}\" (got {got!r})")
+            raise InvalidData(f'a model has "format": "{FORMAT}" (got {got!r})')
         missing = [name for name in ("n", "n_u", "p", *"ABCD") if name not in record]
         if missing:
             raise InvalidData(f"the model lacks {', '.join(missing)}; a model has n, n_u, p, A, B, C, D")

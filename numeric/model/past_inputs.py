@@ -423,15 +423,11 @@ def pi_moesp_experiments(
     if len(experiments) == 0:
         raise InvalidData("no experiment: give at least one pair (y, u)")
     sources = [experiment(y, u) for y, u in experiments]
-    compressions = [
-        _compressed(y, u, source, block_rows, past_rows, route) for (y, u), source in zip(experiments, sources, strict=True)
-    ]
+    compressions = [_compressed(y, u, source, block_rows, past_rows, route) for (y, u), source in zip(experiments, sources, strict=True)]
     return _modelled(sources, merge(*compressions), order)
 
 
-def _compressed(
-    y: Any, u: ArrayLike | None, source: Pieces, block_rows: int, past_rows: int | None, route: str | None
-) -> Compression:
+def _compressed(y: Any, u: ArrayLike | None, source: Pieces, block_rows: int, past_rows: int | None, route: str | None) -> Compression:
     """Of arrays, which tell their shapes beforehand, or of pieces."""
     if u is not None:
         return compress(y, u, block_rows=block_rows, past_rows=past_rows, route=route)

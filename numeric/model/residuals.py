@@ -205,9 +205,7 @@ class SplitModel:
 def split(model: StateSpaceModel, samples: int) -> SplitModel:
     """Separate the modes that grow by more than GROWTH over the record from the others."""
     radius = _radius(samples)
-    schur, turn, ahead = scipy.linalg.schur(
-        model.A, output="real", sort=lambda re, im: bool(np.hypot(re, im) <= radius)
-    )
+    schur, turn, ahead = scipy.linalg.schur(model.A, output="real", sort=lambda re, im: bool(np.hypot(re, im) <= radius))
     coupling = scipy.linalg.solve_sylvester(schur[:ahead, :ahead], -schur[ahead:, ahead:], -schur[:ahead, ahead:])
     basis = turn.copy()
     basis[:, ahead:] += turn[:, :ahead] @ coupling

@@ -112,9 +112,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
     return result
 
 
-def write(
-    answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callable[[str], str] = str
-) -> tuple[list[str], list[str]]:
+def write(answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callable[[str], str] = str) -> tuple[list[str], list[str]]:
     """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `document`.
 
     Raises InvalidInput where the folder cannot be written into.

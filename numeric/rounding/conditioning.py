@@ -309,9 +309,7 @@ def moesp_error(where: Setting, backward: BackwardError, moved: float) -> ModelE
     return ModelError(model, where.input_scale, where.scale, moved, dA, d_theta, dC, d_theta / float(weights.min()))
 
 
-def output_error_error(
-    where: Setting, moved: float, experiments: Sequence[tuple[Array, Array]], *, relative: float = UNIT
-) -> ModelError:
+def output_error_error(where: Setting, moved: float, experiments: Sequence[tuple[Array, Array]], *, relative: float = UNIT) -> ModelError:
     """The model whose B and D come from output error (`pi_moesp`, or `pi_moesp_experiments` with these y (N, p), u (N, n_u)).
 
     `relative` is by how much each sample may be wrong in relation to itself. The regressor is built here in full: for records of some

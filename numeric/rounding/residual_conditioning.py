@@ -83,9 +83,7 @@ def singular_value_error(values: Array, columns: int) -> float:
     return (UNIT + reflections_error(width, columns) + SMALL * width * EPS) * _norm(values)
 
 
-def fault_signal_error(
-    r: Array, A: Array, F: Array, C: Array, G: Array, found: Reconstruction, *, x0: Array | None = None
-) -> float:
+def fault_signal_error(r: Array, A: Array, F: Array, C: Array, G: Array, found: Reconstruction, *, x0: Array | None = None) -> float:
     """Bound on |v - exact v| over the trusted samples of `reconstruct_fault(r, A, F, C, G, x0=x0)`; builds [O_N T_N] in full."""
     N, m, n = len(r), F.shape[1], len(A)
     model = StateSpaceModel(A, F, C, G)

@@ -70,9 +70,7 @@ class Stretch:
     pair: tuple[Array, Array, Array, Array]
 
 
-def smoothed(
-    r: ArrayLike, A: ArrayLike, F: ArrayLike, C: ArrayLike, G: ArrayLike, *, x0: ArrayLike | None = None
-) -> Stretch:
+def smoothed(r: ArrayLike, A: ArrayLike, F: ArrayLike, C: ArrayLike, G: ArrayLike, *, x0: ArrayLike | None = None) -> Stretch:
     """v and x from r (N, p) for A (n, n), F (n, m), C (p, n), G (p, m); x0 (n,) if the initial state is known.
 
     Raises InvalidData for shapes that do not fit, values that are not finite, more faults than outputs, a fault
@@ -91,10 +89,7 @@ def smoothed(
     columns = np.vstack([coordinates.T @ F, G / coordinates.scale[:, None]])
     sizes = np.linalg.norm(columns, axis=0)
     if np.any(sizes == 0):
-        raise InvalidData(
-            f"F, G: fault {int(np.argmin(sizes))} has a zero column in both, so that r cannot tell its signal; "
-            "leave it out"
-        )
+        raise InvalidData(f"F, G: fault {int(np.argmin(sizes))} has a zero column in both, so that r cannot tell its signal; leave it out")
     columns = columns / sizes
     limits = fault_zeros(coordinates.A, columns[:n], coordinates.C, columns[n:])
     smoother = _Smoother(coordinates, columns[:n], columns[n:], N)
@@ -104,11 +99,7 @@ def smoothed(
     x, response = simulated(A, F, C, G, initial, v)
     size = float(np.linalg.norm(r))
     misfit = float(np.linalg.norm(r - response)) / size if size else 0.0
-    delay = (
-        limits.delay_known_state
-        if start is not None or limits.delay_unknown_state is None
-        else limits.delay_unknown_state
-    )
+    delay = limits.delay_known_state if start is not None or limits.delay_unknown_state is None else limits.delay_unknown_state
     trusted, reason = _limits(N, m, limits, delay, start is not None)
     return Stretch(v, x, response, delay, trusted, limits.zeros, limits.left_invertible, misfit, reason, initial, (A, F, C, G))
 
@@ -117,23 +108,16 @@ def _faults(n: int, p: int, F: ArrayLike, G: ArrayLike, x0: ArrayLike | None) ->
     F, G = (np.array(matrix, dtype=float, ndmin=2) for matrix in (F, G))
     m = G.shape[1]
     if F.shape != (n, m) or G.shape != (p, m):
-        raise InvalidData(
-            f"F, G: got shapes {F.shape} and {G.shape}; needed ({n}, n_v) and ({p}, n_v), columns even for one fault"
-        )
+        raise InvalidData(f"F, G: got shapes {F.shape} and {G.shape}; needed ({n}, n_v) and ({p}, n_v), columns even for one fault")
     if not (np.all(np.isfinite(F)) and np.all(np.isfinite(G))):
         raise InvalidData("F, G: got entries that are NaN or infinite")
     if not 1 <= m <= p:
-        raise InvalidData(
-            f"F, G: got {m} faults for {p} outputs; needed 1 <= n_v <= p. "
-            "Choose n_v columns of a fault space, as [F P; G P]"
-        )
+        raise InvalidData(f"F, G: got {m} faults for {p} outputs; needed 1 <= n_v <= p. Choose n_v columns of a fault space, as [F P; G P]")
     if x0 is None:
         return F, G, None
     start = np.array(x0, dtype=float).reshape(-1)
     if start.shape != (n,) or not np.all(np.isfinite(start)):
-        raise InvalidData(
-            f"x0: got {start.shape[0]} entries; needed {n} finite ones, or None if the initial state is not known"
-        )
+        raise InvalidData(f"x0: got {start.shape[0]} entries; needed {n} finite ones, or None if the initial state is not known")
     return F, G, start
 
 

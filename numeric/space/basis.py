@@ -67,9 +67,7 @@ def kernel_basis(
     """
     problem = _problem(moments, within)
     colour = np.ones(len(moments.angles))
-    guesses = [
-        np.concatenate([basis @ row.ravel() for basis, row in zip(within, start, strict=True)]) for start in starts
-    ]
+    guesses = [np.concatenate([basis @ row.ravel() for basis, row in zip(within, start, strict=True)]) for start in starts]
     guesses += _plain(problem, within)
     fits = [_descend(problem, colour, _normed(problem, h)) for h in guesses]
     h, cost = min(fits, key=lambda fit: fit[1])
@@ -85,10 +83,7 @@ def kernel_basis(
         before = np.log(max(cost, TINY))
     k = len(within)
     level = float(np.log(max(cost / k, TINY)) + np.log(problem.size))
-    rows = tuple(
-        (part @ basis).reshape(-1, moments.channels)
-        for part, basis in zip(np.split(h, problem.cuts), within, strict=True)
-    )
+    rows = tuple((part @ basis).reshape(-1, moments.channels) for part, basis in zip(np.split(h, problem.cuts), within, strict=True))
     covariance = _covariance(problem, colour, h, max(cost / k, TINY), moments.samples)
     return KernelBasis(rows, level, regression, tuple(within), covariance)
 

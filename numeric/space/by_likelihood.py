@@ -277,8 +277,7 @@ def _zeros_by_rank(data: Arguments, faults: int, s: int) -> tuple[int, float]:
     possible = [rank for rank in ranks if 0 < rank < P.shape[0]]
     if not possible:
         raise InvalidData(
-            f"r has {len(data.r)} samples, too few for a window longer than the lag: record more, "
-            "or take a model of lower order"
+            f"r has {len(data.r)} samples, too few for a window longer than the lag: record more, or take a model of lower order"
         )
     rank, drop = gap_rank(values, possible, EPS * float(values[0]))
     return ranks[rank], drop

@@ -64,9 +64,7 @@ class SubspaceComparison:
 
     def __str__(self) -> str:
         largest = np.degrees(self.angles[-1]) if self.angles.size else 0.0
-        same = (
-            "" if self.same_dimension else "; different dimensions, so the two-sided distance is 1 whatever the angles"
-        )
+        same = "" if self.same_dimension else "; different dimensions, so the two-sided distance is 1 whatever the angles"
         first, second = self.dimensions
         return f"dimensions {first} and {second}, largest principal angle {largest:.3g} degrees{same}"
 
@@ -151,9 +149,7 @@ def markov_distance(model1: HasMatrices, model2: HasMatrices, *, samples: int | 
     """
     D1, D2 = (np.atleast_2d(np.asarray(model.D, float)) for model in (model1, model2))
     if D1.shape != D2.shape:
-        raise InvalidData(
-            f"models: got (p, n_u) = {D1.shape} and {D2.shape}; only models with the same inputs and outputs compare"
-        )
+        raise InvalidData(f"models: got (p, n_u) = {D1.shape} and {D2.shape}; only models with the same inputs and outputs compare")
     count = 1 + sum(np.asarray(model.A).shape[0] for model in (model1, model2)) if samples is None else samples
     if count < 1:
         raise InvalidData(f"samples: got {count}; at least one Markov parameter must be compared")
@@ -193,16 +189,12 @@ def _orthonormal(matrix: object, name: str) -> Array:
     if columns.ndim == 1:
         columns = columns[:, None]
     if columns.ndim != 2 or not np.all(np.isfinite(columns)):
-        raise InvalidData(
-            f"{name}: got an array of shape {columns.shape}; a basis is a (d, k) matrix of finite numbers"
-        )
+        raise InvalidData(f"{name}: got an array of shape {columns.shape}; a basis is a (d, k) matrix of finite numbers")
     lengths = np.linalg.norm(columns, axis=0)
     if columns.shape[1] == 0:
         return columns
     if columns.shape[1] > columns.shape[0] or lengths.min() == 0:
-        raise InvalidData(
-            f"{name}: {columns.shape[1]} columns in dimension {columns.shape[0]} are dependent; pass a basis"
-        )
+        raise InvalidData(f"{name}: {columns.shape[1]} columns in dimension {columns.shape[0]} are dependent; pass a basis")
     left, values, _ = np.linalg.svd(columns / lengths, full_matrices=False)
     if values[-1] <= DEPENDENT * values[0]:
         raise InvalidData(f"{name}: columns are dependent (singular values down to {values[-1]:.1e}); pass a basis")
@@ -211,6 +203,4 @@ def _orthonormal(matrix: object, name: str) -> Array:
 
 def _same_space(first: Array, second: Array) -> None:
     if first.shape[0] != second.shape[0]:
-        raise InvalidData(
-            f"U, V: got {first.shape[0]} and {second.shape[0]} rows; subspaces of one space have the same number"
-        )
+        raise InvalidData(f"U, V: got {first.shape[0]} and {second.shape[0]} rows; subspaces of one space have the same number")

@@ -29,9 +29,7 @@ ROUNDINGS = 10.0
 SHARP = 1e9
 
 
-def fault_space_error_bound(
-    coordinates: ObservedCoordinates, left: Array, values: Array, rank: int, floor: float, columns: Array
-) -> float:
+def fault_space_error_bound(coordinates: ObservedCoordinates, left: Array, values: Array, rank: int, floor: float, columns: Array) -> float:
     """Bound on the sine of the largest angle to the true space, at most 1, the ranks taken as right.
 
     `left` (p s, p s) and `values` (p s,) of R_s, `rank` its rank, `floor` the size of rounding in `values`, `columns`

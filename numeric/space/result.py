@@ -104,13 +104,9 @@ class FaultSpaceEstimate:
         return None if self.n_v is None or not self.meaningful or not self.decided else self.n_z - self.n_v
 
 
-def everything(
-    n: int, p: int, n_v: int | None, block_rows: int, reason: str, *, lag: int | None = None
-) -> FaultSpaceEstimate:
+def everything(n: int, p: int, n_v: int | None, block_rows: int, reason: str, *, lag: int | None = None) -> FaultSpaceEstimate:
     """The estimate without a single equation: every column is a solution, which means nothing."""
-    return FaultSpaceEstimate(
-        np.eye(n + p), n + p, n, n_v, lag, block_rows, np.zeros(0), 0, n + p, 1.0, False, False, reason, None, "none"
-    )
+    return FaultSpaceEstimate(np.eye(n + p), n + p, n, n_v, lag, block_rows, np.zeros(0), 0, n + p, 1.0, False, False, reason, None, "none")
 
 
 def kernel_conditions(rows: Array, A: Array, C: Array) -> Array:

@@ -1,9 +1,9 @@
 """A kernel basis of maximum likelihood for given A, C, from a fault space estimated row by row.
 
-    joint_basis   all p - n_v rows at once, with the row degrees that the data accept
-    complement    P with orthonormal rows and P O_s = 0: a true kernel row is g P, because A and C are known
-    splits        row degrees that add up to n - zeta, the most equal first: those of almost every system
-    rows_from     kernel rows of given degrees that a fault space asks for
+joint_basis   all p - n_v rows at once, with the row degrees that the data accept
+complement    P with orthonormal rows and P O_s = 0: a true kernel row is g P, because A and C are known
+splits        row degrees that add up to n - zeta, the most equal first: those of almost every system
+rows_from     kernel rows of given degrees that a fault space asks for
 """
 
 from __future__ import annotations

@@ -58,9 +58,7 @@ class CrossMoments:
     def real_parts(self) -> WindowMoments:
         """What a single row asks of them."""
         count = round(self.samples)
-        return WindowMoments(
-            self.moments.real * count, self.weights * count, self.angles, self.channels, self.degree, count
-        )
+        return WindowMoments(self.moments.real * count, self.weights * count, self.angles, self.channels, self.degree, count)
 
 
 def tapered_moments(r: Array, degree: int) -> CrossMoments:

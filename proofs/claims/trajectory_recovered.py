@@ -80,6 +80,4 @@ def zero_feedthrough_signal(bench: Workbench) -> Outcome:
         hidden = d.n - rank(observability_matrix(d.system, d.n))
         return found.pins_v == (rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == hidden)
 
-    return certify(
-        bench, lambda d: d.left_invertible and d.m > 0 and d.finite_zeros is not None and d.system.G.is_zero(), holds, zeros
-    )
+    return certify(bench, lambda d: d.left_invertible and d.m > 0 and d.finite_zeros is not None and d.system.G.is_zero(), holds, zeros)

@@ -1,7 +1,7 @@
 """The experiments of counterexamples/, which refute what one might expect of population limits; its README says what each shows.
 
-    kept       the experiment of a name
-    WITHOUT_RANK   those in which PI-MOESP loses a rank though v is uncorrelated with u at all lags
+kept       the experiment of a name
+WITHOUT_RANK   those in which PI-MOESP loses a rank though v is uncorrelated with u at all lags
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Pairs (Fhat P, Ghat P) judged by the polynomial D(q; P) beforehand, and by accepted certificates afterwards: what both say.
 
-    JudgedPair       a system, a P, D(q; P) by its determinant; normal rank, zeros and equivalence of the pair by certificates
-    judged_pairs     for each system: a good P, a bad P of full column rank where there is one, a placed zero polynomial, random P
-    pencil_of        the exceptional pencil of a system, found once
+JudgedPair       a system, a P, D(q; P) by its determinant; normal rank, zeros and equivalence of the pair by certificates
+judged_pairs     for each system: a good P, a bad P of full column rank where there is one, a placed zero polynomial, random P
+pencil_of        the exceptional pencil of a system, found once
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """What is asked of one system alone, exactly and found once, and the same of many integer systems at a first look.
 
-    Facets   observable, controllable, left-invertible, stable, normal rank, lag, number of unobservable modes
-    facets   those of a system
-    degenerate   why a system would be a poor witness; "" where it would not
-    of_system   the hypotheses about one system, of subjects that have one
-    flags    which of many systems meet all of some hypotheses about one system
+Facets   observable, controllable, left-invertible, stable, normal rank, lag, number of unobservable modes
+facets   those of a system
+degenerate   why a system would be a poor witness; "" where it would not
+of_system   the hypotheses about one system, of subjects that have one
+flags    which of many systems meet all of some hypotheses about one system
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """The hypotheses of the claims about two systems: theorem-1 on a window, theorem-3 (i) on every window.
 
-    Compared       a pair of systems that agree on a window, by accepted certificates
-    theorem_1      equal on the window, so equal for ever?
-    theorem_3_i    equal for ever: do the second's fault columns lie in the first's Z, once its state is changed in some way?
-    same_model     equal for ever: is the second (A, Fhat P, C, Ghat P), once its state is changed in some way?
+Compared       a pair of systems that agree on a window, by accepted certificates
+theorem_1      equal on the window, so equal for ever?
+theorem_3_i    equal for ever: do the second's fault columns lie in the first's Z, once its state is changed in some way?
+same_model     equal for ever: is the second (A, Fhat P, C, Ghat P), once its state is changed in some way?
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """zero-assignment, tried: polynomials of every degree up to zeta, each made the zero polynomial of a pair, and found there again.
 
-    every_polynomial_is_reached   of a system's exceptional pencil: whether all of `wanted` are
-    wanted                        the polynomials: random of every degree, with a zero constant term, with one repeated root, not monic
+every_polynomial_is_reached   of a system's exceptional pencil: whether all of `wanted` are
+wanted                        the polynomials: random of every degree, with a zero constant term, with one repeated root, not monic
 """
 
 from __future__ import annotations

@@ -92,9 +92,7 @@ def solutions_from_lag() -> Experiment[Windowed]:
 
 def columns() -> Experiment[Windowed]:
     """The number of columns of (Fhat, Ghat)."""
-    conclusion = Condition(
-        lambda w: w.dossier.limit_dimension == w.dossier.m + (w.dossier.zeta or 0), lambda f, s: f.left_invertible
-    )
+    conclusion = Condition(lambda w: w.dossier.limit_dimension == w.dossier.m + (w.dossier.zeta or 0), lambda f, s: f.left_invertible)
     words = "Z has dimension n_z = m + zeta"
     proof = _proof("problem_11_dimension", "zeros_exist", "lag_at_most_n", uses={INVERTIBLE})
     return windowed("columns", "problem-11", words, MODEL, conclusion, zeros, ZEROS_KNOWN, windows=lambda n: NO_WINDOW, proof=proof)
@@ -116,9 +114,7 @@ ONLY_UNOBSERVABLE = Condition(
 def range_of_f() -> Experiment[Windowed]:
     """zero-feedthrough: with G = 0 known, is im F determined by the outputs?"""
     hypotheses = {**MODEL, "rank CF = m": RELATIVE_DEGREE_ONE, "no finite zeros": NO_FINITE_ZEROS}
-    conclusion = Condition(
-        lambda w: w.dossier.without_feedthrough == rank(w.dossier.system.F), lambda f, s: np.full(len(f.A), False)
-    )
+    conclusion = Condition(lambda w: w.dossier.without_feedthrough == rank(w.dossier.system.F), lambda f, s: np.full(len(f.A), False))
     words = "the members of Z without feedthrough are im F"
     box = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
     proof = _proof("zero_feedthrough", "theorem_3_part_i", "zeros_exist", uses={INVERTIBLE, "rank CF = m", "no finite zeros"})

@@ -1,8 +1,8 @@
 """The hypotheses of the rank gap read off data: which trajectories show m = rank R_(s+1) - rank R_s?
 
-    Record                 a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
-    excited                with [X; V_(s+1)] of full row rank
-    persistently_excited   with v persistently exciting of order n + s + 1
+Record                 a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
+excited                with [X; V_(s+1)] of full row rank
+persistently_excited   with v persistently exciting of order n + s + 1
 """
 
 from __future__ import annotations

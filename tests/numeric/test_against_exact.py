@@ -55,9 +55,7 @@ def stable(system: ResidualSystem) -> ResidualSystem:
     """
     largest = max(1, int(np.ceil(np.max(np.abs(np.linalg.eigvals(floats(system.A))), initial=0) * 10 / 9)))
     shape = (system.n, system.n)
-    scale = Matrix.of(
-        [[f"1/{largest}" if i == j else 0 for j in range(system.n)] for i in range(system.n)], shape=shape
-    )
+    scale = Matrix.of([[f"1/{largest}" if i == j else 0 for j in range(system.n)] for i in range(system.n)], shape=shape)
     # x'(k) = c^k x(k), v'(k) = c^k v(k) with c = 1/largest turns (A, F, C, G) into (cA, cF, C, G).
     return ResidualSystem(scale @ system.A, scale @ system.F, system.C, system.G)
 
@@ -69,9 +67,7 @@ def cases(seed: int, shape: Structure) -> tuple[ResidualSystem, KernelRepresenta
         rng = Random(1000 * seed + attempt)
         system = stable(read_system(planted_system(rng, "Q", shape)).residual)
         x0 = Matrix.of([[rng.randint(-9, 9)] for _ in range(system.n)], shape=(system.n, 1))
-        v = Matrix.of(
-            [[rng.randint(-9, 9) for _ in range(system.m)] for _ in range(SAMPLES)], shape=(SAMPLES, system.m)
-        )
+        v = Matrix.of([[rng.randint(-9, 9) for _ in range(system.m)] for _ in range(SAMPLES)], shape=(SAMPLES, system.m))
         found = simulate(system, x0, v)
         longest = system.n + 2
         excitation = excitation_matrix(found, longest)

@@ -88,9 +88,7 @@ def test_parts_with_overlapping_edges_merge_to_the_whole(route: str) -> None:
     whole = compress(y, u, block_rows=s, past_rows=q, route=route)
     # A part of one window is enough for QR; a Gram needs more windows than input rows.
     edges = [0, 40, 333, 334 if route == "qr" else 390, 800, 900 - (s + q - 1)]
-    parts = [
-        compress(y[a : b + s + q - 1], u[a : b + s + q - 1], block_rows=s, past_rows=q, route=route) for a, b in pairwise(edges)
-    ]
+    parts = [compress(y[a : b + s + q - 1], u[a : b + s + q - 1], block_rows=s, past_rows=q, route=route) for a, b in pairwise(edges)]
     merged = merge(*parts)
     assert merged.columns == whole.columns
     assert merged.route == route

@@ -199,10 +199,7 @@ def test_similarity_channels_units_and_time() -> None:
     moved = np.vstack([scaled.F, (scaled.G[np.argsort(order)].T / units).T])
     assert subspace_distance(reference.basis, np.linalg.qr(moved)[0]) < 1e-5
     for factor in (1e-200, 1e-12, 1e6, 1e200):
-        assert (
-            subspace_distance(reference.basis, fault_space(factor * r, system.A, system.C * factor / factor).basis)
-            < 1e-9
-        )
+        assert subspace_distance(reference.basis, fault_space(factor * r, system.A, system.C * factor / factor).basis) < 1e-9
     assert subspace_distance(reference.basis, fault_space(r[57:], system.A, system.C).basis) < 1e-9
     assert np.allclose(reference.singular_values, turned.singular_values)
 

@@ -200,9 +200,12 @@ def test_both_routes_and_merged_parts_agree_on_noisy_data() -> None:
     assert behaviour_error(pi_moesp(y, u, order=3, block_rows=6, route="gram").model, whole) < 1e-10
     lags = 12
     halves = merge(compress(y[: 1500 + lags - 1], u[: 1500 + lags - 1], block_rows=6), compress(y[1500:], u[1500:], block_rows=6))
-    assert behaviour_error(
-        pi_moesp_from_compression(halves, order=3).model, pi_moesp_from_compression(compress(y, u, block_rows=6), order=3).model
-    ) < 1e-10
+    assert (
+        behaviour_error(
+            pi_moesp_from_compression(halves, order=3).model, pi_moesp_from_compression(compress(y, u, block_rows=6), order=3).model
+        )
+        < 1e-10
+    )
 
 
 def test_several_experiments_give_one_model_and_their_own_initial_states() -> None:

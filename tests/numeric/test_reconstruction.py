@@ -148,12 +148,7 @@ def test_not_left_invertible() -> None:
     twice = Planted(system.A, np.hstack([system.F, system.F]), system.C, np.hstack([system.G, system.G]), system.Z, ())
     v = faults(8, 200)
     found = run(twice, v, np.zeros(5))
-    assert (
-        not found.left_invertible
-        and found.delay is None
-        and found.trusted == (0, 0)
-        and "not left-invertible" in found.reason
-    )
+    assert not found.left_invertible and found.delay is None and found.trusted == (0, 0) and "not left-invertible" in found.reason
     assert found.misfit < 1e-9
     np.testing.assert_allclose(found.v.sum(axis=1), v.sum(axis=1), atol=1e-6)
 

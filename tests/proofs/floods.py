@@ -172,6 +172,7 @@ def of_numbers() -> Iterator[tuple[str, bytes]]:
 
 def of_experiments() -> Iterator[tuple[str, bytes]]:
     """Long filters, windows, large numbers in them."""
+
     def changed(certificate: Certificate, name: str, value: Any, **more: Any) -> bytes:
         about = {**certificate["statement"]["experiment"], name: value, **more}
         return dumped(certificate["kind"], {**certificate["statement"], "experiment": about}, certificate["witness"])
