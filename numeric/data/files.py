@@ -69,10 +69,10 @@ def split_names(given: Sequence[str]) -> list[str]:
 def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], tell: Tell | None = None) -> Record:
     """The record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 
-    `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the names
-    of columns or, for matrices, as NAME[:,j]. Rows are samples, in the order of time and in the file's units, and every number must be
-    finite. `tell(done, total)` hears how much of how much has been read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and
-    need not fit into memory (a MAT file must).
+    `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the
+    names of columns or, for matrices, as NAME[:,j]. Rows are samples, in the order of time and in the file's units, and every number
+    must be finite. `tell(done, total)` hears how much of how much has been read. The Record has `len`, the number of samples, `inputs`
+    and `outputs`; it is read in pieces and need not fit into memory (a MAT file must).
 
     Raises InvalidInput for a file that cannot be read, a channel that is not there or is named twice, and for numbers that are not finite.
 

@@ -224,7 +224,7 @@ def test_what_does_not_fit_into_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     def exhausted(_: object) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("faultspace.cli.inspecting.structure", exhausted)
+    monkeypatch.setattr("faultspace.cli.inspecting.analyze", exhausted)
     refused(call("inspect", "example:zeros"), "example:zeros", "memory")
 
 

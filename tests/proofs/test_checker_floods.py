@@ -8,6 +8,7 @@ less, so that the test asks for no more than twice the time.
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -36,20 +37,25 @@ class Cost(NamedTuple):
     megabytes: float
 
 
-# The peak that a parent is told of a child includes what the parent held when it forked: a small process in between holds little.
-BETWEEN = "import os, subprocess, sys; sys.exit(subprocess.run(sys.argv[1:]).returncode)"
+# The peak that is told of a process includes what its parent held when it forked: a small one in between starts the checker and reports.
+BETWEEN = """
+import json, os, subprocess, sys
+running = subprocess.Popen(sys.argv[2:])
+_, status, used = os.wait4(running.pid, 0)
+with open(sys.argv[1], "w") as report:
+    json.dump([os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime, used.ru_maxrss], report)
+"""
 
 
 def cost(file: Path) -> Cost:
     """Of the checker as a command."""
-    command = [sys.executable, "-I", "-c", BETWEEN, sys.executable, "-I", "-O", str(checker.__file__), str(file)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as running:
-        assert running.stdout is not None
-        said = running.stdout.read()
-        _, status, used = os.wait4(running.pid, 0)
-        running.returncode = os.waitstatus_to_exitcode(status)
+    report = file.with_suffix(".cost")
+    checking = [sys.executable, "-I", "-O", str(checker.__file__), str(file)]
+    between = [sys.executable, "-I", "-c", BETWEEN, str(report), *checking]
+    said = subprocess.run(between, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=True).stdout
+    code, seconds, peak = json.loads(report.read_text())
     unit = 1 if sys.platform == "darwin" else 1024
-    return Cost(said, running.returncode, used.ru_utime + used.ru_stime, used.ru_maxrss * unit / 1e6)
+    return Cost(said, code, seconds, peak * unit / 1e6)
 
 
 @pytest.mark.timeout(3000)
