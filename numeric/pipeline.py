@@ -42,7 +42,7 @@ from .data.records import Passes, Record, Tell, silent
 from .data.sources import Source, record_from
 from .findings import Findings
 from .model.past_inputs import MoespModel, OrderUndecided, pi_moesp
-from .model.residuals import ResidualSignal, residual
+from .model.residuals import ResidualSignal, growing_modes, residual
 from .result import Identification
 from .signal.residual_sizes import loudest, residual_sizes
 
@@ -126,10 +126,10 @@ def _findings(
 
 
 def _residual(record: Record, model: MoespModel, tell: Tell) -> ResidualSignal:
-    """From the state that goes with the model's B and D, where output error has found one: no sample is then held. Its covariance has
-    taken off all parameters that were fitted."""
+    """From the state that goes with the model's B and D, where output error has found one and the model can be run from it over the whole
+    record, of which it may have seen a part: no sample is then held. Its covariance has taken off all parameters that were fitted."""
     data = Passes(record, "residual", tell)
-    if model.x0 is None or model.residual_covariance is None:
+    if model.x0 is None or model.residual_covariance is None or growing_modes(model.model, len(record)):
         return residual(data, None, model.model)
     return replace(residual(data, None, model.model, x0=model.x0), covariance=model.residual_covariance)
 

@@ -145,13 +145,17 @@ def _with_given_state(source: Iterable[tuple[Array, Array]], model: StateSpaceMo
         u_width = u.shape[1]
     samples = len(store)
     _check((samples, model.p), (samples, u_width or model.n_u), model)
-    growing = int(np.sum(np.abs(model.poles) > FORWARD ** (1.0 / samples)))
-    if growing:
+    if growing := growing_modes(model, samples):
         raise InvalidData(
             f"the model has {growing} mode(s) that grow by more than {FORWARD:g} over {samples} samples: simulating from a given x0 would "
             f"amplify rounding as much; leave x0 out (the growing modes are then run backward), or cut the record into shorter experiments"
         )
     return ResidualSignal(store, state, False, squares / samples, np.zeros((model.n, model.n)), model.n, 0, ())
+
+
+def growing_modes(model: StateSpaceModel, samples: int) -> int:
+    """How many modes grow so much over so many samples that the model cannot be simulated forward from a given state."""
+    return int(np.sum(np.abs(model.poles) > FORWARD ** (1.0 / samples)))
 
 
 def _radius(samples: int) -> float:

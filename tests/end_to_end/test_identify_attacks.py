@@ -277,3 +277,17 @@ def test_without_healthy_samples_a_mean_is_told_and_not_judged() -> None:
     assert valid("identify", report.document(answer, "record") | {"files": []})["mean_shift"]["against"] == "zero"
     still = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3, remove_means=True)
     assert still.mean is None and not still.moved
+
+
+def test_a_model_that_grows_only_beyond_the_healthy_samples_is_run_all_the_same() -> None:
+    """A pole of 1.02 grows by 10 over 120 samples, and by 1e8 over 1000."""
+    draw = np.random.default_rng(23)
+    u = draw.standard_normal((1000, 1))
+    y = np.zeros((1000, 2))
+    state = 0.0
+    for k in range(1000):
+        y[k] = (state, 2.0 * state)
+        state = (1.02 if k < 120 else 0.9) * state + u[k, 0]
+    y += 1e-2 * draw.standard_normal(y.shape)
+    found = identify(recorded(y, u, outputs=("one", "two"), inputs=("u",)), order=1, healthy=120)
+    assert found.residual is not None and found.n_v != 0
