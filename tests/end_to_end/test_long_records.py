@@ -191,7 +191,7 @@ def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> flo
 def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
     if format == "parquet" and importlib.util.find_spec("pyarrow") is None:
         pytest.skip("pyarrow is not installed")
-    peaks, sizes = [], (40_000, 300_000)
+    peaks, sizes = [], (40_000, 800_000)
     for samples in sizes:
         path = tmp_path / f"d{samples}.{format}"
         record = made.faulty_record(samples)
