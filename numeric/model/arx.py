@@ -33,6 +33,7 @@ ComplexArray = NDArray[np.complex128]
 
 FLOOR = EPS
 RANGE = EPS ** (2 / 3)
+HUGE = 1e150  # squares of larger numbers come near the end of what floats can hold
 EXCITED = 1e-13  # as of PI-MOESP: what a direction of the inputs must exceed, relative to its length and times the rows
 
 
@@ -138,7 +139,10 @@ def input_spectrum(windows: ArxWindows, angles: Array) -> ComplexArray:
 
 
 def check_excitation(windows: ArxWindows) -> None:
-    """InvalidData where the inputs' windows do not have full rank."""
+    """InvalidData where the inputs' windows do not have full rank, or squares overflow."""
+    largest = float(np.max(np.abs(windows.factor)))
+    if not largest < HUGE:
+        raise InvalidData(f"the signals are so large (about {largest:.1g}) that their squares overflow: choose other units")
     columns = np.concatenate([windows.inputs(lag) for lag in range(windows.lags + 1)])
     inputs = windows.factor[:, columns]
     lengths = np.linalg.norm(inputs, axis=0)

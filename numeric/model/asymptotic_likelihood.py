@@ -35,6 +35,8 @@ from .reduced_model import ReducedModel, reduced
 from .residuals import residual
 from .weighted_reduction import spectral_radius
 
+MOST_FREE = 1 << 16  # samples from which an initial state is fitted at most: they stand in memory
+
 
 def arx_reduction(
     y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLike | None = None, *, order: int | None = None, lags: int | None = None
@@ -111,13 +113,13 @@ def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tup
 
 def _initial_state(source: Pieces, model: StateSpaceModel) -> Array:
     """By least squares over the samples in which it can be seen."""
-    radius = spectral_radius(model.A)
-    seen = 1 if radius <= EPS else int(min(np.ceil(np.log(EPS) / np.log(radius)), 1 << 20)) + model.n
+    radius = min(spectral_radius(model.A), 1.0)
+    left = MOST_FREE if radius == 1 else model.n + (int(min(np.log(EPS) / np.log(radius), MOST_FREE)) if radius > 0 else 0) + 1
     pieces: list[tuple[Array, Array]] = []
     for y, u in source:
-        pieces.append((y[:seen], u[:seen]))
-        seen -= len(y)
-        if seen <= 0:
+        pieces.append((y[:left], u[:left]))
+        left -= len(y)
+        if left <= 0:
             break
     y, u = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
     return residual(y, u, model).x0

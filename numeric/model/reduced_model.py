@@ -2,7 +2,8 @@
 
 Uncertainty. Were the weight W the true one, the information of T would be the matrix of the normal equations. W = A* S^-1 A is estimated,
 and too large on average: by 1 + p h / f, since the errors of A at one angle have the covariance (h / f) S x Phi^-1 [B74], and S^-1 by
-f / (f - p - 1), the mean of an inverse Wishart matrix with f degrees of freedom. The information is divided by both.
+f / (f - p - 1), the mean of an inverse Wishart matrix with f degrees of freedom. The same errors of the weight make the estimate vary more,
+by the same share to first order [KR97]. So the information is divided by both twice.
 
 ReducedModel        the result
 reduced             the model of order n from windows
@@ -15,6 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import chi2
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
@@ -33,6 +35,7 @@ SAME_SUM = 1e-2  # relative change of the sums that twice the angles may make
 KEPT = 2  # starts that are followed to the end
 FIRST, MIDDLE, LAST = (25, 1e-4), (15, 1e-3), (40, 1e-6)  # most steps, and gain of a step below which a rung is left
 DISTINCT = 1e-2  # relative difference of costs from which two starts are thought to lie in different valleys
+UNBELIEVABLE = 1e-6  # probability of a misfit that is not put down to chance
 AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called unstable, not unluckily estimated
 
 
@@ -91,12 +94,12 @@ def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
     y, u = windows.scales
     rows, columns = np.concatenate([np.ones(n), y]), np.concatenate([np.ones(n), 1 / u])
     p, freedom = windows.p, arx.freedom
-    too_large = (1 + p * arx.order / freedom) * freedom / (freedom - p - 1)
-    scaled = uncertainty_of(state_space(matrix, n), problem.information(matrix, n) / too_large)
+    too_large = (1 + p * arx.order / freedom) * freedom / max(freedom - p - 1, 1)
+    scaled = uncertainty_of(state_space(matrix, n), problem.information(matrix, n) / too_large**2)
     model = state_space(matrix * rows[:, None] * columns, n)
     uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
     inner = arx.scaled(y, u)
-    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, notes=_notes(model))
+    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, notes=_notes(model, cost, p * windows.regressors(arx.order)))
 
 
 def reduction_problem(windows: ArxWindows, arx: Arx, angles: Array) -> Reduction:
@@ -137,8 +140,21 @@ def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple
     return min(finished, key=lambda found: found[1])
 
 
-def _notes(model: StateSpaceModel) -> tuple[str, ...]:
-    radius = spectral_radius(model.A)
-    if radius > 1 - EPS**0.25:
+def _notes(model: StateSpaceModel, cost: float, parameters: int) -> tuple[str, ...]:
+    """What the cost and the poles tell. InvalidData for a plant that seems to be unstable.
+
+    At the true plant the cost is part of the likelihood ratio of all ARX parameters, chi-squared with as many degrees of freedom; at its
+    minimum it is less.
+    """
+    radius, misfit = spectral_radius(model.A), float(chi2.sf(cost, parameters)) < UNBELIEVABLE
+    on_circle = radius > 1 - EPS**0.25
+    if misfit and on_circle:
+        raise InvalidData(
+            f"no stable model of order {model.n} explains the data: the best has a pole of modulus {radius:.6g}, and leaves a misfit of "
+            f"{cost:.4g} where {parameters} is usual; the plant may be unstable (pi_moesp takes such), or the order too low"
+        )
+    if misfit:
+        return (f"order {model.n} leaves a misfit of {cost:.4g} where at most about {parameters} is usual: the order may be too low",)
+    if on_circle:
         return (f"a pole has modulus {radius:.6g}: the plant may be unstable, or integrate, which is not fitted here",)
     return ()

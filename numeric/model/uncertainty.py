@@ -45,8 +45,8 @@ class Uncertainty:
         return _parts(spread).reshape(len(points), self.model.p, self.model.n_u)
 
     def poles(self) -> ComplexArray:
-        """Standard deviations (n,) of the poles, in the order of `model.poles`; a real pole has none across the real axis, a multiple one
-        an infinite or huge one."""
+        """Standard deviations (n,) of the poles, to first order, which says little where they come near the distances between poles, in the
+        order of `model.poles`; a real pole has none across the real axis, a multiple one an infinite or huge one."""
         with np.errstate(invalid="ignore"):
             deviations = _parts(pole_jacobian(system_matrix(self.model), self.model.n)[1] @ self.root)
         return np.where(np.isnan(deviations), np.inf, deviations)

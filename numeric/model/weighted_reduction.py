@@ -125,9 +125,9 @@ def descend(problem: Reduction, matrix: Array, n: int, steps: int, tolerance: fl
         scale = across.T @ ((np.diag(hessian) + np.finfo(np.float64).eps * np.trace(hessian))[:, None] * across)
         accepted = False
         while not accepted and damping < MOST_DAMPING:
-            step = np.linalg.solve(curvature + damping * scale, gradient)
+            step = _solved(curvature + damping * scale, gradient)
             trial = current + (across @ step).reshape(current.shape)
-            accepted = spectral_radius(trial[:n, :n]) < 1 and problem.cost(trial, n) < cost
+            accepted = bool(np.any(step)) and spectral_radius(trial[:n, :n]) < 1 and problem.cost(trial, n) < cost
             damping = max(damping / ACCEPTED, LEAST_DAMPING) if accepted else damping * REFUSED
         if not accepted:
             break
@@ -136,6 +136,14 @@ def descend(problem: Reduction, matrix: Array, n: int, steps: int, tolerance: fl
         if before - cost <= tolerance * before:
             break
     return current, cost
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    """No step where the matrix is singular: more damping follows."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return np.zeros_like(right)
 
 
 def spectral_radius(A: Array) -> float:
@@ -147,7 +155,9 @@ def balanced(matrix: Array, n: int) -> Array:
     """The model of a stable system matrix in internally balanced coordinates [M81], or as it is where they cannot be computed."""
     if n == 0:
         return matrix
-    A, B, C = matrix[:n, :n], matrix[:n, n:], matrix[n:, :n]
+    B, C = matrix[:n, n:], matrix[n:, :n]
+    # Gramians of poles nearer to the circle than that could not be computed, and coordinates need not be balanced to the last digit.
+    A = matrix[:n, :n] * min(1.0, (1 - np.sqrt(np.finfo(np.float64).eps)) / max(spectral_radius(matrix[:n, :n]), 1e-300))
     try:
         reach, observe = (_root(scipy.linalg.solve_discrete_lyapunov(*pair)) for pair in ((A, B @ B.T), (A.T, C.T @ C)))
         left, values, right = np.linalg.svd(observe.T @ reach)
