@@ -64,6 +64,15 @@ class ArxWindows:
         result: Array = self.factor / np.concatenate([u, np.tile(np.concatenate([y, u]), self.lags), y])
         return result
 
+    @property
+    def growth(self) -> float:
+        """Logarithm of the growth of the outputs over the record, were it that between the first and the last sample of a window: of order
+        one where they do not grow, whatever their colour."""
+        if self.lags == 0:
+            return 0.0
+        last, first = (np.linalg.norm(self.factor[:, self.outputs(lag)]) for lag in (0, self.lags))
+        return float(np.log(last / first) * self.rows / self.lags) if last > 0 and first > 0 else 0.0
+
     def inputs(self, lag: int) -> NDArray[np.intp]:
         """Columns of u(k - lag)."""
         first = 0 if lag == 0 else self.n_u + (lag - 1) * (self.p + self.n_u) + self.p

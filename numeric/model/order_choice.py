@@ -15,11 +15,11 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from .arx import Arx
+from .arx import Arx, fitted_arx
 from .arx_windows import ArxWindows, arx_windows, merge_windows
 from .compression import Pieces
 from .order_evidence import OrderEvidence, OrderRow, weighed
-from .reduced_model import ReducedModel, arx_of, reduced, reduced_from
+from .reduced_model import ReducedModel, reduced, reduced_from
 from .reduction_starts import hankel_factors
 from .residuals import residual
 
@@ -35,14 +35,14 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int) ->
     rest = [arx_windows(_part(source, max(cut - lags, 0), None), lags) for source, cut in zip(sources, cuts, strict=True)]
     whole = merge_windows([training, *rest])
     held = [_joined(_part(source, cut, None)) for source, cut in zip(sources, cuts, strict=True)]
-    arx = arx_of(whole, 0)
+    arx = fitted_arx(whole)
     gaps = _gaps(arx, max(lags, 1))
     rows: list[OrderRow] = []
     models: list[ReducedModel] = []
     best, since = np.inf, 0
     for n in range(whole.lags * whole.p + 1):
         try:
-            found = reduced_from(whole, arx if arx.order * whole.p >= n else arx_of(whole, n), n)
+            found = reduced_from(whole, arx if arx.order * whole.p >= n else fitted_arx(whole, -(-n // whole.p)), n)
         except InvalidData:
             if not rows:
                 raise

@@ -36,7 +36,7 @@ KEPT = 2  # starts that are followed to the end
 FIRST, MIDDLE, LAST = (25, 1e-4), (15, 1e-3), (40, 1e-6)  # most steps, and gain of a step below which a rung is left
 DISTINCT = 1e-2  # relative difference of costs from which two starts are thought to lie in different valleys
 UNBELIEVABLE = 1e-6  # probability of a misfit that is not put down to chance
-AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called unstable, not unluckily estimated
+AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called unstable where data or misfit say so too
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,19 +72,7 @@ class ReducedModel:
 
 def reduced(windows: ArxWindows, n: int) -> ReducedModel:
     """The model of order n >= 0 from the windows alone; no initial states. InvalidData as `arx_reduction`."""
-    arx = arx_of(windows, n)
-    return reduced_from(windows, arx, n)
-
-
-def arx_of(windows: ArxWindows, n: int) -> Arx:
-    """The ARX model in channels of unit size, of an order that can carry n states. InvalidData where it is unstable."""
-    arx = fitted_arx(windows, -(-n // windows.p))
-    if arx.radius() ** windows.rows > AMPLIFICATION:
-        raise InvalidData(
-            f"the data are those of an unstable plant: their ARX model has a pole of modulus {arx.radius():.6g}; only stable models are "
-            "fitted here, pi_moesp takes unstable ones"
-        )
-    return arx
+    return reduced_from(windows, fitted_arx(windows, -(-n // windows.p)), n)
 
 
 def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
@@ -99,7 +87,7 @@ def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
     model = state_space(matrix * rows[:, None] * columns, n)
     uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
     inner = arx.scaled(y, u)
-    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, notes=_notes(model, cost, p * windows.regressors(arx.order)))
+    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, notes=_notes(model, inner, windows, cost))
 
 
 def reduction_problem(windows: ArxWindows, arx: Arx, angles: Array) -> Reduction:
@@ -140,18 +128,22 @@ def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple
     return min(finished, key=lambda found: found[1])
 
 
-def _notes(model: StateSpaceModel, cost: float, parameters: int) -> tuple[str, ...]:
+def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -> tuple[str, ...]:
     """What the cost and the poles tell. InvalidData for a plant that seems to be unstable.
 
     At the true plant the cost is part of the likelihood ratio of all ARX parameters, chi-squared with as many degrees of freedom; at its
-    minimum it is less.
+    minimum it is less. Roots of A(q) outside the unit circle alone tell little: of many roots some lie there by chance. They count where the
+    outputs grow or the misfit is large.
     """
+    parameters = windows.p * windows.regressors(arx.order)
     radius, misfit = spectral_radius(model.A), float(chi2.sf(cost, parameters)) < UNBELIEVABLE
-    on_circle = radius > 1 - EPS**0.25
-    if misfit and on_circle:
+    on_circle, most = radius > 1 - EPS**0.25, np.log(AMPLIFICATION)
+    growing = np.log(max(arx.radius(), 1e-300)) * arx.rows > most
+    if (misfit and (on_circle or growing)) or (growing and windows.growth > most):
         raise InvalidData(
-            f"no stable model of order {model.n} explains the data: the best has a pole of modulus {radius:.6g}, and leaves a misfit of "
-            f"{cost:.4g} where {parameters} is usual; the plant may be unstable (pi_moesp takes such), or the order too low"
+            f"no stable model of order {model.n} explains the data: its poles reach modulus {radius:.6g}, those of the ARX model "
+            f"{arx.radius():.6g}, and the misfit is {cost:.4g} where {parameters} is usual; the plant may be unstable (pi_moesp takes "
+            "such), or the order too low"
         )
     if misfit:
         return (f"order {model.n} leaves a misfit of {cost:.4g} where at most about {parameters} is usual: the order may be too low",)
