@@ -21,7 +21,7 @@ from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
 from ..algebra.notation import entry, polynomial
-from ..system.systems import FaultySystem, ResidualSystem, counted
+from ..system.systems import ResidualSystem, System, counted
 from .kernel_rows import KernelRepresentation, KernelRow, horner, kernel_representation
 from .signals import simulate
 
@@ -155,9 +155,7 @@ def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation
     return None
 
 
-def compare(
-    first: ResidualSystem | FaultySystem | KernelRepresentation, second: ResidualSystem | FaultySystem | KernelRepresentation
-) -> Comparison:
+def compare(first: System | KernelRepresentation, second: System | KernelRepresentation) -> Comparison:
     """Whether two systems make the same outputs from any initial state and fault, and where not, a word that only one of them makes.
 
     The systems have p outputs each over the same field; their numbers of states and faults may differ, and inputs play no part. Where its
@@ -178,10 +176,10 @@ def compare(
     return Comparison(one, other, separation(one.system, other), separation(other.system, one))
 
 
-def _kernel(system: ResidualSystem | FaultySystem | KernelRepresentation) -> KernelRepresentation:
+def _kernel(system: System | KernelRepresentation) -> KernelRepresentation:
     if isinstance(system, KernelRepresentation):
         return system
-    if not isinstance(system, (ResidualSystem, FaultySystem)):
+    if not isinstance(system, System):
         raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
     return kernel_representation(system.residual)
 

@@ -25,7 +25,7 @@ from flint import fmpq
 from ..algebra.fields import NumberField, PrimeField
 from ..algebra.matrices import Matrix, beside, stacked
 from ..system.modular import Image, image
-from ..system.systems import FaultySystem, ResidualSystem
+from ..system.systems import ResidualSystem, System
 from .relations import integer_relations, relations_over_prime_field
 from .zero_output import ZeroOutputChain, zero_output_chain
 
@@ -119,17 +119,17 @@ def annihilates(row: KernelRow, system: ResidualSystem) -> bool:
     return horner(row.coefficients, system).vanishes()
 
 
-def kernel_representation(system: ResidualSystem | FaultySystem) -> KernelRepresentation:
+def kernel_representation(system: System) -> KernelRepresentation:
     """The minimal kernel representation of the output behaviour (B and D play no part); exact for every system over every field."""
-    system = system.residual
-    picture = image(system)
-    most = _misleading_primes(system) + 1
+    residual = system.residual
+    picture = image(residual)
+    most = _misleading_primes(residual) + 1
     for _ in range(most):
         chain = zero_output_chain(picture.system)
-        rows = _rows(system, picture, chain)
+        rows = _rows(residual, picture, chain)
         if rows is not None:
-            return KernelRepresentation(system, rows, picture, chain)
-        picture = image(system, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
+            return KernelRepresentation(residual, rows, picture, chain)
+        picture = image(residual, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
     raise ArithmeticError(f"no kernel rows fit at any of {most} primes")
 
 

@@ -15,7 +15,7 @@ from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
 from ..algebra.notation import matrix_lines, polynomial, several
 from ..algebra.polynomials import Poly, written
-from ..system.systems import FaultySystem, ResidualSystem
+from ..system.systems import ResidualSystem, System
 from .fault_columns import FaultSpace, fault_space, fault_space_dimension
 from .inversion import delay_known_state, delay_unknown_state
 from .kernel_rows import KernelRepresentation, kernel_representation
@@ -116,7 +116,7 @@ class Structure(Shown):
         }
 
 
-def analyze(system: ResidualSystem | FaultySystem) -> Structure:
+def analyze(system: System) -> Structure:
     """Everything that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
 
     `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
@@ -133,7 +133,7 @@ def analyze(system: ResidualSystem | FaultySystem) -> Structure:
     >>> found.kernel.lag, found.delay_known_state
     (2, 0)
     """
-    if not isinstance(system, (ResidualSystem, FaultySystem)):
+    if not isinstance(system, System):
         raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
     system = system.residual
     kernel = kernel_representation(system)
