@@ -24,7 +24,18 @@ from .pencil import infinite_zero_orders, invariant_zero_polynomial, right_minim
 
 @dataclass(frozen=True, repr=False)
 class Structure(Shown):
-    """The structural invariants of a residual system; names as in the module `pencil` and `kernel_representation`."""
+    """This is everything that is known exactly about a system with n states, m faults and p outputs; `analyze` makes it.
+
+    `kernel` has the lag (a number of samples), the left minimal indices and the window ranks; `right_minimal_indices`,
+    `infinite_zero_orders` and `invariant_zero_polynomial` (ascending coefficients) are those of the pencil [[qI - A, -F], [C, G]]; `zeta`
+    is the number of zeros, finite and infinite; the delays are numbers of samples, or None; `fault_space` is the limit of problem (11).
+    Source: [G25], [K80] 6.3 and [VD79] for the pencil. Raises nothing by itself.
+
+    >>> import faultspace as fs
+    >>> found = fs.analyze(fs.System(A=[["1/2"]], F=[["-3/2"]], C=[[1]], G=[[1]]))
+    >>> found.invariant_zero_polynomial, found.zeta, found.delay_known_state, found.delay_unknown_state  # a zero at 2
+    ((-2, 1), 1, 0, None)
+    """
 
     kernel: KernelRepresentation
     right_minimal_indices: tuple[int, ...]

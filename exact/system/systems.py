@@ -238,7 +238,21 @@ def counted(count: int, word: str) -> str:
 
 
 def read_system(data: object, *, where: str = "system") -> System:
-    """The system that the dict of an exact file holds. Raises InvalidInput with one line naming the place."""
+    """The result is the System that the dict of an exact file holds; `where` is how messages call it.
+
+    The dict has "A" (n x n), "F" (n x m), "C" (p x n), "G" (p x m), each a list of rows, and may have "B" and "D" together, "field", and
+    the sizes "n", "m", "p" and "nu", which are required where one of them is zero. Entries are integers and rational strings, over Q(a)
+    also lists of such. n + m + p is at most 512.
+
+    Raises InvalidInput with one line that names the place and says what was got and what is needed.
+
+    >>> from faultspace.exact import read_system
+    >>> print(read_system({"A": [["1/2"]], "F": [[1]], "C": [[1]], "G": [[0]]}))
+    A=[[1/2]], F=[[1]], C=[[1]], G=[[0]]
+    >>> read_system({"A": [["1/2"]], "F": [[1]], "C": [[1]]})
+    Traceback (most recent call last):
+    faultspace.base.errors.InvalidInput: system: key "G" is missing
+    """
     if not isinstance(data, Mapping):
         raise InvalidInput(f"{where}: got {shorten(data)}, expected an object with A, F, C, G")
     unknown = sorted(set(map(str, data)) - {"A", "F", "C", "G", "B", "D", "field", "n", "m", "p", "nu"})
@@ -277,7 +291,17 @@ def _read_residual(data: Mapping[str, Any], field: Field) -> ResidualSystem:
 
 
 def from_float_exactly(value: float, *, where: str = "entry") -> Fraction:
-    """The dyadic rational that a finite float is. Raises InvalidInput for NaN and infinities."""
+    """The result is the dyadic rational that a finite float is, of type Fraction: the only way in for floats.
+
+    A float that was measured or rounded has no exact zeros, so that an answer about the result is one about those digits; `where` is how
+    messages call the number.
+
+    Raises InvalidInput for NaN, infinities and anything that is no number.
+
+    >>> from faultspace.exact import from_float_exactly
+    >>> from_float_exactly(0.5), from_float_exactly(0.1)
+    (Fraction(1, 2), Fraction(3602879701896397, 36028797018963968))
+    """
     if not isinstance(value, (int, float)) or isinstance(value, bool) or value != value or value in (float("inf"), float("-inf")):
         raise InvalidInput(f"{where}: got {shorten(value)}, expected a finite float")
     return Fraction(value)

@@ -131,7 +131,7 @@ def test_both_kinds_are_systems_and_nothing_else_is() -> None:
         assert (one.n, one.m, one.p, one.field) == (2, 1, 1, QQ)
         assert replace(one) == copy.deepcopy(one) == one
     moved = replace(without, G=Matrix.of([[5]]))
-    assert moved.G == Matrix.of([[5]]) and moved.A == ONE_WAY.A
+    assert Matrix.of([[5]]) == moved.G and moved.A == ONE_WAY.A
     with pytest.raises(InvalidInput, match="G: got shape"):
         replace(without, G=Matrix.zero(QQ, 2, 2))
 
