@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.matrices import Matrix, beside, column_basis, left_null_space, rank
-from ..algebra.stability import characteristic_polynomial
+from ..algebra.stability import rational_characteristic_polynomial
 from ..system.modular import LARGEST_PRIME, reduce_matrix
 from ..system.windows import observability_matrix
 from .experiments import Experiment
@@ -35,7 +35,7 @@ class StatePart:
     @property
     def characteristic_polynomial(self) -> tuple[Fraction, ...]:
         """det(qI - A), ascending and monic."""
-        return characteristic_polynomial(self.A)
+        return rational_characteristic_polynomial(self.A)
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from flint import fmpq
 
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, beside, column_basis, rank, row_profile, stacked
-from ..algebra.stability import characteristic_polynomial, is_stable
+from ..algebra.stability import is_stable, rational_characteristic_polynomial
 from .lyapunov import solve, stein
 from .moments import Covariances, WindowCovariances
 
@@ -142,7 +142,7 @@ def _observed_through(known: Covariances, A: Matrix, C: Matrix) -> Matrix:
 
 
 def _characteristic(A: Matrix) -> list[Any]:
-    return [fmpq(c.numerator, c.denominator) for c in characteristic_polynomial(A)]
+    return [fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)]
 
 
 def _scaled(matrix: Matrix, factor: Any) -> Matrix:

@@ -22,7 +22,7 @@ from flint import fmpq
 
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, beside, stacked
-from ..algebra.stability import characteristic_polynomial
+from ..algebra.stability import rational_characteristic_polynomial
 from .process import DelayLine, JointProcess
 
 
@@ -71,7 +71,7 @@ def state_covariance(process: JointProcess) -> Matrix:
     P_xz = beside(*pieces)
     crossed = A @ P_xz @ M.transposed()
     inner = crossed + crossed.transposed() + M @ P_zz @ M.transposed() + Gamma_x @ Gamma_x.transposed()
-    monic = [fmpq(c.numerator, c.denominator) for c in characteristic_polynomial(A)]
+    monic = [fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)]
     P_xx = stein(A, A, inner, monic)
     P = stacked(beside(P_xx, P_xz), beside(P_xz.transposed(), P_zz))
     moved = process.Phi @ P @ process.Phi.transposed() + process.Gamma @ process.Gamma.transposed()

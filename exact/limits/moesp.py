@@ -17,7 +17,7 @@ from ...base.sheets import Shown
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, beside, stacked
 from ..algebra.notation import matrix_lines, polynomial
-from ..algebra.stability import characteristic_polynomial
+from ..algebra.stability import rational_characteristic_polynomial
 from ..system.windows import observability_matrix
 from .column_space import Limit, past_input_and_output_limit, past_input_limit
 from .experiments import Experiment, read_experiment
@@ -67,7 +67,7 @@ class PopulationLimits(Shown):
         yield "past inputs and outputs as instruments (PO-MOESP)", ""
         yield from _of_limit(self, self.past_outputs)
         yield "the system itself", ""
-        yield "characteristic polynomial of A", _polynomial(characteristic_polynomial(system.A))
+        yield "characteristic polynomial of A", _polynomial(rational_characteristic_polynomial(system.A))
         for title, regression in (("with the true A and C, by output error", self.true_AC), ("by MOESP's regression", self.moesp)):
             yield f"B and D {title}", ""
             if regression is None:

@@ -2,10 +2,9 @@
 
     BadSet              dimension and codimension in the n_z r entries of P, and the strata that give them
     bad_set             by counting parameters
-    Stratum             the bad P whose L(q) P, of rank r - 1, has rows in a module with minimal indices `indices`
+    BadStratum          the bad P whose L(q) P, of rank r - 1, has rows in a module with minimal indices `indices`
     BadEquations        the zeta + 1 coefficients of D(q; P), expanded in the entries of P, as sympy expressions, with factors
     bad_equations       over Q and prime fields, up to MAX_ENTRIES entries
-    dimension_of        the dimension of the zeros of some polynomials over Q, by a Groebner basis: the oracle for `bad_set`
 
 P is bad iff det(L(q) P) = 0, and L(q) P is any r x r matrix Q(q) with row j of degree at most k_j (the map to Q is onto and linear, so
 that codimensions stay). The singular Q of rank r - 1 are sorted by the minimal indices e_1 <= ... <= e_(r-1) of the module that their
@@ -36,7 +35,7 @@ MAX_STRATA = 100_000
 
 
 @dataclass(frozen=True)
-class Stratum:
+class BadStratum:
     """Minimal indices e of the row module of L(q) P, ascending, and the codimension of the bad P of that type."""
 
     indices: tuple[int, ...]
@@ -53,7 +52,7 @@ class BadSet:
     exceptional: Exceptional
     dimension: int | None
     codimension: int | None
-    strata: tuple[Stratum, ...]
+    strata: tuple[BadStratum, ...]
 
     @property
     def rank_deficient_codimension(self) -> int | None:
@@ -118,7 +117,7 @@ def bad_set(pencil: Exceptional) -> BadSet:
     for count, indices in enumerate(_index_lists(degrees[1:])):
         if count == MAX_STRATA:
             raise InvalidInput(f"bad set: the degrees {degrees} have more than {MAX_STRATA} strata; fewer faults have fewer")
-        strata.append(Stratum(indices, _codimension(degrees, indices)))
+        strata.append(BadStratum(indices, _codimension(degrees, indices)))
     strata.sort(key=lambda s: (s.codimension, s.indices))
     least = strata[0].codimension
     return BadSet(pencil, pencil.n_z * r - least, least, tuple(strata))
@@ -159,26 +158,6 @@ def bad_equations(pencil: Exceptional) -> BadEquations:
         equations.append(sum_)
         factors.append(found)
     return BadEquations(pencil, tuple(symbols), tuple(equations), tuple(factors))
-
-
-def dimension_of(equations: Sequence[Any], unknowns: Sequence[Any]) -> int:
-    """The dimension over the closure of Q of the common zeros, -1 if there are none; by the leading monomials of a Groebner basis.
-
-    Doubly exponential: meant for a handful of equations of degree up to 3 in up to ten unknowns.
-    """
-    nonzero = [f for f in equations if f != 0]
-    if not nonzero:
-        return len(unknowns)
-    basis = sympy.groebner(nonzero, *unknowns, order="grevlex")
-    leading = [sympy.Poly(sympy.LM(f, *unknowns, order="grevlex"), *unknowns).monoms()[0] for f in basis.exprs]
-    supports = [frozenset(i for i, e in enumerate(exponents) if e) for exponents in leading]
-    if frozenset() in supports:
-        return -1
-    for size in range(len(unknowns), -1, -1):
-        for free in combinations(range(len(unknowns)), size):
-            if not any(support <= set(free) for support in supports):
-                return size
-    raise ArithmeticError("the empty set of unknowns is always free")
 
 
 def _index_lists(bounds: Sequence[int], least: int = 0) -> Iterator[tuple[int, ...]]:

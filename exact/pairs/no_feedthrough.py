@@ -3,7 +3,6 @@
     ZeroFeedthrough      U = {u : [u; 0] in Z}, what G = 0 leaves free, and whether that is im F alone
     zero_feedthrough     of a left-invertible system with G = 0
     Alternative          F' of another column space with the same behaviour and no feedthrough, where there is one
-    members_by_formula   im F + U + A (U inter ker C), U = V* + S*: the same space, by subspaces
 
 The members of Z with zero feedthrough are the columns [u; 0] with u in U = V* + S*, zeta dimensions of them: with G = 0, im F lies in S*
 and A (U inter ker C) in U, so that the formula im F + U + A (U inter ker C) is U itself. An equivalent pair without feedthrough is F' = U
@@ -25,10 +24,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput
-from ..algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, stacked
+from ..algebra.matrices import Matrix, beside, rank, stacked
 from ..structure.inversion import delay_known_state, delay_unknown_state, largest_output_nulling
 from ..structure.kernel_rows import KernelRepresentation
-from ..structure.zero_output import chain_from_rest
 from ..system.systems import ResidualSystem
 from .polynomial import Exceptional, PairVerdict, exceptional, judge
 
@@ -140,18 +138,6 @@ def zero_feedthrough(kernel: KernelRepresentation) -> ZeroFeedthrough:
         known,
         delay_unknown_state(kernel),
     )
-
-
-def members_by_formula(system: ResidualSystem) -> Matrix:
-    """im F + U + A (U inter ker C) with U = V* + S*, as a reduced column basis: the slow way to `ZeroFeedthrough.members`.
-
-    Raises InvalidInput unless G = 0.
-    """
-    if not system.G.is_zero():
-        raise InvalidInput("G: got a nonzero feedthrough, expected G = 0")
-    U = column_basis(beside(largest_output_nulling(system), chain_from_rest(system).last_subspace))
-    silent = U @ right_null_space(system.C @ U)
-    return column_basis(beside(system.F, U, system.A @ silent))
 
 
 def _coordinates(pencil: Exceptional, F: Matrix) -> Matrix:

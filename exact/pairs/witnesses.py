@@ -4,7 +4,6 @@
     GoodColumns          the columns, the point, the verdict
     bad_pair             a bad P of full column rank, with the row L_j(q) or the unobservable direction that makes it bad
     BadPair, NoBadPair   the construction, or why every P of full column rank is good
-    bad_share            an upper bound on the share of bad P among those with entries from a finite set (Schwartz-Zippel)
 
 Why 0 and 1 are enough: every coefficient of D is linear in each single entry of P, and a polynomial that is not zero and of degree at
 most one in each unknown is not zero somewhere on {0, 1}^N, over every field. More is true: D(q; P) = sum of det(P_J) h_J(q), so some h_J
@@ -16,10 +15,8 @@ Theorem 3.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
-from ...base.errors import InvalidInput
 from ..algebra.matrices import Matrix, beside, right_null_space, row_echelon, stacked
 from .polynomial import Exceptional, PairVerdict, judge
 
@@ -122,16 +119,6 @@ def bad_pair(pencil: Exceptional) -> BadPair | NoBadPair:
     conditions = rows[0]
     P = right_null_space(conditions).columns(range(r))
     return BadPair("row", conditions, _certainly_bad(pencil, P))
-
-
-def bad_share(columns: int, size: int) -> Fraction:
-    """At most this share of the P with independent uniform entries from a set of `size` field elements is bad: r / size, at most 1.
-
-    D has degree r in the entries of P. Raises InvalidInput unless columns >= 0 and size >= 1 are integers.
-    """
-    if type(columns) is not int or type(size) is not int or columns < 0 or size < 1:
-        raise InvalidInput(f"columns, size: got {columns!r} and {size!r}, expected integers, columns >= 0 and size >= 1")
-    return min(Fraction(1), Fraction(columns, size))
 
 
 def _certainly_bad(pencil: Exceptional, P: Matrix) -> PairVerdict:

@@ -3,12 +3,11 @@
 The maximal minors of the indeterminate window are multiplied out by FLINT, without any elimination. They are reduced to a
 short list with the same common zeros: their common factor is pulled out, and of what is left
 the square-free parts are kept, each reduced modulo the ones before it. `stratification` finds the same places by
-elimination and cases; `drops_agree` lets the two meet.
+elimination and cases; the tests let the two meet.
 
     generic_window_ranks    GenericRanks for the windows asked for
     GenericWindow           rank, common factors and drop conditions of one window
     GenericRanks            the windows of one triple of dimensions
-    drops_agree             compares the drop conditions with a Stratification, stratum by stratum
 """
 
 from __future__ import annotations
@@ -18,9 +17,9 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from .case_tree import Branch, Polynomial, explore
-from .identities import FlintPolynomial, FlintWindow, IdentityFailure, SecondRoute
-from .stratification import Indeterminates, Stratification, indeterminates
+from .case_tree import Polynomial
+from .identities import FlintPolynomial, FlintWindow, SecondRoute
+from .stratification import Indeterminates, indeterminates
 
 
 @dataclass(frozen=True)
@@ -165,29 +164,3 @@ def _size(f: FlintPolynomial) -> tuple[int, int, str]:
 def _back(entries: Indeterminates, f: FlintPolynomial) -> Polynomial:
     ring = entries.ring
     return ring.from_dict({tuple(map(int, e)): ring.domain(int(c)) for e, c in f.to_dict().items()})
-
-
-def drops_agree(generic: GenericRanks, stratification: Stratification) -> int:
-    """Whether, on every stratum, the drop conditions hold exactly where the window rank is below the generic one.
-
-    Strata are split further where a condition is neither zero nor a unit. Returns the number of cases compared; raises
-    ValueError for different dimensions, IdentityFailure where elimination and minors disagree.
-    """
-    if generic.dimensions != stratification.dimensions:
-        raise ValueError(f"dimensions {generic.dimensions} are compared with {stratification.dimensions}")
-    ring = stratification.entries.ring
-    compared = 0
-    for window in generic.windows:
-        factors = [ring.from_dict(dict(f)) for f in window.factors]
-        remaining = [ring.from_dict(dict(f)) for f in window.remaining]
-
-        def drops(branch: Branch, factors: list[Any] = factors, remaining: list[Any] = remaining) -> bool:
-            return any(branch.is_zero(f) for f in factors) or all(branch.is_zero(f) for f in remaining)
-
-        for stratum in stratification.strata:
-            expected = stratum.window_rank(window.samples) < window.rank
-            for branch, found in explore(stratum.branch, drops):
-                compared += 1
-                if found is not expected:
-                    raise IdentityFailure(f"window {window.samples}: minors and elimination disagree on {branch.decisions}")
-    return compared

@@ -201,12 +201,6 @@ def _kernel(system: System | KernelRepresentation) -> KernelRepresentation:
     return kernel_representation(system.residual)
 
 
-def included_on(inner: ResidualSystem, outer: KernelRepresentation, window: int) -> bool:
-    """Whether every word of `inner` of that many samples is a word of `outer`."""
-    found = separation(inner, outer)
-    return found is None or found.window > window
-
-
 def _first_nonzero(row: Matrix) -> int | None:
     return next((j for j, x in enumerate(row.elements()[0]) if x != 0), None) if row.ncols else None
 

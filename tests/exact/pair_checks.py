@@ -28,11 +28,11 @@ from faultspace.exact.algebra import polynomials
 from faultspace.exact.algebra.fields import Field, NumberField, PrimeField
 from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, stacked
 from faultspace.exact.pairs.assignment import assign_zeros, recoverable_pair
-from faultspace.exact.pairs.bad_variety import bad_equations, bad_set, dimension_of
+from faultspace.exact.pairs.bad_variety import bad_equations, bad_set
 from faultspace.exact.pairs.canonical_form import behavior_name, fault_class, feedback_class, with_feedback
 from faultspace.exact.pairs.linear_determinants import by_deflation, by_values, linear_determinant
-from faultspace.exact.pairs.no_feedthrough import members_by_formula, zero_feedthrough
-from faultspace.exact.pairs.pluecker import coefficient_forms, forms_of_determinant, pluecker_forms, value
+from faultspace.exact.pairs.no_feedthrough import zero_feedthrough
+from faultspace.exact.pairs.pluecker import coefficient_forms, forms_of_determinant, value
 from faultspace.exact.pairs.polynomial import Exceptional, exceptional, judge, polynomial_at
 from faultspace.exact.pairs.witnesses import BadPair, bad_pair, good_columns
 from faultspace.exact.structure.behavior import compare
@@ -46,6 +46,7 @@ from faultspace.exact.structure.zero_output import chain_from_rest
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import observability_matrix
 from tests.exact.checks import random_matrix, read
+from tests.exact.slow_pairs import dimension_of, members_by_formula, pluecker_forms
 from tests.oracle.pencil import invariant_zero_polynomial, normal_rank
 from tests.oracle.systems import parse_system
 
@@ -158,10 +159,10 @@ def check_forms(system: Json, seed: int) -> None:
     """The minors of the pencils themselves against those of q b - a, and the sum at a P against the determinant."""
     found = pencil_of(system)
     slow, fast = pluecker_forms(found), forms_of_determinant(found)
-    assert slow.minors.keys() == fast.minors.keys()
+    assert slow.keys() == fast.minors.keys()
     J = min(fast.minors)
-    unit = fast.minors[J][-1] / slow.minors[J][-1]
-    assert all(tuple(unit * c for c in h) == fast.minors[K] for K, h in slow.minors.items())
+    unit = fast.minors[J][-1] / slow[J][-1]
+    assert all(tuple(unit * c for c in h) == fast.minors[K] for K, h in slow.items())
     P = some_pair(found, seed)
     assert value(fast, P) == polynomial_at(found, P)
     _, forms = coefficient_forms(fast)

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from faultspace.base.errors import InvalidInput
 from faultspace.exact.algebra.matrices import Matrix, beside, stacked
-from faultspace.exact.structure.behavior import compare, included_on
+from faultspace.exact.structure.behavior import compare, separation
 from faultspace.exact.structure.fault_columns import fault_space
-from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
 from tests.oracle.families import FIELDS, system
@@ -67,6 +67,12 @@ def test_equal_by_construction(given: Json, seed: int) -> None:
         assert found.equivalent and found.first_difference is None
         assert found.first_not_in_second is None and found.second_not_in_first is None
     assert compare(kernel, equal[3]).equivalent
+
+
+def included_on(inner: ResidualSystem, outer: KernelRepresentation, window: int) -> bool:
+    """This says whether every word of `inner` of that many samples is a word of `outer`."""
+    found = separation(inner, outer)
+    return found is None or found.window > window
 
 
 @settings(max_examples=60)
