@@ -20,7 +20,9 @@ from .matrices import Matrix
 
 
 def rational_characteristic_polynomial(A: Matrix) -> tuple[Fraction, ...]:
-    """det(qI - A), ascending and monic, for A n x n over Q; over Q(a) its norm, of degree n d. Raises InvalidInput over GF(p)."""
+    """The result is det(qI - A), ascending and monic, for A n x n over Q; over Q(a) its norm, of degree n d. Raises InvalidInput over
+    GF(p).
+    """
     if isinstance(A.field, PrimeField):
         raise InvalidInput(f"got a matrix over {A.field}, expected one over Q or a number field: a finite field has no unit circle")
     if A.nrows != A.ncols:
@@ -29,7 +31,9 @@ def rational_characteristic_polynomial(A: Matrix) -> tuple[Fraction, ...]:
 
 
 def is_schur(coefficients: Sequence[Fraction | int]) -> bool:
-    """Whether every complex root of sum coefficients[k] q^k has modulus below 1; so for a constant. Raises InvalidInput for zero."""
+    """This tells whether every complex root of sum coefficients[k] q^k has modulus below 1; a constant has none. Raises InvalidInput for
+    zero.
+    """
     values = [Fraction(c) for c in coefficients]
     while values and values[-1] == 0:
         values.pop()

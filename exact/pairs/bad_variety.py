@@ -36,7 +36,7 @@ MAX_STRATA = 100_000
 
 @dataclass(frozen=True)
 class BadStratum:
-    """Minimal indices e of the row module of L(q) P, ascending, and the codimension of the bad P of that type."""
+    """`indices` are the minimal indices e of the row module of L(q) P, ascending, and `codimension` is that of the bad P of that type."""
 
     indices: tuple[int, ...]
     codimension: int
@@ -44,7 +44,7 @@ class BadStratum:
 
 @dataclass(frozen=True)
 class BadSet:
-    """Over an algebraically closed field: `dimension` + `codimension` = n_z r. r = 0: empty, both None.
+    """Over an algebraically closed field `dimension` + `codimension` = n_z r; for r = 0 there is no bad P, and both are None.
 
     `strata` are ordered by codimension; those of the least one make components of largest dimension.
     """
@@ -56,11 +56,11 @@ class BadSet:
 
     @property
     def rank_deficient_codimension(self) -> int | None:
-        """The codimension of the P that are not of full column rank: n_z - r + 1 = zeta + 1; None for r = 0."""
+        """This is the codimension of the P that are not of full column rank: n_z - r + 1 = zeta + 1; None for r = 0."""
         return None if self.exceptional.columns == 0 else self.exceptional.zeta + 1
 
     def to_json(self) -> dict[str, Any]:
-        """Dimensions, degrees k_j and the strata."""
+        """The result holds the dimensions, the degrees k_j and the strata."""
         return {
             "entries": self.exceptional.n_z * self.exceptional.columns,
             "left_degrees": list(self.exceptional.left_degrees),
@@ -73,9 +73,10 @@ class BadSet:
 
 @dataclass(frozen=True)
 class BadEquations:
-    """`equations[k]`: the coefficient of q^k in D(q; P), in the `entries` p11, p12, ... of P by rows; `factors[k]` its (factor, exponent).
+    """`equations[k]` is the coefficient of q^k in D(q; P), in the `entries` p11, p12, ... of P by rows.
 
-    `degree` is that of D in the entries, r, linear in each single one. All vanish exactly at the bad P.
+    `factors[k]` holds its (factor, exponent) pairs, and `degree` is that of D in the entries, r; D is linear in each single one. All
+    equations vanish exactly at the bad P.
     """
 
     exceptional: Exceptional
@@ -85,11 +86,11 @@ class BadEquations:
 
     @property
     def degree(self) -> int:
-        """r."""
+        """The degree is r."""
         return self.exceptional.columns
 
     def to_json(self) -> dict[str, Any]:
-        """The equations and their factors as texts."""
+        """These are the equations and their factors as texts."""
         return {
             "equations": [str(f) for f in self.equations],
             "factors": [[[str(g), e] for g, e in factors] for factors in self.factors],
@@ -161,7 +162,7 @@ def bad_equations(pencil: Exceptional) -> BadEquations:
 
 
 def _index_lists(bounds: Sequence[int], least: int = 0) -> Iterator[tuple[int, ...]]:
-    """Ascending e with e_i <= bounds_i."""
+    """These are all ascending e with e_i <= bounds_i."""
     if not bounds:
         yield ()
         return
@@ -171,7 +172,7 @@ def _index_lists(bounds: Sequence[int], least: int = 0) -> Iterator[tuple[int, .
 
 
 def _codimension(degrees: Sequence[int], indices: Sequence[int]) -> int:
-    """Codimension of the Q with this type among all with row degrees at most `degrees`."""
+    """The result is the codimension of the Q with this type among all with row degrees at most `degrees`."""
     r = len(degrees)
     modules = r * (sum(indices) + 1) - 1 - sum(max(0, y - x - 1) for x, y in combinations(indices, 2))
     rows = sum(max(0, k - e + 1) for k in degrees for e in indices)
@@ -184,7 +185,7 @@ def _factors(constant: Any, powers: Sequence[tuple[Any, int]]) -> tuple[tuple[An
 
 
 def _reduced_and_factored(f: Any, symbols: Any, prime: int) -> tuple[Any, tuple[tuple[Any, int], ...]]:
-    """f modulo the prime with residues in 0..p-1, and its factors, by FLINT: sympy factors in one unknown only."""
+    """The result is f modulo the prime with residues in 0..p-1, and its factors, by FLINT: sympy factors in one unknown only."""
     if not len(symbols):
         return f % prime, _factors(f % prime, [])
     context = nmod_mpoly_ctx.get([str(x) for x in symbols], modulus=prime, ordering=Ordering.lex)

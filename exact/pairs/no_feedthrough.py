@@ -33,9 +33,10 @@ from .polynomial import Exceptional, PairVerdict, exceptional, judge
 
 @dataclass(frozen=True)
 class Alternative:
-    """`F` with another column space and G = 0 that makes the same outputs; `replaced` is the column put in the place of the first.
+    """This is an `F` with another column space and G = 0 that makes the same outputs.
 
-    Where v is not pinned either, `replaced` is outside im F + N, N the unobservable subspace.
+    The column `replaced` is put in the place of the first. Where v is not pinned either, it is outside im F + N, N the unobservable
+    subspace.
     """
 
     F: Matrix
@@ -44,19 +45,20 @@ class Alternative:
 
     @property
     def system(self) -> ResidualSystem:
-        """(A, F', C, 0)."""
+        """This is (A, F', C, 0)."""
         return self.verdict.system
 
     def to_json(self) -> dict[str, Any]:
-        """F', the column and the verdict on the pair."""
+        """The result is F', the column and the verdict on the pair."""
         return {"F": self.F.to_json(), "replaced": self.replaced.to_json(), **self.verdict.to_json()}
 
 
 @dataclass(frozen=True)
 class ZeroFeedthrough:
-    """How far G = 0 pins F. `members` is U, n x zeta in reduced column echelon form; `own` the verdict on the system's own pair.
+    """This says how far G = 0 pins F: `zero_feedthrough` makes it.
 
-    `delay_known_state`, `delay_unknown_state`: samples after which v(0) is determined for the given F; the latter None where it never is.
+    `members` is U, n x zeta in reduced column echelon form; `own` is the verdict on the system's own pair. `delay_known_state` and
+    `delay_unknown_state` are the samples after which v(0) is determined for the given F; the latter is None where it never is.
     """
 
     exceptional: Exceptional
@@ -69,26 +71,28 @@ class ZeroFeedthrough:
 
     @property
     def ambiguity(self) -> int:
-        """zeta - m: the dimension that the members have beyond im F."""
+        """This is zeta - m, the dimension that the members have beyond im F."""
         return self.members.ncols - self.exceptional.columns
 
     @property
     def pins_F(self) -> bool:
-        """Whether every equivalent F' with zero feedthrough is F T with an invertible T."""
+        """This tells whether every equivalent F' with zero feedthrough is F T with an invertible T."""
         return self.alternative is None
 
     @property
     def pins_v(self) -> bool:
-        """Whether all equivalent pairs (F', 0) explain an output by v' = T^-1 v, one T a pair; the initial state known or not."""
+        """This tells whether all equivalent pairs (F', 0) explain an output by v' = T^-1 v, one T a pair, be the initial state known or
+        not.
+        """
         return self.exceptional.columns == 0 or self.ambiguity == len(self.exceptional.fixed) - 1
 
     @property
     def finite_zeros(self) -> int:
-        """n_f of the system."""
+        """This is n_f of the system."""
         return len(self.own.polynomial) - 1
 
     def to_json(self) -> dict[str, Any]:
-        """What a certificate needs: members, condition, and the alternative where there is one."""
+        """The result is what a certificate needs: members, condition, and the alternative where there is one."""
         return {
             "members": self.members.to_json(),
             "zeta": self.members.ncols,
@@ -141,14 +145,14 @@ def zero_feedthrough(kernel: KernelRepresentation) -> ZeroFeedthrough:
 
 
 def _coordinates(pencil: Exceptional, F: Matrix) -> Matrix:
-    """P with [Fhat; Ghat] P = [F; 0]."""
+    """The result is P with [Fhat; Ghat] P = [F; 0]."""
     from_basis = stacked(F, Matrix.zero(F.field, pencil.system.p, F.ncols))
     pivots = [next(j for j, x in enumerate(row) if x != 0) for row in pencil.space.basis.elements()]
     return from_basis.rows(pivots)
 
 
 def _alternative(pencil: Exceptional, system: ResidualSystem) -> Alternative | None:
-    """Another F' with zero feedthrough, by exchanging one column; None where im F = U or there is no fault."""
+    """The result is another F' with zero feedthrough, by exchanging one column; None where im F = U or there is no fault."""
     if system.m == 0 or pencil.zeta == system.m:
         return None
     hidden = pencil.states @ largest_output_nulling(pencil.reduced)

@@ -36,13 +36,13 @@ class PlueckerForms:
     minors: Mapping[Subset, Poly]
 
     def to_json(self) -> dict[str, Any]:
-        """The list of pairs (J, coefficients of h_J)."""
+        """The result is the list of pairs (J, coefficients of h_J)."""
         field = self.exceptional.system.field
         return {"minors": [[list(J), written(h, field)] for J, h in sorted(self.minors.items())]}
 
 
 def forms_of_determinant(pencil: Exceptional) -> PlueckerForms:
-    """h_J = +- the minor of q b - a without the rows J: D itself, not up to a constant. Raises InvalidInput beyond MAX_FORMS subsets."""
+    """h_J is +- the minor of q b - a without the rows J: D itself, not up to a constant. Raises InvalidInput beyond MAX_FORMS subsets."""
     _affordable(pencil)
     minors: dict[Subset, Poly] = {}
     for J in combinations(range(pencil.n_z), pencil.columns):
@@ -55,7 +55,7 @@ def forms_of_determinant(pencil: Exceptional) -> PlueckerForms:
 
 
 def value(forms: PlueckerForms, P: object) -> Poly:
-    """sum over J of det(P_J) h_J(q) for P, n_z x r. Raises InvalidInput for another shape."""
+    """The result is the sum over J of det(P_J) h_J(q) for P, n_z x r. Raises InvalidInput for another shape."""
     matrix = pair_matrix(forms.exceptional, P)
     total: Poly = ()
     for J, h in forms.minors.items():
@@ -65,9 +65,10 @@ def value(forms: PlueckerForms, P: object) -> Poly:
 
 
 def coefficient_forms(forms: PlueckerForms) -> tuple[tuple[Subset, ...], Matrix]:
-    """(subsets, M): P is bad iff M times the column of det(P_J), J in that order, is 0. M has zeta + 1 rows, row k the coefficient of q^k.
+    """The result is (subsets, M): P is bad iff M times the column of det(P_J), J in that order, is 0.
 
-    The rank of M is zeta + 1 - deg fixed: all rows are independent where (A, C) is observable.
+    M has zeta + 1 rows, and row k has the coefficients of q^k. Its rank is zeta + 1 - deg fixed: all rows are independent where (A, C) is
+    observable.
     """
     pencil = forms.exceptional
     field = pencil.system.field

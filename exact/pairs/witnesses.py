@@ -23,22 +23,22 @@ from .polynomial import Exceptional, PairVerdict, judge
 
 @dataclass(frozen=True)
 class GoodColumns:
-    """P = the unit columns `chosen` (0-based, ascending): the basis columns `chosen` of Z are a good pair by themselves."""
+    """P has the unit columns `chosen` (0-based, ascending): the basis columns `chosen` of Z are a good pair by themselves."""
 
     chosen: tuple[int, ...]
     verdict: PairVerdict
 
     def to_json(self) -> dict[str, Any]:
-        """P, the coefficients of D and the columns chosen."""
+        """The result is P, the coefficients of D and the columns chosen."""
         return {"chosen": list(self.chosen), **self.verdict.to_json()}
 
 
 @dataclass(frozen=True)
 class BadPair:
-    """A bad P of full column rank. Every column of P is in the kernel of `conditions` (rows x n_z), or its first one is, as `kind` says.
+    """This is a bad P of full column rank, with the `conditions` (rows x n_z) that make it bad.
 
-    `kind` "row": the coefficients of one row L_j(q), so that L_j(q) P = 0. `kind` "unobservable": the coefficients of all rows, which are
-    not independent of the unobservable part: L(q) P has a zero column.
+    Where `kind` is "row", they are the coefficients of one row L_j(q), and L_j(q) P = 0. Where it is "unobservable", they are those of all
+    rows, which are not independent of the unobservable part, and the first column of L(q) P is zero.
     """
 
     kind: str
@@ -46,7 +46,7 @@ class BadPair:
     verdict: PairVerdict
 
     def to_json(self) -> dict[str, Any]:
-        """P, its null vector and the conditions."""
+        """The result is P, its null vector and the conditions."""
         return {"kind": self.kind, "conditions": self.conditions.to_json(), **self.verdict.to_json()}
 
 
@@ -58,7 +58,7 @@ class NoBadPair:
     reason: str
 
     def to_json(self) -> dict[str, Any]:
-        """The reason with zeta, r and the degrees k_j."""
+        """The result is the reason with zeta, r and the degrees k_j."""
         left = self.exceptional
         return {"reason": self.reason, "zeta": left.zeta, "columns": left.columns, "left_degrees": list(left.left_degrees)}
 

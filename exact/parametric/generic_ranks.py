@@ -24,11 +24,11 @@ from .stratification import Indeterminates, indeterminates
 
 @dataclass(frozen=True)
 class GenericWindow:
-    """The window of `samples` samples: a rows x columns matrix of rank `rank` over Q(entries).
+    """This is the window of `samples` samples: a rows x columns matrix of rank `rank` over Q(entries).
 
-    At parameter values its rank is smaller if and only if one of the `factors` vanishes or all of the `remaining` do. The
-    rank drops nowhere if there is no factor and the one remaining condition is 1. Both are polynomials of sympy's ring over
-    ZZ; `common_factors` and `conditions` give expressions. `minors` is how many nonzero maximal minors they come from.
+    At parameter values its rank is smaller if and only if one of the `factors` vanishes or all of the `remaining` do. The rank drops
+    nowhere if there is no factor and the one remaining condition is 1. Both are polynomials of sympy's ring over ZZ; `common_factors` and
+    `conditions` give expressions. `minors` is how many nonzero maximal minors they come from.
     """
 
     samples: int
@@ -41,30 +41,30 @@ class GenericWindow:
 
     @property
     def common_factors(self) -> tuple[Any, ...]:
-        """Irreducible polynomials that divide every maximal minor, as sympy expressions."""
+        """These are irreducible polynomials that divide every maximal minor, as sympy expressions."""
         return tuple(f.as_expr() for f in self.factors)
 
     @property
     def conditions(self) -> tuple[Any, ...]:
-        """What the maximal minors have besides the common factors, as sympy expressions."""
+        """This is what the maximal minors have besides the common factors, as sympy expressions."""
         return tuple(f.as_expr() for f in self.remaining)
 
     @property
     def never_drops(self) -> bool:
-        """Whether the rank is the same for all parameter values."""
+        """This tells whether the rank is the same for all parameter values."""
         return not self.factors and any(f.is_ground for f in self.remaining)
 
 
 @dataclass(frozen=True)
 class GenericRanks:
-    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) indeterminate; windows in the order asked for."""
+    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) are indeterminate; the windows are in the order asked for."""
 
     entries: Indeterminates
     windows: tuple[GenericWindow, ...]
 
     @property
     def dimensions(self) -> tuple[int, int, int]:
-        """(n, p, m)."""
+        """The dimensions are (n, p, m)."""
         return self.entries.n, self.entries.p, self.entries.m
 
 
@@ -116,7 +116,7 @@ def _generic_window(entries: Indeterminates, samples: int) -> GenericWindow:
 
 
 def _maximal_minors(route: SecondRoute, lines: list[list[FlintPolynomial]], width: int) -> list[FlintPolynomial]:
-    """The nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
+    """These are the nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
     minors: dict[tuple[int, ...], FlintPolynomial] = {(): route.context.constant(1)}
     for column in range(width):
         larger: dict[tuple[int, ...], FlintPolynomial] = {}
@@ -135,7 +135,7 @@ def _maximal_minors(route: SecondRoute, lines: list[list[FlintPolynomial]], widt
 def _reduced(
     route: SecondRoute, entries: Indeterminates, minors: list[FlintPolynomial]
 ) -> tuple[tuple[Polynomial, ...], tuple[Polynomial, ...]]:
-    """The irreducible common factors, and conditions with the same common zeros as the minors without their gcd."""
+    """These are the irreducible common factors, and conditions with the same common zeros as the minors without their gcd."""
     common = minors[0]
     for minor in minors[1:]:
         common = common.gcd(minor)
