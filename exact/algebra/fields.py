@@ -173,8 +173,8 @@ class NumberField:
         object.__setattr__(self, "minimal_polynomial", tuple(Fraction(int(c.p), int(c.q)) for c in values))
         _, factors = self.integer_polynomial.factor()
         if len(factors) != 1 or factors[0][1] != 1:
-            shown_poly = sum_of_powers([str(c) for c in self.modulus.coeffs()], "a")
-            raise InvalidInput(f"{where}: {shown_poly} is reducible over Q, expected an irreducible polynomial")
+            text = sum_of_powers([str(c) for c in self.modulus.coeffs()], "a")
+            raise InvalidInput(f"{where}: {text} is reducible over Q, expected an irreducible polynomial")
 
     def __eq__(self, other: object) -> bool:
         """A polynomial and its multiples name the same field."""

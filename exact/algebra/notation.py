@@ -54,8 +54,8 @@ def several(numbers: Sequence[int], *, none: str = "none") -> str:
     """The result has the numbers with spaces between them, and of many numbers only the first."""
     if not numbers:
         return none
-    shown = " ".join(map(str, numbers[:MOST_NUMBERS]))
-    return shown if len(numbers) <= MOST_NUMBERS else f"{shown} ... ({len(numbers)} in all)"
+    text = " ".join(map(str, numbers[:MOST_NUMBERS]))
+    return text if len(numbers) <= MOST_NUMBERS else f"{text} ... ({len(numbers)} in all)"
 
 
 def _cut(text: str) -> str:

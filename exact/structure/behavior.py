@@ -134,12 +134,12 @@ class Comparison(Shown):
 
         result = [self.title, f"{own} makes this word of {counted(found.window, 'sample')}, which {other} cannot:"]
         result.append(f"  x(0) = ({', '.join(entry(found.x0[i, 0], field) for i in range(word.maker.n))})")
-        shown = min(found.window, samples)
-        table = [("k", "v(k)", "r(k)"), *((str(k), row_of(found.v, k), row_of(word.outputs, k)) for k in range(shown))]
+        listed = min(found.window, samples)
+        table = [("k", "v(k)", "r(k)"), *((str(k), row_of(found.v, k), row_of(word.outputs, k)) for k in range(listed))]
         widths = [max(map(len, column)) for column in zip(*table, strict=True)]
         result += ["".join(f"  {text:<{width}}  " for text, width in zip(row, widths, strict=True)).rstrip() for row in table]
-        if shown < found.window:
-            result.append(f"  ... and {found.window - shown} samples more; --word prints them all")
+        if listed < found.window:
+            result.append(f"  ... and {found.window - listed} samples more; --word prints them all")
         row = found.row.coefficients
         polynomials = [polynomial([row[k, j] for k in range(row.nrows)], field) for j in range(row.ncols)]
         return [*result, f"every word r of {other} satisfies N(q) r = 0 with N(q) = [ {',  '.join(polynomials)} ]"]

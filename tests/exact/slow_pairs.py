@@ -75,14 +75,16 @@ def dimension_of(equations: Sequence[Any], unknowns: Sequence[Any]) -> int:
 
 
 def _constant_and_slope(system: ResidualSystem) -> tuple[Matrix, Matrix]:
-    """The pencil [[qI - A, -F], [C, G]] as X + q Y."""
+    """The result is the pencil [[qI - A, -F], [C, G]] as X + q Y."""
     top = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.m))
     slope = stacked(top, Matrix.zero(system.field, system.p, system.n + system.m))
     return stacked(beside(-system.A, -system.F), beside(system.C, system.G)), slope
 
 
 def _independent_rows(constant: Matrix, slope: Matrix) -> Subset | None:
-    """Rows of a nonzero maximal minor of X + q Y, or None where all are zero: greedy, by ranks over the field of rational functions."""
+    """These are rows of a nonzero maximal minor of X + q Y, or None where all are zero: greedy, by ranks over the field of rational
+    functions.
+    """
     if not _has_full_rank(constant, slope):
         return None
     rows: list[int] = []
@@ -93,7 +95,7 @@ def _independent_rows(constant: Matrix, slope: Matrix) -> Subset | None:
 
 
 def _has_full_rank(constant: Matrix, slope: Matrix) -> bool:
-    """Whether X + q Y has full column rank over K(q): no polynomial vector of degree up to its width is a null vector."""
+    """This tells whether X + q Y has full column rank over K(q): no polynomial vector of degree up to its width is a null vector."""
     width = constant.ncols
     nothing = Matrix.zero(constant.field, constant.nrows, width)
     samples = width + 1

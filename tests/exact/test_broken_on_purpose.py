@@ -329,7 +329,9 @@ BROKEN: dict[str, Broken] = {
 
 
 def homes(function: str, folder: str = "") -> list[tuple[Any, str]]:
-    """The owners (module or class) of functions of that name in the room and among the slow twins, each with the function's own name."""
+    """These are the owners (module or class) of functions of that name in the room and among the slow twins, each with the function's own
+    name.
+    """
     owner_name, _, name = function.rpartition(".")
     found = []
     for place in [*(one.name for one in walk_packages(exact.__path__, "faultspace.exact.")), "tests.exact.slow_pairs"]:
@@ -343,19 +345,19 @@ def homes(function: str, folder: str = "") -> list[tuple[Any, str]]:
 
 
 def fragment(text: str) -> ast.AST:
-    """The expression or statement that the text is."""
+    """The result is the expression or statement that the text is."""
     (statement,) = ast.parse(text).body
     return statement.value if isinstance(statement, ast.Expr) else statement
 
 
 class Exchange(ast.NodeTransformer):
-    """Puts `new` in the place of every node that reads like `old`, and counts them."""
+    """This puts `new` in the place of every node that reads like `old`, and counts them."""
 
     def __init__(self, old: str, new: str) -> None:
         self.old, self.new, self.count = ast.dump(fragment(old)), new, 0
 
     def visit(self, node: ast.AST) -> Any:
-        """The node, or what stands in its place."""
+        """The result is the node, or what stands in its place."""
         if ast.dump(node) == self.old:
             self.count += 1
             return fragment(self.new)

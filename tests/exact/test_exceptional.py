@@ -37,7 +37,7 @@ SOME = settings(max_examples=60)
 
 
 def chains(*lengths: int) -> Json:
-    """(A, C) observable with these observability indices, as many faults as outputs, G = I: Z is everything and k_j the lengths."""
+    """(A, C) is observable with these observability indices, m = p, and G = I: Z is everything and the k_j are the lengths."""
     n, r = sum(lengths), len(lengths)
     a, c = [[0] * n for _ in range(n)], [[0] * n for _ in range(r)]
     start = 0

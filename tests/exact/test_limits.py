@@ -69,7 +69,7 @@ def test_finite_responses_sum_to_the_same_limits(seed: int, shape: dict[str, int
 
 @pytest.mark.parametrize("seed", range(8))
 def test_regressions_are_the_ones_written_out(seed: int) -> None:
-    """An observable pair of A nilpotent, so that both regressions have one solution and it is a finite sum."""
+    """A is nilpotent and the pair observable, so that both regressions have one solution and it is a finite sum."""
     experiment = random_experiment(seed + 200, finite=True, nu=1 + seed % 2, s=3)
     residual = experiment.system.residual
     made = slow.responses(experiment, 12)
@@ -139,7 +139,7 @@ def _floats(matrix: Matrix) -> Any:
 
 
 def _in_floats(experiment: Experiment, lags: int) -> dict[str, Any]:
-    """Impulse responses over (lag, row, noise), by the recursions that define the signals."""
+    """The recursions that define the signals give the impulse responses over (lag, row, noise)."""
     system, residual = experiment.system, experiment.system.residual
     filters = {"u": experiment.u_filter, "v": experiment.v_filter, "w": experiment.w_filter}
     noise = experiment.u_filter.noise

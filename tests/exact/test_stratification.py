@@ -38,7 +38,7 @@ strata_of = cache(stratify)
 
 
 def naive_rank(rows: Rows) -> int:
-    """Rank by Gaussian elimination."""
+    """Gaussian elimination gives the rank."""
     rows, rank = [list(row) for row in rows], 0
     for column in range(len(rows[0]) if rows else 0):
         pivot = next((i for i in range(rank, len(rows)) if rows[i][column]), None)
@@ -53,7 +53,7 @@ def naive_rank(rows: Rows) -> int:
 
 
 def matrices(dimensions: tuple[int, int, int], values: Values) -> tuple[Rows, Rows, Rows, Rows]:
-    """A, C, F, G from the parameter values in the order of the module."""
+    """The result is A, C, F, G from the parameter values in the order of the module."""
     n, p, m = dimensions
     rest = iter(values)
     a, c, f, g = ([[next(rest) for _ in range(w)] for _ in range(h)] for h, w in ((n, n), (p, n), (n, m), (p, m)))
@@ -61,12 +61,12 @@ def matrices(dimensions: tuple[int, int, int], values: Values) -> tuple[Rows, Ro
 
 
 def multiply(left: Rows, right: Rows, width: int) -> Rows:
-    """left times right."""
+    """The result is the product of left and right."""
     return [[sum((x * y[j] for x, y in zip(row, right, strict=True)), Fraction()) for j in range(width)] for row in left]
 
 
 def window(dimensions: tuple[int, int, int], values: Values, samples: int) -> Rows:
-    """[O_s T_s]."""
+    """The result is [O_s T_s]."""
     n, _, m = dimensions
     a, c, f, g = matrices(dimensions, values)
     powers = [c]
@@ -82,17 +82,17 @@ def window(dimensions: tuple[int, int, int], values: Values, samples: int) -> Ro
 
 
 def window_ranks(dimensions: tuple[int, int, int], values: Values) -> list[int]:
-    """rank [O_s T_s] for s = 1..n+3."""
+    """The result is rank [O_s T_s] for s = 1..n+3."""
     return [naive_rank(window(dimensions, values, s)) for s in range(1, dimensions[0] + 4)]
 
 
 def sparse_values(rng: random.Random, count: int) -> Values:
-    """Values of which about half are 0."""
+    """These are values of which about half are 0."""
     return tuple(Fraction(rng.choice([0, 0, 0, 1, -1, 2, 3]), rng.choice([1, 1, 2])) for _ in range(count))
 
 
 def check_point(stratification: Stratification, values: Values) -> None:
-    """One stratum, its ranks, and its relations, at one point."""
+    """One stratum holds the point, and its ranks and relations are those of the matrices there."""
     stratum = stratification.locate(values)
     ranks = window_ranks(stratification.dimensions, values)
     assert [stratum.window_rank(s) for s in range(1, len(ranks) + 1)] == ranks
@@ -219,7 +219,7 @@ def test_every_identity_is_expanded_again(dimensions: tuple[int, int, int]) -> N
 
 
 def broken_stratifications() -> dict[str, Stratification]:
-    """Stratifications of (1, 2, 1) each with one thing wrong."""
+    """Each of these stratifications of (1, 2, 1) has one thing wrong."""
     good = stratify(1, 2, 1)
     ring = good.entries.ring
     place = next(k for k, s in enumerate(good.strata) if s.left_minimal_indices == (1,) and len(s.equations) > 0)

@@ -26,7 +26,7 @@ Q = adversarial("Q")
 
 
 def without_feedthrough(system: Json) -> Json:
-    """The SYSTEM with zeros for G."""
+    """The result is the SYSTEM with zeros for G."""
     return system | {"G": [["0"] * len(row) for row in system["G"]]}
 
 
