@@ -108,29 +108,29 @@ BROKEN: dict[str, Broken] = {
     ),
     # the Horner check
     "Horner drops the states": Broken(
-        "horner",
-        "coefficient @ system.C + carried @ system.A",
-        "coefficient @ system.C",
+        "horner_states",
+        "coefficients.rows([k]) @ C + states[-1] @ A",
+        "coefficients.rows([k]) @ C",
         checks.check_kernel_rows,
         (THREE["shift-register-2"],),
     ),
     "Horner takes the transpose of A": Broken(
-        "horner",
-        "carried @ system.A",
-        "carried @ system.A.transposed()",
+        "horner_states",
+        "states[-1] @ A",
+        "states[-1] @ A.transposed()",
         checks.check_kernel_rows,
         (THREE["shift-register-2"],),
     ),
     "Horner drops the feedthrough": Broken(
         "horner",
-        "coefficient @ system.G + carried @ system.F",
-        "carried @ system.F",
+        "coefficients @ system.G + stacked(*later) @ system.F",
+        "stacked(*later) @ system.F",
         checks.check_kernel_rows,
         (THREE[SEEN],),
     ),
     "Horner looks at the state only": Broken(
         "Horner.vanishes",
-        "self.at_state.is_zero() and all(part.is_zero() for part in self.at_fault)",
+        "self.at_state.is_zero() and self.at_fault.is_zero()",
         "self.at_state.is_zero()",
         checks.check_comparison,
         (Q[SEEN], Q[DOUBLED]),
@@ -245,8 +245,8 @@ BROKEN: dict[str, Broken] = {
     # problem (11)
     "the first block column only": Broken(
         "column_conditions",
-        "reversed(conditions)",
-        "conditions[-1:]",
+        "beside(stacked(*horner_states(coefficients, A, C)[1:]), coefficients)",
+        "beside(horner_states(coefficients, A, C)[1], coefficients.rows([0]))",
         checks.check_fault_spaces,
         (Q[SEEN],),
     ),
@@ -282,7 +282,7 @@ BROKEN: dict[str, Broken] = {
     # comparison
     "separating words forget v": Broken(
         "separation",
-        "fault[k][place] = one",
+        "fault[k][j] = one",
         "pass",
         checks.check_comparison,
         (THREE[SEEN], THREE[DOUBLED]),
