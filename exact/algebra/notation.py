@@ -4,12 +4,13 @@ entry              one field element; long ones are cut in the middle
 polynomial         coefficients by ascending power as a polynomial in q
 matrix_lines       a matrix as lines of aligned columns; large ones lose their middle
 field_words        the name of a field
+named_matrix       a matrix as lines of a sheet
 several            a list of numbers on one line
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from .fields import QQ, Field, NumberField
@@ -48,6 +49,12 @@ def matrix_lines(matrix: Matrix) -> list[str]:
     table = [["..." if None in (i, j) else entry(matrix[i, j], matrix.field) for j in across] for i in down]  # type: ignore[index]
     widths = [max(map(len, column)) for column in zip(*table, strict=True)]
     return ["[ " + "  ".join(x.rjust(w) for x, w in zip(row, widths, strict=True)) + " ]" for row in table]
+
+
+def named_matrix(name: str, matrix: Matrix) -> Iterator[tuple[str, str]]:
+    """The matrix makes lines of a sheet, the first of which has the name."""
+    lines = matrix_lines(matrix) or [f"empty, {matrix.nrows} x {matrix.ncols}"]
+    yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
 
 
 def several(numbers: Sequence[int], *, none: str = "none") -> str:

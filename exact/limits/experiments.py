@@ -10,14 +10,15 @@ leads the input, v(k) = K u(k+1), is written by delaying u. Only Q: covariances 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra.fields import QQ
 from ..algebra.stability import is_stable
-from ..system.systems import FaultySystem, read_system
+from ..system.systems import FaultySystem, counted, read_system
 from .filters import Filter, read_filter
 
 MAX_WINDOW_ROWS = 2048
@@ -26,8 +27,8 @@ _SYSTEM_KEYS = (*"AFCGBD", "field", "n", "m", "p", "nu")
 _OWN_KEYS = ("s", "past", "u_filter", "v_filter", "w_filter")
 
 
-@dataclass(frozen=True)
-class Experiment:
+@dataclass(frozen=True, repr=False)
+class Experiment(Shown):
     """This is a system over Q with a stable A and the stationary signals that drive it: what `limit` answers for.
 
     `system` is a FaultySystem with n states, m faults, p outputs and nu inputs. `u_filter` (matrices nu x noise over lag), `v_filter` (m x
@@ -99,6 +100,18 @@ class Experiment:
         result = self.system.to_json() | {"s": self.s, "past": self.past}
         result |= {"u_filter": self.u_filter.to_json(), "v_filter": self.v_filter.to_json()}
         return result if self.w_filter is None else result | {"w_filter": self.w_filter.to_json()}
+
+    @property
+    def title(self) -> str:
+        """This is the same as `sizes`."""
+        return self.sizes
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the matrices of the system, and the sizes of the filters."""
+        yield from self.system.sheet()
+        for name, one in (("u_filter", self.u_filter), ("v_filter", self.v_filter), ("w_filter", self.w_filter)):
+            if one is not None:
+                yield name, f"{counted(one.channels, 'channel')} from {counted(one.noise, 'white noise')}, memory {one.memory}"
 
 
 def read_experiment(data: object, *, where: str = "experiment") -> Experiment:

@@ -20,15 +20,17 @@ where the exponents leave no power up to zeta unreached. Source: [F75] for minim
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import sympy
 
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra import polynomials
 from ..algebra.matrices import Matrix, solve_left, stacked
+from ..algebra.notation import named_matrix, polynomial
 from ..algebra.polynomials import Poly, written
 from ..algebra.writing import sum_of_powers
 from ..structure.inversion import delay_unknown_state, left_inverse
@@ -37,8 +39,8 @@ from ..system.systems import ResidualSystem
 from .polynomial import Exceptional, PairVerdict, judge
 
 
-@dataclass(frozen=True)
-class ZeroAssignment:
+@dataclass(frozen=True, repr=False)
+class ZeroAssignment(Shown):
     """`verdict.polynomial` = unit * `desired`; `free` = desired / fixed is what det(L(q) P) was made to be."""
 
     desired: Poly
@@ -61,9 +63,20 @@ class ZeroAssignment:
         field = self.P.field
         return {"desired": written(self.desired, field), "unit": field.write(self.unit), **self.verdict.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This says which zeros the pair has."""
+        return f"a pair with the zeros of {polynomial(self.desired, self.P.field)}"
 
-@dataclass(frozen=True)
-class Recovery:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are those of the verdict, and the fault matrices."""
+        yield from self.verdict.sheet()
+        yield from named_matrix("F", self.system.F)
+        yield from named_matrix("G", self.system.G)
+
+
+@dataclass(frozen=True, repr=False)
+class Recovery(Shown):
     """This is a pair from whose outputs r(0..delay) `left_inverse` (m x p(delay + 1)) recovers v(0), whatever the initial state is."""
 
     assignment: ZeroAssignment
@@ -73,6 +86,16 @@ class Recovery:
     def to_json(self) -> dict[str, Any]:
         """The result is the delay, the left inverse and the assignment."""
         return {"delay": self.delay, "left_inverse": self.left_inverse.to_json(), **self.assignment.to_json()}
+
+    @property
+    def title(self) -> str:
+        """This says from how many samples the fault is recovered."""
+        return f"r(0), ..., r({self.delay}) give v(0), whatever the initial state is"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are those of the assignment, and the left inverse."""
+        yield from self.assignment.sheet()
+        yield from named_matrix("left inverse", self.left_inverse)
 
 
 def assign_zeros(pencil: Exceptional, desired: object) -> ZeroAssignment:
@@ -87,8 +110,8 @@ def assign_zeros(pencil: Exceptional, desired: object) -> ZeroAssignment:
     >>> from faultspace.exact import ResidualSystem, assign_zeros, exceptional, kernel_representation
     >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
     >>> found = assign_zeros(pencil, [-2, 1])  # a zero at 2
-    >>> found.system
-    ResidualSystem(A=[[1/2]], F=[[-3/4]], C=[[1]], G=[[1/2]])
+    >>> print(found.system)
+    A=[[1/2]], F=[[-3/4]], C=[[1]], G=[[1/2]]
     """
     polynomial = _polynomial(pencil, desired)
     field, zeta, fixed = pencil.system.field, pencil.zeta, pencil.fixed

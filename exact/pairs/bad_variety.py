@@ -26,7 +26,9 @@ import sympy
 from flint import Ordering, nmod_mpoly_ctx
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.fields import NumberField, PrimeField, Rationals
+from ..algebra.notation import several
 from .pluecker import coefficient_forms, forms_of_determinant
 from .polynomial import Exceptional
 
@@ -42,8 +44,8 @@ class BadStratum:
     codimension: int
 
 
-@dataclass(frozen=True)
-class BadSet:
+@dataclass(frozen=True, repr=False)
+class BadSet(Shown):
     """Over an algebraically closed field `dimension` + `codimension` = n_z r; for r = 0 there is no bad P, and both are None.
 
     `strata` are ordered by codimension; those of the least one make components of largest dimension.
@@ -70,9 +72,22 @@ class BadSet:
             "strata": [{"indices": list(s.indices), "codimension": s.codimension} for s in self.strata],
         }
 
+    @property
+    def title(self) -> str:
+        """This says how large the bad set is."""
+        if self.codimension is None:
+            return "no P is bad: the normal rank is 0"
+        return f"dimension {self.dimension}, codimension {self.codimension}"
 
-@dataclass(frozen=True)
-class BadEquations:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the strata, by codimension, and the codimension of the P of deficient rank."""
+        yield "codimension of rank-deficient P", str(self.rank_deficient_codimension)
+        for stratum in self.strata:
+            yield f"indices {several(stratum.indices)}", f"codimension {stratum.codimension}"
+
+
+@dataclass(frozen=True, repr=False)
+class BadEquations(Shown):
     """`equations[k]` is the coefficient of q^k in D(q; P), in the `entries` p11, p12, ... of P by rows.
 
     `factors[k]` holds its (factor, exponent) pairs, and `degree` is that of D in the entries, r; D is linear in each single one. All
@@ -95,6 +110,16 @@ class BadEquations:
             "equations": [str(f) for f in self.equations],
             "factors": [[[str(g), e] for g, e in factors] for factors in self.factors],
         }
+
+    @property
+    def title(self) -> str:
+        """This says how many equations there are in how many entries."""
+        return f"{len(self.equations)} equations of degree {self.degree} in {len(self.entries)} entries of P"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the equations, by power of q."""
+        for power, equation in enumerate(self.equations):
+            yield f"coefficient of q^{power}", str(equation)
 
 
 def bad_set(pencil: Exceptional) -> BadSet:

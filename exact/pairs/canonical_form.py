@@ -22,18 +22,21 @@ classes have equal behaviours; for the converse ask `BehaviorName`. Source: [F75
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from ...base.sheets import Shown
 from ..algebra.fields import Field
 from ..algebra.matrices import Matrix, row_echelon, stacked
+from ..algebra.notation import named_matrix, polynomial, several
 from ..structure.fault_columns import fault_space
 from ..structure.kernel_rows import KernelRepresentation
 from ..system.systems import ResidualSystem
 
 
-@dataclass(frozen=True)
-class BehaviorName:
+@dataclass(frozen=True, repr=False)
+class BehaviorName(Shown):
     """`rows` holds N_j(q), (mu_j + 1) x p coefficients each, ascending by degree, then by pivot output, where they are monic. It can be
     hashed.
     """
@@ -51,9 +54,20 @@ class BehaviorName:
         """The result holds the field, p and the rows."""
         return {"field": self.field.to_json(), "p": self.p, "rows": [row.to_json() for row in self.rows]}
 
+    @property
+    def title(self) -> str:
+        """This says how many outputs and laws the behaviour has."""
+        return f"{len(self.rows)} laws of {self.p} outputs, of degrees {several(self.left_minimal_indices)}"
 
-@dataclass(frozen=True)
-class FaultClass:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the rows N_j(q)."""
+        for row in self.rows:
+            entries = [polynomial(column, self.field) for column in zip(*row.elements(), strict=True)]
+            yield "N(q) r = 0 with N(q)", f"[ {',  '.join(entries)} ]"
+
+
+@dataclass(frozen=True, repr=False)
+class FaultClass(Shown):
     """`basis` holds the rows [f' g'] of Z in reduced row echelon form, beside `A` and `C`. It can be hashed."""
 
     A: Matrix
@@ -64,9 +78,20 @@ class FaultClass:
         """The result holds the field, A, C and the basis."""
         return {"field": self.A.field.to_json(), "A": self.A.to_json(), "C": self.C.to_json(), "fault_space": self.basis.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This says how large the fault space is."""
+        return f"a fault space of dimension {self.basis.nrows} for these A and C"
 
-@dataclass(frozen=True)
-class FeedbackClass:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are A, C and the basis."""
+        yield from named_matrix("A", self.A)
+        yield from named_matrix("C", self.C)
+        yield from named_matrix("rows [f' g'] of the fault space", self.basis)
+
+
+@dataclass(frozen=True, repr=False)
+class FeedbackClass(Shown):
     """`basis` is that of Z in reduced row echelon form, `residue` is [A; C] with zeros at its pivot rows, (n + p) x n. It can be hashed."""
 
     basis: Matrix
@@ -75,6 +100,16 @@ class FeedbackClass:
     def to_json(self) -> dict[str, Any]:
         """The result holds the field, the basis and the residue."""
         return {"field": self.basis.field.to_json(), "fault_space": self.basis.to_json(), "residue": self.residue.to_json()}
+
+    @property
+    def title(self) -> str:
+        """This says how large the fault space is."""
+        return f"a fault space of dimension {self.basis.nrows} and [A; C] modulo it"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the basis and the residue."""
+        yield from named_matrix("rows [f' g'] of the fault space", self.basis)
+        yield from named_matrix("[A; C] modulo it", self.residue)
 
 
 def behavior_name(kernel: KernelRepresentation) -> BehaviorName:

@@ -20,11 +20,14 @@ unknown one iff all finite zeros are unobservable modes. Source: [G25] section V
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, beside, rank, stacked
+from ..algebra.notation import named_matrix
 from ..structure.inversion import delay_known_state, delay_unknown_state, largest_output_nulling
 from ..structure.kernel_rows import KernelRepresentation
 from ..system.systems import ResidualSystem
@@ -53,8 +56,8 @@ class Alternative:
         return {"F": self.F.to_json(), "replaced": self.replaced.to_json(), **self.verdict.to_json()}
 
 
-@dataclass(frozen=True)
-class ZeroFeedthrough:
+@dataclass(frozen=True, repr=False)
+class ZeroFeedthrough(Shown):
     """This says how far G = 0 pins F: `zero_feedthrough` makes it.
 
     `members` is U, n x zeta in reduced column echelon form; `own` is the verdict on the system's own pair. `delay_known_state` and
@@ -106,6 +109,21 @@ class ZeroFeedthrough:
             "own": self.own.to_json(),
             "alternative": None if self.alternative is None else self.alternative.to_json(),
         }
+
+    @property
+    def title(self) -> str:
+        """This says what the knowledge that G = 0 pins."""
+        return f"F is {'' if self.pins_F else 'not '}pinned up to a basis, v is {'pinned' if self.pins_v else 'not'}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the conditions, and another F where there is one."""
+        yield "zeta - m", str(self.ambiguity)
+        yield "rank C F", str(self.rank_CF)
+        yield "finite zeros", str(self.finite_zeros)
+        yield "inversion delay, x(0) known", str(self.delay_known_state)
+        yield "inversion delay, x(0) unknown", "none" if self.delay_unknown_state is None else str(self.delay_unknown_state)
+        if self.alternative is not None:
+            yield from named_matrix("another F", self.alternative.F)
 
 
 def zero_feedthrough(kernel: KernelRepresentation) -> ZeroFeedthrough:

@@ -26,12 +26,15 @@ sum k_j = zeta - deg fixed. Source: [G25] Theorem 3, [M73] and [TSH01] for V* an
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, beside, left_null_space, rank, row_echelon, row_profile, solve_left, stacked
+from ..algebra.notation import named_matrix, polynomial, several
 from ..algebra.polynomials import Poly, written
 from ..structure.fault_columns import FaultSpace, fault_space, with_pair
 from ..structure.kernel_rows import KernelRepresentation, column_conditions, kernel_representation
@@ -40,8 +43,8 @@ from ..system.systems import ResidualSystem
 from .linear_determinants import linear_determinant
 
 
-@dataclass(frozen=True)
-class Exceptional:
+@dataclass(frozen=True, repr=False)
+class Exceptional(Shown):
     """This is the pencil q b - a of a system's fault space Z.
 
     `kernel` and `space` are those of the system; `states` is U (n x zeta, reduced column echelon form); `b` and `a` (n_z x zeta) satisfy
@@ -114,9 +117,34 @@ class Exceptional:
         """This tells whether (A, C) is observable: then no zero is fixed."""
         return len(self.fixed) == 1
 
+    @property
+    def title(self) -> str:
+        """This says of what shape P is, and how many zeros a good pair has."""
+        return f"P is {self.n_z} x {self.columns}, zeta = {self.zeta}"
 
-@dataclass(frozen=True)
-class PairVerdict:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the pencil and what it says about every P."""
+        yield "D(q; P) = det [ P | q b - a ]", f"of degree at most zeta = {self.zeta}"
+        yield from named_matrix("b", self.b)
+        yield from named_matrix("a", self.a)
+        yield "zeros that no P moves", polynomial(self.fixed, self.system.field)
+        yield "degrees of the rows L_j(q)", several(self.left_degrees)
+
+    def to_json(self) -> dict[str, Any]:
+        """The dict has the sizes, b and a, the fixed zeros and the degrees k_j."""
+        return {
+            "n_z": self.n_z,
+            "columns": self.columns,
+            "zeta": self.zeta,
+            "b": self.b.to_json(),
+            "a": self.a.to_json(),
+            "fixed": written(self.fixed, self.system.field),
+            "left_degrees": list(self.left_degrees),
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class PairVerdict(Shown):
     """This is P with its `rank` and `polynomial` = det [P | q b - a], ascending coefficients, which is () where P is bad."""
 
     exceptional: Exceptional
@@ -171,6 +199,17 @@ class PairVerdict:
             "a": self.exceptional.a.to_json(),
             "null_vector": None if null is None else {"x": null.state.to_json(), "v": null.fault.to_json()},
         }
+
+    @property
+    def title(self) -> str:
+        """This says whether P is good, and why."""
+        return f"{'good' if self.good else 'bad'}: {self.reason}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are P and D(q; P)."""
+        yield from named_matrix("P", self.P)
+        yield "rank P", str(self.rank)
+        yield "D(q; P)", polynomial(self.polynomial, self.P.field)
 
 
 def exceptional(kernel: KernelRepresentation) -> Exceptional:

@@ -14,15 +14,18 @@ Theorem 3.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, beside, right_null_space, row_echelon, stacked
+from ..algebra.notation import named_matrix
 from .polynomial import Exceptional, PairVerdict, judge
 
 
-@dataclass(frozen=True)
-class GoodColumns:
+@dataclass(frozen=True, repr=False)
+class GoodColumns(Shown):
     """P has the unit columns `chosen` (0-based, ascending): the basis columns `chosen` of Z are a good pair by themselves."""
 
     chosen: tuple[int, ...]
@@ -32,9 +35,18 @@ class GoodColumns:
         """The result is P, the coefficients of D and the columns chosen."""
         return {"chosen": list(self.chosen), **self.verdict.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This says which basis columns are a good pair by themselves."""
+        return f"the basis columns {list(self.chosen)}, counted from 0, are a good pair"
 
-@dataclass(frozen=True)
-class BadPair:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are those of the verdict."""
+        yield from self.verdict.sheet()
+
+
+@dataclass(frozen=True, repr=False)
+class BadPair(Shown):
     """This is a bad P of full column rank, with the `conditions` (rows x n_z) that make it bad.
 
     Where `kind` is "row", they are the coefficients of one row L_j(q), and L_j(q) P = 0. Where it is "unobservable", they are those of all
@@ -49,9 +61,19 @@ class BadPair:
         """The result is P, its null vector and the conditions."""
         return {"kind": self.kind, "conditions": self.conditions.to_json(), **self.verdict.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This says of which kind the bad pair is."""
+        return f"a bad P of full column rank, of kind {self.kind}"
 
-@dataclass(frozen=True)
-class NoBadPair:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are those of the verdict, and the conditions."""
+        yield from self.verdict.sheet()
+        yield from named_matrix("conditions", self.conditions)
+
+
+@dataclass(frozen=True, repr=False)
+class NoBadPair(Shown):
     """Every P of full column rank is good; `reason` says why."""
 
     exceptional: Exceptional
@@ -61,6 +83,15 @@ class NoBadPair:
         """The result is the reason with zeta, r and the degrees k_j."""
         left = self.exceptional
         return {"reason": self.reason, "zeta": left.zeta, "columns": left.columns, "left_degrees": list(left.left_degrees)}
+
+    @property
+    def title(self) -> str:
+        """This says that there is no bad pair."""
+        return "every P of full column rank is good"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pair is the reason."""
+        yield "reason", self.reason
 
 
 def good_columns(pencil: Exceptional) -> GoodColumns:

@@ -12,11 +12,12 @@ elimination and cases; the tests let the two meet.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+from ...base.sheets import Shown
 from .case_tree import Polynomial
 from .identities import FlintPolynomial, FlintWindow, SecondRoute
 from .stratification import Indeterminates, indeterminates
@@ -55,8 +56,8 @@ class GenericWindow:
         return not self.factors and any(f.is_ground for f in self.remaining)
 
 
-@dataclass(frozen=True)
-class GenericRanks:
+@dataclass(frozen=True, repr=False)
+class GenericRanks(Shown):
     """All entries of A (n x n), C (p x n), F (n x m), G (p x m) are indeterminate; the windows are in the order asked for."""
 
     entries: Indeterminates
@@ -66,6 +67,34 @@ class GenericRanks:
     def dimensions(self) -> tuple[int, int, int]:
         """The dimensions are (n, p, m)."""
         return self.entries.n, self.entries.p, self.entries.m
+
+    @property
+    def title(self) -> str:
+        """This says of which dimensions the systems are."""
+        return "n = {}, p = {}, m = {}, all entries indeterminate".format(*self.dimensions)
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the windows."""
+        for window in self.windows:
+            where = "nowhere less" if window.never_drops else "less where one of the factors vanishes or all conditions do"
+            yield f"rank [O_s T_s], s = {window.samples}", f"{window.rank}, {where}"
+            yield from (("", f"factor {factor}") for factor in window.common_factors)
+            yield from (("", f"condition {condition}") for condition in window.conditions if not window.never_drops)
+
+    def to_json(self) -> dict[str, Any]:
+        """The polynomials are texts."""
+        return {
+            "dimensions": dict(zip("npm", self.dimensions, strict=True)),
+            "windows": [
+                {
+                    "samples": window.samples,
+                    "rank": window.rank,
+                    "common_factors": [str(f) for f in window.common_factors],
+                    "conditions": [str(f) for f in window.conditions],
+                }
+                for window in self.windows
+            ],
+        }
 
 
 def generic_window_ranks(n: int, p: int, m: int, windows: Iterable[int]) -> GenericRanks:

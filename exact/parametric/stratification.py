@@ -22,7 +22,7 @@ fault pivot count the normal rank.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -30,6 +30,7 @@ from typing import Any, Literal
 from sympy import ZZ
 from sympy.polys.rings import ring as polynomial_ring
 
+from ...base.sheets import Shown
 from .case_tree import Branch, Cases, Congruence, Polynomial, Ring, UnitProduct, explore
 
 LARGEST_DIMENSION = 9
@@ -175,8 +176,8 @@ class Stratum:
         return self.branch.contains(values)
 
 
-@dataclass(frozen=True)
-class Stratification:
+@dataclass(frozen=True, repr=False)
+class Stratification(Shown):
     """Its strata do not overlap and cover all parameter values over every field of characteristic 0.
 
     `windows` is the number of samples up to which `verify_identities` expands every row; the strata do not depend on it.
@@ -208,6 +209,34 @@ class Stratification:
     def cases(self) -> Cases[Stratum]:
         """The result has the strata as cases, for `faultspace.exact.parametric.case_tree.refine`."""
         return tuple((stratum.branch, stratum) for stratum in self.strata)
+
+    @property
+    def title(self) -> str:
+        """This says of which dimensions the systems are, and how many strata they have."""
+        return "n = {}, p = {}, m = {}: {} strata".format(*self.dimensions, len(self.strata))
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the strata, each by its conditions, with its left minimal indices and normal rank."""
+        for stratum in self.strata:
+            conditions = [f"{f} = 0" for f in stratum.equations] + [f"{f} != 0" for f in stratum.inequations]
+            yield ", ".join(conditions) or "everywhere", ""
+            yield "left minimal indices", " ".join(map(str, stratum.left_minimal_indices)) or "none"
+            yield "normal rank r", str(stratum.normal_rank)
+
+    def to_json(self) -> dict[str, Any]:
+        """The polynomials are texts."""
+        return {
+            "dimensions": dict(zip("npm", self.dimensions, strict=True)),
+            "strata": [
+                {
+                    "equations": [str(f) for f in stratum.equations],
+                    "inequations": [str(f) for f in stratum.inequations],
+                    "left_minimal_indices": list(stratum.left_minimal_indices),
+                    "normal_rank": stratum.normal_rank,
+                }
+                for stratum in self.strata
+            ],
+        }
 
 
 def stratify(n: int, p: int, m: int, windows: int | None = None) -> Stratification:

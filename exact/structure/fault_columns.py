@@ -11,17 +11,20 @@ Equal spaces have equal bases. Source: [G25] problem (11), Theorem 3.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, right_null_space, row_echelon, stacked
-from ..system.systems import ResidualSystem
+from ..algebra.notation import named_matrix
+from ..system.systems import ResidualSystem, counted
 from .kernel_rows import KernelRepresentation, column_conditions
 
 
-@dataclass(frozen=True)
-class FaultSpace:
+@dataclass(frozen=True, repr=False)
+class FaultSpace(Shown):
     """This is the space of all fault columns [f; g] that explain no more than the system does, on a window or in the limit.
 
     `basis` is n_z x (n + p) in reduced row echelon form, with rows [f' g'], so that equal spaces have equal bases; `F` (n x n_z) and `G` (p
@@ -71,6 +74,29 @@ class FaultSpace:
     def G(self) -> Matrix:
         """This is Ghat, p x n_z."""
         return self.basis.columns(range(self.system.n, self.system.n + self.system.p)).transposed()
+
+    @property
+    def title(self) -> str:
+        """This says how many fault columns there are, and on what window."""
+        where = "in the limit" if self.window is None else f"on a window of {counted(self.window, 'sample')}"
+        return f"{counted(self.dimension, 'fault column')} {where}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the fault columns, and what is to be known of the window."""
+        yield "the limit is reached from", counted(self.exact_from, "sample")
+        yield from named_matrix("Fhat", self.F)
+        yield from named_matrix("Ghat", self.G)
+        if self.warning is not None:
+            yield "but", self.warning
+
+    def to_json(self) -> dict[str, Any]:
+        """The rows of "fault_space" are [f' g']."""
+        return {
+            "window": self.window,
+            "exact_from": self.exact_from,
+            "dimension": self.dimension,
+            "fault_space": self.basis.to_json(),
+        }
 
 
 def from_kernel_rows(rows: Iterable[Matrix], A: Matrix, C: Matrix) -> Matrix:

@@ -16,6 +16,7 @@ Over Q and Q(a): the shape of the rows comes from the recursion modulo one prime
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import gcd, lcm
@@ -23,8 +24,10 @@ from typing import Any
 
 from flint import fmpq
 
+from ...base.sheets import Shown
 from ..algebra.fields import NumberField, PrimeField
 from ..algebra.matrices import Matrix, beside, stacked
+from ..algebra.notation import polynomial, several
 from ..system.modular import Image, image
 from ..system.systems import ResidualSystem, System
 from .relations import integer_relations, relations_over_prime_field
@@ -44,8 +47,8 @@ class KernelRow:
         return self.coefficients.nrows - 1
 
 
-@dataclass(frozen=True)
-class KernelRepresentation:
+@dataclass(frozen=True, repr=False)
+class KernelRepresentation(Shown):
     """This is a minimal kernel representation N(q) r = 0 of the output behaviour of a system: all that its windows can tell.
 
     The system has p outputs. `rows` ascend by degree; each has `coefficients` of shape (mu + 1) x p and the output of its `pivot`. Their
@@ -92,6 +95,29 @@ class KernelRepresentation:
     def rows_within(self, window: int | None) -> tuple[KernelRow, ...]:
         """The rows of degree below `window` and their shifts span the left null space of [O_s T_s]; for None these are all rows."""
         return tuple(row for row in self.rows if window is None or row.degree < window)
+
+    @property
+    def title(self) -> str:
+        """This says of which sizes the system is, and how large its lag is."""
+        return f"{self.system.sizes}; lag {self.lag}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the integers that the rows give, and the rows."""
+        yield "normal rank r", str(self.normal_rank)
+        yield "left minimal indices", several(self.left_minimal_indices)
+        yield "lag", str(self.lag)
+        for row in self.rows:
+            entries = [polynomial(column, self.system.field) for column in zip(*row.coefficients.elements(), strict=True)]
+            yield "a row N(q) with N(q) r = 0", f"[ {',  '.join(entries)} ]"
+
+    def to_json(self) -> dict[str, Any]:
+        """Each row is the list [c_0, ..., c_mu] of its coefficients."""
+        return {
+            "normal_rank": self.normal_rank,
+            "lag": self.lag,
+            "left_minimal_indices": list(self.left_minimal_indices),
+            "rows": [row.coefficients.to_json() for row in self.rows],
+        }
 
 
 @dataclass(frozen=True)

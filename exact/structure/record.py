@@ -13,7 +13,7 @@ from typing import Any
 from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
-from ..algebra.notation import matrix_lines, polynomial, several
+from ..algebra.notation import named_matrix, polynomial, several
 from ..algebra.polynomials import Poly, written
 from ..system.systems import ResidualSystem, System
 from .fault_columns import FaultSpace, fault_space, fault_space_dimension
@@ -95,9 +95,8 @@ class Structure(Shown):
         yield "dimension of problem (11)", several(document["fault_space_dimensions"])
         space = self.fault_space
         yield f"fault space: n_z = {space.dimension}, reached from s = {space.exact_from} on", ""
-        for name, matrix in (("Fhat", space.F), ("Ghat", space.G)):
-            lines = matrix_lines(matrix) or [f"empty, {matrix.nrows} x {matrix.ncols}"]
-            yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
+        yield from named_matrix("Fhat", space.F)
+        yield from named_matrix("Ghat", space.G)
 
     def to_json(self) -> dict[str, Any]:
         """The result is the object that `faultspace inspect --json` prints."""

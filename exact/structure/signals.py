@@ -12,16 +12,20 @@ R_s = [O_s T_s] [X; V_s], so where [X; V_s] has full row rank the data say all t
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, left_null_space, rank, stacked
+from ..algebra.notation import named_matrix
 from ..system.systems import ResidualSystem
 from .fault_columns import from_kernel_rows
 
 
-@dataclass(frozen=True)
-class Trajectory:
+@dataclass(frozen=True, repr=False)
+class Trajectory(Shown):
     """This is a trajectory of N steps: `states` x(0..N), (N+1) x n, `faults` v(0..N-1), N x m, and `residuals` r(0..N-1), N x p.
 
     `simulate` makes it; time runs down the rows, and all three are over the field of the system. Source: [G25] section IV for what data it
@@ -36,6 +40,21 @@ class Trajectory:
     states: Matrix
     faults: Matrix
     residuals: Matrix
+
+    @property
+    def title(self) -> str:
+        """This says how long the trajectory is, and how many states, faults and residuals it has."""
+        return f"{self.faults.nrows} steps, {self.states.ncols} states, {self.faults.ncols} faults, {self.residuals.ncols} residuals"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the three signals, a line a sample; of long ones the middle is left out."""
+        yield from named_matrix("x(k)", self.states)
+        yield from named_matrix("v(k)", self.faults)
+        yield from named_matrix("r(k)", self.residuals)
+
+    def to_json(self) -> dict[str, Any]:
+        """Each signal is a list with one row a sample."""
+        return {"x": self.states.to_json(), "v": self.faults.to_json(), "r": self.residuals.to_json()}
 
 
 def simulate(system: ResidualSystem, x0: Matrix, v: Matrix) -> Trajectory:

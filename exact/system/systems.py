@@ -11,7 +11,7 @@ In JSON the matrices are "A", "F", "C", "G" ("B", "D"), the field "field", and w
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any
@@ -19,13 +19,14 @@ from typing import Any
 import sympy
 
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra.fields import QQ, Field, field_from_json
 from ..algebra.matrices import Matrix
-from ..algebra.notation import field_words
+from ..algebra.notation import field_words, named_matrix
 from ..algebra.validation import MAX_DIMENSION
 
 
-class System:
+class System(Shown):
     """This is the exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs, n_u inputs u.
 
     A is n x n, F n x m, C p x n, G p x m, B n x n_u, D p x n_u: nested lists of integers, strings such as "1/2" and Fractions, or sympy
@@ -101,6 +102,16 @@ class System:
         """This says how many states, faults and outputs there are, and over which field."""
         return f"{counted(self.n, 'state')}, {counted(self.m, 'fault')}, {counted(self.p, 'output')}, over {field_words(self.field)}"
 
+    @property
+    def title(self) -> str:
+        """This is the same as `sizes`."""
+        return self.sizes
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the matrices."""
+        for name in "AFCG":
+            yield from named_matrix(name, getattr(self.residual, name))
+
     def to_json(self) -> dict[str, Any]:
         """The result is the dict that exact files hold."""
         result: dict[str, Any] = {} if self.field == QQ else {"field": self.field.to_json()}
@@ -109,7 +120,7 @@ class System:
         return result | {name: getattr(self.residual, name).to_json() for name in "AFCG"}
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True, init=False, repr=False)
 class ResidualSystem(System):
     """This is the system x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k) without inputs, exact over one field.
 
@@ -183,7 +194,7 @@ class ResidualSystem(System):
         return f"A={self.A}, F={self.F}, C={self.C}, G={self.G}{where}"
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True, init=False, repr=False)
 class FaultySystem(System):
     """This is the system x(k+1) = A x + B u + F v, y = C x + D u + G v: a ResidualSystem `residual` with n_u inputs u.
 
@@ -223,6 +234,12 @@ class FaultySystem(System):
         """This says how many states, faults, outputs and inputs there are, and over which field."""
         one, _, over = super().sizes.rpartition(", over ")
         return f"{one}, {counted(self.nu, 'input')}, over {over}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the matrices, those of the inputs last."""
+        yield from super().sheet()
+        yield from named_matrix("B", self.B)
+        yield from named_matrix("D", self.D)
 
     def to_json(self) -> dict[str, Any]:
         """The result is the dict that exact files hold."""

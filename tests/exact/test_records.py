@@ -7,6 +7,7 @@ RECORDS     name -> a function from a system to a result
 from __future__ import annotations
 
 import copy
+import json
 import pickle
 from collections.abc import Callable
 from dataclasses import FrozenInstanceError, fields, replace
@@ -19,13 +20,16 @@ import sympy
 from hypothesis import given, settings
 from sympy.polys.matrices import DomainMatrix
 
+import faultspace.exact as exact
 from faultspace.base.errors import InvalidInput
+from faultspace.base.sheets import Shown
 from faultspace.exact.algebra.fields import QQ, AlgebraicNumber, Field, NumberField, PrimeField, field_from_json
 from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.pairs.polynomial import Exceptional
 from faultspace.exact.structure.behavior import compare
 from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.inversion import ambiguous_word
-from faultspace.exact.structure.kernel_rows import horner, kernel_representation
+from faultspace.exact.structure.kernel_rows import KernelRepresentation, horner, kernel_representation
 from faultspace.exact.structure.pencil import right_null_polynomial
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import simulate
@@ -134,6 +138,54 @@ def test_both_kinds_are_systems_and_nothing_else_is() -> None:
     assert Matrix.of([[5]]) == moved.G and moved.A == ONE_WAY.A
     with pytest.raises(InvalidInput, match="G: got shape"):
         replace(without, G=Matrix.zero(QQ, 2, 2))
+
+
+PAIRS: dict[str, Callable[[Exceptional], Any]] = {
+    "pencil": lambda pencil: pencil,
+    "verdict": lambda pencil: exact.judge(pencil, [[0]] * pencil.n_z),
+    "good columns": exact.good_columns,
+    "bad pair, or none": exact.bad_pair,
+    "zero assignment": lambda pencil: exact.assign_zeros(pencil, list(pencil.fixed)),
+    "recovery": exact.recoverable_pair,
+    "bad set": exact.bad_set,
+}
+NAMED: dict[str, Callable[[KernelRepresentation], Any]] = {
+    "kernel representation": lambda kernel: kernel,
+    "fault space": exact.fault_space,
+    "fault space of a short window": lambda kernel: exact.fault_space(kernel, 0),
+    "without feedthrough": exact.zero_feedthrough,
+    "behaviour": exact.behavior_name,
+    "fault class": exact.fault_class,
+    "feedback class": exact.feedback_class,
+}
+
+
+def public_records(field: Field) -> dict[str, Any]:
+    """One of each record that a public function makes over the field."""
+    system = example(field)
+    kernel = kernel_representation(system)
+    found = {name: RECORDS[name](system) for name in ("system", "with inputs", "comparison", "trajectory", "structure")}
+    found |= {name: make(exact.exceptional(kernel)) for name, make in PAIRS.items()} | {name: make(kernel) for name, make in NAMED.items()}
+    unobservable = ResidualSystem.of([[1]], [[1]], [[0]], [[1]], field=field)
+    found["bad pair"] = exact.bad_pair(exact.exceptional(kernel_representation(unobservable)))
+    if field == QQ:
+        found["generic ranks"], found["strata"] = exact.generic_window_ranks(1, 2, 1, [1, 2]), exact.stratify(1, 1, 1)
+        found["equations"] = exact.bad_equations(exact.exceptional(kernel))
+        stable = FaultySystem(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), Matrix.of([[1]]), Matrix.of([[0]]))
+        found["experiment"] = exact.Experiment(stable, 2, 2, exact.Filter.of([[[1, 0]]]), exact.Filter.of([[[0, 1]]]))
+    return found
+
+
+@pytest.mark.parametrize("over", list(FIELD_OBJECTS))
+def test_public_records_are_read_by_people_and_programs(over: str) -> None:
+    """Each has a short repr, a summary that begins with its title, a table for notebooks, and JSON that can be written."""
+    for name, record in public_records(FIELD_OBJECTS[over]).items():
+        assert Shown in type(record).__mro__, name
+        assert repr(record) == f"<{type(record).__name__}: {record.title}>" and len(repr(record)) < 140 and "\n" not in repr(record), name
+        lines = record.summary().splitlines()
+        assert lines[0] == record.title, name
+        assert record._repr_html_().count("<tr>") == len(list(record.sheet())), name
+        assert json.loads(json.dumps(record.to_json())) == record.to_json(), name
 
 
 @pytest.mark.parametrize("over", list(FIELD_OBJECTS))
