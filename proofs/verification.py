@@ -14,8 +14,9 @@ from ..base.errors import InvalidInput
 from .adversary.attacking import attacking, of_reading, of_row
 from .evidence.corpus import Progress
 from .hypotheses import experiments
-from .rocq.build import BrokenTheory, NoRocq, NotProved, sources
+from .rocq.build import BrokenTheory, NoRocq, NotProved
 from .rocq.locks import held
+from .rocq.sources import sources
 from .rocq.theorems import Theorems
 from .rocq.theorems import check as machine_checked
 from .trust.checker import Malformed, Rejected

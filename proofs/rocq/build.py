@@ -1,4 +1,4 @@
-"""The theory in rocq/ compiled by Rocq (coqc), kept in the user's cache under the hash of its sources.
+"""The theory compiled by Rocq (coqc), kept in the user's cache under the hash of its sources.
 
     found             the coqc on the path and its version, or None
     compiled_theory   the folder with the compiled files; compiles what is not in the cache
@@ -13,10 +13,10 @@
     Poisoned          a BrokenTheory: the cache holds something else than our sources compiled, or others can write into it
 
 A folder of the cache is complete or not there: files are compiled in a folder beside it that is renamed at the end, with a list of their
-digests. Its name tells sources, compiler and MathComp apart. Before each use its sources are compared with ours, the digests are
-computed again, and it must belong to the user, nobody else being able to write into it or to enter it. This notices what was damaged and
-what was exchanged by others, or without much care. Who can write as the user and takes the care to forge compiled files, digests and
-answers is not noticed here, but by compiling anew (`rocq_recheck`).
+digests. It is flat, whatever the folders of the sources. Its name tells sources, compiler and MathComp apart. Before each use its sources
+are compared with ours, the digests are computed again, and it must belong to the user, nobody else being able to write into it or to
+enter it. This notices what was damaged and what was exchanged by others, or without much care. Who can write as the user and takes the
+care to forge compiled files, digests and answers is not noticed here, but by compiling anew (`rocq_recheck`).
 
 coqc runs under limits of time, memory and output, and with a home of its own that is removed.
 """
@@ -37,13 +37,13 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import cache
 from graphlib import TopologicalSorter
-from importlib import resources
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import IO
 
 from filelock import FileLock
 from platformdirs import user_cache_path
+
+from .sources import needs, sources
 
 Progress = Callable[[str, int, int], None]
 INSTALL = "install Rocq with MathComp, on Debian or Ubuntu: apt install coq libcoq-mathcomp-algebra libcoq-mathcomp-zify"
@@ -95,12 +95,6 @@ def found() -> Rocq | None:
         return None
     told = subprocess.run([path, "--print-version"], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     return Rocq(path, told.stdout.split()[0]) if told.returncode == 0 and told.stdout.strip() else None
-
-
-def sources() -> dict[str, str]:
-    """File name -> text, of all files of the theory."""
-    folder: Traversable = resources.files("faultspace.proofs").joinpath("theory")
-    return {one.name: one.read_text("utf-8") for one in sorted(folder.iterdir(), key=lambda one: one.name) if one.name.endswith(".v")}
 
 
 def installation() -> str:
@@ -258,16 +252,6 @@ def compiled_again(texts: Mapping[str, str]) -> dict[str, bytes]:
             (folder / name).write_text(text, "utf-8")
         _compile_all(folder, texts, lambda name, done, total: None)
         return {name: (folder / name).with_suffix(".vo").read_bytes() for name in texts}
-
-
-def needs(texts: Mapping[str, str]) -> dict[str, set[str]]:
-    """File -> files of ours that it requires."""
-    known = {name.removesuffix(".v") for name in texts}
-    result = {}
-    for name, text in texts.items():
-        lines = re.findall(r"From\s+faultspace\s+Require\s+(?:Import|Export)?([\s\w]*)\.", text)
-        result[name] = {f"{module}.v" for line in lines for module in line.split() if module in known}
-    return result
 
 
 def _compile_all(place: Path, texts: Mapping[str, str], progress: Progress) -> None:

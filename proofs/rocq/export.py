@@ -1,4 +1,4 @@
-"""A certificate as a file of Rocq: its system, statement and witness as terms, the checks of theory/Check*.v recomputed by the kernel.
+"""A certificate as a file of Rocq: its system, statement and witness as terms, the checks of theory/checks recomputed by the kernel.
 
     COVERED      kind -> what writes it
     exported     the terms of a certificate that the checker has verified just now; raises NotCovered, checker.Rejected, checker.Malformed

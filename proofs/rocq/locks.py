@@ -23,13 +23,12 @@ import json
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from importlib import resources
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
 from ..verdict.ledger import Claim, load
-from .build import NotProved, sources
+from .build import NotProved
+from .sources import THEORY, sources
 from .statements import Headline, Statements, read, refusals
 
 LOCKS, STATEMENTS = "locks.json", "STATEMENTS.md"
@@ -99,7 +98,7 @@ def _digest(headline: Headline, reached: Mapping[str, str], statements: Statemen
 def kept() -> Locks:
     """The locks in theory/locks.json. Raises NotProved where the file is not there or not what this module writes."""
     try:
-        data = json.loads(_folder().joinpath(LOCKS).read_text("utf-8"))
+        data = json.loads(THEORY.joinpath(LOCKS).read_text("utf-8"))
         theorems = {
             str(name): Lock(str(one["file"]), str(one["statement"]), tuple(one["words"]), str(one["sha256"]))
             for name, one in data["theorems"].items()
@@ -212,10 +211,6 @@ def _cell(text: str) -> str:
     return " ".join(text.split()).replace("|", "\\|")
 
 
-def _folder() -> Traversable:
-    return resources.files("faultspace.proofs").joinpath("theory")
-
-
 def written(locks: Locks) -> str:
     """The text of theory/locks.json."""
     return json.dumps(locks.to_json(), indent=1, ensure_ascii=False) + "\n"
@@ -232,7 +227,7 @@ def main() -> int:
         found = list(differences(kept(), now))
     except NotProved as error:
         found = [str(error)]
-    place = Path(str(_folder()))
+    place = Path(str(THEORY))
     (place / LOCKS).write_text(written(now), "utf-8")
     (place / STATEMENTS).write_text(page(now, list(load())), "utf-8")
     for one in found or ["nothing is different"]:

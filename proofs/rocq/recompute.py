@@ -29,8 +29,9 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ..trust import checker
-from .build import CLOSED, BrokenTheory, NotProved, Progress, compile_file, compiled_theory, kept_theory, needs, sources
+from .build import CLOSED, BrokenTheory, NotProved, Progress, compile_file, compiled_theory, kept_theory
 from .export import HEAD, MODULES, NotCovered, Terms, exported, written
+from .sources import needs, sources
 
 AT_ONCE, SECONDS = 100, 120.0
 

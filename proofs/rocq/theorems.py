@@ -3,7 +3,7 @@
     Theorems       what was checked: Rocq's version, each theorem's statement as Rocq prints it, and its lock
     check          compares the sources with the locks, compiles the theory (or takes it from the cache) and asks Rocq for each name
 
-The theorems are in theory/Headlines*.v, the words they speak of in theory/*Vocabulary.v. NotProved of `rocq_build` is raised where a
+The theorems are in theory/headlines, the words that they speak of in theory/vocabulary. NotProved of `rocq_build` is raised where a
 statement is not the one that is locked, a name is not there, or rests on an axiom or on an admitted proof; NoRocq and BrokenTheory go
 through, and Poisoned where the compiled files in the cache do not say what the sources say.
 
@@ -33,9 +33,9 @@ from .build import (
     compiled_again,
     compiled_theory,
     found,
-    sources,
 )
 from .locks import held
+from .sources import sources
 from .statements import VOCABULARY, Headline, read
 
 MARK = "== "
@@ -67,7 +67,7 @@ def asked(wanted: list[str], texts: Mapping[str, str], theory: Path, progress: P
     statements = read(texts)
     missing = [name for name in wanted if name not in statements.headlines]
     if missing:
-        raise NotProved(f"the ledger names the theorem {missing[0]}, which is in no file theory/Headlines*.v")
+        raise NotProved(f"the ledger names the theorem {missing[0]}, which is in no file theory/headlines/Headlines*.v")
     lines = question([statements.headlines[name] for name in wanted], statements.openings)
     return answers(wanted, _said(theory, texts, lines, progress))
 

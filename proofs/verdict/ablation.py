@@ -51,7 +51,7 @@ S = TypeVar("S", bound=Subject)
 
 @dataclass(frozen=True)
 class Proof:
-    """`theorems` of theory/Headlines.v that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
+    """`theorems` of theory/headlines that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
 
     theorems: tuple[str, ...]
     hypotheses: frozenset[str] = frozenset()

@@ -20,7 +20,7 @@ from typing import Any
 class Reading:
     """One way to read a claim, precise enough to be decided.
 
-    `theorems` of theory/Headlines.v say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
+    `theorems` of theory/headlines say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
     proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any.
     """
 

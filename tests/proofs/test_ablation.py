@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from importlib import resources
 from itertools import product
 
 import pytest
@@ -15,6 +14,7 @@ from faultspace.proofs.evidence.search import Box, chunks
 from faultspace.proofs.hypotheses import experiments
 from faultspace.proofs.hypotheses.facets import degenerate, flags
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
+from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.verdict.ablation import Experiment, Found, Proof, ablate, first_found
 from faultspace.proofs.verdict.ledger import expected_without, load
 from faultspace.proofs.verdict.verdicts import Row, Verdict
@@ -172,11 +172,8 @@ def test_the_ledger_and_the_experiments_name_the_same() -> None:
 
 
 def test_the_proofs_name_theorems_that_are_there_and_use_no_more_than_what_is_needed() -> None:
-    files = resources.files("faultspace.proofs") / "theory"
-    there = {
-        name for path in files.iterdir() if path.name.startswith("Headlines") and path.name.endswith(".v")
-        for name in re.findall(r"^Theorem (\w+)", path.read_text("utf-8"), re.MULTILINE)
-    }  # fmt: skip
+    texts = [text for file, text in sources().items() if file.startswith("Headlines")]
+    there = {name for text in texts for name in re.findall(r"^Theorem (\w+)", text, re.MULTILINE)}
     for e in experiments():
         if e.proof is None:
             continue

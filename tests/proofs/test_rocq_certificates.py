@@ -18,6 +18,7 @@ from faultspace.proofs.rocq import export as rocq_export
 from faultspace.proofs.rocq.build import NotProved
 from faultspace.proofs.rocq.export import COVERED, NotCovered, Terms, exported, translated
 from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomputed, theory
+from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.trust import checker
 from tests.end_to_end.commands import call
 from tests.proofs.examples import RANKS, ROOTED, K, S, certificates, spoiled, written
@@ -172,13 +173,13 @@ def test_other_kinds_and_fields_are_not_covered() -> None:
 
 
 def test_the_format_tells_what_is_covered_and_by_which_theorem() -> None:
-    room = resources.files("faultspace.proofs")
-    _, _, section = room.joinpath("trust/FORMAT.md").read_text("utf-8").partition("## What Rocq recomputes")
+    texts = sources()
+    _, _, section = resources.files("faultspace.proofs").joinpath("trust/FORMAT.md").read_text("utf-8").partition("## What Rocq recomputes")
     rows = dict(re.findall(r"^\| `([\w-]+)` \| (.*) \|$", section, re.M))
     assert set(rows) == set(COVERED)
     for theorems in rows.values():
         module, *_ = re.findall(r"`(\w+)\.", theorems)
-        text = room.joinpath(f"theory/{module}.v").read_text("utf-8")
+        text = texts[f"{module}.v"]
         assert all(f"Theorem {name} " in text for name in re.findall(r"`(?:\w+\.)?(\w+)`", theorems))
 
 

@@ -5,20 +5,19 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import replace
-from importlib import resources
 from pathlib import Path
 
 import pytest
 
 from faultspace.proofs.rocq import locks as rocq_locks
-from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
 from faultspace.proofs.rocq.locks import held, kept, made, page, written
+from faultspace.proofs.rocq.sources import THEORY, sources
 from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import parted
 from faultspace.proofs.verdict.ledger import load
 from tests.proofs.test_rocq_headlines import CHANGES
 
-FOLDER = resources.files("faultspace.proofs").joinpath("theory")
 TEXTS = sources()
 STATEMENTS = read(TEXTS)
 WORDS = sorted({word.key: word for words in STATEMENTS.words.values() for word in words.values()}.items())
@@ -52,12 +51,12 @@ def test_the_statements_are_those_that_are_locked() -> None:
 
 def test_the_files_of_the_locks_are_current() -> None:
     """After a change that is wanted: python -m faultspace.proofs.rocq.locks."""
-    assert FOLDER.joinpath("locks.json").read_text("utf-8") == written(made(TEXTS))
-    assert FOLDER.joinpath("STATEMENTS.md").read_text("utf-8") == page(made(TEXTS), list(load()))
+    assert THEORY.joinpath("locks.json").read_text("utf-8") == written(made(TEXTS))
+    assert THEORY.joinpath("STATEMENTS.md").read_text("utf-8") == page(made(TEXTS), list(load()))
 
 
 def test_readings_theorems_and_locks_stand_side_by_side() -> None:
-    text, locks = FOLDER.joinpath("STATEMENTS.md").read_text("utf-8"), made(TEXTS)
+    text, locks = THEORY.joinpath("STATEMENTS.md").read_text("utf-8"), made(TEXTS)
     rows = [line for line in text.splitlines() if line.startswith("| ") and re.search(r"`[0-9a-f]{64}` \|$", line)]
     told = {name: row for row in rows if (name := re.split(r"` ?Theorem ", row)[1].split()[0])}
     assert set(told) == set(locks.theorems) and all(lock.sha256 in told[name] for name, lock in locks.theorems.items())
@@ -162,7 +161,7 @@ def test_comments_and_line_breaks_change_nothing() -> None:
 
 @pytest.mark.parametrize("text", ["", "{}", "[]", '{"theorems": {"a": {}}}', '{"theorems": 1, "words": {}, "openings": {}, "far": []}'])
 def test_locks_that_cannot_be_read_are_no_locks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> None:
-    monkeypatch.setattr(rocq_locks, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(rocq_locks, "THEORY", tmp_path)
     with pytest.raises(NotProved, match="cannot be read: FileNotFoundError"):
         kept()
     (tmp_path / "locks.json").write_text(text, "utf-8")
@@ -172,7 +171,7 @@ def test_locks_that_cannot_be_read_are_no_locks(tmp_path: Path, monkeypatch: pyt
 
 def test_the_command_locks_a_wanted_change(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     wanted = changed("Headlines.v", "(lag S <= n)%N", "(lag S <= n.+1)%N")
-    monkeypatch.setattr(rocq_locks, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(rocq_locks, "THEORY", tmp_path)
     monkeypatch.setattr(rocq_locks, "sources", lambda: wanted)
     (tmp_path / "locks.json").write_text(written(made(TEXTS)), "utf-8")
     assert rocq_locks.main() == 0

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs.rocq.build import NoRocq, NotProved, compiled_theory, sources
+from faultspace.proofs.rocq.build import NoRocq, NotProved, compiled_theory
+from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import VOCABULARY, assumptions, read, sentences
 
 TINY = {

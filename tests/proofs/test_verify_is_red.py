@@ -14,8 +14,9 @@ from faultspace.cli import verifying
 from faultspace.proofs import verification
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import theorems as machine_checked
-from faultspace.proofs.rocq.build import DIGESTS, NoRocq, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq.build import DIGESTS, NoRocq, compile_file, compiled_theory
 from faultspace.proofs.rocq.locks import held
+from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import read
 from faultspace.proofs.verdict.ledger import Claim, Reading, load
 from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Verdict
