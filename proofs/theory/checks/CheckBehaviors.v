@@ -4,8 +4,8 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Vocabulary Basics Windows Infinite.
-From faultspace Require Import Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems CheckRows CheckRanks.
+From faultspace Require Import Vocabulary Basics Infinite.
+From faultspace Require Import CertificatesVocabulary Lists KernelRows ListedSystems CheckRows CheckRanks.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -3,8 +3,8 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Vocabulary Basics Windows Excitation.
-From faultspace Require Import Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems TableRank.
+From faultspace Require Import Vocabulary Basics.
+From faultspace Require Import Stacks CertificatesVocabulary Lists ListedSystems TableRank.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -4,9 +4,9 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Vocabulary Basics Windows Solutions.
-From faultspace Require Import Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems TableRank.
-From faultspace Require Import CheckRows CheckRanks CheckBehaviors.
+From faultspace Require Import Vocabulary Basics Windows.
+From faultspace Require Import CertificatesVocabulary Lists KernelRows ListedSystems TableRank.
+From faultspace Require Import CheckRows CheckRanks.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

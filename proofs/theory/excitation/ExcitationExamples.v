@@ -2,8 +2,8 @@
     system is left-invertible: full rank of [X V_s] at the same s is not enough for rank R_(s+1) - rank R_s = m, and a fault v constant
     or v = 2^k breaks the gap. All on the system r(k) = (v(k-1), v(k)) of Problem11.v, over any field. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Places Infinite Gap Balance Proposition3.
-From faultspace Require Import Problem11 Excitation Reachable Persistency WeakExcitation.
+From faultspace Require Import Vocabulary Basics Windows Places Balance Proposition3.
+From faultspace Require Import Problem11 Excitation WeakExcitation.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

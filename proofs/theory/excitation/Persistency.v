@@ -3,7 +3,7 @@
     what annihilates these rows annihilates them at later times, which by the monic relation of A gives an annihilator of n + s faults
     alone; its coefficients are zero, the last ones first. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Infinite Gap Proposition3 Problem11 Excitation Reachable.
+From faultspace Require Import Vocabulary Basics Places Reachable.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

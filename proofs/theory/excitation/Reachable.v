@@ -2,7 +2,7 @@
     monic polynomial of A, applied to sequences, moves every initial state into U; so what a fault pair (f, g) does from rest is
     possible in S as soon as it is possible with initial states in U. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite Gap Proposition3 Problem11.
+From faultspace Require Import Vocabulary Basics Gap Proposition3.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

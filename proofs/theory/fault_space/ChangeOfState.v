@@ -3,7 +3,7 @@
     the same free response, up to faults of S from rest, and this is all that problem (11) asks. T0 may be changed by zero states of S;
     a state goes to a zero state only if it is one; and both systems have zeta of them, so T0 can be made invertible. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Lag Problem11 Solutions Trajectory ZeroFeedthrough ClosedForm.
+From faultspace Require Import Vocabulary Basics Windows Chain Trajectory ClosedForm.
 From faultspace Require Import SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

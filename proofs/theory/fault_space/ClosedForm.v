@@ -2,7 +2,7 @@
     that can be reached silently, V the states that can hold the output at zero, they are the (f, g) with f = v F + x A + u and
     g = v G + x C, x and u in U. Those with g = 0 are exactly U. Neither left-invertibility nor observability is needed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Problem11 Kick Solutions CanonicalForm Trajectory ZeroFeedthrough.
+From faultspace Require Import Vocabulary Basics Windows Chain Problem11 Kick CanonicalForm Trajectory ZeroFeedthrough.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

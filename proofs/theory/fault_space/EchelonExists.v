@@ -1,6 +1,6 @@
 (** Every row space has a reduced row echelon form: its pivots are the positions at which some vector of the space leads. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Solutions CanonicalForm EchelonForm.
+From faultspace Require Import Vocabulary CanonicalForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     same behaviour iff the reduced echelon forms of their solution spaces of problem (11), at any window s >= n + 1, are the same
     matrix. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite Solutions CanonicalForm.
+From faultspace Require Import Vocabulary CanonicalForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     faults, once: one more fault, with the columns y A + u F and y C + u G. A window of M + 1 samples cannot tell a kick from the trajectory
     that has been on the silent way to y before. So the column solves problem (11) on M + 1 samples, though it need not on more. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap.
+From faultspace Require Import Vocabulary Basics Windows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

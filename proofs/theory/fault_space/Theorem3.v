@@ -3,7 +3,7 @@
     behaviour are among those of the smaller; both are kernels of pencils, of one dimension over the rational functions, hence the same;
     and the behaviours are what their annihilators annihilate. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite Theorem1 PolynomialKernel Inversion TransferRank Annihilator Solutions.
+From faultspace Require Import Vocabulary Infinite Theorem1 PolynomialKernel TransferRank Annihilator Solutions.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

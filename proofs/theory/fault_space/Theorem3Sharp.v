@@ -1,7 +1,7 @@
 (** theorem-3 with the shortest window: one sample more than the lag of the larger system is enough, where Theorem3.v takes n + 1. And
     one fault on an observable (A, C): every nonzero solution of problem (11) is an equivalent fault. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite Lag SharpWindows TransferRank Inversion Trajectory Solutions Theorem3.
+From faultspace Require Import Vocabulary Basics Windows Infinite SharpWindows TransferRank Inversion Solutions Theorem3.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

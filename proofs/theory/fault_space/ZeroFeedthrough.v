@@ -2,7 +2,7 @@
     is then fixed up to a basis, iff C F has full rank m and no state but zero can hold the output at zero (no finite zeros, (A, C)
     observable). *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Theorem1 Problem11 Inversion Trajectory.
+From faultspace Require Import Vocabulary Basics Windows Problem11 Trajectory.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

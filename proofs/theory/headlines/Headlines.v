@@ -98,7 +98,8 @@ Theorem proposition_1_white_a_c (K : fieldType) (a : K) N H (Q : 'M[K]_N) (u : n
 Proof. exact: ConsistencyExamples.zero_limit. Qed.
 Print Assumptions proposition_1_white_a_c.
 
-(** white-b-d, refuted for the fit of output error: assumption_2_one_sided. *)
+(** white-b-d, refuted for the fit of output error by white_b_d_wrong_a_c_right (HeadlinesLimits.v), where the limit has all of the range of
+    O_s. In assumption_2_one_sided, where B and D are wrong as well, that limit is zero. *)
 
 (** coloured-a-c, refuted: u = e(k) + e(k-1)/2, v = e(k+1), A = 1/2, B = F = 1, C = [1 0], G = [0 1], written out at the times 0..3 that
     the limit is made of (ConsistencyExamples.v): it exists and is not in the range of O_2. *)
@@ -112,7 +113,8 @@ Theorem proposition_1_coloured_a_c : let S := MovingAverage.S in let Q := Moving
 Proof. exact: OneSided.coloured_limit_outside. Qed.
 Print Assumptions proposition_1_coloured_a_c.
 
-(** two-sided, without its last part: that the limit is all of the range of O_s is not proved. *)
+(** two-sided: the limit lies in the range of O_s, and the regression gives B and D. For which inputs and systems the limit has all of the
+    range is what the theorems whole_range_... of HeadlinesLimits.v say. For some coloured inputs it has less. *)
 Theorem proposition_1_two_sided (K : fieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     u v x y t q s L :
   process S B D u v x y -> (q <= t)%N -> (forall i k, (t - q <= i < t + s)%N -> (t <= k < t + s)%N -> cov Q (u i) (v k) = 0) ->

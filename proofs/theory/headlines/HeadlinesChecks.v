@@ -1,4 +1,4 @@
-(** The third part of Headlines.v, which includes it: what the checks of certificates prove once the kernel of Rocq has computed true. A
+(** The fifth part of Headlines.v, which includes it: what the checks of certificates prove once the kernel of Rocq has computed true. A
     system is told by L, lists of integers and a common denominator; meant n m p L is the system over the rational numbers. The checks
     check_... are functions on such lists (CertificatesVocabulary.v), and all other arguments are witnesses that nobody has to believe. *)
 From mathcomp Require Import all_ssreflect all_algebra.

@@ -1,6 +1,6 @@
-(** The limits of subspace identification, further: a part of Headlines.v, which includes it. When the limit of PI-MOESP has all of the
-    range of O_s, what the range tells of A and C, a fault that follows the input, and examples. LimitsVocabulary.v tells the words that
-    are used here alone: steered, similar, autoregressive, stationary, seen_state.
+(** The third part of Headlines.v, which includes it: the limits of subspace identification, further. When the limit of PI-MOESP has
+    all of the range of O_s, what the range tells of A and C, a fault that follows the input, and examples. LimitsVocabulary.v tells the
+    words that are used here alone: steered, similar, autoregressive, stationary, seen_state.
 
     Measurement noise is nowhere in these theorems, as it is a fault with F = 0 and G = 1 (noise_is_a_fault). Where a statement speaks of a
     least mean square error, of a positive variance or of singular vectors, it is over an ordered field (realFieldType); two examples are

@@ -1,5 +1,5 @@
-(** The second half of Headlines.v, which includes it: the ledger from theorem-3 on, then left-invertibility in all its forms, and what
-    the checks of certificates prove. *)
+(** The second part of Headlines.v, which includes it: the ledger from theorem-3 on, then left-invertibility in all its forms, and what else
+    the claims rest on. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary.
 From faultspace Require Theorem3 GoodPairs GenericPairs WidePairs Readings Theorem3Sharp Counterexamples.
@@ -114,7 +114,7 @@ Print Assumptions zero_feedthrough_recovery.
 
 (** ** trajectory-recovered *)
 
-(** state-known, without the delay, which is at most n *)
+(** state-known; the delay, which is at most n, is told by trajectory_delay (HeadlinesStructure.v) *)
 Theorem trajectory_state_known (K : fieldType) n m p (S : system K n m p) :
   (forall x v w, (forall k, output S x v k = output S x w k) -> forall k, v k = w k) <-> left_invertible S.
 Proof. exact: Trajectory.faults_recovered_left_invertible. Qed.
@@ -210,8 +210,9 @@ Print Assumptions sharp_equality_left_invertible.
 
 (** ** one-determinant *)
 
-(** formula: U is a basis of the zero states, a and b tell (u A, u C) and (u, 0) in the basis Z, and D = det [q b - a; P]. The product
-    of the diagonal form of a pencil is the greatest common divisor of its maximal minors. Such U, a, b exist. *)
+(** formula: U is a basis of the zero states, a and b tell (u A, u C) and (u, 0) in the basis Z, and D = det [q b - a; P]. That
+    the product of the diagonal form of a pencil is the greatest common divisor of its maximal minors is known, and not proved here. Such
+    U, a, b exist. *)
 Theorem one_determinant (K : fieldType) n m p (S : system K n m p) s r e (Z : 'M_(e + r, n + p)) U a b (P : 'M_(r, e + r)) :
   (n < s)%N -> spans_solutions S s Z /\ row_free Z -> row_free U -> (U :=: zero_states S)%MS ->
   a *m Z = row_mx (U *m sysA S) (U *m sysC S) -> b *m Z = row_mx U (0 : 'M_(e, p)) ->

@@ -2,7 +2,7 @@
     inputs of the window, up to something uncorrelated with them and with the instruments. So it does for every u that is autoregressive of
     order at most s, whatever the lead and with feedthrough: later inputs are combinations of s earlier ones and of innovations. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency.
+From faultspace Require Import Vocabulary Places Signals Consistency.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

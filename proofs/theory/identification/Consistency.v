@@ -2,7 +2,7 @@
     identification takes the observability matrix from is a cross-covariance times O_s, exactly (transposed here: the row space of O_s
     holds the rows of the limit). Without that the error is known exactly as well: the same projection of the faults, times T_s. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Places Signals.
+From faultspace Require Import Vocabulary Windows Places Signals.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

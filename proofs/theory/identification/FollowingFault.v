@@ -2,7 +2,7 @@
     of O_s all the same, then some d has d A = Phi F and d C = Phi G, and the fault acts as B + d would do without it: so B and D by output
     error are B + d and D, and right only if the fault is never seen. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads OutputError OneSided Regression Undetectable.
+From faultspace Require Import Vocabulary Basics Windows Places Signals Leads OutputError Undetectable.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.

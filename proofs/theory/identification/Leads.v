@@ -2,7 +2,7 @@
     is what B + sum_j Phi_j F A^j and D + Phi_0 G + sum_(j >= 1) Phi_j F A^(j-1) C would do without a fault. So the limit of
     PI-MOESP is a product with O_s still, of rank n iff A is controllable from this seen B, which is not the true one. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency.
+From faultspace Require Import Vocabulary Places Signals Consistency.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -3,7 +3,7 @@
     other B, D adds its own distance. Predictions start from rest at any time t; the fit is the same for each number of samples that
     observes (A, C). *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads.
+From faultspace Require Import Vocabulary Windows Signals Leads.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory Num.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     zero for no other B and D, if the window has n + 1 samples and observes (A, C). Uniqueness is problem (11) for a system without faults:
     what is possible without faults at all has f = 0 and g = 0. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Infinite Gap Theorem1 Problem11.
+From faultspace Require Import Vocabulary Basics Windows Consistency Problem11.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -3,7 +3,7 @@
     finite set of random variables can be written in this way, and with Q = 1/N the matrices may also be N samples of data, cov their
     sample covariance. So every identity here holds for finite data, for each sample size, and for the population limit. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics.
+From faultspace Require Import Vocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -3,7 +3,7 @@
     subspace identification is a product with O_s still, A and C are as right as without a fault, and the regression for B and D gives
     these. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Infinite Gap Theorem1 Problem11 Regression.
+From faultspace Require Import Vocabulary Signals Consistency Regression.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

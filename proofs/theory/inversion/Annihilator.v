@@ -3,7 +3,7 @@
         b(k-1) = A b(k) - C c(k),     F b(k) = G c(k).
     Words are exactly what all annihilators annihilate, so restricted behaviours may be compared by kernels of pencils. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows PolynomialKernel TransferRank.
+From faultspace Require Import Vocabulary Basics Windows PolynomialKernel.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

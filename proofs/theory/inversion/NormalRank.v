@@ -3,7 +3,7 @@
     silent pairs (x, v) of the limit W of the chain W_k; on these the pencil is q X - N with X, N inside W and N onto W, of rank dim W.
     *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Balance PolynomialKernel Inversion TransferRank.
+From faultspace Require Import Vocabulary Windows Chain Gap Balance PolynomialKernel Inversion TransferRank.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

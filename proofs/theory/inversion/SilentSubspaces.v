@@ -2,7 +2,7 @@
     largest output-nulling subspace). S: the states reachable from rest with zero output (the smallest input-containing subspace). Both are
     counted in kernels of windows; of a silent fault from rest on 2 n samples, the state after n is any state of V and S. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Inversion Trajectory.
+From faultspace Require Import Vocabulary Basics Windows Chain Lag Trajectory.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     state from which some fault keeps the output zero keeps it zero without faults (no finite zeros but the unobservable modes); then n
     + 1 samples give v(0). *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite PolynomialKernel Inversion.
+From faultspace Require Import Vocabulary Basics Windows Chain.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     rank of the pencil = n + rank of the transfer matrix, without any hypothesis. Hence left-invertibility is full row rank m of the
     transfer matrix. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics PolynomialKernel Inversion.
+From faultspace Require Import Vocabulary Inversion.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     state of x(k+1) = alpha x(k) + u(k), which is rho / (1 - alpha rho) u(0) at time 0 as far as the inputs tell. And what the theorem on
     one state asks: the coloured input u(k) = e(k) + e(k-1)/2 and z(k+1) = z(k)/2 + u(k). *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency ConsistencyExamples LimitsVocabulary WholeRange.
+From faultspace Require Import Vocabulary Places Signals Consistency ConsistencyExamples LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.

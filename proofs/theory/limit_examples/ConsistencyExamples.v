@@ -3,7 +3,7 @@
     controllable and (A, C) observable; any field, a = 1/2 among it. With u = e(k) + e(k-1)/2, v = e(k+1), A = 1/2, B = 1 the limit has
     rank 2 for n = 1: computed over rat. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads.
+From faultspace Require Import Vocabulary Places Signals Consistency Leads.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -3,7 +3,7 @@
     and three past inputs or more, the leading one does span it, and the regression gives B and D: all right, although the limit is
     of rank 2. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads Regression Undetectable FollowingFault.
+From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads Regression Undetectable FollowingFault.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.

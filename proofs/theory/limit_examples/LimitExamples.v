@@ -3,8 +3,8 @@
     b and a + b are not zero, and the best fit of B and D is still wrong. The signals of the example with a coloured input are
     stationary at the times 0..3 that its limit is made of. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads Controllable ConsistencyExamples OutputError.
-From faultspace Require Import OneSided SmallSystems LimitsVocabulary.
+From faultspace Require Import Vocabulary Basics Windows Signals Leads Controllable ConsistencyExamples.
+From faultspace Require Import OneSided LimitsVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.

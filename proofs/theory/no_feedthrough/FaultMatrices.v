@@ -2,7 +2,7 @@
     space of their F' is larger; and which F' there are with G' = 0 is told by problem (11), so the rows of all of them are in the row
     space of F just when those of its solutions (f, 0) are. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite SmallSystems Solutions Problem11.
+From faultspace Require Import Vocabulary Infinite SmallSystems Solutions Problem11.
 From faultspace Require ClosedForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

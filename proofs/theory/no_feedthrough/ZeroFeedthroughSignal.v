@@ -3,8 +3,8 @@
     part of the faults, F' = F + phi v0 F A: an equivalent pair with another signal. Conversely the rows of F' are then in those of F and
     the unobservable states. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Trajectory Inversion TransferRank NormalRank Problem11 Solutions.
-From faultspace Require Import Theorem3 ClosedForm SilentSubspaces ZeroStates Minors Readings UnobservableZeros.
+From faultspace Require Import Vocabulary Basics Infinite Trajectory TransferRank NormalRank.
+From faultspace Require Import Theorem3 ClosedForm SilentSubspaces ZeroStates Readings UnobservableZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

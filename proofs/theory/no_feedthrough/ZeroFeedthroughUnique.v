@@ -2,7 +2,7 @@
     output at zero, then every equivalent F' (with G' = 0 and as many faults) has the row space of F, so F is known up to a basis, and
     the output determines the initial state and the faults. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Inversion TransferRank NormalRank Solutions Theorem3.
+From faultspace Require Import Vocabulary Basics Infinite TransferRank NormalRank Theorem3.
 From faultspace Require Import Trajectory ZeroFeedthrough.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,8 +2,9 @@
     observable, or there are two faults and zeta >= 1. For an unobservable state u is a solution (u, 0) that no output shows; the rest is
     FullRankPairs.v. And with zeta = 0 the bad P are those with determinant zero. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Lag Trajectory Solutions Theorem3 CanonicalForm ZeroFeedthrough ClosedForm.
+From faultspace Require Import Vocabulary Basics Lag Trajectory Solutions Theorem3 ZeroFeedthrough.
 From faultspace Require Import SolutionCount FullRankPairs.
+From faultspace Require NormalRank TransferRank.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -5,7 +5,7 @@
     its roots, in any extension of K, are the finite zeros of the pair; and its degree is at most zeta. For the zero states of any pair are
     zero states of S: the rows U of its pencil are (q b - a) Z, and a constant column that U annihilates is reached by the pencil. *)
 From mathcomp Require Import all_ssreflect all_fingroup all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap Lag Trajectory PolynomialKernel Inversion.
+From faultspace Require Import Vocabulary Windows Lag PolynomialKernel Inversion.
 From faultspace Require Import TransferRank NormalRank Theorem1 Solutions Theorem3 CanonicalForm ZeroFeedthrough ClosedForm.
 From faultspace Require Import SolutionCount Minors FiniteZeros InfiniteZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.

@@ -3,8 +3,8 @@
     (SilentSubspaces.v); so V* + S* has dimension zeta, for every system; and where the system is left-invertible the sum is direct, with as
     many finite zeros as dim V* and as many infinite ones as dim S*. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Chain Lag Trajectory ClosedForm SilentSubspaces ZeroStates StructureVocabulary.
-From faultspace Require Import Minors FiniteZeros InfiniteZeros SystemZeros Readings SolutionCount.
+From faultspace Require Import Vocabulary Chain SilentSubspaces ZeroStates StructureVocabulary.
+From faultspace Require Import InfiniteZeros SystemZeros Readings SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

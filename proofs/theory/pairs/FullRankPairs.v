@@ -3,7 +3,7 @@
     first fault, undone one step later by the second, is never seen; so with zeta >= 1 and two faults there is a bad P of full rank.
     *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap Lag TransferRank NormalRank Trajectory Solutions Theorem3.
+From faultspace Require Import Vocabulary Basics Lag TransferRank NormalRank Trajectory Solutions Theorem3.
 From faultspace Require Import Theorem3Sharp ClosedForm SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,8 +2,8 @@
     are independent. So the coefficients of the exceptional polynomial (ExceptionalPolynomial.v), polynomials in the entries of P whose
     common zeros are the bad P, do not all vanish: almost every P is good. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Lag Solutions TransferRank ClosedForm SettledSolutions Theorem3Sharp.
-From faultspace Require Import Windows Problem11 SolutionCount Minors ExceptionalPolynomial BadPairs.
+From faultspace Require Import Vocabulary Basics Lag TransferRank ClosedForm SettledSolutions Theorem3Sharp.
+From faultspace Require Import Windows Problem11 SolutionCount ExceptionalPolynomial BadPairs.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

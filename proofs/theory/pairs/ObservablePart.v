@@ -1,8 +1,8 @@
 (** The observable part of a system: the states modulo those that give no output. It makes the same outputs, whatever the faults, so what
     is proved for observable (A, C) may be lifted. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Infinite Trajectory Gap Lag TransferRank NormalRank Solutions GoodPairs PairZeros.
-From faultspace Require Import CanonicalForm StructureVocabulary UnobservableZeros.
+From faultspace Require Import Vocabulary Basics Windows Infinite Trajectory Lag NormalRank GoodPairs PairZeros.
+From faultspace Require Import CanonicalForm UnobservableZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

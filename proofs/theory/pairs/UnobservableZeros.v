@@ -2,7 +2,7 @@
     polynomial is the characteristic polynomial of the unobservable part. It is not enough that every finite zero is an unobservable mode:
     in both examples the only zero is 0, twice, and the only unobservable mode is 0, once. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Trajectory Inversion TransferRank Minors FiniteZeros InfiniteZeros Readings.
+From faultspace Require Import Vocabulary Basics Trajectory TransferRank FiniteZeros InfiniteZeros Readings.
 From faultspace Require Import StructureVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

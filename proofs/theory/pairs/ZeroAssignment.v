@@ -2,8 +2,9 @@
     pairs place their finite zeros at will, and one has none. By PencilAssignment.v; the pencil q b - a has a right inverse, as that of
     (A, C) alone has. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Trajectory Solutions ClosedForm Minors FiniteZeros ExceptionalPolynomial.
+From faultspace Require Import Vocabulary Basics Windows Trajectory Minors FiniteZeros ExceptionalPolynomial.
 From faultspace Require Import PencilAssignment.
+From faultspace Require InfiniteZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

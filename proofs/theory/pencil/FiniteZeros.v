@@ -3,7 +3,7 @@
     common divisor of the maximal minors of the pencil; its roots, in any extension of K, are where the pencil loses rank; so there are
     dim V finite zeros. For a constant column that annihilates the silent pairs (x, v(0)) is a combination of columns of the pencil. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Trajectory PolynomialKernel Annihilator Minors.
+From faultspace Require Import Vocabulary Basics Windows Trajectory PolynomialKernel Annihilator Minors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

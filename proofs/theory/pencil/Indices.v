@@ -2,7 +2,7 @@
     the minimal indices of its right kernel. For the polynomial columns (b; c) of degree < s in the kernel are given by c, and these c are
     the annihilators of the words of s samples, a space of dimension s p - rank window s = sum of max(0, s - eta). *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag.
+From faultspace Require Import Vocabulary Windows Gap Lag.
 From faultspace Require Import PolynomialKernel Annihilator Theorem3 MinimalIndices MinimalBasis.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

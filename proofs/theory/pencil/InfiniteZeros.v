@@ -3,7 +3,7 @@
     silently from rest the last step is unique, and its state before is given by a nilpotent matrix N: so q^dim S is the power of q in the
     maximal minors. With the dim V finite zeros, zeta = n - sum eta counts all zeros of the pencil. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Lag Trajectory Minors FiniteZeros SilentSubspaces.
+From faultspace Require Import Vocabulary Basics Chain Minors FiniteZeros SilentSubspaces.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

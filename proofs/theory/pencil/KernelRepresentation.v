@@ -2,8 +2,8 @@
     column that annihilates the behaviour is a combination of theirs. By duality: words are what their annihilators annihilate
     (Annihilator.v), and these are the last parts of the polynomial columns in the kernel of the pencil. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary StructureVocabulary Basics Windows Infinite PolynomialKernel Annihilator MinimalIndices.
-From faultspace Require Import Gap Lag Indices.
+From faultspace Require Import Vocabulary StructureVocabulary Basics Infinite PolynomialKernel Annihilator MinimalIndices.
+From faultspace Require Import Lag Indices.
 From faultspace Require NormalRank.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -4,7 +4,7 @@
     for left-invertible systems the last two are the numbers of finite and infinite zeros, and there are no right indices. For a polynomial
     row of the kernel is a silent fault from rest to rest, and these are counted by ranks of windows. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Balance Lag PolynomialKernel Inversion Trajectory.
+From faultspace Require Import Vocabulary Basics Windows Chain Balance Lag PolynomialKernel Inversion.
 From faultspace Require Import MinimalIndices MinimalBasis Indices SilentSubspaces.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -2,8 +2,8 @@
     the pencil at infinity. The last silent step to a state of S comes from a state that is given, modulo V n S, by a nilpotent matrix N.
     So, for every system, n = left indices + right indices + finite zeros + infinite zeros, and zeta is the sum of the last three. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Trajectory MinimalIndices Indices SilentSubspaces RightIndices.
-From faultspace Require Import Minors InfiniteZeros MinorsOfOrder SystemZeros SystemZeroPolynomial.
+From faultspace Require Import Vocabulary Chain Indices SilentSubspaces RightIndices.
+From faultspace Require Import InfiniteZeros MinorsOfOrder SystemZeros SystemZeroPolynomial.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     (SystemZeros.v) is the greatest common divisor of the minors of order n + gap n, the normal rank, of the pencil; so there are
     dim V - dim (V n S) finite zeros. For a silent way from rest to a state of V n S, read as a polynomial row, inverts q X - N. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Balance PolynomialKernel Inversion Trajectory.
+From faultspace Require Import Vocabulary Chain Inversion.
 From faultspace Require Import FiniteZeros SilentSubspaces MinorsOfOrder SystemZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

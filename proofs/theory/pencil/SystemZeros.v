@@ -4,7 +4,7 @@
     so the rank is less than the normal rank exactly at the eigenvalues of M, by the dimension of the eigenspace. For constant columns that
     annihilate the silent pairs (x, v(0)) are combinations of columns of the pencil, and R can be reached within R (Hautus' test). *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap PolynomialKernel NormalRank Trajectory TransferRank.
+From faultspace Require Import Vocabulary Basics Chain NormalRank Trajectory TransferRank.
 From faultspace Require Import FiniteZeros SilentSubspaces.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -1,7 +1,7 @@
 (** The subspace U of the closed form (ClosedForm.v), there written with W, the limit of the states that are reached silently from anywhere,
     is V + S: the states that can be silent for ever together with those reached silently from rest. Both have dimension zeta. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Chain Lag Trajectory ClosedForm SolutionCount SilentSubspaces.
+From faultspace Require Import Vocabulary Chain SolutionCount SilentSubspaces.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 Section ZeroStates.

@@ -3,7 +3,7 @@
     and only one of them has to follow the polynomial. By induction on e: a constant column h with b h = 0, on which a is not zero, reduces
     one row and one column. *)
 From mathcomp Require Import all_ssreflect all_fingroup all_algebra zify.
-From faultspace Require Import Vocabulary Minors.
+From faultspace Require Import Minors.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

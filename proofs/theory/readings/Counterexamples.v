@@ -2,7 +2,7 @@
     (A, C) and included behaviours may differ though both are left-invertible; and so may two with the same (A, C) and as many faults
     when only the larger is left-invertible. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite Theorem1 PolynomialKernel Inversion TransferRank Solutions Theorem3.
+From faultspace Require Import Vocabulary Basics Windows Inversion.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

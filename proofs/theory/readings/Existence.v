@@ -1,7 +1,7 @@
 (** What statements about zeros, minimal indices and limits speak of is there: the greatest common divisors of the minors, the orders
     of the zero at infinity, minimal bases on both sides, and the projected limit under a white input. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Minors InfiniteZeros MinorsOfOrder SystemInfiniteZeros MinimalIndices Signals Leads.
+From faultspace Require Import Vocabulary InfiniteZeros SystemInfiniteZeros Leads.
 From faultspace Require Indices RightIndices SystemZeroPolynomial Readings.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

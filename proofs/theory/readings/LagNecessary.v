@@ -3,7 +3,7 @@
     lag + 1. It is the given system with kicks (Kick.v) that a window of lag samples cannot tell, as strong as a functional of the previous
     output says; the new state remembers that functional. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap Lag Kick.
+From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Kick.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -1,11 +1,11 @@
 (** The theorems put together as the claims are read: with the normal rank (the rank of the transfer matrix) for gap n, with zeros
     counted on the pencil, and on data. New is only that full excitation is not necessary. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite Chain Gap Proposition3 Inversion Theorem1 Lag SharpWindows.
-From faultspace Require Import Problem11 Solutions CanonicalForm NormalRank TransferRank Theorem3 Theorem3Sharp Excitation.
+From faultspace Require Import Vocabulary Basics Windows Proposition3 Lag SharpWindows.
+From faultspace Require Import Problem11 Solutions NormalRank TransferRank Theorem3Sharp Excitation.
 From faultspace Require Import ExcitationExamples WeakExcitation SmallSystems LagNecessary SettledSolutions SolutionCount.
-From faultspace Require Import ZeroFeedthrough Trajectory ClosedForm SilentSubspaces Minors FiniteZeros InfiniteZeros.
-From faultspace Require Import MinimalIndices MinorsOfOrder SystemInfiniteZeros.
+From faultspace Require Import ZeroFeedthrough Trajectory ClosedForm SilentSubspaces InfiniteZeros.
+From faultspace Require Import SystemInfiniteZeros.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -5,8 +5,8 @@
     part in the rows of the pencil. Its lag may have to be larger: of two outputs, one that delays the fault and one that the fault does not
     reach, no partner keeps the lag. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap Lag Kick LagNecessary PolynomialKernel Inversion Theorem3.
-From faultspace Require Import ClosedForm SharpWindows Solutions CanonicalForm Problem11 Proposition3 SmallSystems.
+From faultspace Require Import Vocabulary Basics Windows Chain Gap Lag Kick LagNecessary PolynomialKernel Inversion Theorem3.
+From faultspace Require Import ClosedForm SharpWindows Solutions CanonicalForm Proposition3 SmallSystems.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -1,10 +1,10 @@
 (** Small systems that refute readings of the claims, with all the hypotheses these readings make: observable, controllable, left-
     invertible. The shift register of Theorem1Sharp.v shows that windows of n samples are too short, the delayed fault of Problem11.v
-    that problem (11) is not exact at s = n, and three more are told where they come. Any field, unless a number other than 0 and 1 is
+    that problem (11) is not exact at s = n, and the others are told where they come. Any field, unless a number other than 0 and 1 is
     needed. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Infinite Chain Gap Proposition3 Inversion Lag SharpWindows Theorem1Sharp.
-From faultspace Require Import Solutions Problem11 Counterexamples Trajectory CanonicalForm ClosedForm.
+From faultspace Require Import Vocabulary Basics Windows Proposition3 Inversion Lag SharpWindows Theorem1Sharp.
+From faultspace Require Import Problem11 Counterexamples Trajectory ClosedForm.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -1,7 +1,7 @@
 (** A pair of full rank that is not equivalent, in a system with more outputs than faults: the direct and the delayed fault of
     Counterexamples.v beside an output that is always zero. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Lag SmallSystems Solutions Counterexamples Proposition3 Inversion.
+From faultspace Require Import Vocabulary Windows Lag SmallSystems Counterexamples.
 From faultspace Require Import TransferRank NormalRank SolutionCount.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

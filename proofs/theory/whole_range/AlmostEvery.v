@@ -2,7 +2,7 @@
     the range of O_s for almost every (A, B). On every line through a good (A, B) all but at most n t are good, since the state enters by
     polynomials of degree t; and a chain of n delays behind the first input is good. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads ExceptionalPolynomial.
+From faultspace Require Import Vocabulary Windows Places Signals Consistency Leads ExceptionalPolynomial.
 From faultspace Require Import Controllable LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

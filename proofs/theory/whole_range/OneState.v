@@ -3,7 +3,7 @@
     of. From one time to the next the error is multiplied by the pole, up to a combination of these s + 1 inputs, with which it is
     uncorrelated; it is stationary, so it is zero; and then the inputs are linearly dependent, or B is zero. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency LimitsVocabulary WholeRange.
+From faultspace Require Import Vocabulary Places Signals Consistency LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import Order.TTheory GRing.Theory Num.Theory.
 Local Open Scope ring_scope.

@@ -3,7 +3,7 @@
     same Gamma at all times. A direction that the limit with n past inputs does not see is orthogonal to all Gamma A^d, so the limit with
     any number of past inputs does not see it either. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads Persistency Controllable.
+From faultspace Require Import Vocabulary Signals Consistency Leads Controllable.
 From faultspace Require Import LimitsVocabulary WholeRange.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.

@@ -3,7 +3,7 @@
     that the limit does not see makes x(t) w a combination of the future inputs, up to something that the past and future inputs know
     nothing of; the innovation of each of these times, the last one first, then tells that its input has no part in that. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Places Signals Consistency Leads Persistency Controllable LimitsVocabulary.
+From faultspace Require Import Vocabulary Places Signals Consistency Leads Persistency Controllable LimitsVocabulary.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -2,7 +2,7 @@
     gap n, and each time it falls by one there is an index eta equal to the length reached. That is, here the etas are defined by ranks.
     L1: the rank of every window is s * gap n + sum of min (s, eta), for every system; the lag is the largest eta, and sum eta <= n. *)
 From mathcomp Require Import all_ssreflect all_algebra zify.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Balance.
+From faultspace Require Import Vocabulary Gap Balance.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 Section Lag.

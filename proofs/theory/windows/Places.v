@@ -1,6 +1,6 @@
 (** The samples of one time, put in their place among s: so that a row vector of samples is a sum over times. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows.
+From faultspace Require Import Vocabulary Windows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

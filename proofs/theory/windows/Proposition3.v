@@ -3,7 +3,7 @@
     all that can spoil it: of the n + 1 last states of a silent trajectory that ends in zero with this pair, one depends on the later ones,
     and the difference of the trajectories started from there begins at rest, is silent, and still has this pair in it. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Gap Balance.
+From faultspace Require Import Vocabulary Basics Chain Gap Balance.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.

@@ -1,7 +1,7 @@
 (** The theorems with the shortest window they hold for. proposition-3 holds exactly from s = lag on, so does theorem-2 with
     zeta = n - sum of the left indices, and theorem-1 needs one sample more than the lag. The lag is at most n, and often far less. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap Theorem1 Balance Proposition3 Lag.
+From faultspace Require Import Vocabulary Basics Windows Infinite Gap Theorem1 Proposition3 Lag.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 Section OneSystem.

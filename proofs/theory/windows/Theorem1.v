@@ -2,7 +2,7 @@
     and so are the behaviors, in infinite time. (As the paper states it, on n samples, it is false: see Theorem1Sharp.v.) For an inclusion
     the number of states of the larger behaviour is enough. Nothing else is assumed; the systems may have different numbers of faults. *)
 From mathcomp Require Import all_ssreflect all_algebra.
-From faultspace Require Import Vocabulary Basics Windows Chain Infinite Gap.
+From faultspace Require Import Vocabulary Basics Windows Infinite Gap.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 
 Section Inclusion.
