@@ -22,7 +22,8 @@ REQUIRED = re.compile(r"From\s+faultspace\s+Require\s+(?:Import|Export)?([\s\w]*
 
 
 def paths(theory: Traversable = THEORY) -> dict[str, str]:
-    """File name -> its path below the theory, FOLDER/NAME.v, in the order of the names. Raises ValueError where two files share a name."""
+    """Returns file name -> its path below the theory, FOLDER/NAME.v, in the order of the names. Raises ValueError where two files share a
+    name."""
     found = [(one.name, folder.name) for folder in theory.iterdir() if folder.is_dir() for one in folder.iterdir()]
     files = sorted((name, f"{folder}/{name}") for name, folder in found if name.endswith(".v"))
     names = [name for name, _ in files]
@@ -33,12 +34,12 @@ def paths(theory: Traversable = THEORY) -> dict[str, str]:
 
 
 def sources() -> dict[str, str]:
-    """File name -> text, of all files of the theory."""
+    """Returns file name -> text, of all files of the theory."""
     return {name: THEORY.joinpath(path).read_text("utf-8") for name, path in paths().items()}
 
 
 def needs(texts: Mapping[str, str]) -> dict[str, set[str]]:
-    """File name -> names of those of these files that it requires."""
+    """Returns file name -> names of those of these files that it requires."""
     return {
         name: {f"{module}.v" for names in REQUIRED.findall(text) for module in names.split() if f"{module}.v" in texts}
         for name, text in texts.items()

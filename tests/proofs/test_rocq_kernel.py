@@ -178,7 +178,7 @@ def test_coqc_runs_under_limits(cache: Path, text: str, told: str) -> None:
     [
         ("MOST_MEMORY", 2**28, "From mathcomp Require Import all_ssreflect all_algebra.\n"),
         ("MOST_WRITTEN", 2**15, 'Goal True. do 5000 idtac "0123456789". Abort.\n'),
-        ("MOST_SAID", 2**12, 'Goal True. do 5000 idtac "0123456789". Abort.\n'),
+        ("MOST_PRINTED", 2**12, 'Goal True. do 5000 idtac "0123456789". Abort.\n'),
     ],
 )
 def test_memory_and_output_are_limited(cache: Path, monkeypatch: pytest.MonkeyPatch, limit: str, most: int, text: str) -> None:
