@@ -213,7 +213,7 @@ def test_limits_in_floats_are_the_exact_ones(family: object) -> None:
 
 
 def test_an_input_has_the_reflection_coefficients_it_was_made_of() -> None:
-    """By Levinson's recursion on its exact covariances."""
+    """They are found again by Levinson's recursion on its exact covariances."""
     wanted = [Fraction(1, 3), Fraction(-3, 4), Fraction(1, 2), Fraction(-1, 5)]
     made = shaped_input(wanted, [Fraction(1, 2), Fraction(-2, 3)], Fraction(4, 5))
     drawn = shaped_family(1, 1, 1, 1, 0).at([Fraction(0), Fraction(0)])

@@ -31,12 +31,12 @@ FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
 
 def covered(certificate: dict[str, Any]) -> bool:
-    """Whether it is of a covered kind, over the rational numbers."""
+    """Whether the certificate is of a covered kind, over the rational numbers."""
     return certificate["kind"] in COVERED and '"field"' not in json.dumps(certificate)
 
 
 def small_ones() -> list[dict[str, Any]]:
-    """Certificates of every covered kind, systems without states, faults or outputs among them."""
+    """Yields certificates of every covered kind, systems without states, faults or outputs among them."""
     made = [c for system in SYSTEMS.values() for c in of_one_system(system)]
     return [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
 
@@ -111,14 +111,14 @@ NO_NUMBERS = (SOURCE, MARK, "1_0", " 1", "1 ", "\u0661", "0x1", "1%N", "(* 1", T
 
 
 def everywhere(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """The places in a certificate: every key and every item."""
+    """Yields the places in a certificate: every key and every item."""
     for key in node if isinstance(node, dict) else range(len(node)) if isinstance(node, list) else ():
         yield (*path, key)
         yield from everywhere(node[key], (*path, key))
 
 
 def text_of(certificate: dict[str, Any], write: Callable[[dict[str, Any]], Terms]) -> str | None:
-    """What Rocq would read; None where the exporter refuses."""
+    """Returns what Rocq would read; None where the exporter refuses."""
     try:
         return f"{(terms := write(certificate)).theorem()} {terms.check}"
     except (checker.Malformed, checker.Rejected, NotCovered):
@@ -126,7 +126,7 @@ def text_of(certificate: dict[str, Any], write: Callable[[dict[str, Any]], Terms
 
 
 def words_of(text: str) -> set[str]:
-    """The names in it."""
+    """Returns the names in a text."""
     return set(re.findall(r"[A-Za-z_]\w*", text))
 
 

@@ -172,14 +172,14 @@ HEADLINES = [one for file in FILES for one in STATEMENTS.headlines.values() if o
 
 
 def proof_file(headline: Headline) -> str:
-    """The file whose theorem the proof names last."""
+    """Returns the file whose theorem the proof names last."""
     modules: list[str] = re.findall(r"([A-Z]\w*)\.\w", headline.tactics)
     return f"{modules[-1]}.v"
 
 
 @pytest.fixture(scope="module")
 def theory() -> Path:
-    """The compiled theory; skips, with the reason, where Rocq or MathComp is missing."""
+    """Provides the compiled theory; skips, with the reason, where Rocq or MathComp is missing."""
     try:
         return compiled_theory()
     except NoRocq as reason:
@@ -213,7 +213,8 @@ def test_every_headline_has_a_change() -> None:
 
 
 def replay(part: str, about: list[Headline]) -> str:
-    """A file in which each headline of `part` is proved as it is, and its changed copy is well-formed but refused by the same proof."""
+    """Returns a file in which each headline of `part` is proved as it is, and its changed copy is well-formed but refused by the same
+    proof."""
     lines = [re.split(r"^\(\*\* \*\*", sources()[part], maxsplit=1, flags=re.MULTILINE)[0]]
     for h in about:
         changed = h.statement.replace(*CHANGES[h.name])
@@ -268,7 +269,7 @@ BAD = "Theorem bad : one = 2.\nProof. exact Proofs.bad. Qed.\nPrint Assumptions 
 
 
 def tiny(proofs: str = "", headlines: str = "") -> dict[str, str]:
-    """A theory of three files, with these lines added."""
+    """Returns a theory of three files, with these lines added."""
     return {**TINY, "Proofs.v": TINY["Proofs.v"] + proofs, "Headlines.v": TINY["Headlines.v"] + headlines}
 
 
@@ -286,7 +287,7 @@ def test_a_closed_theorem_passes(theory: Path) -> None:
     ],
 )
 def test_machine_checked_refuses(theory: Path, proofs: str, headlines: str, names: list[str], reason: str) -> None:
-    """Whatever the text of the sources may look like: Rocq itself says it."""
+    """Rocq itself refuses, whatever the text of the sources may look like."""
     texts = tiny(proofs, headlines)
     with pytest.raises(NotProved, match=reason):
         asked(names, texts, compiled_theory(texts=texts))
@@ -296,22 +297,22 @@ def test_machine_checked_refuses(theory: Path, proofs: str, headlines: str, name
 
 
 def table() -> list[tuple[str, str, list[str], list[str]]]:
-    """The rows of the README's table: claim, reading, theorems, files of the proofs."""
+    """Returns the rows of the README's table: claim, reading, theorems, files of the proofs."""
     rows = re.findall(r"^\| (.*) \| (.*) \| (`.*`) \| (`.*`) \|$", THEORY.joinpath("README.md").read_text("utf-8"), re.MULTILINE)
     return [(claim, reading, re.findall(r"`(\w+)`", names), re.findall(r"`(\w+\.v)`", files)) for claim, reading, names, files in rows]
 
 
 def test_the_readme_names_every_headline_and_its_file() -> None:
     files = {h.name: proof_file(h) for h in HEADLINES}
-    told = {name for _, _, names, _ in table() for name in names}
-    assert told == set(files)
-    for claim, reading, names, told_files in table():
-        assert told_files == [*dict.fromkeys(files[name] for name in names)], (claim, reading, names)
+    named = {name for _, _, names, _ in table() for name in names}
+    assert named == set(files)
+    for claim, reading, names, listed_files in table():
+        assert listed_files == [*dict.fromkeys(files[name] for name in names)], (claim, reading, names)
 
 
 def test_the_readme_says_the_same_as_the_ledger() -> None:
-    told = {(claim, reading): names for claim, reading, names, _ in table()}
+    listed = {(claim, reading): names for claim, reading, names, _ in table()}
     for claim in load():
         for reading in claim.readings:
             if reading.theorems:
-                assert told.get((claim.id, reading.id)) == [*reading.theorems], (claim.id, reading.id)
+                assert listed.get((claim.id, reading.id)) == [*reading.theorems], (claim.id, reading.id)

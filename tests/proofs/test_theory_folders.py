@@ -18,7 +18,7 @@ Arrows = dict[str, set[str]]
 
 
 def arrows(texts: Mapping[str, str], where: Mapping[str, str]) -> Arrows:
-    """Folder -> the other folders that its files import from."""
+    """Returns folder -> the other folders that its files import from."""
     folder = {name: path.partition("/")[0] for name, path in where.items()}
     result: Arrows = {one: set() for one in folder.values()}
     for name, required in needs(texts).items():
@@ -27,7 +27,7 @@ def arrows(texts: Mapping[str, str], where: Mapping[str, str]) -> Arrows:
 
 
 def stands_on(graph: Arrows) -> Arrows:
-    """Folder -> those of the folders that it imports on which no other one of them stands, directly or by way of others."""
+    """Returns folder -> those of the folders that it imports on which no other one of them stands, directly or by way of others."""
     below: Arrows = {}
     for one in TopologicalSorter(graph).static_order():
         below[one] = graph[one].union(*(below[other] for other in graph[one]))
@@ -35,7 +35,7 @@ def stands_on(graph: Arrows) -> Arrows:
 
 
 def rows() -> list[tuple[str, set[str]]]:
-    """The README's table of folders: each with those that it says it stands on."""
+    """Returns the README's table of folders: each with those that it says it stands on."""
     _, _, section = THEORY.joinpath("README.md").read_text("utf-8").partition("## The folders")
     found = re.findall(r"^\| `(\w+)` \| [^|]+ \|([^|]*)\|$", section, re.MULTILINE)
     return [(folder, {*re.findall(r"`(\w+)`", below)}) for folder, below in found]
@@ -60,11 +60,11 @@ def test_an_import_the_other_way_is_noticed() -> None:
 
 
 def test_the_readme_says_which_folder_stands_on_which() -> None:
-    told = rows()
-    assert dict(told) == stands_on(arrows(sources(), paths()))
-    assert len(told) == len(dict(told))
-    for k, (folder, below) in enumerate(told):
-        assert below <= {name for name, _ in told[k + 1 :]}, f"the row of {folder} stands above those on which it stands"
+    listed = rows()
+    assert dict(listed) == stands_on(arrows(sources(), paths()))
+    assert len(listed) == len(dict(listed))
+    for k, (folder, below) in enumerate(listed):
+        assert below <= {name for name, _ in listed[k + 1 :]}, f"the row of {folder} stands above those on which it stands"
 
 
 def test_what_stands_in_between_is_not_told_twice() -> None:
@@ -82,7 +82,7 @@ def test_a_new_file_is_found_where_it_lies(tmp_path: Path) -> None:
 
 
 def used(theory: Path, name: str) -> set[str]:
-    """The files of ours whose names coqc met in this one, by the record that it keeps."""
+    """Returns the files of ours whose names coqc met in this one, by the record that it keeps."""
     lines = (theory / name).with_suffix(".glob").read_text("utf-8")
     return {f"{module}.v" for module in re.findall(r"^R\d+:\d+ faultspace\.(\w+) \S+ \S+ (?!lib$)", lines, re.MULTILINE)} - {name}
 
