@@ -42,7 +42,18 @@ def _as_rational(value: object, where: str) -> fmpq:
 
 @dataclass(frozen=True)
 class Rationals:
-    """The field Q."""
+    """This is the field Q of the rational numbers, whose elements are of type flint.fmpq.
+
+    `Rationals()` has no arguments, and all of them are equal. Its `element` takes integers, rational strings such as "-3/4", Fractions and
+    sympy rationals, and `write` gives the reduced string that exact files hold.
+
+    Raises InvalidInput, in `element`, for anything else, floats included.
+
+    >>> from faultspace.exact import Rationals
+    >>> QQ = Rationals()
+    >>> QQ.element("2/4"), QQ.write(QQ.element("2/4")), QQ.degree, QQ.characteristic
+    (1/2, '1/2', 1, 0)
+    """
 
     degree: ClassVar[int] = 1
     characteristic: ClassVar[int] = 0
@@ -73,7 +84,18 @@ class Rationals:
 
 @dataclass(frozen=True)
 class PrimeField:
-    """The field with p elements. Raises InvalidInput unless p is a prime below 2^64 (flint aborts on composite moduli)."""
+    """This is the field GF(p) of the integers modulo a prime p below 2^64, whose elements are of type flint.nmod.
+
+    `element` takes integers and integer strings, and no fractions; `write` gives the residue in 0..p-1 as a string.
+
+    Raises InvalidInput unless p is a prime below 2^64 (flint aborts the process on a composite modulus), and, in `element`, for fractions,
+    floats and elements of another field.
+
+    >>> from faultspace.exact import PrimeField
+    >>> field = PrimeField(5)
+    >>> field.element(3) / field.element(2), field.write(field.element(-1)), str(field)
+    (4, '4', 'GF(5)')
+    """
 
     p: int
     degree: ClassVar[int] = 1
@@ -120,9 +142,19 @@ class PrimeField:
 
 @dataclass(frozen=True, eq=False)
 class NumberField:
-    """Q(a) for a root a of an irreducible polynomial, coefficients ascending, monic or not.
+    """This is the field Q(a) for a root a of an irreducible polynomial over Q, given by its ascending coefficients, monic or not.
 
-    Raises InvalidInput when the degree is not in 1..16 or the polynomial is reducible over Q.
+    An element is a rational polynomial in a of degree below d, the degree of the polynomial, which is at most 16; `element` takes a
+    rational or a list of its d coordinates, ascending in a. No root is chosen: what is true over Q(a) is true for every root. Two
+    polynomials of which one is a multiple of the other name the same field.
+
+    Raises InvalidInput when the degree is not in 1..16 or the polynomial is reducible over Q, and, in `element`, for anything else.
+
+    >>> from faultspace.exact import NumberField
+    >>> field = NumberField((-2, 0, 1))
+    >>> root = field.element([0, 1])
+    >>> str(field), str(root * root), str(field.element(1) / root), field.write(root)
+    ('Q(a) with a^2 - 2 = 0', '2', '1/2 a', ['0', '1'])
     """
 
     minimal_polynomial: tuple[Fraction, ...]
@@ -273,7 +305,16 @@ QQ = Rationals()
 
 
 def field_from_json(value: object) -> Field:
-    """The field that the `field` value of an exact file names. Raises InvalidInput."""
+    """The result is the field that the `field` value of an exact file names: "Q", a dict with "prime" or one with "minimal_polynomial".
+
+    The minimal polynomial is a list of rational strings or integers by ascending power. Each field's `to_json` writes what this reads.
+
+    Raises InvalidInput for anything else, for a number that is no prime, and for a polynomial that is reducible over Q.
+
+    >>> from faultspace.exact import field_from_json
+    >>> [str(field_from_json(value)) for value in ("Q", {"prime": 3}, {"minimal_polynomial": ["-2", "0", "1"]})]
+    ['Q', 'GF(3)', 'Q(a) with a^2 - 2 = 0']
+    """
     if value == "Q":
         return QQ
     if isinstance(value, dict) and set(value) == {"prime"}:

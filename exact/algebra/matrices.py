@@ -32,7 +32,22 @@ PRIME = 2**61 - 1
 
 @dataclass(frozen=True, eq=False)
 class Matrix:
-    """An immutable nrows x ncols matrix over `field`. Build it with `Matrix.of`, `Matrix.zero` or `Matrix.identity`."""
+    """This is an immutable matrix of shape nrows x ncols over one of the three kinds of field; a dimension may be zero.
+
+    `Matrix.of` makes one from nested lists, sympy matrices and so on, `Matrix.zero` and `Matrix.identity` make those two. `+`, `-` and `@`
+    stay within one field, `matrix[i, j]` is a field element, `rows` and `columns` choose, `to_json` and `to_sympy` write. Two matrices are
+    equal where field, shape and entries are.
+
+    Raises InvalidInput, in `Matrix.of`, for ragged rows, a shape that does not agree and entries outside the field, and ValueError where
+    matrices over different fields are combined.
+
+    >>> from faultspace.exact import Matrix
+    >>> M = Matrix.of([["1/2", 1], [0, 2]])
+    >>> M @ M
+    [[1/4, 5/2], [0, 4]]
+    >>> M.shape, M[0, 0], M.to_json()
+    ((2, 2), 1/2, [['1/2', '1'], ['0', '2']])
+    """
 
     field: Field
     nrows: int
@@ -218,7 +233,15 @@ def stacked(*parts: Matrix) -> Matrix:
 
 
 def rank(matrix: Matrix) -> int:
-    """The rank over the matrix's field."""
+    """The result is the rank of an nrows x ncols matrix over its field.
+
+    A large matrix is looked at modulo a prime first: a minor that is not zero there is not zero, so that full rank there is full rank.
+    Raises nothing for a Matrix of any shape; the rank of an empty one is 0.
+
+    >>> from faultspace.exact import Matrix, PrimeField, rank
+    >>> rank(Matrix.of([[1, 2], [2, 4]])), rank(Matrix.of([[1, 2], [2, 1]])), rank(Matrix.of([[1, 2], [2, 1]], PrimeField(3)))
+    (1, 2, 1)
+    """
     if _is_large(matrix):
         reduced = _modulo(matrix.flint)
         if reduced.rank() == min(reduced.nrows(), reduced.ncols()):  # a minor that is not zero modulo a prime is not zero
@@ -228,7 +251,17 @@ def rank(matrix: Matrix) -> int:
 
 
 def row_echelon(matrix: Matrix) -> RowEchelon:
-    """The reduced row echelon form without its zero rows. Over Q(a) it is the one of the block matrix, read in blocks."""
+    """The result is the reduced row echelon form of an nrows x ncols matrix, without its zero rows, and its `pivots`.
+
+    `matrix` holds the form and `pivots` its leading columns. Two matrices have the same row space iff their forms are equal. Over Q a large
+    form comes from p-adic lifting [D82] and is checked exactly; over Q(a) it is the form of the block matrix, read in blocks. Raises
+    nothing for a Matrix of any shape.
+
+    >>> from faultspace.exact import Matrix, row_echelon
+    >>> form = row_echelon(Matrix.of([[0, 2, 4], [1, 1, 1], [1, 3, 5]]))
+    >>> form.matrix, form.pivots
+    ([[1, 0, -1], [0, 1, 2]], (0, 1))
+    """
     d = matrix.field.degree
     echelon = _lifted_echelon(matrix.flint) if _is_large(matrix) else None
     if echelon is None:
@@ -290,7 +323,14 @@ def _lifted_echelon(rational: Any) -> Any:
 
 
 def right_null_space(matrix: Matrix) -> Matrix:
-    """Columns (ncols x nullity) that are a basis of {x : M x = 0}."""
+    """The columns of the result, ncols x nullity, are a basis of {x : M x = 0} for an nrows x ncols matrix M.
+
+    Each column has a 1 in the place of its free variable and zeros in the places of the others. Raises nothing for a Matrix of any shape.
+
+    >>> from faultspace.exact import Matrix, right_null_space
+    >>> right_null_space(Matrix.of([[1, 0, 2], [0, 1, 3]]))
+    [[-2], [-3], [1]]
+    """
     echelon = row_echelon(matrix)
     field, d = matrix.field, matrix.field.degree
     pivots = set(echelon.pivots)
@@ -312,7 +352,15 @@ def right_null_space(matrix: Matrix) -> Matrix:
 
 
 def left_null_space(matrix: Matrix) -> Matrix:
-    """Rows (nullity x nrows) that are a basis of {y : y M = 0}."""
+    """The rows of the result, nullity x nrows, are a basis of {y : y M = 0} for an nrows x ncols matrix M.
+
+    Of the matrix [O_s T_s] of a window they are the relations that the outputs satisfy on s samples. Raises nothing for a Matrix of any
+    shape.
+
+    >>> from faultspace.exact import Matrix, left_null_space
+    >>> left_null_space(Matrix.of([[1, 2], [2, 4], [0, 1]]))
+    [[-2, 1, 0]]
+    """
     return right_null_space(matrix.transposed()).transposed()
 
 

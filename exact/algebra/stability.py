@@ -53,5 +53,15 @@ def is_schur(coefficients: Sequence[Fraction | int]) -> bool:
 
 
 def is_stable(A: Matrix) -> bool:
-    """Whether all eigenvalues of A, n x n over Q or Q(a), lie inside the unit circle. Raises InvalidInput over GF(p)."""
+    """This tells whether all eigenvalues of A, an n x n Matrix over Q or Q(a), lie inside the unit circle.
+
+    Over Q(a) it is asked for every embedding of the field in C. No eigenvalue is computed: the recursion of Schur and Cohn [S17] decides it
+    on the coefficients of det(qI - A).
+
+    Raises InvalidInput over GF(p), where there is no unit circle, and for a matrix that is not square.
+
+    >>> from faultspace.exact import Matrix, is_stable
+    >>> is_stable(Matrix.of([["1/2", 100], [0, "-1/2"]])), is_stable(Matrix.of([[0, 1], [-1, 0]]))
+    (True, False)
+    """
     return is_schur(characteristic_polynomial(A))

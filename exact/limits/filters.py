@@ -25,9 +25,21 @@ _STABLE = "all roots of z^k + d_1 z^(k-1) + ... + d_k inside the unit circle"
 
 @dataclass(frozen=True)
 class Filter:
-    """sum_j numerator[j] q^-j / sum_j denominator[j] q^-j, from `noise` channels of white noise to `channels` of signal.
+    """This rational filter makes a signal out of white noise: it is sum_j numerator[j] q^-j / sum_j denominator[j] q^-j.
 
-    The denominator begins with 1, ends with a nonzero coefficient and is Schur-stable; `Filter.of` checks.
+    The white noise has unit covariance. `numerator` is a tuple of matrices over lag, each of shape channels x noise, with `noise` the
+    number of white noises that come in and `channels` that of signals that come out; `denominator` is a tuple of rationals over lag that
+    begins with 1, ends with a nonzero coefficient and is stable. `Filter.of` takes lists and checks all this; at most 256 lags are
+    supported.
+
+    Raises InvalidInput, in `Filter.of`, for anything else.
+
+    >>> from faultspace.exact import Filter
+    >>> colored = Filter.of([[["1"]]], ["1", "-1/2"])  # u(k) = u(k-1) / 2 + e(k)
+    >>> colored.channels, colored.noise, colored.memory
+    (1, 1, 1)
+    >>> colored.to_json()
+    {'num': [[['1']]], 'den': ['1', '-1/2']}
     """
 
     numerator: tuple[Matrix, ...]
@@ -91,7 +103,17 @@ class Filter:
 
 
 def read_filter(data: object, *, channels: int, where: str) -> Filter:
-    """The filter of an experiment's JSON for a signal of so many channels. Raises InvalidInput with one line naming the place."""
+    """The result is the Filter of an experiment's file, for a signal of so many channels; `where` is how messages call it.
+
+    `data` is a list of matrices over lag, each of shape channels x noise, or a dict with "num", such a list, and "den", a list of rationals
+    that begins with "1".
+
+    Raises InvalidInput with one line that names the place.
+
+    >>> from faultspace.exact import read_filter
+    >>> read_filter([[["1"]], [["1/2"]]], channels=1, where="u_filter").memory
+    1
+    """
     if not isinstance(data, Mapping):
         return Filter.of(data, channels=channels, where=where)
     if set(data) != {"num", "den"}:

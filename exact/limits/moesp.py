@@ -30,7 +30,21 @@ LONGEST_ENTRY = 24
 
 @dataclass(frozen=True, repr=False)
 class PopulationLimits(Shown):
-    """past_inputs (PI-MOESP), past_outputs (PO-MOESP), and the limits of B, D in the basis of the given A and C (None: not unique)."""
+    """This is what subspace identification converges to for one Experiment: both limits, and B and D of the regressions; `limit` makes it.
+
+    `past_inputs` (PI-MOESP) and `past_outputs` (PO-MOESP) are limits of shape s p x (rows of the instruments), with their ranks beside that
+    of O_s. `true_AC` and `moesp` are the limits of B (n x nu) and D (p x nu) in the basis of the true A and C, by output error and by
+    MOESP's own regression, and None where they are not unique; `bias` subtracts the true ones. Source: [G25] Proposition 1; [V93] and
+    [VV07] for the methods. Raises nothing by itself.
+
+    >>> import faultspace as fs
+    >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[0]]}
+    >>> found = fs.limit({**system, "s": 2, "past": 2, "u_filter": [[[1, 0]]], "v_filter": [[[0, 1]]]})
+    >>> found
+    <PopulationLimits: 1 state, 1 fault, 1 output, 1 input; s = 2, past = 2>
+    >>> found.true_AC.B, found.bias(found.true_AC).B
+    ([[1]], [[0]])
+    """
 
     experiment: Experiment
     known: Covariances

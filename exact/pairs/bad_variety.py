@@ -98,9 +98,18 @@ class BadEquations:
 
 
 def bad_set(pencil: Exceptional) -> BadSet:
-    """Dimension and codimension of the bad P, any system over any field (as a variety, over the closure).
+    """The result is the dimension and the codimension of the bad P, the n_z x r matrices whose pair is not equivalent to the system.
 
-    Raises InvalidInput where there are more than MAX_STRATA strata to compare.
+    `pencil` is that of `exceptional`, of any system over any field; dimensions are those over the algebraic closure. The BadSet also lists
+    the `strata`, by the minimal indices of what L(q) P spans. Source: [F75], [G25] Theorem 3.
+
+    Raises InvalidInput where there are more than 100000 strata to compare.
+
+    >>> from faultspace.exact import ResidualSystem, bad_set, exceptional, kernel_representation
+    >>> system = ResidualSystem.of([[0, 1], [0, 0]], [[1, 0], [0, 1]], [[1, 0], [0, 1]], [[0, 0], [0, 0]])
+    >>> found = bad_set(exceptional(kernel_representation(system)))
+    >>> found.dimension, found.codimension, [stratum.indices for stratum in found.strata]
+    (5, 3, [(0,), (1,)])
     """
     degrees, r = pencil.left_degrees, pencil.columns
     if r == 0:
@@ -116,7 +125,18 @@ def bad_set(pencil: Exceptional) -> BadSet:
 
 
 def bad_equations(pencil: Exceptional) -> BadEquations:
-    """The coefficients of D(q; P) expanded in P and factored over the field. Raises InvalidInput beyond MAX_ENTRIES, or over Q(a)."""
+    """The result is the equations of the bad P: the zeta + 1 coefficients of D(q; P), expanded in the entries of P and factored.
+
+    `pencil` is that of `exceptional`, over Q or a prime field, with at most 16 entries in P, which is n_z x r and bad iff all coefficients
+    are 0. The BadEquations has `entries`, the sympy symbols p11, p12, ..., `equations` and `factors`. Source: [G25] Theorem 3.
+
+    Raises InvalidInput for more entries, and over Q(a).
+
+    >>> from faultspace.exact import ResidualSystem, bad_equations, exceptional, kernel_representation
+    >>> found = bad_equations(exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]))))
+    >>> found.entries, found.equations
+    ((p11, p21), (-p11 + p21/2, -p21))
+    """
     field, n_z, r = pencil.system.field, pencil.n_z, pencil.columns
     if isinstance(field, NumberField):
         raise InvalidInput(f"bad set: equations are expanded over Q and prime fields, got {field}; coefficient_forms has no such limit")

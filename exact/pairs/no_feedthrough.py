@@ -107,7 +107,19 @@ class ZeroFeedthrough:
 
 
 def zero_feedthrough(kernel: KernelRepresentation) -> ZeroFeedthrough:
-    """How far G = 0 pins F and v. Raises InvalidInput unless G = 0 and the system is left-invertible."""
+    """The result says how far the knowledge that G = 0 pins the fault matrix F (n x m), and with it the fault signal.
+
+    `kernel` is the KernelRepresentation of a left-invertible system with G = 0. The ZeroFeedthrough has `pins_F` (whether F is known up to
+    a basis), `pins_v`, `ambiguity`, a number of dimensions, an `alternative` F' of another column space where there is one, and both delays
+    in samples. Source: [G25] section V, [M73] and [TSH01] for the subspaces, [HP98] for recovery.
+
+    Raises InvalidInput unless G = 0 and the system is left-invertible.
+
+    >>> from faultspace.exact import ResidualSystem, kernel_representation, zero_feedthrough
+    >>> found = zero_feedthrough(kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])))
+    >>> found.pins_F, found.ambiguity, found.alternative.F  # C F = 0: the fault is seen one sample late
+    (False, 1, [[1], [0]])
+    """
     system = kernel.system
     if not system.G.is_zero():
         raise InvalidInput("G: got a nonzero feedthrough, expected G = 0; problem (11) itself is answered by fault_space")

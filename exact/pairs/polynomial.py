@@ -172,7 +172,19 @@ class PairVerdict:
 
 
 def exceptional(kernel: KernelRepresentation) -> Exceptional:
-    """The pencil of the fault space of a system, given by its kernel representation; any system over any field."""
+    """The result is the pencil q b - a of the fault space of a system: D(q; P) = det [P | q b - a] says which P are bad.
+
+    `kernel` is the KernelRepresentation of any system over any field. The Exceptional has `n_z` and `columns` (r, the normal rank), the
+    shape of every P, `zeta`, the number of zeros of every good pair, `b` and `a` (n_z x zeta), and the `fixed` zeros that no P moves.
+    Source: [G25] Theorem 3, [M73] and [TSH01] for the subspaces, [F75] for the rows of the left kernel.
+
+    Raises ArithmeticError if the space does not have the dimension r + zeta, which would be an error of ours.
+
+    >>> from faultspace.exact import ResidualSystem, exceptional, kernel_representation
+    >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
+    >>> pencil.n_z, pencil.columns, pencil.zeta, pencil.b, pencil.a
+    (2, 1, 1, [[1], [0]], [[1/2], [1]])
+    """
     space = fault_space(kernel)
     system = space.system
     echelon = row_echelon(space.basis)
@@ -189,7 +201,21 @@ def exceptional(kernel: KernelRepresentation) -> Exceptional:
 
 
 def judge(pencil: Exceptional, P: object) -> PairVerdict:
-    """The verdict on P, what `Matrix.of` takes, n_z x r over the system's field. Raises InvalidInput for another shape."""
+    """The verdict on a choice P of fault matrices (Fhat P, Ghat P) says whether it keeps the behaviour, and which zeros it has.
+
+    `pencil` is that of `exceptional`; P is n_z x r over the system's field, a Matrix, nested lists or a sympy matrix. The PairVerdict has
+    `good`, `polynomial` = D(q; P) (ascending, () where P is bad), `rank`, `system`, `finite_zeros` and a `reason` in words. Source: [G25]
+    Theorem 3 (ii), repaired: P of full column rank is not enough.
+
+    Raises InvalidInput for another shape or field.
+
+    >>> from faultspace.exact import ResidualSystem, exceptional, judge, kernel_representation
+    >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
+    >>> judge(pencil, [[0], [1]]).reason
+    'D(q; P) is not zero: 1 finite and 0 infinite zeros'
+    >>> judge(pencil, [[0], [0]]).good
+    False
+    """
     matrix = pair_matrix(pencil, P)
     return PairVerdict(pencil, matrix, rank(matrix), polynomial_at(pencil, matrix))
 

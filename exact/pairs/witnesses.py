@@ -67,9 +67,17 @@ class NoBadPair:
 
 
 def good_columns(pencil: Exceptional) -> GoodColumns:
-    """A good P with entries 0 and 1, one 1 a column, found without a search and decided exactly.
+    """The result is a good P (n_z x r) with entries 0 and 1, a single 1 in each column, found without a search and decided exactly.
 
-    The columns are the first independent ones of L(0), so that D(0; P) is not 0 either unless 0 is a fixed zero.
+    `pencil` is that of `exceptional`. `chosen` lists the r columns of [Fhat; Ghat] that are an equivalent pair by themselves: the first
+    independent columns of L(0), L(q) being a minimal basis, whose rank drops nowhere. Source: [F75], [G25] Theorem 3.
+
+    Raises ArithmeticError if the construction failed, which would be an error of ours.
+
+    >>> from faultspace.exact import ResidualSystem, exceptional, good_columns, kernel_representation
+    >>> found = good_columns(exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]))))
+    >>> found.chosen, found.verdict.good
+    ((0,), True)
     """
     field = pencil.system.field
     at_zero = stacked(Matrix.zero(field, 0, pencil.n_z), *(row.rows([0]) for row in pencil.left_kernel))
@@ -81,9 +89,19 @@ def good_columns(pencil: Exceptional) -> GoodColumns:
 
 
 def bad_pair(pencil: Exceptional) -> BadPair | NoBadPair:
-    """A bad P of full column rank by construction, or why there is none.
+    """The result is a bad P (n_z x r) of full column rank by construction, or the reason why there is none.
 
-    There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1.
+    `pencil` is that of `exceptional`. There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1. A BadPair has
+    `verdict` with P and a null vector, and `conditions`, the rows that make it bad; a NoBadPair has the `reason`. Source: [F75], [G25]
+    Theorem 3.
+
+    Raises ArithmeticError if the construction failed, which would be an error of ours.
+
+    >>> from faultspace.exact import ResidualSystem, bad_pair, exceptional, kernel_representation
+    >>> system = ResidualSystem.of([[0, 1], [0, 0]], [[1, 0], [0, 1]], [[1, 0], [0, 1]], [[0, 0], [0, 0]])
+    >>> found = bad_pair(exceptional(kernel_representation(system)))
+    >>> found.verdict.rank, found.verdict.reason
+    (2, 'P has full column rank, but D(q; P) = 0: the pair has normal rank below 2')
     """
     field, r = pencil.system.field, pencil.columns
     if r == 0:

@@ -70,9 +70,22 @@ class GenericRanks:
 
 
 def generic_window_ranks(n: int, p: int, m: int, windows: Iterable[int]) -> GenericRanks:
-    """Generic ranks and drop conditions; `windows` are numbers of samples s >= 1. Raises ValueError for anything else.
+    """The result is the rank of [O_s T_s] for almost all A (n x n), C (p x n), F (n x m), G (p x m), and where it is smaller.
 
-    The number of minors grows as a binomial coefficient in s p and n + s m: meant for matrices up to about 10 x 8.
+    `windows` are numbers of samples s >= 1. Each GenericWindow has the `rank` over the field Q(entries) and the polynomials in the entries
+    that say where it drops: where one of the `common_factors` vanishes or all `conditions` do. They are the maximal minors, multiplied out;
+    their number grows as a binomial coefficient in s p and n + s m, so that this is meant for matrices up to about 10 x 8. Source: [G25]
+    Theorem 2 after [SB21] for the ranks themselves.
+
+    Raises ValueError for a dimension outside 0..9 and for a window that is no positive integer.
+
+    >>> from faultspace.exact import generic_window_ranks
+    >>> (window,) = generic_window_ranks(1, 2, 1, [2]).windows
+    >>> window.rank, window.common_factors
+    (3, (c11*g21 - c21*g11,))
+    >>> (square,) = generic_window_ranks(1, 1, 1, [1]).windows
+    >>> square.rank, square.conditions  # [c11 g11] has rank 0 where both vanish
+    (1, (c11, g11))
     """
     entries = indeterminates(n, p, m)
     found = []

@@ -210,10 +210,19 @@ class Stratification:
 
 
 def stratify(n: int, p: int, m: int, windows: int | None = None) -> Stratification:
-    """The strata of all A (n x n), C (p x n), F (n x m), G (p x m).
+    """The result divides all A (n x n), C (p x n), F (n x m), G (p x m) into strata on which the ranks of all windows are constant.
 
-    `windows` (default n + 3) is at least 1. Raises ValueError for other dimensions and windows, and NonlinearCondition
-    where a condition met is linear in no entry (not seen up to n = 2).
+    The strata do not overlap and cover all values over every field of characteristic 0; each is given by equations and inequations in the
+    entries and comes with the rows that prove its ranks. `windows`, n + 3 by default, is the number of samples up to which identities are
+    expanded later. Source: [Si69], whose algorithm is run on indeterminates; [F75] for the indices.
+
+    Raises ValueError for a dimension outside 0..9 and for windows below 1, and NonlinearCondition where a condition is linear in no entry,
+    which was not seen up to n = 2.
+
+    >>> from faultspace.exact import stratify
+    >>> found = stratify(1, 1, 0)
+    >>> [(stratum.equations, stratum.inequations, stratum.left_minimal_indices) for stratum in found.strata]
+    [((), (c11,), (1,)), ((c11,), (), (0,))]
     """
     windows = n + 3 if windows is None else windows
     entries = indeterminates(n, p, m)

@@ -28,7 +28,18 @@ class AmbiguousWord:
 
 
 def delay_known_state(kernel: KernelRepresentation) -> int | None:
-    """Least l with rank T_(l+1) - rank T_l = m; None unless left-invertible; 0 without faults."""
+    """The result is the least l with which r(0), ..., r(l) determine v(0) when x(0) is known, a number of samples; None where none do.
+
+    It is the least l with rank T_(l+1) - rank T_l = m, and exists iff the system is left-invertible; it is 0 where there is no fault.
+    `kernel` is a KernelRepresentation. Source: [SM69].
+
+    Raises nothing for a KernelRepresentation.
+
+    >>> from faultspace.exact import ResidualSystem, delay_known_state, kernel_representation
+    >>> late = ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])
+    >>> delay_known_state(kernel_representation(late))
+    2
+    """
     system = kernel.system
     if kernel.normal_rank < system.m:
         return None
@@ -41,9 +52,18 @@ def delay_known_state(kernel: KernelRepresentation) -> int | None:
 
 
 def delay_unknown_state(kernel: KernelRepresentation) -> int | None:
-    """Least l in 0..n such that r(0..l) determines v(0) whatever x(0) is; None where there is none; 0 without faults.
+    """The result is the least number l with which r(0), ..., r(l) determine v(0) whatever x(0) is; None where none do.
 
-    The chain modulo a prime finds it, and shows that fewer samples do not do; that l samples do is decided exactly.
+    It is a number of samples, at most n, and 0 where there is no fault. A recursion modulo a prime finds it and shows that fewer samples do
+    not do; that l samples do is decided exactly. `kernel` is a KernelRepresentation. Source: [HP98], [MZ10], [K11].
+
+    Raises nothing for a KernelRepresentation.
+
+    >>> from faultspace.exact import ResidualSystem, delay_unknown_state, kernel_representation
+    >>> zero_at_2 = ResidualSystem.of([["1/2"]], [["-3/2"]], [[1]], [[1]])
+    >>> no_zero = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
+    >>> [delay_unknown_state(kernel_representation(system)) for system in (zero_at_2, no_zero)]
+    [None, 1]
     """
     system = kernel.system
     for delay in range(_first_determined(kernel.image.system), system.n + 1):
@@ -64,7 +84,18 @@ def largest_output_nulling(system: ResidualSystem) -> Matrix:
 
 
 def left_inverse(system: ResidualSystem, delay: int, *, known_state: bool) -> Matrix | None:
-    """m x p(delay + 1): what recovers v(0) from r(0..delay), or None where nothing does."""
+    """The result is a matrix of shape m x p(delay + 1) that takes r(0), ..., r(delay) to v(0), or None where there is none.
+
+    With `known_state` the outputs are those from x(0) = 0, else they come from any initial state; `delay` is a number of samples >= 0.
+    Source: [SM69] for a known state, [K11] for an unknown one.
+
+    Raises nothing for a ResidualSystem.
+
+    >>> from faultspace.exact import ResidualSystem, left_inverse
+    >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
+    >>> left_inverse(system, 1, known_state=False), left_inverse(system, 0, known_state=False)  # v(0) = r(1) - r(0) / 2
+    ([[-1/2, 1]], None)
+    """
     built = toeplitz_matrix(system, delay + 1) if known_state else window_matrix(system, delay + 1)
     skipped = Matrix.zero(system.field, system.m, 0 if known_state else system.n)
     wanted = beside(skipped, Matrix.identity(system.field, system.m), Matrix.zero(system.field, system.m, system.m * delay))

@@ -25,7 +25,7 @@ from flint import fmpq
 from ..algebra.fields import NumberField, PrimeField
 from ..algebra.matrices import Matrix, beside, stacked
 from ..system.modular import Image, image
-from ..system.systems import FaultySystem, ResidualSystem
+from ..system.systems import ResidualSystem, System
 from .relations import integer_relations, relations_over_prime_field
 from .zero_output import ZeroOutputChain, zero_output_chain
 
@@ -45,7 +45,20 @@ class KernelRow:
 
 @dataclass(frozen=True)
 class KernelRepresentation:
-    """A minimal kernel representation of the output behaviour of `system`, with the modular image that shows it complete."""
+    """This is a minimal kernel representation N(q) r = 0 of the output behaviour of a system: all that its windows can tell.
+
+    The system has p outputs. `rows` ascend by degree; each has `coefficients` of shape (mu + 1) x p and the output of its `pivot`. Their
+    degrees are the left minimal indices, the largest is the `lag`, a number of samples, and p less their number is the normal rank;
+    `rank(s)` is rank [O_s T_s] for every s. `image` and `chain` are the system modulo a prime, with which the rows were shown to be all.
+    `kernel_representation` makes it. Source: [F75], [W91]; [G25] Theorem 2 after [SB21] for the ranks. Raises nothing by itself.
+
+    >>> from faultspace.exact import ResidualSystem, kernel_representation
+    >>> kernel = kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 0]], [[0], [1]]))
+    >>> kernel.left_minimal_indices, kernel.lag, kernel.normal_rank, [kernel.rank(s) for s in (1, 2, 3)]
+    ((2,), 2, 1, [2, 4, 5])
+    >>> kernel.rows[0].coefficients  # r_1(k+2) = r_2(k)
+    [[0, -1], [0, 0], [1, 0]]
+    """
 
     system: ResidualSystem
     rows: tuple[KernelRow, ...]
@@ -119,17 +132,27 @@ def annihilates(row: KernelRow, system: ResidualSystem) -> bool:
     return horner(row.coefficients, system).vanishes()
 
 
-def kernel_representation(system: ResidualSystem | FaultySystem) -> KernelRepresentation:
-    """The minimal kernel representation of the output behaviour (B and D play no part); exact for every system over every field."""
-    system = system.residual
-    picture = image(system)
-    most = _misleading_primes(system) + 1
+def kernel_representation(system: System) -> KernelRepresentation:
+    """The result is the minimal kernel representation of the output behaviour of a system, for every system over every field.
+
+    `system` is a System of either kind with p outputs; B and D play no part. Over Q and Q(a) the shape of the rows comes from a prime,
+    their coefficients from one exact solve by p-adic lifting [D82], and an exact check has the last word. Source: [F75], [W91].
+
+    Raises ArithmeticError if no prime fits, which the bound on misleading primes excludes.
+
+    >>> from faultspace.exact import ResidualSystem, kernel_representation
+    >>> kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[1]], [[]], m=0)).rows[0].coefficients  # 2 r(k+1) = r(k)
+    [[-1], [2]]
+    """
+    residual = system.residual
+    picture = image(residual)
+    most = _misleading_primes(residual) + 1
     for _ in range(most):
         chain = zero_output_chain(picture.system)
-        rows = _rows(system, picture, chain)
+        rows = _rows(residual, picture, chain)
         if rows is not None:
-            return KernelRepresentation(system, rows, picture, chain)
-        picture = image(system, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
+            return KernelRepresentation(residual, rows, picture, chain)
+        picture = image(residual, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
     raise ArithmeticError(f"no kernel rows fit at any of {most} primes")
 
 

@@ -15,7 +15,7 @@ from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
 from ..algebra.notation import matrix_lines, polynomial, several
 from ..algebra.polynomials import Poly, written
-from ..system.systems import FaultySystem, ResidualSystem
+from ..system.systems import ResidualSystem, System
 from .fault_columns import FaultSpace, fault_space, fault_space_dimension
 from .inversion import delay_known_state, delay_unknown_state
 from .kernel_rows import KernelRepresentation, kernel_representation
@@ -24,7 +24,18 @@ from .pencil import infinite_zero_orders, invariant_zero_polynomial, right_minim
 
 @dataclass(frozen=True, repr=False)
 class Structure(Shown):
-    """The structural invariants of a residual system; names as in the module `pencil` and `kernel_representation`."""
+    """This is everything that is known exactly about a system with n states, m faults and p outputs; `analyze` makes it.
+
+    `kernel` has the lag (a number of samples), the left minimal indices and the window ranks; `right_minimal_indices`,
+    `infinite_zero_orders` and `invariant_zero_polynomial` (ascending coefficients) are those of the pencil [[qI - A, -F], [C, G]]; `zeta`
+    is the number of zeros, finite and infinite; the delays are numbers of samples, or None; `fault_space` is the limit of problem (11).
+    Source: [G25], [K80] 6.3 and [VD79] for the pencil. Raises nothing by itself.
+
+    >>> import faultspace as fs
+    >>> found = fs.analyze(fs.System(A=[["1/2"]], F=[["-3/2"]], C=[[1]], G=[[1]]))
+    >>> found.invariant_zero_polynomial, found.zeta, found.delay_known_state, found.delay_unknown_state  # a zero at 2
+    ((-2, 1), 1, 0, None)
+    """
 
     kernel: KernelRepresentation
     right_minimal_indices: tuple[int, ...]
@@ -116,7 +127,7 @@ class Structure(Shown):
         }
 
 
-def analyze(system: ResidualSystem | FaultySystem) -> Structure:
+def analyze(system: System) -> Structure:
     """Everything that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
 
     `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
@@ -133,7 +144,7 @@ def analyze(system: ResidualSystem | FaultySystem) -> Structure:
     >>> found.kernel.lag, found.delay_known_state
     (2, 0)
     """
-    if not isinstance(system, (ResidualSystem, FaultySystem)):
+    if not isinstance(system, System):
         raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
     system = system.residual
     kernel = kernel_representation(system)

@@ -19,7 +19,7 @@ from ...exact.limits.experiments import Experiment
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
-from ...exact.system.systems import FaultySystem, ResidualSystem
+from ...exact.system.systems import ResidualSystem, System
 from . import checker
 from . import limit_certificates as limits
 from . import structure_certificates as structure
@@ -97,7 +97,7 @@ KINDS: dict[str, _Kind] = {
 OF_LIMITS = ("input-limit", "moesp-limit")
 
 
-def certify(subject: ResidualSystem | FaultySystem | Experiment | Mapping[str, Any], kind: str, **options: Any) -> Certificate:
+def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **options: Any) -> Certificate:
     """The certificate of this kind about a system: a statement with a witness, as a JSON-ready dict that `check` can decide.
 
     `subject` is an exact system (its inputs play no part), or, for "moesp-limit" and "input-limit", an Experiment or the dict of an
@@ -183,12 +183,12 @@ def check(certificate: Mapping[str, Any], systems: Iterable[Any] = ()) -> Checke
       ...
     faultspace.proofs.trust.checker.Rejected: an eigenvalue is not inside the unit circle
     """
-    insisted = [one.to_json() if isinstance(one, (ResidualSystem, FaultySystem, Experiment)) else one for one in systems]
+    insisted = [one.to_json() if isinstance(one, (System, Experiment)) else one for one in systems]
     return Checked(*checker.verify(certificate, insisted))
 
 
 def _system(given: Any, name: str) -> ResidualSystem:
-    if not isinstance(given, (ResidualSystem, FaultySystem)):
+    if not isinstance(given, System):
         raise InvalidInput(f"{name}: got {shorten(given)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
     return given.residual
 
