@@ -12,7 +12,7 @@ from importlib import import_module
 
 from ..base.errors import InvalidInput
 from .adversary.attacking import attacking, of_reading, of_row
-from .evidence.corpus import Progress
+from .evidence.corpus import Progress, describe
 from .hypotheses import experiments
 from .rocq.build import BrokenTheory, NoRocq, NotProved, sources
 from .rocq.locks import held
@@ -68,7 +68,7 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
         results.append(ClaimResult(claim, tuple(readings)))
     rows = tuple(of_row(row, attacks) for row in _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report))
     report("done", total, total)
-    corpus = bench.corpus.words if "corpus" in vars(bench) else ""
+    corpus = describe(bench.corpus) if "corpus" in vars(bench) else ""
     return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.told)
 
 

@@ -32,7 +32,7 @@ from ..claims.common import delays, ranks_and_inversion, spaces, zeros
 from ..claims.trajectory_recovered import zeros_are_hidden_modes
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.attacks import Aim, Attack, Family, Point, Witness
-from ..evidence.corpus import Dossier, examine
+from ..evidence.corpus import Evidence, examine
 from ..evidence.pairs_by_polynomial import examine_judged, pencil_of
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
@@ -55,7 +55,7 @@ from .structure_families import (
     system_of,
 )
 
-Fails = Callable[[Dossier], bool]
+Fails = Callable[[Evidence], bool]
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
 Decide = Callable[[ResidualSystem], tuple[str, list[Certificate]] | None]
 
@@ -196,38 +196,45 @@ def _standing() -> Iterator[Attack]:
 # -- what is false ---------------------------------------------------------------------------------------------------------
 
 
-def _minimal(d: Dossier) -> bool:
+def _minimal(d: Evidence) -> bool:
     return d.left_invertible and d.observable and d.controllable
 
 
-def _finite_only(d: Dossier) -> bool:
-    return _minimal(d) and any(d.rank(s) != d.n + s * d.m - (d.finite_zeros or 0) for s in range(max(d.n, 1), d.n + 3))
+def _finite_only(d: Evidence) -> bool:
+    return _minimal(d) and any(
+        d.kernel.rank(s) != d.system.n + s * d.system.m - d.finite_zeros for s in range(max(d.system.n, 1), d.system.n + 3)
+    )
 
 
-def _every_window(d: Dossier) -> bool:
-    return _minimal(d) and any(d.rank(s) != d.n + s * d.m - (d.zeta or 0) for s in range(1, d.n + 3))
+def _every_window(d: Evidence) -> bool:
+    return _minimal(d) and any(d.kernel.rank(s) != d.system.n + s * d.system.m - d.zeta for s in range(1, d.system.n + 3))
 
 
-def _early_gap(d: Dossier, known: bool) -> bool:
+def _early_gap(d: Evidence, known: bool) -> bool:
     delay = d.delay_known_state if known else d.delay_unknown_state
     if not (d.observable and d.left_invertible and delay is not None):
         return False
-    return any(d.gap(s) != d.m for s in range(max(delay, d.n - 1, 1), d.n + 2))
+    return any(d.kernel.gap(s) != d.system.m for s in range(max(delay, d.system.n - 1, 1), d.system.n + 2))
 
 
-def _gap_not_m(d: Dossier) -> bool:
-    return d.observable and any(d.gap(s) != d.m for s in range(max(d.n, 1), d.n + 3))
+def _gap_not_m(d: Evidence) -> bool:
+    return d.observable and any(d.kernel.gap(s) != d.system.m for s in range(max(d.system.n, 1), d.system.n + 3))
 
 
-def _early_space(d: Dossier) -> bool:
-    if not (d.observable and d.left_invertible and d.delay_known_state is not None and d.n):
+def _early_space(d: Evidence) -> bool:
+    if not (d.observable and d.left_invertible and d.delay_known_state is not None and d.system.n):
         return False
-    return d.space_dimensions[max(d.n, d.delay_known_state) - 1] != d.limit_dimension
+    return d.space_dimensions[max(d.system.n, d.delay_known_state) - 1] != d.fault_space.dimension
 
 
-def _right_anyway(d: Dossier) -> bool:
+def _right_anyway(d: Evidence) -> bool:
     """The gap is m from n on, without controllability."""
-    return not d.controllable and d.observable and d.left_invertible and all(d.gap(s) == d.m for s in range(max(d.n, 1), d.n + 3))
+    return (
+        not d.controllable
+        and d.observable
+        and d.left_invertible
+        and all(d.kernel.gap(s) == d.system.m for s in range(max(d.system.n, 1), d.system.n + 3))
+    )
 
 
 def _first_column(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
@@ -259,11 +266,11 @@ def _first_column(system: ResidualSystem) -> tuple[str, list[Certificate]] | Non
     return None
 
 
-def _other_matrices(d: Dossier) -> bool:
+def _other_matrices(d: Evidence) -> bool:
     return d.observable and d.left_invertible and d.system.G.is_zero() and d.without_feedthrough != rank(d.system.F)
 
 
-def _state_needed(d: Dossier) -> bool:
+def _state_needed(d: Evidence) -> bool:
     return d.observable and d.left_invertible and d.delay_unknown_state is None
 
 
@@ -279,7 +286,7 @@ def _transfer_zeros(system: ResidualSystem) -> tuple[str, list[Certificate]] | N
     part = ResidualSystem(parts[0].transposed(), parts[1].transposed(), system.C @ basis, system.G)
     shown = [*zeros(system), make.finite_zeros(part), make.infinite_zeros(part)]
     zeta = len(shown[-2]["statement"]["invariant_zero_polynomial"]) - 1 + sum(shown[-1]["statement"]["infinite_zero_orders"])
-    fails = any(d.rank(s) != d.n + s * d.m - zeta for s in range(max(d.n, 1), d.n + 3))
+    fails = any(d.kernel.rank(s) != d.system.n + s * d.system.m - zeta for s in range(max(d.system.n, 1), d.system.n + 3))
     return (f"{system}, whose transfer function is that of its reachable part", shown) if fails else None
 
 
@@ -322,25 +329,23 @@ def _bad_on_a_line(system: ResidualSystem) -> tuple[str, list[Certificate]] | No
 # -- what stands -----------------------------------------------------------------------------------------------------------
 
 
-def wrong_delay(d: Dossier) -> bool:
-    if d.infinite_zero_orders is None:
-        return False
+def wrong_delay(d: Evidence) -> bool:
     if not d.left_invertible:
         return d.delay_known_state is not None
     return d.delay_known_state != max(d.infinite_zero_orders, default=0)
 
 
-def zeros_as_a_set(d: Dossier) -> bool:
-    if d.finite_zeros is None:
-        return False
+def zeros_as_a_set(d: Evidence) -> bool:
     return (d.delay_unknown_state is not None) != (d.left_invertible and zeros_are_hidden_modes(d.system))
 
 
-def wrong_signal(d: Dossier) -> bool:
-    if not (d.left_invertible and d.m and d.finite_zeros is not None and d.system.G.is_zero()):
+def wrong_signal(d: Evidence) -> bool:
+    if not (d.left_invertible and d.system.m and d.system.G.is_zero()):
         return False
-    hidden = d.n - rank(observability_matrix(d.system, d.n))
-    return zero_feedthrough(kernel_representation(d.system)).pins_v != (rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == hidden)
+    hidden = d.system.n - rank(observability_matrix(d.system, d.system.n))
+    return zero_feedthrough(kernel_representation(d.system)).pins_v != (
+        rank(d.system.C @ d.system.F) == d.system.m and d.finite_zeros == hidden
+    )
 
 
 def misplaced(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
@@ -381,10 +386,12 @@ def _thick_seen(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
     return _thick(system) if pencil_.observable and pencil_.columns and pencil_.zeta >= 1 else None
 
 
-def _range_lost(d: Dossier) -> bool:
+def _range_lost(d: Evidence) -> bool:
     """G = 0, rank CF = m, no finite zeros, and yet members of Z without feedthrough outside im F."""
     system = d.system
-    return system.G.is_zero() and rank(system.C @ system.F) == d.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
+    return (
+        system.G.is_zero() and rank(system.C @ system.F) == d.system.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
+    )
 
 
 def _thick(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:

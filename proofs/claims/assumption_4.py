@@ -15,7 +15,7 @@ from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.structure.signals import excitation_matrix, hankel, persistency, simulate
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.families import adversarial, random_systems
 from ..evidence.search import Box, Facts, Flags, systems_in_order
 from ..trust import structure_certificates as make
@@ -49,14 +49,14 @@ def n_unknown(bench: Workbench) -> Outcome:
 def lag(bench: Workbench) -> Outcome:
     """gap(s) = m for every s >= lag and, unless p = m, for no s < lag; neither observability nor any delay is used."""
 
-    def holds(d: Dossier) -> bool:
-        return all((d.gap(s) == d.m) == (s >= d.lag) for s in range(0, d.n + 3))
+    def holds(e: Evidence) -> bool:
+        return all((e.kernel.gap(s) == e.system.m) == (s >= e.kernel.lag) for s in range(0, e.system.n + 3))
 
-    return certify(bench, lambda d: d.left_invertible and d.p > d.m, holds, delays)
+    return certify(bench, lambda e: e.left_invertible and e.system.p > e.system.m, holds, delays)
 
 
 def _from(known_state: bool, shift: int) -> Test:
-    return gap_is_m_from(lambda d: max(delay_of(d, known_state) or 0, d.n + shift))
+    return gap_is_m_from(lambda e: max(delay_of(e, known_state) or 0, e.system.n + shift))
 
 
 # -- the condition on the data ---------------------------------------------------------------------------------------------

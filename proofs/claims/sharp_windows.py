@@ -13,7 +13,7 @@ from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.families import adversarial, random_systems
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
@@ -26,10 +26,10 @@ from .problem_11 import lag_plus_1
 def gap(bench: Workbench) -> Outcome:
     """gap(s) is the normal rank for exactly the s >= lag; where p = r the lag is 0, and it is so for every s."""
 
-    def holds(d: Dossier) -> bool:
-        return all((d.gap(s) == d.normal_rank) == (s >= d.lag) for s in range(0, d.n + 3))
+    def holds(e: Evidence) -> bool:
+        return all((e.kernel.gap(s) == e.kernel.normal_rank) == (s >= e.kernel.lag) for s in range(0, e.system.n + 3))
 
-    return certify(bench, lambda d: True, holds, ranks_and_inversion)
+    return certify(bench, lambda e: True, holds, ranks_and_inversion)
 
 
 def solutions(bench: Workbench) -> Outcome:

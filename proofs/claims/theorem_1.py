@@ -43,12 +43,12 @@ def n_plus_1_samples(bench: Workbench) -> Outcome:
     """
     failing = [d for d in bench.pairs if d.first_difference is not None and d.first_difference > max(d.first.n, d.second.n) + 1]
     outcome = certify_records(bench.pairs, failing, _words, _show)
-    longer = [d for d in bench.corpus.dossiers if d.lag > d.n]
+    longer = [e for e in bench.corpus if e.kernel.lag > e.system.n]
     if longer:
-        words = f"{longer[0].system} has a kernel row of degree {longer[0].lag}"
+        words = f"{longer[0].system} has a kernel row of degree {longer[0].kernel.lag}"
         shown = accepted(_of_one(longer[0].system))
         return Outcome(Verdict.REFUTED, words, shown, len(shown))
-    total, count = sum(d.weight for d in bench.corpus.dossiers), sum(d.accepted for d in bench.corpus.dossiers)
+    total, count = sum(e.weight for e in bench.corpus), sum(e.accepted for e in bench.corpus)
     words = f"{outcome.evidence}; by kernel rows, none of degree above n, every pair of the {total} systems of the corpus"
     return replace(outcome, evidence=words, accepted=outcome.accepted + count)
 

@@ -51,8 +51,8 @@ def _zeta(facts: Facts) -> Integers:
     return facts.n - facts.rank(late) + late * _normal_rank(facts)
 
 
-TWO_FAULTS = Condition(lambda w: w.dossier.normal_rank >= 2, lambda f, s: np.asarray(_normal_rank(f) >= 2))
-SOME_ZERO = Condition(lambda w: pencil_of(w.dossier.system).zeta >= 1, lambda f, s: np.asarray(_zeta(f) >= 1))
+TWO_FAULTS = Condition(lambda w: w.evidence.kernel.normal_rank >= 2, lambda f, s: np.asarray(_normal_rank(f) >= 2))
+SOME_ZERO = Condition(lambda w: pencil_of(w.evidence.system).zeta >= 1, lambda f, s: np.asarray(_zeta(f) >= 1))
 SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
 
 
@@ -66,7 +66,7 @@ def codimension() -> Experiment[Windowed]:
     """
 
     def at_least_two(subject: Windowed) -> bool:
-        size = bad_set(pencil_of(subject.dossier.system)).codimension
+        size = bad_set(pencil_of(subject.evidence.system)).codimension
         return size is None or size >= 2
 
     conclusion = Condition(at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
@@ -77,7 +77,7 @@ def bad_of_full_rank() -> Experiment[Windowed]:
     """bad-set: full column rank is not enough."""
 
     def exists(subject: Windowed) -> bool:
-        return isinstance(bad_pair(pencil_of(subject.dossier.system)), BadPair)
+        return isinstance(bad_pair(pencil_of(subject.evidence.system)), BadPair)
 
     conclusion = Condition(exists, lambda f, s: np.asarray((_normal_rank(f) >= 2) & (_zeta(f) >= 1)))
     proof = Proof(("bad_set_full_rank",), frozenset({"r >= 2", "zeta >= 1"}))
@@ -88,11 +88,11 @@ def placement() -> Experiment[Windowed]:
     """zero-assignment: polynomials of every degree up to zeta, each assigned and looked for in the pair; at least one column for P."""
 
     def reached(subject: Windowed) -> bool:
-        return every_polynomial_is_reached(pencil_of(subject.dossier.system))
+        return every_polynomial_is_reached(pencil_of(subject.evidence.system))
 
     words = "where r >= 1, every nonzero polynomial of degree at most zeta is the zero polynomial of some pair"
     conclusion = Condition(reached, lambda f, s: np.asarray(f.observable | (_zeta(f) == 0)))
-    some_column = Condition(lambda w: w.dossier.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
+    some_column = Condition(lambda w: w.evidence.kernel.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
     proof = Proof(("zero_assignment_observable",), frozenset({"observable"}))
     made = ("placement", "zero-assignment", words, MODEL, conclusion, _show, some_column, lambda n: NO_WINDOW, LONGER)
     return windowed(*made, proof=proof)

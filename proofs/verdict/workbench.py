@@ -1,7 +1,7 @@
 """What a check of a claim has at hand, and the two ways it comes to a verdict.
 
 Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, rivals
-certify       the statement on every dossier that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
+certify       the statement on every system of the corpus that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
 refute        the smallest counterexample in a box, found by search: REFUTED, or what `certify` says when there is none
 witnessed     the opposite of a statement, by the counterexample to it
 accepted      certificates, each put before the checker once more: headline certificates are never shown unchecked
@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import PairDossier, RivalDossier, pair_dossiers, rival_dossiers
-from ..evidence.corpus import Corpus, Dossier, Progress, build, describe, examine
+from ..evidence.corpus import Evidence, Progress, corpus, describe, examine
 from ..evidence.experiments import LimitDossier, limit_dossiers
 from ..evidence.pairs_by_polynomial import JudgedPair, judged_pairs
 from ..evidence.search import Box, Facts, Flags, smallest
@@ -24,7 +24,7 @@ from ..trust.structure_certificates import Certificate, accept
 from .verdicts import Outcome, Verdict
 
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
-Test = Callable[[Dossier], bool]
+Test = Callable[[Evidence], bool]
 Record = TypeVar("Record", PairDossier, RivalDossier, JudgedPair, LimitDossier)
 Made = TypeVar("Made")
 
@@ -38,9 +38,9 @@ class Workbench:
     progress: Progress
 
     @cached_property
-    def corpus(self) -> Corpus:
+    def corpus(self) -> tuple[Evidence, ...]:
         """Single systems with accepted certificates."""
-        return build(self.effort, self.jobs, self.progress)
+        return corpus(self.effort, self.jobs, self.progress)
 
     @cached_property
     def pairs(self) -> tuple[PairDossier, ...]:
@@ -102,18 +102,18 @@ def size(system: ResidualSystem) -> tuple[int, ...]:
 
 
 def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome:
-    """`holds` on every dossier of the corpus to which the statement applies."""
-    tried = [d for d in bench.corpus.dossiers if applies(d)]
-    failing = sorted((d for d in tried if not holds(d)), key=lambda d: size(d.system))
+    """`holds` on every system of the corpus to which the statement applies."""
+    tried = [e for e in bench.corpus if applies(e)]
+    failing = sorted((e for e in tried if not holds(e)), key=lambda e: size(e.system))
     if failing:
         system = failing[0].system
         return Outcome(Verdict.REFUTED, f"fails on {system}, the smallest of the corpus", accepted(show(system)), failing[0].accepted)
     if not tried:
         return Outcome(Verdict.ERROR, "no system of the corpus meets the hypotheses")
-    total = sum(d.weight for d in tried)
-    representative = next((d for d in tried if d.n), tried[0]).system
+    total = sum(e.weight for e in tried)
+    representative = next((e for e in tried if e.system.n), tried[0]).system
     evidence = f"no counterexample found in {total} systems: {describe(tried)}"
-    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(d.accepted for d in tried))
+    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(e.accepted for e in tried))
 
 
 def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], applies: Test, holds: Test, show: Show) -> Outcome:
@@ -123,8 +123,8 @@ def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], appl
     """
 
     def confirm(system: ResidualSystem) -> bool:
-        dossier = examine("search", system)
-        return applies(dossier) and not holds(dossier)
+        evidence = examine("search", system)
+        return applies(evidence) and not holds(evidence)
 
     found = smallest(box, candidate, confirm)
     if found is None:

@@ -157,7 +157,7 @@ def bench() -> Workbench:
     """A workbench with every ninth system of the quick corpus."""
     made = Workbench("quick", 1, quiet)
     sources = list(corpus._sources("quick"))[::9]
-    made.corpus = corpus.Corpus(tuple(corpus.examine(*source) for source in sources))
+    made.corpus = tuple(corpus.examine(*source) for source in sources)
     return made
 
 
@@ -202,7 +202,7 @@ def test_a_conclusion_broken_on_purpose_is_noticed(bench: Workbench) -> None:
     assert all(row.as_expected for row in ablate(bench, unsought, expected))
     blind = ablate(bench, replace(unsought, holds=lambda subject: True), expected)
     assert not all(row.as_expected for row in blind)
-    wrong = ablate(bench, replace(unsought, holds=lambda subject: subject.dossier.gap(subject.window) <= 1), expected)
+    wrong = ablate(bench, replace(unsought, holds=lambda subject: subject.evidence.kernel.gap(subject.window) <= 1), expected)
     assert not all(row.as_expected for row in wrong)
 
 
