@@ -180,7 +180,7 @@ def _witness(words: str, point: Point, shown: list[Certificate]) -> Witness:
     return Witness(words, point, tuple(shown))
 
 
-def _rivals(system: ResidualSystem, window: int) -> Iterator[tuple[KernelRepresentation, KernelRepresentation]]:
+def _alternatives(system: ResidualSystem, window: int) -> Iterator[tuple[KernelRepresentation, KernelRepresentation]]:
     """The system and pairs (Fhat P, Ghat P) at a window, P of small entries."""
     kernel = kernel_representation(system)
     space = fault_space(kernel, window)
@@ -199,11 +199,11 @@ def _late_difference(system: ResidualSystem) -> Found | None:
     """A system with the same (A, C) that agrees on n samples and differs later; both observable, controllable, left-invertible."""
     if not _regular(system):
         return None
-    for kernel, rival in _rivals(system, system.n):
-        difference = compare(kernel, rival).first_difference
-        if difference is not None and difference > system.n and _regular(rival.system):
-            shown = [make.window_equality(kernel, rival, system.n), comparison_certificate(kernel, rival)]
-            return f"{system} and F' = {rival.system.F}, G' = {rival.system.G}", shown
+    for kernel, alternative in _alternatives(system, system.n):
+        difference = compare(kernel, alternative).first_difference
+        if difference is not None and difference > system.n and _regular(alternative.system):
+            shown = [make.window_equality(kernel, alternative, system.n), comparison_certificate(kernel, alternative)]
+            return f"{system} and F' = {alternative.system.F}, G' = {alternative.system.G}", shown
     return None
 
 
@@ -211,11 +211,11 @@ def _other_behaviour(system: ResidualSystem) -> Found | None:
     """A pair taken at s = n, of normal rank m, that is not equivalent."""
     if not _regular(system):
         return None
-    for kernel, rival in _rivals(system, system.n):
-        if rival.normal_rank == system.m and compare(kernel, rival).first_difference is not None:
-            shown = [comparison_certificate(kernel, rival), make.left_invertible(rival)]
+    for kernel, alternative in _alternatives(system, system.n):
+        if alternative.normal_rank == system.m and compare(kernel, alternative).first_difference is not None:
+            shown = [comparison_certificate(kernel, alternative), make.left_invertible(alternative)]
             shown.append(make.fault_space(kernel, fault_space(kernel, system.n)))
-            return f"{system} with F' = {rival.system.F}, G' = {rival.system.G}", shown
+            return f"{system} with F' = {alternative.system.F}, G' = {alternative.system.G}", shown
     return None
 
 

@@ -33,7 +33,7 @@ from ..claims.trajectory_recovered import zeros_are_hidden_modes
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.attacks import Aim, Attack, Family, Point, Witness
 from ..evidence.corpus import Evidence, examine
-from ..evidence.pairs_by_polynomial import examine_judged, pencil_of
+from ..evidence.pairs_by_polynomial import examine_by_polynomial, pencil_of
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from .structure_families import (
@@ -302,7 +302,7 @@ def _other_split(system: ResidualSystem) -> tuple[str, list[Certificate]] | None
             P = Matrix.of(
                 [[int((i + shift) % rows == j) + tilt * int(i == j) for j in range(cols)] for i in range(rows)], shape=(rows, cols)
             )
-            pair = examine_judged("adversary", "unit", system, P, None, 1)
+            pair = examine_by_polynomial("adversary", "unit", system, P, None, 1)
             if pair.equal:
                 found[len(pair.zero_polynomial)] = pair.pair
     if len(found) < 2:
@@ -359,7 +359,7 @@ def misplaced(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
         while len(free) + len(pencil_.fixed) - 2 <= pencil_.zeta:
             wanted = multiply(free, pencil_.fixed)
             P = assign_zeros(pencil_, [field.write(x) for x in wanted]).P
-            pair = examine_judged("adversary", "placed", system, P, wanted, 1)
+            pair = examine_by_polynomial("adversary", "given zeros", system, P, wanted, 1)
             if not (pair.equal and pair.zero_polynomial == pair.wanted):
                 shown = [comparison_certificate(pencil_.kernel, kernel_representation(pair.pair)), make.finite_zeros(pair.pair)]
                 return f"{system}, wanted {list(map(str, wanted))}", shown

@@ -12,7 +12,7 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.families import adversarial, random_systems
-from ..evidence.pairs_by_polynomial import JudgedPair, pencil_of
+from ..evidence.pairs_by_polynomial import PairByPolynomial, pencil_of
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
@@ -64,12 +64,12 @@ def recoverable(bench: Workbench) -> Outcome:
 
 
 def _placed(bench: Workbench, applies: object) -> Outcome:
-    records = [d for d in bench.judged if d.wanted is not None and applies(d)]  # type: ignore[operator]
-    failing = [d for d in records if not (d.equal and d.zero_polynomial == d.wanted)]
+    records = [e for e in bench.pairs_by_polynomial if e.wanted is not None and applies(e)]  # type: ignore[operator]
+    failing = [e for e in records if not (e.equal and e.zero_polynomial == e.wanted)]
     return certify_records(records, failing, _words, show)
 
 
-def _words(pair: JudgedPair) -> str:
+def _words(pair: PairByPolynomial) -> str:
     return f"{words(pair)}, wanted zero polynomial {list(pair.wanted or ())}"
 
 

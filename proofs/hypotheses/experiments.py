@@ -22,7 +22,7 @@ from ...exact.limits.lyapunov import solve
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
 from ..claims.proposition_1 import show_words
-from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
+from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Experiment, Found, first_found
@@ -38,7 +38,7 @@ class Driven:
     at most s.
     """
 
-    record: LimitDossier
+    record: LimitEvidence
     model_right: bool
     autoregressive: bool
 
@@ -108,7 +108,7 @@ def _experiment(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -
     )
 
 
-def driven(record: LimitDossier) -> Driven:
+def driven(record: LimitEvidence) -> Driven:
     """The subject made of an experiment with certified limits."""
     found = limit(record.experiment)
     state, residual = found.past_inputs.state, record.experiment.system.residual

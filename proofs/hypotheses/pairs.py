@@ -19,7 +19,7 @@ from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..evidence.alternatives import PairDossier, comparison_certificate, examine_pair
+from ..evidence.alternatives import PairEvidence, comparison_certificate, examine_pair
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -163,19 +163,19 @@ def _agreeing(bench: Workbench) -> Iterator[Compared]:
 
 def _equivalent(bench: Workbench) -> Iterator[Compared]:
     """Pairs with equal behaviours and as many states: other fault matrices for the same (A, C), and other (A, C)."""
-    for rival in bench.rivals:
-        if rival.equal:
-            yield Compared(rival.system, rival.rival, None, True, rival.weight, rival.accepted)
+    for alternative in bench.alternatives:
+        if alternative.equal:
+            yield Compared(alternative.system, alternative.alternative, None, True, alternative.weight, alternative.accepted)
     for pair in (*bench.pairs, *_made(bench)):
         if pair.first_difference is None and pair.first.n == pair.second.n:
             yield Compared(pair.first, pair.second, None, True, pair.weight, pair.accepted)
 
 
-def _made(bench: Workbench) -> list[PairDossier]:
+def _made(bench: Workbench) -> list[PairEvidence]:
     """Equivalent pairs whose (A, C) are not the same, and aimed systems with other fault columns of Z for the same (A, C), certified."""
     others, aimed = (800, 100) if bench.full else (120, 25)
 
-    def made() -> list[PairDossier]:
+    def made() -> list[PairEvidence]:
         pairs = chain(equivalent_pairs(others), ((system, other_columns(system)) for system in aimed_systems(aimed)))
         return [examine_pair("made on purpose", *two) for two in pairs]
 

@@ -1,6 +1,6 @@
 """What a check of a claim has at hand, and the two ways it comes to a verdict.
 
-Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, rivals
+Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, alternatives
 certify       the statement on every system of the corpus that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
 refute        the smallest counterexample in a box, found by search: REFUTED, or what `certify` says when there is none
 witnessed     the opposite of a statement, by the counterexample to it
@@ -15,17 +15,17 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 from ...exact.system.systems import ResidualSystem
-from ..evidence.alternatives import PairDossier, RivalDossier, pair_dossiers, rival_dossiers
+from ..evidence.alternatives import AlternativeEvidence, PairEvidence, alternatives, compared_pairs
 from ..evidence.corpus import Evidence, Progress, corpus, describe, examine
-from ..evidence.experiments import LimitDossier, limit_dossiers
-from ..evidence.pairs_by_polynomial import JudgedPair, judged_pairs
+from ..evidence.experiments import LimitEvidence, certified_limits
+from ..evidence.pairs_by_polynomial import PairByPolynomial, pairs_by_polynomial
 from ..evidence.search import Box, Facts, Flags, smallest
 from ..trust.structure_certificates import Certificate, accept
 from .verdicts import Outcome, Verdict
 
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
 Test = Callable[[Evidence], bool]
-Record = TypeVar("Record", PairDossier, RivalDossier, JudgedPair, LimitDossier)
+Item = TypeVar("Item", PairEvidence, AlternativeEvidence, PairByPolynomial, LimitEvidence)
 Made = TypeVar("Made")
 
 
@@ -43,24 +43,24 @@ class Workbench:
         return corpus(self.effort, self.jobs, self.progress)
 
     @cached_property
-    def pairs(self) -> tuple[PairDossier, ...]:
+    def pairs(self) -> tuple[PairEvidence, ...]:
         """Pairs of systems with accepted certificates."""
-        return pair_dossiers(self.effort, self.jobs, self.progress)
+        return compared_pairs(self.effort, self.jobs, self.progress)
 
     @cached_property
-    def rivals(self) -> tuple[RivalDossier, ...]:
+    def alternatives(self) -> tuple[AlternativeEvidence, ...]:
         """Systems with other fault matrices for the same (A, C)."""
-        return rival_dossiers(self.effort, self.jobs, self.progress)
+        return alternatives(self.effort, self.jobs, self.progress)
 
     @cached_property
-    def judged(self) -> tuple[JudgedPair, ...]:
+    def pairs_by_polynomial(self) -> tuple[PairByPolynomial, ...]:
         """Pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
-        return judged_pairs(self.effort, self.jobs, self.progress)
+        return pairs_by_polynomial(self.effort, self.jobs, self.progress)
 
     @cached_property
-    def limits(self) -> tuple[LimitDossier, ...]:
+    def limits(self) -> tuple[LimitEvidence, ...]:
         """Experiments with certified population limits."""
-        return limit_dossiers(self.effort, self.jobs, self.progress)
+        return certified_limits(self.effort, self.jobs, self.progress)
 
     def once(self, name: str, find: Callable[[], Outcome]) -> Outcome:
         """An outcome that several readings share, found the first time it is asked for."""
@@ -150,13 +150,13 @@ def counterexample(words: str, box: object, certificates: Iterable[Certificate])
 
 
 def certify_records(
-    records: Sequence[Record],
-    failing: Sequence[Record],
-    words: Callable[[Record], str],
-    show: Callable[[Record], Iterable[Certificate]],
+    records: Sequence[Item],
+    failing: Sequence[Item],
+    words: Callable[[Item], str],
+    show: Callable[[Item], Iterable[Certificate]],
     unit: str = "pairs",
 ) -> Outcome:
-    """The same for pairs and rivals: `records` meet the hypotheses, `failing` are those among them that refute the statement."""
+    """The same for pairs and alternatives: `records` meet the hypotheses, `failing` are those among them that refute the statement."""
     if failing:
         shown = accepted(show(failing[0]))
         return Outcome(Verdict.REFUTED, f"fails on {words(failing[0])}", shown, failing[0].accepted)

@@ -19,7 +19,7 @@ from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.windows import observability_matrix
 from faultspace.proofs.claims import trajectory_recovered
 from faultspace.proofs.evidence.corpus import examine
-from faultspace.proofs.evidence.experiments import LimitDossier, examine_experiment, nilpotent_points
+from faultspace.proofs.evidence.experiments import LimitEvidence, examine_experiment, nilpotent_points
 from faultspace.proofs.evidence.families import adversarial
 from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
 from faultspace.proofs.evidence.seasonal_inputs import in_order, seasonal
@@ -67,7 +67,7 @@ def attack(seed: int) -> Experiment:
     return read_experiment(given | {"u_filter": {"num": lags, "den": [str(x) for x in den]}, "v_filter": [own, own]})
 
 
-def defied(d: LimitDossier) -> list[str]:
+def defied(d: LimitEvidence) -> list[str]:
     """The readings that this experiment refutes."""
     n, nu, past = d.experiment.system.residual.n, d.experiment.system.nu, d.experiment.past
     readings = {
