@@ -13,7 +13,7 @@ from importlib import import_module
 from ..base.errors import InvalidInput
 from .adversary.attacking import attacking, of_reading, of_row
 from .evidence.corpus import Progress, describe
-from .hypotheses import experiments
+from .hypotheses import ablations
 from .rocq.build import BrokenTheory, NoRocq, NotProved, sources
 from .rocq.locks import held
 from .rocq.theorems import Theorems
@@ -74,15 +74,15 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
 
 def _without_hypotheses(bench: Workbench, claims: set[str], machine: _Machine, report: Progress) -> tuple[Row, ...]:
     expected = expected_without()
-    chosen = [experiment for experiment in experiments() if experiment.claim in claims]
+    chosen = [ablation for ablation in ablations() if ablation.claim in claims]
     rows: list[Row] = []
-    for done, experiment in enumerate(chosen):
-        report(f"{experiment.claim} without its hypotheses", done, len(chosen))
+    for done, ablation in enumerate(chosen):
+        report(f"{ablation.claim} without its hypotheses", done, len(chosen))
         try:
-            rows += [_row_with_theorems(row, machine) for row in ablate(bench, experiment, expected[experiment.name])]
+            rows += [_row_with_theorems(row, machine) for row in ablate(bench, ablation, expected[ablation.name])]
         except Exception as error:  # as for a reading: it did not finish, and the others go on
             words = f"{type(error).__name__}: {error}"
-            rows.append(Row(experiment.name, experiment.claim, experiment.conclusion, (), Verdict.ERROR, words, None, (), 0))
+            rows.append(Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, (), 0))
     return tuple(rows)
 
 
@@ -102,7 +102,7 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
     """The theorems that these claims name."""
     names = {name for claim in claims for reading in claim.readings for name in reading.theorems}
     ids = {claim.id for claim in claims}
-    names |= {name for e in experiments() if e.claim in ids and e.proof is not None for name in e.proof.theorems}
+    names |= {name for one in ablations() if one.claim in ids and one.proof is not None for name in one.proof.theorems}
     if not names:
         return _Machine(None, None, "no theorem is named by these claims")
     try:

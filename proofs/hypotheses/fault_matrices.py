@@ -21,7 +21,7 @@ from ..evidence.alternatives import AlternativeEvidence, comparison_certificate,
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
 from .facets import degenerate, facets, flags, of_system
@@ -68,9 +68,9 @@ HYPOTHESES: dict[str, Callable[[Pair], bool]] = {
 }
 
 
-def theorem_3_ii() -> Experiment[Pair]:
+def theorem_3_ii() -> Ablation[Pair]:
     """The pair is equivalent to the system."""
-    return Experiment(
+    return Ablation(
         name="equivalent-pair",
         claim="theorem-3-ii",
         conclusion="(A, Fhat P, C, Ghat P) has the same output behaviour",

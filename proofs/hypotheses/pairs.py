@@ -23,7 +23,7 @@ from ..evidence.alternatives import PairEvidence, comparison_certificate, examin
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench
 from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
@@ -91,13 +91,13 @@ MODEL: dict[str, Callable[[Compared], bool]] = {
 }
 
 
-def theorem_1() -> Experiment[Compared]:
+def theorem_1() -> Ablation[Compared]:
     """Equal restricted behaviours on a window of n + 1 samples."""
 
     def long_enough(pair: Compared) -> bool:
         return pair.window is not None and pair.window >= max(pair.first.n, pair.second.n) + 1
 
-    return Experiment(
+    return Ablation(
         name="equal-on-a-window",
         claim="theorem-1",
         conclusion="behaviours equal on the window are equal for ever",
@@ -110,21 +110,21 @@ def theorem_1() -> Experiment[Compared]:
     )
 
 
-def theorem_3_i() -> Experiment[Compared]:
+def theorem_3_i() -> Ablation[Compared]:
     """Equal output behaviours of two systems with as many states: where the columns of the second lie."""
     words = "the columns [T F'; G'] of an equivalent system lie in Z, for some change T of its state"
     return _of_equivalent("columns-in-Z", words, _columns_in_space, Proof(("columns_after_change_of_state",)))
 
 
-def same_model() -> Experiment[Compared]:
+def same_model() -> Ablation[Compared]:
     """The same, with (A, C) as well: the outputs alone do not tell them."""
     words = "an equivalent system is (A, Fhat P, C, Ghat P), after some change of its state"
     # The theorem is about the second system in the coordinates where it has the (A, C) of the first.
     return _of_equivalent("same-model", words, _same_model, Proof(("theorem_3_part_i",), frozenset({SIMILAR})))
 
 
-def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool], proof: Proof) -> Experiment[Compared]:
-    return Experiment(
+def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool], proof: Proof) -> Ablation[Compared]:
+    return Ablation(
         name=name,
         claim="theorem-3-i",
         conclusion=words,

@@ -28,11 +28,11 @@ from ..evidence.pairs_by_polynomial import PairByPolynomial, examine_by_polynomi
 from ..evidence.search import Box, Facts, Integers, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
 from .facets import degenerate, flags, of_system
-from .placed import every_polynomial_is_reached
+from .given_zeros import every_polynomial_is_reached
 from .systems import MODEL
 from .windowed import NO_WINDOW, Condition, Windowed, windowed
 
@@ -56,7 +56,7 @@ SOME_ZERO = Condition(lambda w: pencil_of(w.evidence.system).zeta >= 1, lambda f
 SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
 
 
-def codimension() -> Experiment[Windowed]:
+def codimension() -> Ablation[Windowed]:
     """bad-set: codimension at least two.
 
     Why r, controllability and left-invertibility play no part: a hypersurface of bad P is f(P) = 0 with f irreducible, and f divides every
@@ -73,7 +73,7 @@ def codimension() -> Experiment[Windowed]:
     return _of_pencils("codimension", "the bad P have codimension at least 2", conclusion, None)
 
 
-def bad_of_full_rank() -> Experiment[Windowed]:
+def bad_of_full_rank() -> Ablation[Windowed]:
     """bad-set: full column rank is not enough."""
 
     def exists(subject: Windowed) -> bool:
@@ -84,7 +84,7 @@ def bad_of_full_rank() -> Experiment[Windowed]:
     return _of_pencils("bad-of-full-rank", "some P of full column rank is bad", conclusion, proof)
 
 
-def placement() -> Experiment[Windowed]:
+def placement() -> Ablation[Windowed]:
     """zero-assignment: polynomials of every degree up to zeta, each assigned and looked for in the pair; at least one column for P."""
 
     def reached(subject: Windowed) -> bool:
@@ -98,7 +98,7 @@ def placement() -> Experiment[Windowed]:
     return windowed(*made, proof=proof)
 
 
-def _of_pencils(name: str, words: str, conclusion: Condition, proof: Proof | None) -> Experiment[Windowed]:
+def _of_pencils(name: str, words: str, conclusion: Condition, proof: Proof | None) -> Ablation[Windowed]:
     return windowed(name, "bad-set", words, SIZES, conclusion, _show, windows=lambda n: NO_WINDOW, box=WIDER, proof=proof)
 
 
@@ -171,9 +171,9 @@ def _aimed(count: int) -> list[PairByPolynomial]:
     return found
 
 
-def determinant() -> Experiment[Chosen]:
+def determinant() -> Ablation[Chosen]:
     """one-determinant: what D(q; P) says is what the certificates say; there is nothing to search for where no pair tried disagrees."""
-    return Experiment(
+    return Ablation(
         name="determinant",
         claim="one-determinant",
         conclusion="D(q; P) is the zero polynomial of the pair, and 0 iff P is bad",
@@ -186,13 +186,13 @@ def determinant() -> Experiment[Chosen]:
     )
 
 
-def zeros_of_pair() -> Experiment[Chosen]:
+def zeros_of_pair() -> Ablation[Chosen]:
     """zeros-of-pairs: as many zeros as the system has."""
     hypotheses: dict[str, Callable[[Chosen], bool]] = {
         **OF_SYSTEM,
         GOOD: lambda pair: pair.record.pair_normal_rank == pair.record.normal_rank,
     }
-    return Experiment(
+    return Ablation(
         name="zeros-of-pair",
         claim="zeros-of-pairs",
         conclusion="the pair has zeta zeros, finite and infinite",

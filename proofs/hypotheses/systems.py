@@ -9,7 +9,7 @@ import numpy as np
 from ...exact.algebra.matrices import rank
 from ..claims.common import delays, spaces, zeros
 from ..evidence.search import Box, Facts, Flags
-from ..verdict.ablation import Experiment, Proof
+from ..verdict.ablation import Ablation, Proof
 from .facets import facets
 from .windowed import (
     CONTROLLABLE,
@@ -50,7 +50,7 @@ GAP_IS_M = Condition(lambda w: w.evidence.kernel.gap(w.window) == w.evidence.sys
 LIMIT_REACHED = Condition(lambda w: w.evidence.space_dimensions[w.window - 1] == w.evidence.fault_space.dimension, _settled)
 
 
-def rank_formula() -> Experiment[Windowed]:
+def rank_formula() -> Ablation[Windowed]:
     """theorem-2, zeros of the pencil counted."""
     hypotheses = {**MODEL, "s >= n": from_n()}
     conclusion = Condition(_formula, _formula_look)
@@ -58,7 +58,7 @@ def rank_formula() -> Experiment[Windowed]:
     return windowed("rank-formula", "theorem-2", "rank [O_s T_s] = n + s m - zeta", hypotheses, conclusion, zeros, proof=proof)
 
 
-def gap() -> Experiment[Windowed]:
+def gap() -> Ablation[Windowed]:
     """proposition-3 as the paper bounds s."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= n": from_n()}
     proof = _proof("proposition_3", uses={INVERTIBLE, "s >= n"})
@@ -66,14 +66,14 @@ def gap() -> Experiment[Windowed]:
     return windowed("gap", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays, proof=proof, implied=implied)
 
 
-def gap_from_lag() -> Experiment[Windowed]:
+def gap_from_lag() -> Ablation[Windowed]:
     """proposition-3 with the sharp bound."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= lag": from_lag()}
     proof = _proof("proposition_3_lag", uses={INVERTIBLE, "s >= lag"})
     return windowed("gap-from-lag", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays, proof=proof)
 
 
-def solutions() -> Experiment[Windowed]:
+def solutions() -> Ablation[Windowed]:
     """problem (11) at a window: are its solutions those of every longer one?"""
     hypotheses = {**MODEL, "s >= n + 1": from_n(1)}
     words = "the solutions of problem (11) at s are Z"
@@ -81,7 +81,7 @@ def solutions() -> Experiment[Windowed]:
     return windowed("solutions", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n), proof=proof)
 
 
-def solutions_from_lag() -> Experiment[Windowed]:
+def solutions_from_lag() -> Ablation[Windowed]:
     """The same with the sharp bound."""
     hypotheses = {**MODEL, "s >= lag + 1": from_lag(1)}
     words = "the solutions of problem (11) at s are Z"
@@ -89,7 +89,7 @@ def solutions_from_lag() -> Experiment[Windowed]:
     return windowed("solutions-from-lag", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n), proof=proof)
 
 
-def columns() -> Experiment[Windowed]:
+def columns() -> Ablation[Windowed]:
     """The number of columns of (Fhat, Ghat)."""
     conclusion = Condition(
         lambda w: w.evidence.fault_space.dimension == w.evidence.system.m + w.evidence.zeta, lambda f, s: f.left_invertible
@@ -110,7 +110,7 @@ ONLY_UNOBSERVABLE = Condition(
 )
 
 
-def range_of_f() -> Experiment[Windowed]:
+def range_of_f() -> Ablation[Windowed]:
     """zero-feedthrough: with G = 0 known, is im F determined by the outputs?"""
     hypotheses = {**MODEL, "rank CF = m": RELATIVE_DEGREE_ONE, "no finite zeros": NO_FINITE_ZEROS}
     conclusion = Condition(lambda w: w.evidence.without_feedthrough == rank(w.evidence.system.F), lambda f, s: np.full(len(f.A), False))
@@ -125,7 +125,7 @@ def range_of_f() -> Experiment[Windowed]:
     return windowed(*made, proof=proof, implied=implied)
 
 
-def signal_from_known_state() -> Experiment[Windowed]:
+def signal_from_known_state() -> Ablation[Windowed]:
     """trajectory-recovered: v from the outputs and x(0)."""
     conclusion = Condition(lambda w: w.evidence.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n))
     words = "the outputs and x(0) determine v"
@@ -134,7 +134,7 @@ def signal_from_known_state() -> Experiment[Windowed]:
     return windowed(*made, windows=lambda n: NO_WINDOW, proof=proof)
 
 
-def signal_from_unknown_state() -> Experiment[Windowed]:
+def signal_from_unknown_state() -> Ablation[Windowed]:
     """trajectory-recovered: v from the outputs alone."""
     zeros_hidden = "as many finite zeros as unobservable modes"
     hypotheses = {**MODEL, zeros_hidden: ONLY_UNOBSERVABLE}
@@ -145,7 +145,7 @@ def signal_from_unknown_state() -> Experiment[Windowed]:
     return windowed(*made, windows=lambda n: NO_WINDOW, proof=proof)
 
 
-def every_window() -> Experiment[Windowed]:
+def every_window() -> Ablation[Windowed]:
     """window-ranks: the formula of the indices against the rank of the window by itself."""
     conclusion = Condition(
         lambda w: w.evidence.kernel.rank(w.window) == w.evidence.window_ranks[w.window - 1], lambda f, s: np.full(len(f.A), False)
@@ -155,7 +155,7 @@ def every_window() -> Experiment[Windowed]:
     return windowed("every-window", "window-ranks", words, MODEL, conclusion, spaces(lambda s: s.n + 1), proof=proof)
 
 
-def sharp_gap() -> Experiment[Windowed]:
+def sharp_gap() -> Ablation[Windowed]:
     """sharp-windows: the gap is r for exactly the s >= lag."""
     conclusion = Condition(
         lambda w: (w.evidence.kernel.gap(w.window) == w.evidence.kernel.normal_rank) == (w.window >= w.evidence.kernel.lag),

@@ -2,7 +2,7 @@
 
     Windowed      a system by its evidence, and a window
     Condition     a test on a Windowed, and its vectorised first look at many systems at once
-    windowed      an experiment made of conditions
+    windowed      an ablation made of conditions
 
 A first look never decides: it only leaves out what surely violates a hypothesis or surely meets the conclusion; what is left is decided
 by the certificates of the system.
@@ -19,7 +19,7 @@ import numpy as np
 from ..evidence.corpus import Evidence, examine
 from ..evidence.search import Box, Facts, Flags, chunks
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Show, Workbench, size
 from .aimed import aimed_evidence
 from .facets import degenerate, facets, nilpotent
@@ -121,8 +121,8 @@ def windowed(
     box: Box = BOX,
     proof: Proof | None = None,
     implied: Mapping[str, str] | None = None,
-) -> Experiment[Windowed]:
-    """The experiment on every system of the corpus, and every aimed one, in the scope, at every window."""
+) -> Ablation[Windowed]:
+    """The ablation on every system of the corpus, and every aimed one, in the scope, at every window."""
 
     def subjects(bench: Workbench) -> Iterator[Windowed]:
         for evidence in (*bench.corpus, *aimed_evidence(bench)):
@@ -133,7 +133,7 @@ def windowed(
     def certificates(subject: Windowed) -> Iterator[Certificate]:
         yield from show(subject.evidence.system)
 
-    return Experiment(
+    return Ablation(
         name=name,
         claim=claim,
         conclusion=words,

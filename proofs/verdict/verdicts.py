@@ -165,7 +165,7 @@ class Row:
     expected, unless it is told why there is none.
     """
 
-    experiment: str
+    ablation: str
     claim: str
     conclusion: str
     dropped: tuple[str, ...]
@@ -211,7 +211,7 @@ class Row:
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
         return {
-            "experiment": self.experiment,
+            "experiment": self.ablation,
             "claim": self.claim,
             "conclusion": self.conclusion,
             "dropped": list(self.dropped),

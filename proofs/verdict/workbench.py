@@ -69,7 +69,7 @@ class Workbench:
         return self._shared[name]
 
     def records(self, name: str, make: Callable[[], list[Made]]) -> list[Made]:
-        """Certified material that several experiments share, made the first time it is asked for."""
+        """Certified material that several ablations share, made the first time it is asked for."""
         if name not in self._made:
             self._made[name] = make()
         return self._made[name]
