@@ -69,7 +69,7 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
     rows = tuple(of_row(row, attacks) for row in _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report))
     report("done", total, total)
     corpus = describe(bench.corpus) if "corpus" in vars(bench) else ""
-    return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.told)
+    return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.message)
 
 
 def _without_hypotheses(bench: Workbench, claims: set[str], machine: _Machine, report: Progress) -> tuple[Row, ...]:
@@ -88,13 +88,13 @@ def _without_hypotheses(bench: Workbench, claims: set[str], machine: _Machine, r
 
 @dataclass(frozen=True)
 class _Machine:
-    """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), what to tell of it, and the locks of
+    """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), a message about it, and the locks of
     the theorems, which hold without it too.
     """
 
     theorems: Theorems | None
     failure: str | None
-    told: str
+    message: str
     locks: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -108,12 +108,12 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
     try:
         theorems = machine_checked(names, report)
     except NoRocq as error:
-        told = f"{error}. Without it, readings that have a proof in proofs/theory rest on their certificates"
-        return _Machine(None, None, told, {name: lock.sha256 for name, lock in held(sources()).theorems.items()})
+        message = f"{error}. Without it, readings that have a proof in proofs/theory rest on their certificates"
+        return _Machine(None, None, message, {name: lock.sha256 for name, lock in held(sources()).theorems.items()})
     except (BrokenTheory, NotProved) as error:
         return _Machine(None, f"Rocq: {error}", f"failed: {error}")
-    told = f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all as locked and closed under the global context; {TRUSTED}"
-    return _Machine(theorems, None, told, theorems.locks)
+    message = f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all as locked and closed under the global context; {TRUSTED}"
+    return _Machine(theorems, None, message, theorems.locks)
 
 
 def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:

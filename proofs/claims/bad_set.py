@@ -66,8 +66,8 @@ def codimension_two(bench: Workbench) -> Outcome:
         bench.progress("lines without a bad P", done, len(tried))
         stated = bad_set(pencil).codimension
         if stated is not None and stated < 2:
-            shown = accepted(_kernel(pencil))
-            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", shown, len(shown))
+            certificates = accepted(_kernel(pencil))
+            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", certificates, len(certificates))
         line = _line(pencil)
         if line is None:
             missed += 1
@@ -92,9 +92,9 @@ def codimension_unobservable(bench: Workbench) -> Outcome:
             bad = bad_pair(pencil)
             if isinstance(bad, BadPair) and pencil.n_z == 2 and pencil.columns == 1:
                 pair = kernel_representation(with_pair(pencil.space, bad.verdict.P))
-                shown = [*_kernel(pencil), comparison_certificate(pencil.kernel, pair), make.left_invertible(pair)]
+                certificates = [*_kernel(pencil), comparison_certificate(pencil.kernel, pair), make.left_invertible(pair)]
                 text = f"{system}: P has two entries, and every multiple of {bad.verdict.P} is bad"
-                return counterexample(text, box, shown)
+                return counterexample(text, box, certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 

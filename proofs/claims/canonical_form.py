@@ -33,10 +33,10 @@ def any_a_c(bench: Workbench) -> Outcome:
             for gain in (0, 1, -1):
                 other = kernel_representation(with_feedback(similar, [[gain]]))
                 if fault_space(other).basis != fault_space(kernel).basis:
-                    shown = [comparison_certificate(kernel, other), make.fault_space(kernel, fault_space(kernel))]
-                    shown.append(make.fault_space(other, fault_space(other)))
+                    certificates = [comparison_certificate(kernel, other), make.fault_space(kernel, fault_space(kernel))]
+                    certificates.append(make.fault_space(other, fault_space(other)))
                     text = f"{system} and {other.system}, made of it by a change of basis of the state and v + {gain} x for v"
-                    return counterexample(text, f"{box}, gain in {{0, 1, -1}}", shown)
+                    return counterexample(text, f"{box}, gain in {{0, 1, -1}}", certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
@@ -47,9 +47,9 @@ def feedback(bench: Workbench) -> Outcome:
         kernel = kernel_representation(system)
         other = kernel_representation(with_feedback(system, [[1]]))
         if (other.system.A, other.system.C) != (system.A, system.C):
-            shown = [comparison_certificate(kernel, other)]
-            if shown[0]["kind"] == "behaviour-equality":
-                return counterexample(f"{system} and, with K = 1, {other.system}", box, shown)
+            certificates = [comparison_certificate(kernel, other)]
+            if certificates[0]["kind"] == "behaviour-equality":
+                return counterexample(f"{system} and, with K = 1, {other.system}", box, certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 

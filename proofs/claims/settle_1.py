@@ -27,7 +27,7 @@ def biased(bench: Workbench) -> Outcome:
 
 def for_every_system(bench: Workbench) -> Outcome:
     """A, C of order n, B or D come out wrong in every case: the leading left singular vectors of a limit of rank n + 1 can span O_s."""
-    certificates, words = [], []
+    made, words = [], []
     for name in NOT_ALL:
         found = limit(kept(name))
         evidence = examine_experiment("kept", found.experiment)
@@ -35,14 +35,14 @@ def for_every_system(bench: Workbench) -> Outcome:
         right = _regressions_right(found)
         if not (_regular(evidence) and larger and found.leading_vectors_right(found.past_inputs) and right):
             return Outcome(Verdict.ERROR, f"counterexamples/{name}.json refutes nothing")
-        certificates += certificates_of(found)
+        made += certificates_of(found)
         words.append(f"{show_words(evidence)}: B and D right by {' and by '.join(right)}")
-    told = "; ".join(words) + (
+    message = "; ".join(words) + (
         "; all limits of rank n + 1; that the n leading left singular vectors, outputs unscaled, span the range of O_s is decided in "
         "rational arithmetic beside the certificates"
     )
-    shown = accepted(certificates)
-    return Outcome(Verdict.REFUTED, told, shown, len(shown))
+    certificates = accepted(made)
+    return Outcome(Verdict.REFUTED, message, certificates, len(certificates))
 
 
 def a_c_wrong(bench: Workbench) -> Outcome:

@@ -59,14 +59,14 @@ def _partners(bench: Workbench) -> Outcome:
         partner = _partner(kernel)
         if partner is None:
             return Outcome(Verdict.REFUTED, f"no partner found for {system}", accepted(ranks_and_inversion(system)), count)
-        shown = tuple(_show(kernel, partner))
-        for certificate in shown:
+        certificates = tuple(_show(kernel, partner))
+        for certificate in certificates:
             accept(certificate)
-        alike = all(certificate["kind"] == "left-invertible" for certificate in shown[2:])
-        if shown[1]["statement"]["window"] != kernel.lag + 1 or partner.system.m != system.m or not alike:
+        alike = all(certificate["kind"] == "left-invertible" for certificate in certificates[2:])
+        if certificates[1]["statement"]["window"] != kernel.lag + 1 or partner.system.m != system.m or not alike:
             return Outcome(Verdict.ERROR, f"the partner of {system} is not as it was to be")
-        tried, count = tried + 1, count + len(shown)
-        headline = headline or shown
+        tried, count = tried + 1, count + len(certificates)
+        headline = headline or certificates
     words = f"no counterexample found: one partner each for {tried} systems, named and random over Q"
     return Outcome(Verdict.CERTIFIED, words, headline, count)
 

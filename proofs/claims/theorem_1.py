@@ -46,8 +46,8 @@ def n_plus_1_samples(bench: Workbench) -> Outcome:
     longer = [e for e in bench.corpus if e.kernel.lag > e.system.n]
     if longer:
         words = f"{longer[0].system} has a kernel row of degree {longer[0].kernel.lag}"
-        shown = accepted(_of_one(longer[0].system))
-        return Outcome(Verdict.REFUTED, words, shown, len(shown))
+        certificates = accepted(_of_one(longer[0].system))
+        return Outcome(Verdict.REFUTED, words, certificates, len(certificates))
     total, count = sum(e.weight for e in bench.corpus), sum(e.accepted for e in bench.corpus)
     words = f"{outcome.evidence}; by kernel rows, none of degree above n, every pair of the {total} systems of the corpus"
     return replace(outcome, evidence=words, accepted=outcome.accepted + count)
@@ -69,15 +69,15 @@ def either_lag(bench: Workbench) -> Outcome:
 def sharp(bench: Workbench) -> Outcome:
     """For every n tried, two left-invertible systems with the same (A, C) that agree on n samples and differ on n + 1."""
     largest = 12 if bench.full else 8
-    shown: list[Certificate] = []
+    certificates: list[Certificate] = []
     for n in range(1, largest + 1):
         idle, driven = (kernel_representation(system) for system in shift_registers(n))
         pair = [make.window_equality(idle, driven, n), comparison_certificate(idle, driven)]
         if pair[1]["statement"]["window"] != n + 1:
             return Outcome(Verdict.REFUTED, f"the shift registers of length {n} differ elsewhere", accepted(pair), 2)
-        shown += [*pair, make.left_invertible(idle), make.left_invertible(driven)]
+        certificates += [*pair, make.left_invertible(idle), make.left_invertible(driven)]
     words = f"by one witness for every n = 1..{largest}: the shift register of length n with F = 0 against F = e_n"
-    return Outcome(Verdict.CERTIFIED, words, accepted(shown)[:8], len(shown))
+    return Outcome(Verdict.CERTIFIED, words, accepted(certificates)[:8], len(certificates))
 
 
 def parametric(bench: Workbench) -> Outcome:

@@ -73,9 +73,9 @@ def _smallest_bad_pair(
             alternative = kernel_representation(with_pair(space, P))
             verdict = comparison_certificate(kernel, alternative) if counts(alternative) else {"kind": "left out"}
             if verdict["kind"] == "behaviour-difference":
-                shown = [verdict, make.fault_space(kernel, space), make.left_invertible(kernel), make.left_invertible(alternative)]
-                shown.append(make.matrix_rank("observability", system))
-                return counterexample(f"{system}, P = {P}", f"{BOX}, {scope}", shown)
+                certificates = [verdict, make.fault_space(kernel, space), make.left_invertible(kernel), make.left_invertible(alternative)]
+                certificates.append(make.matrix_rank("observability", system))
+                return counterexample(f"{system}, P = {P}", f"{BOX}, {scope}", certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 

@@ -37,9 +37,9 @@ def without_observability(bench: Workbench) -> Outcome:
     for system in systems_in_order(box, lambda f: ~f.observable & f.left_invertible):
         pencil = pencil_of(system)
         if pencil.zeta:
-            shown = [make.finite_zeros(system), make.matrix_rank("observability", system), *_space(pencil)]
+            certificates = [make.finite_zeros(system), make.matrix_rank("observability", system), *_space(pencil)]
             note = f"{system}: no pair is without finite zeros, its unobservable mode is a zero of each"
-            return counterexample(note, box, shown)
+            return counterexample(note, box, certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
@@ -59,8 +59,8 @@ def recoverable(bench: Workbench) -> Outcome:
         if certificates[0]["kind"] != "behaviour-equality" or certificates[1]["statement"]["delay"] is None:
             return Outcome(Verdict.REFUTED, f"fails on {system}", accepted(certificates), count)
         headline = headline if headline or not (system.n and system.m) else certificates
-    told = f"no counterexample found: one pair each for {len(systems)} systems, named and random"
-    return Outcome(Verdict.CERTIFIED, told, headline, count)
+    message = f"no counterexample found: one pair each for {len(systems)} systems, named and random"
+    return Outcome(Verdict.CERTIFIED, message, headline, count)
 
 
 def _placed(bench: Workbench, applies: object) -> Outcome:

@@ -137,8 +137,8 @@ def ablate(bench: Workbench, ablation: Ablation[S], expected: Mapping[str, str])
     if flawed:
         subject = min(flawed.values(), key=_order)
         words = f"nothing is dropped, and the conclusion fails on {subject}"
-        shown = accepted(ablation.show(subject))
-        return (Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, shown, subject.accepted),)
+        certificates = accepted(ablation.show(subject))
+        return (Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, certificates, subject.accepted),)
     names = list(ablation.hypotheses)
     alone = [_without(bench, ablation, tally, (name,), expected.get(name)) for name in names]
     refuted = {row.dropped[0]: row for row in alone if row.verdict == Verdict.REFUTED}
@@ -186,13 +186,13 @@ def _without(bench: Workbench, ablation: Ablation[S], tally: _Tally[S], dropped:
 
     if elsewhere:
         subject, where = _witness(bench, ablation, dropped, elsewhere)
-        shown = accepted(ablation.show(subject))
+        certificates = accepted(ablation.show(subject))
         poor = f"; every counterexample found is degenerate: {subject.degenerate}" if subject.degenerate else ""
         words = f"{subject}; {where}{poor}"
         if ablation.theorems_without(dropped):
             words = f"{', '.join(ablation.theorems_without(dropped))} prove it without, and yet it fails on {words}"
-            return row(Verdict.ERROR, words, shown, len(shown))
-        return row(Verdict.REFUTED, words, shown, len(shown))
+            return row(Verdict.ERROR, words, certificates, len(certificates))
+        return row(Verdict.REFUTED, words, certificates, len(certificates))
     if not count.tried:
         return row(Verdict.ERROR, "no subject that was tried meets the others", (), 0)
     if reason is not None and count.lacking:

@@ -145,8 +145,8 @@ def witnessed(found: Outcome) -> Outcome:
 
 def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:
     """REFUTED by these certificates."""
-    shown = accepted(certificates)
-    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", shown, len(shown))
+    checked = accepted(certificates)
+    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", checked, len(checked))
 
 
 def certify_records(
@@ -158,8 +158,8 @@ def certify_records(
 ) -> Outcome:
     """The same for pairs and alternatives: `records` meet the hypotheses, `failing` are those among them that refute the statement."""
     if failing:
-        shown = accepted(show(failing[0]))
-        return Outcome(Verdict.REFUTED, f"fails on {words(failing[0])}", shown, failing[0].accepted)
+        certificates = accepted(show(failing[0]))
+        return Outcome(Verdict.REFUTED, f"fails on {words(failing[0])}", certificates, failing[0].accepted)
     if not records:
         return Outcome(Verdict.ERROR, f"none of the {unit} meets the hypotheses")
     totals: dict[str, int] = {}
