@@ -35,7 +35,7 @@ def run(names: Sequence[str], *, systems: Sequence[str], rocq: bool = False, as_
     results: list[dict[str, Any]] = []
     for name in names:
         with working(f"checking {quote_path(name)}"):
-            result = checker.judged(name, insisted)
+            result = checker.result_of(name, insisted)
         results.append(result)
         if not rocq:
             _tell(console, result, as_json=as_json)

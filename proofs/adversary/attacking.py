@@ -64,10 +64,10 @@ def of_row(row: Row, attacks: Attacking) -> Row:
 
     if len(row.dropped) != 1:
         return row
-    found = checked_again(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", attacks.records)
+    found = checked_again(f"{WITHOUT}{row.ablation}: {row.dropped[0]}", attacks.records)
     row = replace(row, attacks=found)
     unproved = row.verdict == Verdict.CERTIFIED
-    words = _against(found) or (_absent(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", found) if unproved else None)
+    words = _against(found) or (_absent(f"{WITHOUT}{row.ablation}: {row.dropped[0]}", found) if unproved else None)
     if words is None or row.verdict in (Verdict.REFUTED, Verdict.ERROR):
         return row
     verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR

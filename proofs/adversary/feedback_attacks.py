@@ -29,12 +29,12 @@ from ...exact.limits.moments import covariances, window_covariances
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.windows import observability_matrix
 from ..evidence.attacks import Aim, Attack, Block, Family, Floats, Point, Witness
-from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
+from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
 from .float_limits import Drawn, exact_experiment, float_limits, outside
 from .limit_attacks import POLE, chain, describe
 from .witnesses import confirmed
 
-Fails = Callable[[LimitDossier, PopulationLimits], bool]
+Fails = Callable[[LimitEvidence, PopulationLimits], bool]
 
 LEADING = "the bias of B, D by output error and the part of L L' that leaves the range of O_s, each against its parts and L L'"
 SHARE = "the share of (G; CF; CAF; ...) outside the range of O_s, in the Euclidean norm"
@@ -179,29 +179,29 @@ def _numbers(matrix: Matrix) -> list[Fraction]:
 def _decide(family: Family, point: Point, fails: Fails, note: str) -> Witness | None:
     """Returns a witness where the fault is seen, what every reading asks for is met, and `fails` holds."""
     experiment = exact_experiment(family.at(point))
-    dossier = examine_experiment("adversary", experiment)
+    evidence = examine_experiment("adversary", experiment)
     residual = experiment.system.residual
     seen = kernel_representation(residual).normal_rank == residual.m
-    if not (seen and dossier.observable and dossier.controllable and dossier.long_past):
+    if not (seen and evidence.observable and evidence.controllable and evidence.long_past):
         return None
     found = limit(experiment)
-    if not fails(dossier, found):
+    if not fails(evidence, found):
         return None
-    return confirmed(f"{describe(family.at(point), dossier)}, {note}", point, certificates_of(found))
+    return confirmed(f"{describe(family.at(point), evidence)}, {note}", point, certificates_of(found))
 
 
-def _leading_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
-    return _inputs_right(dossier) and found.leading_vectors_right(found.past_inputs)
+def _leading_right(evidence: LimitEvidence, found: PopulationLimits) -> bool:
+    return _inputs_right(evidence) and found.leading_vectors_right(found.past_inputs)
 
 
-def _both_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
-    return _inputs_right(dossier) and dossier.equal
+def _both_right(evidence: LimitEvidence, found: PopulationLimits) -> bool:
+    return _inputs_right(evidence) and evidence.equal
 
 
-def _range_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
-    return dossier.equal
+def _range_right(evidence: LimitEvidence, found: PopulationLimits) -> bool:
+    return evidence.equal
 
 
-def _inputs_right(dossier: LimitDossier) -> bool:
-    system = dossier.experiment.system
-    return dossier.state_inputs == (system.B, system.D)
+def _inputs_right(evidence: LimitEvidence) -> bool:
+    system = evidence.experiment.system
+    return evidence.state_inputs == (system.B, system.D)

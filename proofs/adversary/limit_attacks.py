@@ -18,7 +18,7 @@ from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances, window_covariances
 from ...exact.system.windows import observability_matrix
 from ..evidence.attacks import Family, Point, Witness
-from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
+from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
 from .float_limits import Drawn, exact_experiment
 from .spectra import Shaped, shaped_input
 from .witnesses import confirmed
@@ -27,7 +27,7 @@ POLE = (-0.97, 0.97)
 REFLECTION = (-0.95, 0.95)
 
 At = Callable[[Sequence[Any]], Drawn]
-Fails = Callable[[LimitDossier], bool]
+Fails = Callable[[LimitEvidence], bool]
 
 
 def decided_by(at: At, fails: Fails) -> Callable[[Point], Witness | None]:
@@ -35,19 +35,19 @@ def decided_by(at: At, fails: Fails) -> Callable[[Point], Witness | None]:
 
     def decide(point: Point) -> Witness | None:
         experiment = exact_experiment(at(point))
-        dossier = examine_experiment("adversary", experiment)
-        if not fails(dossier):
+        evidence = examine_experiment("adversary", experiment)
+        if not fails(evidence):
             return None
-        return confirmed(describe(at(point), dossier), point, certificates_of(limit(experiment)))
+        return confirmed(describe(at(point), evidence), point, certificates_of(limit(experiment)))
 
     return decide
 
 
-def describe(drawn: Drawn, dossier: LimitDossier) -> str:
+def describe(drawn: Drawn, evidence: LimitEvidence) -> str:
     """Returns the experiment in words, for a reader."""
-    e = dossier.experiment
+    e = evidence.experiment
     u, v = e.u_filter.to_json(), e.v_filter.to_json()
-    rank = f"limit of rank {dossier.limit_rank}, n = {e.system.residual.n}"
+    rank = f"limit of rank {evidence.limit_rank}, n = {e.system.residual.n}"
     return f"{e.system.residual}, B={e.system.B}, D={e.system.D}, s = {e.s}, past = {e.past}, u = {u}, v = {v}: {rank}".replace("'", "")
 
 

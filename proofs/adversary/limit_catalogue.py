@@ -20,7 +20,7 @@ import numpy as np
 from ...exact.limits.hidden_states import hides_a_state
 from ...exact.limits.moments import covariances
 from ..evidence.attacks import Aim, Attack, Family, Floats
-from ..evidence.experiments import LimitDossier
+from ..evidence.experiments import LimitEvidence
 from .feedback_attacks import feedback_attacks
 from .float_limits import FloatLimits, determinant, float_limits, input_bias, least_ratio, outside, partial_covariance
 from .limit_attacks import (
@@ -210,24 +210,24 @@ def _felt(family: Family, point: Floats) -> float:
     return float(np.linalg.norm(float_limits(unknown).response))
 
 
-def _formula_differs(d: LimitDossier) -> bool:
+def _formula_differs(d: LimitEvidence) -> bool:
     """Whether a state is lost and the formula has none, or the other way round; n = past = 2, one input."""
     return d.uncorrelated and _regular(d) and d.equal == hides_a_state(d.experiment, covariances(d.experiment))
 
 
-def not_whole(d: LimitDossier) -> bool:
+def not_whole(d: LimitEvidence) -> bool:
     """Whether every hypothesis of "all of the range" is met, and it is not."""
     return d.uncorrelated and _regular(d) and not d.equal
 
 
-def not_right(d: LimitDossier) -> bool:
+def not_right(d: LimitEvidence) -> bool:
     """Whether the same hypotheses are met, and the range, B or D comes out wrong."""
     return d.uncorrelated and _regular(d) and not (d.equal and d.inputs_right)
 
 
-def _regular(d: LimitDossier) -> bool:
+def _regular(d: LimitEvidence) -> bool:
     return d.controllable and d.observable and d.long_past
 
 
-def _one_sided(d: LimitDossier) -> bool:
+def _one_sided(d: LimitEvidence) -> bool:
     return d.one_sided and _regular(d)

@@ -32,8 +32,8 @@ from ..claims.common import delays, ranks_and_inversion, spaces, zeros
 from ..claims.trajectory_recovered import zeros_are_hidden_modes
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.attacks import Aim, Attack, Family, Point, Witness
-from ..evidence.corpus import Dossier, examine
-from ..evidence.pairs_by_polynomial import examine_judged, pencil_of
+from ..evidence.corpus import Evidence, examine
+from ..evidence.pairs_by_polynomial import examine_by_polynomial, pencil_of
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from .structure_families import (
@@ -56,7 +56,7 @@ from .structure_families import (
 )
 from .witnesses import Found, confirmed
 
-Fails = Callable[[Dossier], bool]
+Fails = Callable[[Evidence], bool]
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
 Decide = Callable[[ResidualSystem], Found | None]
 
@@ -195,38 +195,45 @@ def _standing() -> Iterator[Attack]:
 # -- what is false ---------------------------------------------------------------------------------------------------------
 
 
-def _minimal(d: Dossier) -> bool:
+def _minimal(d: Evidence) -> bool:
     return d.left_invertible and d.observable and d.controllable
 
 
-def _finite_only(d: Dossier) -> bool:
-    return _minimal(d) and any(d.rank(s) != d.n + s * d.m - (d.finite_zeros or 0) for s in range(max(d.n, 1), d.n + 3))
+def _finite_only(d: Evidence) -> bool:
+    return _minimal(d) and any(
+        d.kernel.rank(s) != d.system.n + s * d.system.m - d.finite_zeros for s in range(max(d.system.n, 1), d.system.n + 3)
+    )
 
 
-def _every_window(d: Dossier) -> bool:
-    return _minimal(d) and any(d.rank(s) != d.n + s * d.m - (d.zeta or 0) for s in range(1, d.n + 3))
+def _every_window(d: Evidence) -> bool:
+    return _minimal(d) and any(d.kernel.rank(s) != d.system.n + s * d.system.m - d.zeta for s in range(1, d.system.n + 3))
 
 
-def _early_gap(d: Dossier, known: bool) -> bool:
+def _early_gap(d: Evidence, known: bool) -> bool:
     delay = d.delay_known_state if known else d.delay_unknown_state
     if not (d.observable and d.left_invertible and delay is not None):
         return False
-    return any(d.gap(s) != d.m for s in range(max(delay, d.n - 1, 1), d.n + 2))
+    return any(d.kernel.gap(s) != d.system.m for s in range(max(delay, d.system.n - 1, 1), d.system.n + 2))
 
 
-def _gap_not_m(d: Dossier) -> bool:
-    return d.observable and any(d.gap(s) != d.m for s in range(max(d.n, 1), d.n + 3))
+def _gap_not_m(d: Evidence) -> bool:
+    return d.observable and any(d.kernel.gap(s) != d.system.m for s in range(max(d.system.n, 1), d.system.n + 3))
 
 
-def _early_space(d: Dossier) -> bool:
-    if not (d.observable and d.left_invertible and d.delay_known_state is not None and d.n):
+def _early_space(d: Evidence) -> bool:
+    if not (d.observable and d.left_invertible and d.delay_known_state is not None and d.system.n):
         return False
-    return d.space_dimensions[max(d.n, d.delay_known_state) - 1] != d.limit_dimension
+    return d.space_dimensions[max(d.system.n, d.delay_known_state) - 1] != d.fault_space.dimension
 
 
-def _right_anyway(d: Dossier) -> bool:
+def _right_anyway(d: Evidence) -> bool:
     """Whether the gap is m from n on, without controllability."""
-    return not d.controllable and d.observable and d.left_invertible and all(d.gap(s) == d.m for s in range(max(d.n, 1), d.n + 3))
+    return (
+        not d.controllable
+        and d.observable
+        and d.left_invertible
+        and all(d.kernel.gap(s) == d.system.m for s in range(max(d.system.n, 1), d.system.n + 3))
+    )
 
 
 def _first_column(system: ResidualSystem) -> Found | None:
@@ -258,11 +265,11 @@ def _first_column(system: ResidualSystem) -> Found | None:
     return None
 
 
-def _other_matrices(d: Dossier) -> bool:
+def _other_matrices(d: Evidence) -> bool:
     return d.observable and d.left_invertible and d.system.G.is_zero() and d.without_feedthrough != rank(d.system.F)
 
 
-def _state_needed(d: Dossier) -> bool:
+def _state_needed(d: Evidence) -> bool:
     return d.observable and d.left_invertible and d.delay_unknown_state is None
 
 
@@ -278,7 +285,7 @@ def _transfer_zeros(system: ResidualSystem) -> Found | None:
     part = ResidualSystem(parts[0].transposed(), parts[1].transposed(), system.C @ basis, system.G)
     certificates = [*zeros(system), make.finite_zeros(part), make.infinite_zeros(part)]
     zeta = len(certificates[-2]["statement"]["invariant_zero_polynomial"]) - 1 + sum(certificates[-1]["statement"]["infinite_zero_orders"])
-    fails = any(d.rank(s) != d.n + s * d.m - zeta for s in range(max(d.n, 1), d.n + 3))
+    fails = any(d.kernel.rank(s) != d.system.n + s * d.system.m - zeta for s in range(max(d.system.n, 1), d.system.n + 3))
     return (f"{system}, whose transfer function is that of its reachable part", certificates) if fails else None
 
 
@@ -294,7 +301,7 @@ def _other_split(system: ResidualSystem) -> Found | None:
             P = Matrix.of(
                 [[int((i + shift) % rows == j) + tilt * int(i == j) for j in range(cols)] for i in range(rows)], shape=(rows, cols)
             )
-            pair = examine_judged("adversary", "unit", system, P, None, 1)
+            pair = examine_by_polynomial("adversary", "unit", system, P, None, 1)
             if pair.equal:
                 found[len(pair.zero_polynomial)] = pair.pair
     if len(found) < 2:
@@ -321,25 +328,23 @@ def _bad_on_a_line(system: ResidualSystem) -> Found | None:
 # -- what stands -----------------------------------------------------------------------------------------------------------
 
 
-def wrong_delay(d: Dossier) -> bool:
-    if d.infinite_zero_orders is None:
-        return False
+def wrong_delay(d: Evidence) -> bool:
     if not d.left_invertible:
         return d.delay_known_state is not None
     return d.delay_known_state != max(d.infinite_zero_orders, default=0)
 
 
-def zeros_as_a_set(d: Dossier) -> bool:
-    if d.finite_zeros is None:
-        return False
+def zeros_as_a_set(d: Evidence) -> bool:
     return (d.delay_unknown_state is not None) != (d.left_invertible and zeros_are_hidden_modes(d.system))
 
 
-def wrong_signal(d: Dossier) -> bool:
-    if not (d.left_invertible and d.m and d.finite_zeros is not None and d.system.G.is_zero()):
+def wrong_signal(d: Evidence) -> bool:
+    if not (d.left_invertible and d.system.m and d.system.G.is_zero()):
         return False
-    hidden = d.n - rank(observability_matrix(d.system, d.n))
-    return zero_feedthrough(kernel_representation(d.system)).pins_v != (rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == hidden)
+    hidden = d.system.n - rank(observability_matrix(d.system, d.system.n))
+    return zero_feedthrough(kernel_representation(d.system)).pins_v != (
+        rank(d.system.C @ d.system.F) == d.system.m and d.finite_zeros == hidden
+    )
 
 
 def misplaced(system: ResidualSystem) -> Found | None:
@@ -354,7 +359,7 @@ def misplaced(system: ResidualSystem) -> Found | None:
         while len(free) + len(pencil_.fixed) - 2 <= pencil_.zeta:
             wanted = multiply(free, pencil_.fixed)
             P = assign_zeros(pencil_, [field.write(x) for x in wanted]).P
-            pair = examine_judged("adversary", "assigned", system, P, wanted, 1)
+            pair = examine_by_polynomial("adversary", "given zeros", system, P, wanted, 1)
             if not (pair.equal and pair.zero_polynomial == pair.wanted):
                 certificates = [comparison_certificate(pencil_.kernel, kernel_representation(pair.pair)), make.finite_zeros(pair.pair)]
                 return f"{system}, wanted {list(map(str, wanted))}", certificates
@@ -381,10 +386,12 @@ def _thick_seen(system: ResidualSystem) -> Found | None:
     return _thick(system) if pencil_.observable and pencil_.columns and pencil_.zeta >= 1 else None
 
 
-def _range_lost(d: Dossier) -> bool:
+def _range_lost(d: Evidence) -> bool:
     """Whether G = 0, rank CF = m, there are no finite zeros, and yet members of Z without feedthrough lie outside im F."""
     system = d.system
-    return system.G.is_zero() and rank(system.C @ system.F) == d.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
+    return (
+        system.G.is_zero() and rank(system.C @ system.F) == d.system.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
+    )
 
 
 def _thick(system: ResidualSystem) -> Found | None:

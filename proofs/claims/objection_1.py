@@ -19,5 +19,5 @@ def two_sided_suffices(bench: Workbench) -> Outcome:
 
 def two_sided_long_past(bench: Workbench) -> Outcome:
     """It is with a past that is long enough for the colour of u."""
-    records = [d for d in bench.limits if d.whole_range_expected and d.past_of_input]
-    return proposition_1.certify_limits(records, lambda d: d.equal and d.inputs_right)
+    records = [e for e in bench.limits if e.whole_range_expected and e.past_of_input]
+    return proposition_1.certify_limits(records, lambda e: e.equal and e.inputs_right)

@@ -9,5 +9,5 @@ from .theorem_3_ii import show, words
 
 def part_i(bench: Workbench) -> Outcome:
     """Every (F', G') with the same behaviour for the same (A, C) has its columns in Z."""
-    records = [d for d in bench.rivals if d.equal]
-    return certify_records(records, [d for d in records if not d.in_space], words, show)
+    records = [e for e in bench.alternatives if e.equal]
+    return certify_records(records, [e for e in records if not e.in_space], words, show)

@@ -154,7 +154,7 @@ def translated(certificate: Json) -> Terms:
     """Returns the terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
     write = COVERED.get(certificate["kind"])
     if write is None:
-        raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shown(certificate['kind'])}")
+        raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shorten(certificate['kind'])}")
     checker.begin()
     try:
         terms = write(certificate["statement"], certificate["witness"])

@@ -3,7 +3,7 @@
     Claim       id, reference in the review, statement as printed, readings, expected verdict
     Reading     one precise statement; `repair` marks those that are ours and not the paper's; `check` names the function in claims/
     load        the claims of the ledger, in its order
-    expected_without   for each experiment of `hypotheses`, the verdict expected when one of its hypotheses is dropped
+    expected_without   for each ablation of `hypotheses`, the verdict expected when one of its hypotheses is dropped
 
 The verdict itself is never in the ledger: it is computed by each run and compared with the expected one.
 """
@@ -67,7 +67,7 @@ def load() -> tuple[Claim, ...]:
 
 
 def expected_without() -> dict[str, dict[str, str]]:
-    """{experiment: {hypothesis: verdict on the claim without it}}: REFUTED where it is needed."""
+    """{ablation: {hypothesis: verdict on the claim without it}}: REFUTED where it is needed."""
     return {name: {str(key): str(value) for key, value in entry.items()} for name, entry in _contents()["without"].items()}
 
 

@@ -42,7 +42,7 @@ def test_a_reading_whose_theorems_were_checked_is_proved(monkeypatch: pytest.Mon
     found = verification._with_theorems(_result(NAMED), machine)
     assert found.outcome.verdict == found.expected == "PROVED" and found.as_expected
     assert "one, two" in found.outcome.evidence and "on 3 systems" in found.outcome.evidence
-    assert "8.16.1: 2 theorems" in machine.told
+    assert "8.16.1: 2 theorems" in machine.message
     assert found.to_json()["theorems"] == ["one", "two"]
 
 
@@ -64,7 +64,7 @@ def test_without_rocq_the_certificates_stand_and_it_is_told(monkeypatch: pytest.
     machine = _machine(monkeypatch, _raising(NoRocq("coqc is not on the path; install it")))
     found = verification._with_theorems(_result(NAMED), machine)
     assert found.outcome.verdict == found.expected == "CERTIFIED" and found.as_expected
-    assert "install it" in machine.told and "rest on their certificates" in machine.told
+    assert "install it" in machine.message and "rest on their certificates" in machine.message
 
 
 @pytest.mark.parametrize("error", [BrokenTheory("Lag.v does not compile"), NotProved("the theorem one rests on more")])

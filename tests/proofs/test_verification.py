@@ -28,7 +28,7 @@ def bench() -> Workbench:
     """A workbench with a corpus small enough for tests: every fifteenth system of the quick one."""
     made = Workbench("quick", 1, quiet)
     sources = list(corpus._sources("quick"))[::15]
-    made.corpus = corpus.Corpus(tuple(corpus.examine(*source) for source in sources))
+    made.corpus = tuple(corpus.examine(*source) for source in sources)
     return made
 
 
@@ -127,9 +127,9 @@ def test_refutations_found_by_search_are_true_statements_about_small_systems() -
 
 
 def test_certify_turns_to_refuted_when_the_statement_fails(bench: Workbench) -> None:
-    always = certify(bench, lambda d: True, lambda d: d.rank(1) <= d.p, lambda s: ())
+    always = certify(bench, lambda e: True, lambda e: e.kernel.rank(1) <= e.system.p, lambda s: ())
     assert always.verdict == Verdict.CERTIFIED and always.accepted > 0
-    too_strong = certify(bench, lambda d: True, lambda d: d.gap(d.n) == d.m, lambda s: ())
+    too_strong = certify(bench, lambda e: True, lambda e: e.kernel.gap(e.system.n) == e.system.m, lambda s: ())
     assert too_strong.verdict == Verdict.REFUTED and "smallest of the corpus" in too_strong.evidence
     nothing = certify(bench, lambda d: False, lambda d: True, lambda s: ())
     assert nothing.verdict == Verdict.ERROR

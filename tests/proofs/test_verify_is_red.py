@@ -33,7 +33,7 @@ def _no_systems(monkeypatch: pytest.MonkeyPatch) -> None:
         return ReadingResult(reading, Outcome(Verdict(reading.expected), "as expected"), 0.0)
 
     monkeypatch.setattr(verification, "_check", agrees)
-    monkeypatch.setattr(verification, "experiments", tuple)
+    monkeypatch.setattr(verification, "ablations", tuple)
 
 
 def verify(capsys: pytest.CaptureFixture[str]) -> tuple[int, Any]:

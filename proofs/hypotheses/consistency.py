@@ -17,15 +17,15 @@ from joblib import Parallel, delayed
 
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix
-from ...exact.limits.experiments import Experiment as Record
+from ...exact.limits.experiments import Experiment
 from ...exact.limits.lyapunov import solve
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
 from ..claims.proposition_1 import show_words
-from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
+from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, first_found
+from ..verdict.ablation import Ablation, Found, first_found
 from ..verdict.workbench import Workbench
 from .aimed_experiments import BOX, aimed_experiments, small_experiments
 from .changes_of_state import similarity
@@ -38,7 +38,7 @@ class Driven:
     at most s.
     """
 
-    record: LimitDossier
+    record: LimitEvidence
     model_right: bool
     autoregressive: bool
 
@@ -85,18 +85,18 @@ UNCORRELATED: dict[str, Callable[[Driven], bool]] = {
 }
 
 
-def consistency() -> Experiment[Driven]:
+def consistency() -> Ablation[Driven]:
     """With the hypothesis that is usually made."""
-    return _experiment("consistency", {**UNCORRELATED, "u white": lambda x: x.record.white})
+    return _ablation("consistency", {**UNCORRELATED, "u white": lambda x: x.record.white})
 
 
-def consistency_coloured() -> Experiment[Driven]:
+def consistency_coloured() -> Ablation[Driven]:
     """With the weaker one that is enough."""
-    return _experiment("consistency-coloured", {**UNCORRELATED, "u autoregressive of order at most s": lambda x: x.autoregressive})
+    return _ablation("consistency-coloured", {**UNCORRELATED, "u autoregressive of order at most s": lambda x: x.autoregressive})
 
 
-def _experiment(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -> Experiment[Driven]:
-    return Experiment(
+def _ablation(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -> Ablation[Driven]:
+    return Ablation(
         name=name,
         claim="proposition-1",
         conclusion="PI-MOESP converges to the true A, B, C, D",
@@ -108,7 +108,7 @@ def _experiment(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -
     )
 
 
-def driven(record: LimitDossier) -> Driven:
+def driven(record: LimitEvidence) -> Driven:
     """The subject made of an experiment with certified limits."""
     found = limit(record.experiment)
     state, residual = found.past_inputs.state, record.experiment.system.residual
@@ -143,7 +143,7 @@ def _made(bench: Workbench) -> list[Driven]:
     return [driven(record) for record in bench.limits] + found
 
 
-def _examined(batch: Sequence[Record]) -> list[Driven]:
+def _examined(batch: Sequence[Experiment]) -> list[Driven]:
     return [driven(examine_experiment("aimed", experiment)) for experiment in batch]
 
 
@@ -163,7 +163,7 @@ def _right(subject: Driven) -> bool:
     return subject.model_right and subject.record.inputs_right
 
 
-def _degenerate(experiment: Record) -> str:
+def _degenerate(experiment: Experiment) -> str:
     return degenerate(experiment.system.residual) or ("B = 0" if experiment.system.B.is_zero() else "")
 
 
