@@ -17,7 +17,7 @@ from typing import Annotated, Any, ParamSpec
 import typer
 
 from .. import __version__
-from .failures import BAD_INPUT, INTERRUPTED, guarded, say
+from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded, say
 
 Given = ParamSpec("Given")
 
@@ -25,7 +25,7 @@ app = typer.Typer(
     name="faultspace",
     help="Exact verdicts on the claims of a paper about systems with additive faults, and exact answers about your own system.",
     epilog="A SYSTEM is a JSON file, - for standard input, or example:NAME (see: faultspace examples). "
-    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input.",
+    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 70 an error of ours.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -74,6 +74,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         say("interrupted")
         return INTERRUPTED
+    except Exception as error:  # before a command's body was reached
+        return asks_report(error)
 
 
 @app.callback(invoke_without_command=True)
