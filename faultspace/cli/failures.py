@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 import platform
 import sys
+import textwrap
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
@@ -72,12 +73,23 @@ def asks_report(error: Exception) -> int:
 
 
 def say(message: str) -> None:
-    """One line on standard error, whatever the message holds; of a very long one the middle is left out."""
+    """One line on standard error, whatever the message holds, on a terminal broken between words; a very long one lacks its middle."""
     line = " ".join(message.split())
     if len(line) > LONGEST_LINE:
         line = f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
+    line = f"faultspace: {line}"
     with suppress(OSError):
-        print(f"faultspace: {line}", file=sys.stderr, flush=True)
+        if sys.stderr.isatty() and (columns := _columns()):
+            line = textwrap.fill(line, max(columns, 20), subsequent_indent="    ", break_on_hyphens=False)
+        print(line, file=sys.stderr, flush=True)
+
+
+def _columns() -> int:
+    """How wide the terminal of standard error is; 0 where nobody knows."""
+    try:
+        return int(os.environ.get("COLUMNS") or 0) or os.get_terminal_size(sys.stderr.fileno()).columns
+    except (OSError, ValueError):
+        return 0
 
 
 def forget_output() -> None:

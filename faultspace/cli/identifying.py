@@ -17,7 +17,7 @@ from ..numeric.pipeline import identify
 from ..numeric.report import files as report
 from ..numeric.report.summary import summary
 from .argument_names import as_options
-from .consoles import answers, print_json
+from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, say
 from .progress import evenly, working
 from .reading_files import prepare_folder
@@ -73,8 +73,9 @@ def run(
         return ANSWERED
     console = answers()
     for line in summary(answer, data, worded=as_options):
-        console.print(Text(line, style="bold cyan" if line.startswith("#") else ""), soft_wrap=True)
-    console.print(Text(f"\nwritten into {quote_path(str(out))}: {', '.join(written)}"), soft_wrap=True)
+        paragraph(console, Text(line, style="bold cyan" if line.startswith("#") else ""))
+    console.print()
+    paragraph(console, f"written into {quote_path(str(out))}: {', '.join(written)}")
     return ANSWERED
 
 
