@@ -1,7 +1,7 @@
 """What is measured in the Monte Carlo study: inputs, faults and noise of one run, each from the run's own seed.
 
-    Experiment       inputs u, outputs y, faults v of one run, with the noise that was added
-    experiment       one run of a system
+    StudyRun         inputs u, outputs y, faults v of one run, with the noise that was added
+    study_run        one run of a system
     study_faults     v1 = sin(0.25 t^1.3) + 0.1, v2 = 1 - 0.99^t + white noise
     coloured_noise   white noise through the low-pass of the study
     response         y from u and x0 by one recursive filter with the poles of A: what a small model needs
@@ -37,7 +37,7 @@ NOISE_GAIN = _noise_gain()
 
 
 @dataclass(frozen=True, eq=False)
-class Experiment:
+class StudyRun:
     """u (N, n_u), y (N, p) with noise, v (N, n_v); `decibels` by which the noise lies below the outputs' standard deviation, on average."""
 
     u: Array
@@ -46,7 +46,7 @@ class Experiment:
     decibels: float
 
 
-def experiment(system: StudySystem, seed: np.random.SeedSequence | int, *, level: float, samples: int = SAMPLES) -> Experiment:
+def study_run(system: StudySystem, seed: np.random.SeedSequence | int, *, level: float, samples: int = SAMPLES) -> StudyRun:
     """u white normal, faults of the study, noise of `level` times each output's standard deviation through the low-pass of the study.
 
     level = 0.01 is the published setting; level = 0.01 / NOISE_GAIN makes noise of 1 % in fact. The same seed makes the same u, v and
@@ -60,7 +60,7 @@ def experiment(system: StudySystem, seed: np.random.SeedSequence | int, *, level
     clean = response(whole, np.hstack([u, v]), x0)
     noise = level * clean.std(axis=0, ddof=1) * coloured_noise(samples, P, rng)
     decibels = float(np.mean(20 * np.log10(clean.std(axis=0) / noise.std(axis=0)))) if level > 0 else float("inf")
-    return Experiment(u, clean + noise, v, decibels)
+    return StudyRun(u, clean + noise, v, decibels)
 
 
 def response(model: StateSpaceModel, u: Array, x0: Array) -> Array:
