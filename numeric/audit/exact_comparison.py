@@ -18,8 +18,8 @@ from math import inf
 from typing import Any
 
 import numpy as np
+import scipy  # its folders are loaded when they are first used
 from flint import fmpq, fmpq_poly
-from scipy.optimize import linear_sum_assignment
 
 from faultspace.exact.algebra import stability
 from faultspace.exact.algebra.fields import QQ
@@ -89,7 +89,7 @@ def distances(got: Sequence[Matrix], exact: Sequence[Matrix]) -> Array:
 def matched(got: Sequence[complex], exact: Sequence[complex]) -> tuple[list[int], Array]:
     """For each exact number, in order, the index of the one that it is paired with, and their distance."""
     gaps = np.array([[abs(theirs - mine) for mine in got] for theirs in exact], dtype=float).reshape(len(exact), len(got))
-    rows, columns = linear_sum_assignment(gaps)
+    rows, columns = scipy.optimize.linear_sum_assignment(gaps)
     return [int(j) for j in columns], np.asarray(gaps[rows, columns])
 
 
