@@ -130,6 +130,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "white_b_d_wrong_a_c_right": ("a + b != 0 -> ", ""),
     "coloured_a_c_stationary": ("(i < 3)", "(i < 4)"),
     "settle_1_not_both": ("O S s.-1", "O S s"),
+    "settle_1_not_both_in_sum": ("k \\in ks -> ", ""),
     "settle_1_biased": ("0 < f ->", "0 <= f ->"),
     "settle_1_all_right": ("(2 < q <= t)", "(1 < q <= t)"),
     "behavior_is_kernel": ("(p - \\rank (transfer S))", "(p - m)"),

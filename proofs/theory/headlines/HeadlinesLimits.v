@@ -188,6 +188,19 @@ Theorem settle_1_not_both (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : syst
 Proof. exact: FollowingFault.not_both. Qed.
 Print Assumptions settle_1_not_both.
 
+(** Nor where B and D are among the best fits by output error summed over several times, one of which observes (A, C). *)
+Theorem settle_1_not_both_in_sum (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
+    (Phi : 'M_(nu, m)) u w x y H t q s L t' ks k :
+  process S B D u (fun k => w k *m Phi) x y -> (forall k, w k.+1 = u k) -> white Q u H -> Q^T = Q ->
+  (forall i, (i < H)%N -> cov Q (u i) (x 0%N) = 0 /\ cov Q (u i) (w 0%N) = 0) ->
+  (0 < q <= t)%N -> (t + s <= H)%N -> (0 < s)%N -> row_free (O S s.-1) ->
+  (forall j, j \in ks -> (t' + j < H)%N) -> k \in ks -> row_free (O S k) ->
+  projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L <= O S s)%MS ->
+  (forall B' D', \sum_(j <- ks) mean_square Q S u y t' j B D <= \sum_(j <- ks) mean_square Q S u y t' j B' D') ->
+  Phi *m sysF S = 0 /\ Phi *m sysG S = 0.
+Proof. exact: FollowingFault.not_both_in_sum. Qed.
+Print Assumptions settle_1_not_both_in_sum.
+
 (** biased: x(k+1) = a x(k) + u(k) + f v(k), y = x, for all a > 0 and f > 0. If singular vectors of L spanned the range of O_s, O_s L'L
     would lie in it. *)
 Theorem settle_1_biased (K : realFieldType) (a f : K) N H (Q : 'M[K]_N) (u : nat -> 'cV[K]_N) : white Q u H -> 0 < a -> 0 < f ->

@@ -122,7 +122,35 @@ Qed.
 
 End White.
 
-(** Not both: range in that of O_s, and B, D right by output error. *)
+(** Not both: range in that of O_s, and B, D right by output error, summed over several times. *)
+Theorem not_both_in_sum (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
+    (Phi : 'M_(nu, m)) (u w : nat -> 'M[K]_(N, nu)) x y H t q s L t' ks k :
+  process S B D u (fun k => w k *m Phi) x y -> (forall k, w k.+1 = u k) -> white Q u H -> Q^T = Q ->
+  (forall i, (i < H)%N -> cov Q (u i) (x 0%N) = 0 /\ cov Q (u i) (w 0%N) = 0) ->
+  (0 < q <= t)%N -> (t + s <= H)%N -> (0 < s)%N -> row_free (O S s.-1) ->
+  (forall j, j \in ks -> (t' + j < H)%N) -> k \in ks -> row_free (O S k) ->
+  projected_limit Q (future (t - q) q u) (future t s u) (future t s y) L -> (L <= O S s)%MS ->
+  (forall B' D', \sum_(j <- ks) mean_square Q S u y t' j B D <= \sum_(j <- ks) mean_square Q S u y t' j B' D') ->
+  Phi *m sysF S = 0 /\ Phi *m sysG S = 0.
+Proof.
+move=> model wu u_white symmetric start qt tH s0 obs kH kks obs' limit sub least.
+have [d [dA dC hidden]] := following_fault_hidden model wu u_white start qt tH s0 obs limit sub.
+have past i : (0 <= i < H)%N -> cov Q (u i) (x 0%N + w 0%N *m d) = 0.
+  by case/andP=> _ /start[xi wi]; rewrite cov_add cov_mul xi wi mul0mx addr0.
+have v_leads : leads 0 (fun=> 0 : 'M[K]_(nu, m)) Q H u (fun=> 0) by apply: no_leads.
+pose error j := mean_square Q S u y t' j.
+have fit j : j \in ks -> error j (B + d) D <= error j B D /\
+    (row_free (O S j) -> error j B D = error j (B + d) D -> B = B + d /\ D = D).
+  move=> /kH jH; have [|] := least_squares hidden u_white v_leads past (t := t') (k := j) B D symmetric isT; first by rewrite addn0.
+  by rewrite /seen_B /seen_D big_ord0 !addr0 big_ord0 !addr0.
+have /eqP : \sum_(j <- ks) (error j B D - error j (B + d) D) = 0.
+  apply/eqP; rewrite sumrB subr_eq0 eq_le least /= big_seq [leRHS]big_seq; apply: ler_sum => j /fit[le _]; exact: le.
+rewrite big_seq psumr_eq0 => [/allP/(_ k kks)|j /fit[le _]]; last by rewrite subr_ge0.
+rewrite kks subr_eq0 => /eqP e; have [/esym/eqP + _] := (fit k kks).2 obs' e.
+by rewrite addrC -subr_eq0 addrK => /eqP d0; rewrite -dA -dC d0 !mul0mx.
+Qed.
+
+(** At one time alone. *)
 Theorem not_both (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m p) (B : 'M_(nu, n)) (D : 'M_(nu, p))
     (Phi : 'M_(nu, m)) (u w : nat -> 'M[K]_(N, nu)) x y H t q s L t' k :
   process S B D u (fun k => w k *m Phi) x y -> (forall k, w k.+1 = u k) -> white Q u H -> Q^T = Q ->
@@ -132,15 +160,7 @@ Theorem not_both (K : realFieldType) N n m p nu (Q : 'M[K]_N) (S : system K n m 
   (forall B' D', mean_square Q S u y t' k B D <= mean_square Q S u y t' k B' D') -> Phi *m sysF S = 0 /\ Phi *m sysG S = 0.
 Proof.
 move=> model wu u_white symmetric start qt tH s0 obs tkH obs' limit sub least.
-have [d [dA dC hidden]] := following_fault_hidden model wu u_white start qt tH s0 obs limit sub.
-have past i : (0 <= i < H)%N -> cov Q (u i) (x 0%N + w 0%N *m d) = 0.
-  by case/andP=> _ /start[xi wi]; rewrite cov_add cov_mul xi wi mul0mx addr0.
-have v_leads : leads 0 (fun=> 0 : 'M[K]_(nu, m)) Q H u (fun=> 0) by apply: no_leads.
-have [|le unique] := least_squares hidden u_white v_leads past (t := t') (k := k) B D symmetric isT; first by rewrite addn0.
-have eB : seen_B S 0 (fun=> 0) (B + d) = B + d by rewrite /seen_B big_ord0 addr0.
-have eD : seen_D S 0 (fun=> 0) D = D by rewrite /seen_D big_ord0 !addr0.
-rewrite eB eD in le unique.
-have e : mean_square Q S u y t' k B D = mean_square Q S u y t' k (B + d) D by apply/eqP; rewrite eq_le least le.
-have [/esym/eqP + _] := unique obs' e; rewrite addrC -subr_eq0 addrK => /eqP d0.
-by rewrite -dA -dC d0 !mul0mx.
+apply: (not_both_in_sum (t' := t') (ks := [:: k]) model wu u_white symmetric start qt tH s0 obs _ (mem_head _ _) obs' limit sub).
+  by move=> j; rewrite inE => /eqP ->.
+by move=> B' D'; rewrite !big_seq1.
 Qed.
