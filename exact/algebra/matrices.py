@@ -76,7 +76,7 @@ class Matrix:
 
     @staticmethod
     def from_elements(field: Field, nrows: int, ncols: int, rows: Sequence[Sequence[Any]]) -> Matrix:
-        """A matrix from rows of field elements, unchecked."""
+        """The result is a matrix from rows of field elements, unchecked."""
         d = field.degree
         if d == 1 and not isinstance(field, NumberField):
             return Matrix(field, nrows, ncols, base_matrix(field, nrows, ncols, [x for row in rows for x in row]))
@@ -90,13 +90,13 @@ class Matrix:
 
     @staticmethod
     def zero(field: Field, nrows: int, ncols: int) -> Matrix:
-        """The zero matrix."""
+        """The result is the zero matrix."""
         d = field.degree
         return Matrix(field, nrows, ncols, base_matrix(field, nrows * d, ncols * d, [0] * (nrows * ncols * d * d)))
 
     @staticmethod
     def identity(field: Field, size: int) -> Matrix:
-        """The identity matrix."""
+        """The result is the identity matrix."""
         k = size * field.degree
         scalars = [0] * (k * k)
         scalars[:: k + 1] = [1] * k
@@ -106,11 +106,11 @@ class Matrix:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """(nrows, ncols)."""
+        """The shape is (nrows, ncols)."""
         return (self.nrows, self.ncols)
 
     def __getitem__(self, index: tuple[int, int]) -> Any:
-        """The field element in row i, column j (non-negative indices)."""
+        """The result is the field element in row i, column j (non-negative indices)."""
         i, j = index
         d = self.field.degree
         if not isinstance(self.field, NumberField):
@@ -118,7 +118,7 @@ class Matrix:
         return self.field.from_coordinates([self.flint[i * d, j * d + c] for c in range(d)])
 
     def elements(self) -> list[list[Any]]:
-        """All entries as rows of field elements."""
+        """The result has all entries as rows of field elements."""
         if not isinstance(self.field, NumberField):
             table: list[list[Any]] = self.flint.tolist()
             return table
@@ -128,11 +128,11 @@ class Matrix:
         return [[take(table[i * d][j * d : j * d + d]) for j in range(self.ncols)] for i in range(self.nrows)]
 
     def to_json(self) -> list[list[object]]:
-        """Rows of entries as the exact file formats write them."""
+        """The result has the rows of entries as the exact file formats write them."""
         return [[self.field.write(x) for x in row] for row in self.elements()]
 
     def to_sympy(self) -> sympy.ImmutableMatrix:
-        """The sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
+        """The result is the sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
         a = sympy.Symbol("a")
 
         def one(x: Any) -> sympy.Expr:
@@ -144,7 +144,7 @@ class Matrix:
         return sympy.ImmutableMatrix(self.nrows, self.ncols, [one(x) for row in self.elements() for x in row])
 
     def is_zero(self) -> bool:
-        """Whether every entry is zero."""
+        """This tells whether every entry is zero."""
         return all(x == 0 for x in self.flint.entries())
 
     def __eq__(self, other: object) -> bool:
@@ -183,14 +183,14 @@ class Matrix:
         return Matrix(self.field, self.nrows, self.ncols, -self.flint)
 
     def transposed(self) -> Matrix:
-        """The transpose, entry by entry (for number fields not the transpose of the block matrix)."""
+        """The result is the transpose, entry by entry (for number fields not the transpose of the block matrix)."""
         if not isinstance(self.field, NumberField):
             return Matrix(self.field, self.ncols, self.nrows, self.flint.transpose())
         rows = self.elements()
         return Matrix.from_elements(self.field, self.ncols, self.nrows, [[row[j] for row in rows] for j in range(self.ncols)])
 
     def rows(self, indices: Iterable[int]) -> Matrix:
-        """The matrix of these rows, in this order."""
+        """The result is the matrix of these rows, in this order."""
         d = self.field.degree
         table = self.flint.tolist()
         chosen = [table[i * d + c] for i in indices for c in range(d)]
@@ -198,7 +198,7 @@ class Matrix:
         return Matrix(self.field, len(chosen) // d, self.ncols, base_matrix(self.field, len(chosen), self.ncols * d, scalars))
 
     def columns(self, indices: Iterable[int]) -> Matrix:
-        """The matrix of these columns, in this order."""
+        """The result is the matrix of these columns, in this order."""
         d = self.field.degree
         wanted = [j * d + c for j in indices for c in range(d)]
         scalars = [row[j] for row in self.flint.tolist() for j in wanted]
@@ -207,14 +207,14 @@ class Matrix:
 
 @dataclass(frozen=True)
 class RowEchelon:
-    """The nonzero rows of a reduced row echelon form, and the column of the leading 1 of each."""
+    """These are the nonzero rows of a reduced row echelon form, and the column of the leading 1 of each."""
 
     matrix: Matrix
     pivots: tuple[int, ...]
 
 
 def beside(*parts: Matrix) -> Matrix:
-    """[X Y ...]: matrices with the same number of rows, side by side."""
+    """The result is [X Y ...]: matrices with the same number of rows, side by side."""
     first = parts[0]
     ncols = sum(part.ncols for part in parts)
     tables = [part.flint.tolist() for part in parts]
@@ -224,7 +224,7 @@ def beside(*parts: Matrix) -> Matrix:
 
 
 def stacked(*parts: Matrix) -> Matrix:
-    """[X; Y; ...]: matrices with the same number of columns, one above the other."""
+    """The result is [X; Y; ...]: matrices with the same number of columns, one above the other."""
     first = parts[0]
     nrows = sum(part.nrows for part in parts)
     scalars = [x for part in parts for x in part.flint.entries()]
@@ -273,7 +273,7 @@ def row_echelon(matrix: Matrix) -> RowEchelon:
 
 
 def pivot_columns(echelon: Any) -> list[int]:
-    """The column of the leading entry of every row of a row echelon form, which may end in zero rows."""
+    """The result is the column of the leading entry of every row of a row echelon form, which may end in zero rows."""
     pivots: list[int] = []
     start = 0
     for row in echelon.tolist():
@@ -285,12 +285,12 @@ def pivot_columns(echelon: Any) -> list[int]:
 
 
 def _is_large(matrix: Matrix) -> bool:
-    """Whether a rational matrix is worth the detour over a prime."""
+    """This tells whether a rational matrix is worth the detour over a prime."""
     return not isinstance(matrix.field, PrimeField) and matrix.flint.nrows() * matrix.flint.ncols() > 150
 
 
 def _modulo(rational: Any) -> Any:
-    """The matrix modulo a prime after clearing denominators row by row: its rank is a lower bound."""
+    """The result is the matrix modulo a prime after clearing denominators row by row: its rank is a lower bound."""
     rows: list[int] = []
     for row in rational.tolist():
         bottom = fmpz(1)
@@ -301,7 +301,7 @@ def _modulo(rational: Any) -> Any:
 
 
 def _lifted_echelon(rational: Any) -> Any:
-    """The reduced row echelon form, by p-adic lifting on the shape found modulo a prime; None where that prime misleads.
+    """The result is the reduced row echelon form, by p-adic lifting on the shape found modulo a prime; None where that prime misleads.
 
     The rows and columns of a nonzero minor of greatest size modulo the prime make a square B; the form is B^-1 times those rows, if the
     other rows are combinations of them: checked exactly.
@@ -365,17 +365,17 @@ def left_null_space(matrix: Matrix) -> Matrix:
 
 
 def column_basis(matrix: Matrix) -> Matrix:
-    """A basis of the column space as columns, in reduced column echelon form: equal spaces give equal matrices."""
+    """The result is a basis of the column space as columns, in reduced column echelon form: equal spaces give equal matrices."""
     return row_echelon(matrix.transposed()).matrix.transposed()
 
 
 def row_profile(matrix: Matrix) -> tuple[int, ...]:
-    """The rows that are not combinations of the rows above them (the row rank profile)."""
+    """These are the rows that are not combinations of the rows above them (the row rank profile)."""
     return row_echelon(matrix.transposed()).pivots
 
 
 def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
-    """Some X with X M = R, or None where R has a row outside the row space of M."""
+    """The result is some X with X M = R, or None where R has a row outside the row space of M."""
     profile = row_profile(matrix)
     basis = matrix.rows(profile)
     echelon = row_echelon(basis)
@@ -394,7 +394,7 @@ def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
 
 
 def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:
-    """The rational coordinates, ascending, of an element of sympy's QQ<a>."""
+    """These are the rational coordinates, ascending, of an element of sympy's QQ<a>."""
     descending = [Fraction(int(c.numerator), int(c.denominator)) for c in element.to_list()]
     size = int(domain.mod.degree())
     return descending[::-1] + [Fraction(0)] * (size - len(descending))

@@ -91,11 +91,11 @@ class Experiment:
 
     @property
     def sizes(self) -> str:
-        """How many states, faults, outputs and inputs, and the block rows of both windows, in words."""
+        """This says in words how many states, faults, outputs and inputs there are, and how many block rows both windows have."""
         return f"{self.system.sizes.rpartition(', over ')[0]}; s = {self.s}, past = {self.past}"
 
     def to_json(self) -> dict[str, Any]:
-        """The dict that exact files hold."""
+        """The result is the dict that exact files hold."""
         result = self.system.to_json() | {"s": self.s, "past": self.past}
         result |= {"u_filter": self.u_filter.to_json(), "v_filter": self.v_filter.to_json()}
         return result if self.w_filter is None else result | {"w_filter": self.w_filter.to_json()}

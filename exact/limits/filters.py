@@ -47,7 +47,7 @@ class Filter:
 
     @staticmethod
     def of(numerator: object, denominator: object = (1,), *, channels: int | None = None, where: str = "filter") -> Filter:
-        """The filter with these matrices over lag (lists, sympy matrices) and scalars over lag. Raises InvalidInput."""
+        """The result is the filter with these matrices over lag (lists, sympy matrices) and scalars over lag. Raises InvalidInput."""
         if not isinstance(numerator, (list, tuple)) or not numerator:
             raise InvalidInput(f"{where}: got {shorten(numerator)}, expected a list of matrices over lag 0, 1, ..., one at least")
         if not isinstance(denominator, (list, tuple)) or not denominator:
@@ -79,25 +79,25 @@ class Filter:
 
     @property
     def channels(self) -> int:
-        """Rows of each matrix."""
+        """This is the number of rows of each matrix."""
         return self.numerator[0].nrows
 
     @property
     def noise(self) -> int:
-        """Columns of each matrix: the dimension of the white noise."""
+        """This is the number of columns of each matrix: the dimension of the white noise."""
         return self.numerator[0].ncols
 
     @property
     def memory(self) -> int:
-        """How many past values of z are needed."""
+        """This says how many past values of z are needed."""
         return max(len(self.numerator), len(self.denominator)) - 1
 
     def is_zero(self) -> bool:
-        """Whether the signal is identically zero."""
+        """This tells whether the signal is identically zero."""
         return all(matrix.is_zero() for matrix in self.numerator)
 
     def to_json(self) -> object:
-        """A list of matrices where the denominator is 1, else {"num", "den"}."""
+        """The result is a list of matrices where the denominator is 1, else {"num", "den"}."""
         matrices = [matrix.to_json() for matrix in self.numerator]
         return matrices if len(self.denominator) == 1 else {"num": matrices, "den": [QQ.write(x) for x in self.denominator]}
 

@@ -48,30 +48,30 @@ class ZeroAssignment:
 
     @property
     def P(self) -> Matrix:
-        """n_z x r."""
+        """P is n_z x r."""
         return self.verdict.P
 
     @property
     def system(self) -> ResidualSystem:
-        """(A, Fhat P, C, Ghat P): its invariant zero polynomial is `desired`, made monic."""
+        """This is (A, Fhat P, C, Ghat P), whose invariant zero polynomial is `desired`, made monic."""
         return self.verdict.system
 
     def to_json(self) -> dict[str, Any]:
-        """The desired polynomial, the unit and the verdict."""
+        """The result is the desired polynomial, the unit and the verdict."""
         field = self.P.field
         return {"desired": written(self.desired, field), "unit": field.write(self.unit), **self.verdict.to_json()}
 
 
 @dataclass(frozen=True)
 class Recovery:
-    """A pair from whose outputs r(0..delay) `left_inverse` (m x p(delay + 1)) recovers v(0), whatever the initial state is."""
+    """This is a pair from whose outputs r(0..delay) `left_inverse` (m x p(delay + 1)) recovers v(0), whatever the initial state is."""
 
     assignment: ZeroAssignment
     delay: int
     left_inverse: Matrix
 
     def to_json(self) -> dict[str, Any]:
-        """The delay, the left inverse and the assignment."""
+        """The result is the delay, the left inverse and the assignment."""
         return {"delay": self.delay, "left_inverse": self.left_inverse.to_json(), **self.assignment.to_json()}
 
 
@@ -137,7 +137,7 @@ def recoverable_pair(pencil: Exceptional) -> Recovery:
 
 
 def _realising(pencil: Exceptional, free: Poly) -> Matrix:
-    """P with det(L(q) P) = +- free: solves stacked(L_j) P = coefficients of Q."""
+    """The result is P with det(L(q) P) = +- free: it solves stacked(L_j) P = coefficients of Q."""
     field, degrees = pencil.system.field, pencil.left_degrees
     zero, one = field.element(0), field.element(1)
     r, largest = len(degrees), degrees[-1]

@@ -34,7 +34,9 @@ from ..system.systems import ResidualSystem
 
 @dataclass(frozen=True)
 class BehaviorName:
-    """The rows N_j(q), (mu_j + 1) x p coefficients each, ascending by degree, then by pivot output; monic at the pivot. Hashable."""
+    """`rows` holds N_j(q), (mu_j + 1) x p coefficients each, ascending by degree, then by pivot output, where they are monic. It can be
+    hashed.
+    """
 
     field: Field
     p: int
@@ -42,36 +44,36 @@ class BehaviorName:
 
     @property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """The degrees of the rows, ascending."""
+        """These are the degrees of the rows, ascending."""
         return tuple(row.nrows - 1 for row in self.rows)
 
     def to_json(self) -> dict[str, Any]:
-        """Field, p and the rows."""
+        """The result holds the field, p and the rows."""
         return {"field": self.field.to_json(), "p": self.p, "rows": [row.to_json() for row in self.rows]}
 
 
 @dataclass(frozen=True)
 class FaultClass:
-    """`A`, `C` and `basis` = rows [f' g'] of Z in reduced row echelon form. Hashable."""
+    """`basis` holds the rows [f' g'] of Z in reduced row echelon form, beside `A` and `C`. It can be hashed."""
 
     A: Matrix
     C: Matrix
     basis: Matrix
 
     def to_json(self) -> dict[str, Any]:
-        """Field, A, C and the basis."""
+        """The result holds the field, A, C and the basis."""
         return {"field": self.A.field.to_json(), "A": self.A.to_json(), "C": self.C.to_json(), "fault_space": self.basis.to_json()}
 
 
 @dataclass(frozen=True)
 class FeedbackClass:
-    """`basis` of Z in reduced row echelon form and `residue`, [A; C] with zeros at its pivot rows, (n + p) x n. Hashable."""
+    """`basis` is that of Z in reduced row echelon form, `residue` is [A; C] with zeros at its pivot rows, (n + p) x n. It can be hashed."""
 
     basis: Matrix
     residue: Matrix
 
     def to_json(self) -> dict[str, Any]:
-        """Field, the basis and the residue."""
+        """The result holds the field, the basis and the residue."""
         return {"field": self.basis.field.to_json(), "fault_space": self.basis.to_json(), "residue": self.residue.to_json()}
 
 
@@ -140,7 +142,7 @@ def feedback_class(kernel: KernelRepresentation) -> FeedbackClass:
 
 
 def with_feedback(system: ResidualSystem, K: object) -> ResidualSystem:
-    """(A + F K, F, C + G K, G): v = K x + v', a change of the fault signal, leaves the outputs what they are. K is m x n.
+    """The result is (A + F K, F, C + G K, G): v = K x + v', a change of the fault signal, leaves the outputs what they are. K is m x n.
 
     Raises InvalidInput for another shape or field.
     """

@@ -43,17 +43,17 @@ class FaultSpace:
 
     @property
     def dimension(self) -> int:
-        """n_z at this window."""
+        """This is n_z at this window."""
         return self.basis.nrows
 
     @property
     def is_limit(self) -> bool:
-        """Whether the window is long enough for the space to be the limit Z."""
+        """This tells whether the window is long enough for the space to be the limit Z."""
         return self.window is None or self.window >= self.exact_from
 
     @property
     def warning(self) -> str | None:
-        """Why the solutions on a short window are not yet the limit Z, naming the lag and what to ask for; None where they are."""
+        """This says why the solutions on a short window are not yet the limit Z, and what to ask for; it is None where they are."""
         if self.is_limit:
             return None
         lag, samples = self.exact_from - 1, "1 sample is" if self.window == 1 else f"{self.window} samples are"
@@ -64,17 +64,17 @@ class FaultSpace:
 
     @property
     def F(self) -> Matrix:
-        """Fhat, n x n_z."""
+        """This is Fhat, n x n_z."""
         return self.basis.columns(range(self.system.n)).transposed()
 
     @property
     def G(self) -> Matrix:
-        """Ghat, p x n_z."""
+        """This is Ghat, p x n_z."""
         return self.basis.columns(range(self.system.n, self.system.n + self.system.p)).transposed()
 
 
 def from_kernel_rows(rows: Iterable[Matrix], A: Matrix, C: Matrix) -> Matrix:
-    """Basis rows [f' g'] of the columns that all rows ((mu + 1) x p coefficients each) annihilate, in echelon form."""
+    """The result is the basis rows [f' g'] of the columns that all rows ((mu + 1) x p coefficients each) annihilate, in echelon form."""
     nothing = Matrix.zero(A.field, 0, A.nrows + C.nrows)
     conditions = stacked(nothing, *(column_conditions(row, A, C) for row in rows))
     return row_echelon(right_null_space(conditions).transposed()).matrix

@@ -21,7 +21,7 @@ from .kernel_rows import KernelRepresentation
 
 @dataclass(frozen=True)
 class AmbiguousWord:
-    """x0 (n x 1) and v (samples x m) with v(0) != 0 and zero output throughout."""
+    """The word has x0 (n x 1) and v (samples x m) with v(0) != 0, and its output is zero throughout."""
 
     x0: Matrix
     v: Matrix
@@ -74,7 +74,9 @@ def delay_unknown_state(kernel: KernelRepresentation) -> int | None:
 
 
 def largest_output_nulling(system: ResidualSystem) -> Matrix:
-    """V* as a column basis (n x dim): the limit of the chain V_0 = K^n, V_(j+1) = {x : some v has C x + G v = 0, A x + F v in V_j}."""
+    """The result is V* as a column basis (n x dim): the limit of the chain V_0 = K^n, V_(j+1) = {x : some v has C x + G v = 0, A x + F v in
+    V_j}.
+    """
     subspace = Matrix.identity(system.field, system.n)
     while True:
         successor = column_basis(_zero_output_pairs(system, subspace).rows(range(system.n)))
@@ -103,7 +105,9 @@ def left_inverse(system: ResidualSystem, delay: int, *, known_state: bool) -> Ma
 
 
 def ambiguous_word(system: ResidualSystem, samples: int, *, known_state: bool) -> AmbiguousWord | None:
-    """A word of that many samples with v(0) != 0 and zero output, from x0 = 0 when the state is known; None where there is none."""
+    """The result is a word of that many samples with v(0) != 0 and zero output, from x0 = 0 when the state is known; None where there is
+    none.
+    """
     if samples == 0:
         return None
     built = toeplitz_matrix(system, samples) if known_state else window_matrix(system, samples)
@@ -119,14 +123,14 @@ def ambiguous_word(system: ResidualSystem, samples: int, *, known_state: bool) -
 
 
 def _zero_output_pairs(system: ResidualSystem, target: Matrix) -> Matrix:
-    """Columns [x; v] spanning {C x + G v = 0, A x + F v in the column space of `target`}."""
+    """The columns [x; v] of the result span {C x + G v = 0, A x + F v in the column space of `target`}."""
     moves = beside(system.A, system.F, -target)
     outputs = beside(system.C, system.G, Matrix.zero(system.field, system.p, target.ncols))
     return right_null_space(stacked(moves, outputs)).rows(range(system.n + system.m))
 
 
 def _first_determined(system: ResidualSystem) -> int:
-    """Least l such that v(0) is determined by r(0..l), or n + 1; by the recursion V_j, meant for prime fields."""
+    """The result is the least l such that v(0) is determined by r(0..l), or n + 1; by the recursion V_j, meant for prime fields."""
     subspace = Matrix.identity(system.field, system.n)
     for delay in range(system.n + 1):
         pairs = _zero_output_pairs(system, subspace)

@@ -49,31 +49,31 @@ class Structure(Shown):
 
     @property
     def system(self) -> ResidualSystem:
-        """The system."""
+        """This is the system that the structure is of."""
         return self.kernel.system
 
     @property
     def finite_zeros(self) -> int:
-        """n_f, the number of finite invariant zeros with multiplicity."""
+        """This is n_f, the number of finite invariant zeros with multiplicity."""
         return len(self.invariant_zero_polynomial) - 1
 
     @property
     def zeta(self) -> int:
-        """Finite and infinite zeros of the pencil together."""
+        """zeta is the number of zeros of the pencil, finite and infinite together."""
         return self.finite_zeros + sum(self.infinite_zero_orders)
 
     @property
     def left_invertible(self) -> bool:
-        """Whether the normal rank is m."""
+        """This tells whether the normal rank is m."""
         return self.kernel.normal_rank == self.system.m
 
     @property
     def title(self) -> str:
-        """How many states, faults and outputs, and the field."""
+        """This says how many states, faults and outputs there are, and over which field."""
         return self.system.sizes
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """What `faultspace inspect` prints, as (name, value) pairs."""
+        """The result is what `faultspace inspect` prints, as (name, value) pairs."""
         kernel, n = self.kernel, self.system.n
         yield "pencil P(q) = [[qI - A, -F], [C, G]]", ""
         yield "normal rank r", f"{kernel.normal_rank} of at most {min(self.system.m, self.system.p)}"
@@ -100,7 +100,7 @@ class Structure(Shown):
             yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
 
     def to_json(self) -> dict[str, Any]:
-        """The object that `faultspace inspect --json` prints."""
+        """The result is the object that `faultspace inspect --json` prints."""
         system, kernel = self.system, self.kernel
         windows = range(1, system.n + 4)
         return {
@@ -128,7 +128,7 @@ class Structure(Shown):
 
 
 def analyze(system: System) -> Structure:
-    """Everything that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
+    """This computes all that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
 
     `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
     left-invertible or not; B and D play no part. The Structure has `kernel.lag` (a number of samples), `kernel.left_minimal_indices`,

@@ -63,7 +63,9 @@ def simulate(system: ResidualSystem, x0: Matrix, v: Matrix) -> Trajectory:
 
 
 def hankel(signal: Matrix, s: int) -> Matrix:
-    """The block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N < s."""
+    """The result is the block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N <
+    s.
+    """
     if not 0 <= s <= signal.nrows:
         raise InvalidInput(f"window: got {s} with {signal.nrows} samples, expected 0 <= window <= samples")
     columns = signal.nrows - s + 1
@@ -72,13 +74,13 @@ def hankel(signal: Matrix, s: int) -> Matrix:
 
 
 def excitation_matrix(trajectory: Trajectory, s: int) -> Matrix:
-    """[X; V_s], (n + ms) x (N - s + 1). Raises InvalidInput if there are fewer than s samples."""
+    """The result is [X; V_s], (n + ms) x (N - s + 1). Raises InvalidInput if there are fewer than s samples."""
     faults = hankel(trajectory.faults, s)
     return stacked(trajectory.states.rows(range(faults.ncols)).transposed(), faults)
 
 
 def persistency(signal: Matrix) -> int:
-    """The largest order s with a block Hankel matrix of full row rank (0 where there is none)."""
+    """The result is the largest order s with a block Hankel matrix of full row rank, which is 0 where there is none."""
     order = 0
     while order < signal.nrows and rank(hankel(signal, order + 1)) == signal.ncols * (order + 1):
         order += 1

@@ -26,7 +26,7 @@ from ..algebra.validation import MAX_DIMENSION
 
 
 class System:
-    """The exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs and n_u inputs u.
+    """This is the exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs, n_u inputs u.
 
     A is n x n, F n x m, C p x n, G p x m, B n x n_u, D p x n_u: nested lists of integers, strings such as "1/2" and Fractions, or sympy
     matrices. Floats are refused, because a measured float has no exact zeros; `faultspace.exact.from_float_exactly` takes one as it is.
@@ -111,7 +111,7 @@ class System:
 
 @dataclass(frozen=True, init=False)
 class ResidualSystem(System):
-    """The system x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k) without inputs, exact over one field: what a residual obeys.
+    """This is the system x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k) without inputs, exact over one field.
 
     A is n x n, F n x m, C p x n, G p x m, of type Matrix over the same field; `ResidualSystem.of` takes nested lists, sympy matrices and
     so on. Two systems are equal where their matrices are, and they can be pickled and used as keys.
@@ -185,7 +185,7 @@ class ResidualSystem(System):
 
 @dataclass(frozen=True, init=False)
 class FaultySystem(System):
-    """The system x(k+1) = A x + B u + F v, y = C x + D u + G v: a ResidualSystem `residual` to which n_u inputs u are added.
+    """This is the system x(k+1) = A x + B u + F v, y = C x + D u + G v: a ResidualSystem `residual` with n_u inputs u.
 
     B is n x n_u and D p x n_u, of type Matrix over the field of the residual system; `System` takes nested lists. The inputs are known, so
     that everything about faults is a matter of `residual`, and all functions that take a system take either kind.
@@ -233,7 +233,7 @@ class FaultySystem(System):
 
 
 def counted(count: int, word: str) -> str:
-    """The number with the word in its singular or plural: "1 state", "2 states"."""
+    """The result is the number with the word in its singular or plural: "1 state", "2 states"."""
     return f"{count} {word}{'' if count == 1 else 's'}"
 
 
@@ -326,7 +326,7 @@ def _agree(name: str, matrix: Matrix, shape: tuple[int, int], field: Field) -> N
 
 
 def _dimension(name: str, given: object, *places: tuple[object, int]) -> int:
-    """The stated dimension, or the one that the first matrix with entries shows."""
+    """The result is the stated dimension, or the one that the first matrix with entries shows."""
     if given is not None:
         if type(given) is not int or given < 0:
             raise InvalidInput(f"{name}: got {shorten(given)}, expected an integer >= 0")
@@ -339,7 +339,9 @@ def _dimension(name: str, given: object, *places: tuple[object, int]) -> int:
 
 
 def _extent(entries: object, axis: int) -> int | None:
-    """Rows (axis 0) or columns (axis 1) of nested lists or a matrix; None where an empty list does not tell."""
+    """The result is the number of rows (axis 0) or columns (axis 1) of nested lists or a matrix; it is None where an empty list does not
+    tell.
+    """
     if isinstance(entries, (Matrix,)):
         return entries.shape[axis]
     if isinstance(entries, sympy.MatrixBase) or hasattr(entries, "shape"):

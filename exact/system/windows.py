@@ -1,15 +1,14 @@
-"""The matrices of a window of s samples, built in full: definitions, and the slow obvious oracle for every fast rank.
+"""The matrices of a window of s samples, built in full as they are defined.
 
 observability_matrix   O_s, s block rows C, CA, ..., CA^(s-1)                        ps x n
 toeplitz_matrix        T_s, G on the diagonal, C A^(i-j-1) F below                    ps x ms
 window_matrix          [O_s T_s], from (x(0), v(0), ..., v(s-1)) to the samples        ps x (n + ms)
 reachability_matrix    [F, AF, ..., A^(n-1) F]                                         n x nm
-rank_of_every_window   ranks for s = 1..windows from the built matrices: compare with zero_output, never use at size
 """
 
 from __future__ import annotations
 
-from ..algebra.matrices import Matrix, beside, rank, stacked
+from ..algebra.matrices import Matrix, beside, stacked
 from .systems import ResidualSystem
 
 
@@ -86,8 +85,3 @@ def reachability_matrix(system: ResidualSystem) -> Matrix:
         blocks.append(column)
         column = system.A @ column
     return beside(*blocks)
-
-
-def rank_of_every_window(system: ResidualSystem, windows: int) -> tuple[int, ...]:
-    """rank [O_s T_s] for s = 1..windows by elimination of each built matrix."""
-    return tuple(rank(window_matrix(system, s)) for s in range(1, windows + 1))

@@ -23,7 +23,7 @@ from joblib import Parallel, delayed
 
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
-from ...exact.algebra.stability import characteristic_polynomial, is_stable
+from ...exact.algebra.stability import is_stable, rational_characteristic_polynomial
 from ...exact.limits.experiments import Experiment, read_experiment
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
@@ -89,7 +89,7 @@ class LimitEvidence:
     @property
     def nilpotent(self) -> bool:
         """A^n = 0."""
-        return not any(characteristic_polynomial(self.experiment.system.residual.A)[:-1])
+        return not any(rational_characteristic_polynomial(self.experiment.system.residual.A)[:-1])
 
     @property
     def past_of_input(self) -> bool:

@@ -89,7 +89,7 @@ FIELD_OBJECTS: dict[str, Field] = {name: field_from_json(f) for name, f in FIELD
 
 
 def example(field: Field) -> ResidualSystem:
-    """One fault, two outputs, three states, entries 0, 1 and 2."""
+    """The system has one fault, two outputs, three states and the entries 0, 1 and 2."""
     return ResidualSystem.of([[0, 1, 0], [0, 0, 1], [2, 1, 1]], [[1], [0], [1]], [[1, 0, 0], [0, 1, 0]], [[0], [0]], field=field)
 
 
@@ -213,7 +213,7 @@ def test_domain_matrices_over_other_domains() -> None:
 
 
 def test_the_example_of_the_paper_through_sympy() -> None:
-    """The cubic field of the example, its F given as a DomainMatrix over QQ<a>."""
+    """The example has a cubic field, and its F is given as a DomainMatrix over QQ<a>."""
     x = sympy.Symbol("x")
     field = field_from_json(CUBIC)
     domain = sympy.QQ.algebraic_field(sympy.CRootOf(4 * x**3 - x**2 - 3 * x + 1, 0))
