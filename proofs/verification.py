@@ -59,12 +59,13 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
     machine = _theorems(chosen, report)
     attacks = attacking({claim.id for claim in chosen}, effort, jobs, report)
     results: list[ClaimResult] = []
+    decided: dict[str, Outcome] = {}  # by the name of the check: several readings come down to one
     done = 0
     for claim in chosen:
         readings = []
         for reading in claim.readings:
             report(f"{claim.id}: {reading.id}", done, total)
-            readings.append(of_reading(_with_theorems(_check(claim, reading, bench), machine), claim.id, attacks))
+            readings.append(of_reading(_with_theorems(_check(reading, bench, decided), machine), claim.id, attacks))
             done += 1
         results.append(ClaimResult(claim, tuple(readings)))
     rows = tuple(of_row(row, attacks) for row in _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report))
@@ -147,15 +148,22 @@ def _row_with_theorems(row: Row, machine: _Machine) -> Row:
     return replace(row, verdict=Verdict.PROVED, evidence=words, machine_checked=True)
 
 
-def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:
+def _check(reading: Reading, bench: Workbench, decided: dict[str, Outcome]) -> ReadingResult:
     started = time.perf_counter()
-    module = import_module(f".claims.{claim.module}", __package__)
+    if reading.check not in decided:
+        decided[reading.check] = _outcome(reading.check, bench)
+    return ReadingResult(reading, decided[reading.check], time.perf_counter() - started)
+
+
+def _outcome(check: str, bench: Workbench) -> Outcome:
+    """What the function of this name in claims/ finds; an ERROR where it raises, or says something that no accepted certificate bears."""
+    file, _, name = check.partition(".")
     try:
-        outcome: Outcome = getattr(module, reading.id.replace("-", "_"))(bench)
+        outcome: Outcome = getattr(import_module(f".claims.{file}", __package__), name)(bench)
     except (Malformed, Rejected) as error:
         outcome = Outcome(Verdict.ERROR, f"the checker refused a certificate: {error}")
     except Exception as error:  # whatever it is, this check did not finish, and the others go on
         outcome = Outcome(Verdict.ERROR, f"{type(error).__name__}: {error}")
     if outcome.verdict in (Verdict.CERTIFIED, Verdict.REFUTED) and not (outcome.certificates and outcome.accepted):
         outcome = Outcome(Verdict.ERROR, f"{outcome.verdict}, and yet no certificate was accepted: {outcome.evidence}")
-    return ReadingResult(reading, outcome, time.perf_counter() - started)
+    return outcome

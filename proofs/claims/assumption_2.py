@@ -5,7 +5,6 @@ from __future__ import annotations
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench
 from .proposition_1 import WHITE, drives, smallest_limit
-from .proposition_1 import two_sided as consistent
 
 
 def one_sided(bench: Workbench) -> Outcome:
@@ -18,8 +17,3 @@ def one_sided(bench: Workbench) -> Outcome:
 def without_lag_zero(bench: Workbench) -> Outcome:
     """Zero for all l >= 1 would do: v(k) = u(k) passes, and moves B or D."""
     return smallest_limit(drives([WHITE], [["1"]]), lambda e: e.past_lags and not e.inputs_right, "v(k) = u(k), u white")
-
-
-def two_sided(bench: Workbench) -> Outcome:
-    """Zero for all l of both signs: V_s U_s^T -> 0 by definition, and what the proof wants from it holds."""
-    return consistent(bench)

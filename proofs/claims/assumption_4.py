@@ -28,7 +28,7 @@ from .common import GAP_BOX, delay_of, delays, gap_is_m_from, under_assumption_4
 def n_minus_1_known(bench: Workbench) -> Outcome:
     """s >= max(l, n - 1), l the delay for known initial state."""
     test = wrong_gap(lambda f: f.delay_known_state)
-    return bench.once("gap from n - 1", lambda: refute(bench, GAP_BOX, test, under_assumption_4(True), _from(True, -1), delays))
+    return refute(bench, GAP_BOX, test, under_assumption_4(True), _from(True, -1), delays)
 
 
 def n_minus_1_unknown(bench: Workbench) -> Outcome:
@@ -87,7 +87,7 @@ def _valid(facts: Facts) -> Flags:
 
 def excitation_at_s_plus_1(bench: Workbench) -> Outcome:
     """[X; V_(s+1)] of full row rank: rank R_s and rank R_(s+1) are the model's, so the gap is m for s >= lag."""
-    return bench.once("gap of excited data", lambda: _on_data(bench, excited=True))
+    return _on_data(bench, excited=True)
 
 
 def excitation_necessary(bench: Workbench) -> Outcome:

@@ -33,7 +33,7 @@ from ..evidence.seasonal_inputs import BOX as BOX_OF_PERIOD
 from ..evidence.seasonal_inputs import in_order, seasonal
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Workbench, certify_records, counterexample
+from ..verdict.workbench import Workbench, certify_records, counterexample, witnessed
 
 WHITE = (["1"], ["1"])
 MOVING_AVERAGE = (["1", "1/2"], ["1"])
@@ -72,6 +72,11 @@ def white_b_d(bench: Workbench) -> Outcome:
         return _regular(e) and e.equal and found is not None and found[0] != system.B and found[1] != system.D
 
     return smallest_limit(drives([WHITE], LEADS), fails, "v leads u by one or two samples, the limit having the range of O_s")
+
+
+def white_b_d_fails(bench: Workbench) -> Outcome:
+    """There is a fault that is uncorrelated with a white u at all l >= 0, leaves A and C right, and moves B and D."""
+    return witnessed(white_b_d(bench))
 
 
 def white_b_d_seen(bench: Workbench) -> Outcome:
@@ -156,6 +161,11 @@ def two_sided_nilpotent(bench: Workbench) -> Outcome:
 def two_sided_long_past(bench: Workbench) -> Outcome:
     """All of it where past >= n + the order of the filter of u, of any colour."""
     return certify_limits([e for e in bench.limits if e.whole_range_expected and e.past_of_input], lambda e: e.equal)
+
+
+def two_sided_long_past_inputs(bench: Workbench) -> Outcome:
+    """With such a past B and D are right as well, by either regression."""
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.past_of_input], lambda e: e.equal and e.inputs_right)
 
 
 def two_sided_almost_every(bench: Workbench) -> Outcome:

@@ -9,13 +9,7 @@ from ..evidence.parametric import gap_claim
 from ..evidence.search import Box
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench, certify, refute
-from .assumption_4 import n_minus_1_known
 from .common import gap_is_m_from, identity, ranks_and_inversion
-
-
-def as_printed(bench: Workbench) -> Outcome:
-    """Under assumption 4 with s >= max(l, n - 1)."""
-    return n_minus_1_known(bench)
 
 
 def n_alone(bench: Workbench) -> Outcome:

@@ -20,7 +20,6 @@ from ..trust.structure_certificates import Certificate, accept
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, accepted, certify
 from .common import ranks_and_inversion
-from .problem_11 import lag_plus_1
 
 
 def gap(bench: Workbench) -> Outcome:
@@ -32,22 +31,11 @@ def gap(bench: Workbench) -> Outcome:
     return certify(bench, lambda e: True, holds, ranks_and_inversion)
 
 
-def solutions(bench: Workbench) -> Outcome:
-    """The solutions of problem (11) are Z for exactly the s >= lag + 1."""
-    return lag_plus_1(bench)
-
-
-def equality(bench: Workbench) -> Outcome:
-    """Some system with the same (A, C) agrees on lag samples and differs on lag + 1: shown with as many faults."""
-    return equality_as_many_faults(bench)
-
-
 def equality_as_many_faults(bench: Workbench) -> Outcome:
-    """Left-invertible, m >= 1, lag >= 1: the partner has as many faults and is left-invertible."""
-    return bench.once("partners that differ late", lambda: _partners(bench))
+    """A left-invertible system with m >= 1 and lag >= 1 has a partner that agrees with it on lag samples and differs on lag + 1.
 
-
-def _partners(bench: Workbench) -> Outcome:
+    The partner has the same (A, C) and as many faults, and is left-invertible too.
+    """
     systems = [s for _, s in adversarial() if s.n <= 6] + list(islice(random_systems(QQ, 4000, seed=13), 400 if bench.full else 80))
     headline: tuple[Certificate, ...] = ()
     tried = count = 0

@@ -1,4 +1,7 @@
-"""theorem-3 (ii): almost every full-column-rank P gives an equivalent pair; decided for each P: equivalent iff the normal rank is m."""
+"""theorem-3: (i) every equivalent pair is (Fhat P, Ghat P); (ii) almost every P of full column rank gives an equivalent pair.
+
+Part (ii) is decided for each P: the pair is equivalent iff its normal rank is that of the system, m where that is left-invertible.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Workbench, certify_records, counterexample
+from ..verdict.workbench import Workbench, certify_records, counterexample, witnessed
 from .one_determinant import show as show_pair
 from .one_determinant import words as pair_words
 
@@ -27,6 +30,17 @@ def every_p(bench: Workbench) -> Outcome:
     return _smallest_bad_pair(
         lambda kernel: kernel.lag + 1, lambda alternative: True, "s = lag + 1, P with entries in {-1, 0, 1} and full column rank"
     )
+
+
+def not_every_p(bench: Workbench) -> Outcome:
+    """There is a P of full column rank whose pair is not equivalent, at s = lag + 1."""
+    return witnessed(every_p(bench))
+
+
+def columns_in_space(bench: Workbench) -> Outcome:
+    """Part (i): every (F', G') with the same behaviour for the same (A, C) has its columns in Z."""
+    records = [e for e in bench.alternatives if e.equal]
+    return certify_records(records, [e for e in records if not e.in_space], words, show)
 
 
 def almost_every(bench: Workbench) -> Outcome:

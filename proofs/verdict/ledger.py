@@ -21,7 +21,8 @@ class Reading:
     """One way to read a claim, precise enough to be decided.
 
     `theorems` of theory/headlines say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
-    proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any.
+    proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any. `check` is
+    the function in claims/ that decides it, as "file.function".
     """
 
     id: str
@@ -32,6 +33,7 @@ class Reading:
     theorems: tuple[str, ...] = ()
     missing: str = ""
     part: str = ""
+    check: str = ""
 
     @property
     def proved(self) -> str:
@@ -41,7 +43,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim of the paper or of its review. `module` is its file in claims/: the id with underscores.
+    """A claim of the paper or of its review.
 
     The readings of a claim are alternatives, or those of each `part` are; where it is made `in_parts`, each that is not ours is a part of
     its own. Of every part one must hold.
@@ -54,11 +56,6 @@ class Claim:
     uses: tuple[str, ...]
     in_parts: bool
     readings: tuple[Reading, ...]
-
-    @property
-    def module(self) -> str:
-        """The module in `claims` that checks it."""
-        return self.id.replace("-", "_").replace("(", "").replace(")", "")
 
 
 def load() -> tuple[Claim, ...]:
@@ -96,6 +93,7 @@ def _claim(name: str, entry: dict[str, object]) -> Claim:
                 theorems=tuple(value.get("theorems", ())),
                 missing=str(value.get("missing", "")),
                 part=str(value.get("part", "")),
+                check=str(value.get("check", f"{name}.{key}".replace("-", "_"))),
             )
             for key, value in readings.items()
         ),

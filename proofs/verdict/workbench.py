@@ -62,12 +62,6 @@ class Workbench:
         """Experiments with certified population limits."""
         return certified_limits(self.effort, self.jobs, self.progress)
 
-    def once(self, name: str, find: Callable[[], Outcome]) -> Outcome:
-        """An outcome that several readings share, found the first time it is asked for."""
-        if name not in self._shared:
-            self._shared[name] = find()
-        return self._shared[name]
-
     def records(self, name: str, make: Callable[[], list[Made]]) -> list[Made]:
         """Certified material that several ablations share, made the first time it is asked for."""
         if name not in self._made:
@@ -76,10 +70,6 @@ class Workbench:
 
     @cached_property
     def _made(self) -> dict[str, list[Any]]:
-        return {}
-
-    @cached_property
-    def _shared(self) -> dict[str, Outcome]:
         return {}
 
     @property

@@ -8,7 +8,7 @@ from random import Random
 import pytest
 
 from faultspace.exact.limits.experiments import Experiment
-from faultspace.proofs.claims import assumption_2, objection_1, past_outputs, proposition_1, settle_1
+from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
 from faultspace.proofs.evidence import experiments
 from faultspace.proofs.evidence.experiments import FAMILIES, LimitEvidence, examine_experiment
 from faultspace.proofs.hypotheses.consistency import consistency
@@ -44,7 +44,7 @@ READINGS = (
     proposition_1.two_sided_autoregressive,
     proposition_1.two_sided_nilpotent,
     proposition_1.two_sided_long_past,
-    objection_1.two_sided_long_past,
+    proposition_1.two_sided_long_past_inputs,
     settle_1.not_both,
     past_outputs.white_fault,
     past_outputs.past_inputs_long_past,

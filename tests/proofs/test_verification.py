@@ -12,7 +12,7 @@ from faultspace.proofs.evidence import corpus
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust.structure_certificates import sha256
 from faultspace.proofs.verdict import workbench
-from faultspace.proofs.verdict.ledger import Claim, Reading
+from faultspace.proofs.verdict.ledger import Claim, Reading, load
 from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
 from faultspace.proofs.verdict.workbench import Workbench, accepted, certify
 from faultspace.proofs.verification import verify
@@ -179,15 +179,21 @@ def _first_image(system: object, largest: int) -> object:
     return image(system, largest=LARGEST_PRIME)  # type: ignore[arg-type]
 
 
-def test_workbench_makes_shared_outcomes_once() -> None:
-    calls: list[int] = []
+def test_a_check_that_several_readings_share_is_run_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[Workbench] = []
 
-    def find() -> Outcome:
-        calls.append(1)
-        return Outcome(Verdict.CERTIFIED, "")
+    def found(bench: Workbench) -> Outcome:
+        calls.append(bench)
+        return Outcome(Verdict.IDENTITY, "shared")
 
-    made = workbench.Workbench("quick", 1, quiet)
-    assert made.once("x", find) is made.once("x", find) and calls == [1]
+    names = {reading.check for claim in load() if claim.id in ("proposition-3", "settle-2") for reading in claim.readings}
+    for name in names:
+        monkeypatch.setattr(f"faultspace.proofs.claims.{name}", found)
+    monkeypatch.setattr(verification, "ablations", tuple)
+    report = verify(["proposition-3", "settle-2"], jobs=1)
+    readings = [reading for one in report.claims for reading in one.readings]
+    assert len(calls) == len(names) == len(readings) - 1
+    assert all(reading.outcome.evidence.endswith("shared") for reading in readings)
 
 
 @pytest.mark.parametrize(
