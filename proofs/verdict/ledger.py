@@ -127,7 +127,7 @@ def load() -> tuple[Claim, ...]:
 
 
 def expected_without() -> dict[str, dict[str, str]]:
-    """{ablation: {hypothesis: verdict on the claim without it}}: REFUTED where it is needed."""
+    """A dict {ablation: {hypothesis: verdict on the claim without it}}; the verdict is REFUTED where the hypothesis is needed."""
     return {name: {str(key): str(value) for key, value in entry.items()} for name, entry in _contents()["without"].items()}
 
 

@@ -4,6 +4,8 @@ Verdict          PROVED, IDENTITY, CERTIFIED, REFUTED, AMENDED, ERROR
 Outcome          what one check found: verdict, evidence in words, certificates
 ReadingResult    an outcome with the reading it belongs to, the verdict the ledger expects, and the seconds it took
 ClaimResult      the readings of one claim and the verdict on the claim as a whole
+Row              a claim without one or two of its hypotheses
+of_readings      the verdict on a claim from those on its readings
 Report           all claims of a run; `as_expected` decides the exit code
 """
 
