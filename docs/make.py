@@ -83,12 +83,12 @@ def picture() -> str:
         axes.text(4.9, row, str(verdict(claim)), va="center", fontsize=8, color="#333333")
         for repair, start in ((False, left), (True, left + printed + gap)):
             for column, reading in enumerate(one for one in claim.readings if one.repair == repair):
-                told = Verdict(reading.proved)
+                best = Verdict(reading.proved)
                 box = FancyBboxPatch((start + column + 0.08, row - 0.36), 0.84, 0.72, boxstyle="round,pad=0,rounding_size=0.12")
-                box.set(facecolor=COLOURS[told], edgecolor="none")
+                box.set(facecolor=COLOURS[best], edgecolor="none")
                 axes.add_patch(box)
-                light = told in (Verdict.PROVED, Verdict.AMENDED)
-                axes.text(start + column + 0.5, row, told[0], ha="center", va="center", fontsize=8, color="white" if light else "black")
+                light = best in (Verdict.PROVED, Verdict.AMENDED)
+                axes.text(start + column + 0.5, row, best[0], ha="center", va="center", fontsize=8, color="white" if light else "black")
     axes.text(left, -1.0, "readings as printed", fontsize=9, weight="bold")
     axes.text(left + printed + gap, -1.0, "readings of ours", fontsize=9, weight="bold")
     axes.text(0.1, -1.0, "claim", fontsize=9, weight="bold")

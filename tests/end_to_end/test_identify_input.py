@@ -100,10 +100,10 @@ def test_parquet_reads_the_same(tmp_path: Path, record: made.FaultyRecord) -> No
     columns = dict(zip(names, np.hstack([record.u, record.y]).T, strict=True))
     path = tmp_path / "d.parquet"
     parquet.write_table(pyarrow.table(columns | {"when": ["now"] * len(record.y)}), path, row_group_size=700)
-    told: list[tuple[int, int]] = []
-    got = read_record(str(path), inputs=made.INPUTS, outputs=made.OUTPUTS, tell=lambda *pair: told.append(pair))
+    heard: list[tuple[int, int]] = []
+    got = read_record(str(path), inputs=made.INPUTS, outputs=made.OUTPUTS, tell=lambda *pair: heard.append(pair))
     assert np.array_equal(got.u, record.u) and np.array_equal(got.y, record.y)
-    assert told[-1] == (made.SAMPLES, made.SAMPLES)
+    assert heard[-1] == (made.SAMPLES, made.SAMPLES)
     for name, part in (("when", "type string"), ("nothing", "no column 'nothing'")):
         with pytest.raises(InvalidInput, match=part):
             read_record(str(path), inputs=[name], outputs=made.OUTPUTS)
@@ -130,10 +130,10 @@ def test_commas_in_brackets_do_not_separate() -> None:
 def test_long_tables_are_read_in_pieces_and_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("faultspace.numeric.data.text_tables.PIECE", 64)
     path = small_csv(tmp_path, "u,y\n" + "".join(f"{k},{k * 0.5}\n" for k in range(1000)))
-    told: list[tuple[int, int]] = []
-    got = read_record(str(path), inputs=["u"], outputs=["y"], tell=lambda *pair: told.append(pair))
+    heard: list[tuple[int, int]] = []
+    got = read_record(str(path), inputs=["u"], outputs=["y"], tell=lambda *pair: heard.append(pair))
     assert np.array_equal(got.u[:, 0], np.arange(1000.0)) and np.array_equal(got.y, got.u / 2)
-    assert len(told) == 16 and told[-1] == (path.stat().st_size,) * 2
+    assert len(heard) == 16 and heard[-1] == (path.stat().st_size,) * 2
 
 
 # Bad input
