@@ -48,7 +48,7 @@ def run(
         prepare_folder(out)
         with working(f"reading {quote_path(data)}") as telling:
             tell = evenly(telling)
-            record = read_record(data, inputs=inputs, outputs=outputs, tell=lambda *read: tell(f"reading {quote_path(data)}", *read))
+            record = read_record(data, inputs=inputs, outputs=outputs, on_progress=tell)
             with in_file(data):
                 answer = identify(
                     record,

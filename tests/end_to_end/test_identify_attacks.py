@@ -1,4 +1,4 @@
-"""Records made to mislead `identify --healthy-until`: no fault is told as a bold 0, and no healthy record as a fault.
+"""Records made to mislead `identify --healthy-until`: no fault is counted as a bold 0, and no healthy record as a fault.
 
 record      the packaged plant with a fault that begins at a sample, under unequal, coloured noise; the healthy part is what is stated
 FAULTS      what is added to the outputs from the sample START on, in units of each sensor's noise
@@ -81,7 +81,7 @@ FAULTS: dict[str, Callable[[NDArray[np.int_], np.random.Generator], Array]] = {
 
 @pytest.mark.parametrize("means", [False, True], ids=["", "means removed"])
 @pytest.mark.parametrize("name", FAULTS)
-def test_no_fault_is_told_as_zero(name: str, means: bool) -> None:
+def test_no_fault_is_counted_as_zero(name: str, means: bool) -> None:
     draw = np.random.default_rng(list(name.encode()))
     u = draw.standard_normal((N, 2)) + 3.0 * means
     y = clean(u) + noise(draw, N)
@@ -140,7 +140,7 @@ HEALTHY = {
 
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("name", HEALTHY)
-def test_no_healthy_record_is_told_as_faulty(name: str, seed: int) -> None:
+def test_no_healthy_record_is_called_faulty(name: str, seed: int) -> None:
     y, u = HEALTHY[name](np.random.default_rng((seed, *name.encode())))
     answer, document, words = answered(y * [1e6, 1.0, 1e-6], u)
     assert answer.at_least == 0 and answer.n_v in (0, None), words
@@ -270,7 +270,7 @@ def test_numbers_of_single_precision_are_answered() -> None:
     assert answered(y.astype(np.float32), u.astype(np.float32))[0].at_least == 1
 
 
-def test_without_healthy_samples_a_mean_is_told_and_not_judged() -> None:
+def test_without_healthy_samples_a_mean_is_reported_and_decides_nothing() -> None:
     y, u = biased(9, 0)
     answer = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
     assert answer.n_v is None and any("an operating point, or a constant fault" in note for note in answer.notes)
