@@ -54,7 +54,7 @@ def markov(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) -> list[Matri
 
 def characteristic_polynomial(A: Matrix) -> list[Fraction]:
     """det(zI - A) from z^n = 1 down."""
-    return list(reversed(stability.characteristic_polynomial(A)))
+    return list(reversed(stability.rational_characteristic_polynomial(A)))
 
 
 def transfer(A: Matrix, B: Matrix, C: Matrix, D: Matrix, z: int) -> Matrix:
@@ -76,7 +76,7 @@ def roots(ascending: Sequence[Any]) -> tuple[complex, ...]:
 
 def poles(A: Matrix) -> tuple[complex, ...]:
     """The eigenvalues."""
-    return roots(stability.characteristic_polynomial(A)) if A.nrows else ()
+    return roots(stability.rational_characteristic_polynomial(A)) if A.nrows else ()
 
 
 def distances(got: Sequence[Matrix], exact: Sequence[Matrix]) -> Array:
