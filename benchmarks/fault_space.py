@@ -30,7 +30,7 @@ from faultspace.numeric.space import by_likelihood as noisy_fault_space
 from faultspace.numeric.space.by_ranks import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
 from faultspace.numeric.space.distances import principal_angles
 from faultspace.numeric.space.result import FaultSpaceEstimate, kernel_conditions
-from faultspace.numeric.study.experiments import coloured_noise, study_faults
+from faultspace.numeric.study.runs import coloured_noise, study_faults
 from faultspace.numeric.study.systems import study_system
 
 Array = NDArray[np.float64]

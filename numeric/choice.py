@@ -16,7 +16,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData
-from .data.records import Record, Tell
+from .data.records import OnProgress, Record
 from .findings import Findings
 from .signal.explained_share import noise_share
 from .signal.reconstruction import Reconstruction, reconstruct_fault
@@ -24,22 +24,22 @@ from .signal.residual_sizes import loudest
 from .space.by_ranks import FaultSpaceEstimate, fault_space
 
 ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
-MEANS_FROM = 1 << 14  # samples that means and shares are judged on: the regressors of a test are many times as many numbers
+MEANS_FROM = 1 << 14  # samples that means and shares are taken of: the regressors of a test are many times as many numbers
 PAIRS_TRIED = 6
 TRIED_ON = 4000  # samples that a pair is tried on
-JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which it is told
+JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which a note says so
 FROM_IDENTIFIED = (
     "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
     "shows how much on systems of the paper's kind)"
 )
 
 
-def with_space(answer: Findings, tell: Tell) -> Findings:
+def with_space(answer: Findings, on_progress: OnProgress) -> Findings:
     """The space of all fault columns, on the samples that faults were counted on."""
     model, rest = answer.model, answer.residual
     if not answer.n_v or model is None or rest is None:
         return answer
-    tell("fault space", 0, 0)
+    on_progress("fault space", 0, 0)
     try:
         space = fault_space(beyond_rounding(answer), model.A, model.C, n_v=answer.n_v)
     except InvalidData as error:
@@ -49,29 +49,29 @@ def with_space(answer: Findings, tell: Tell) -> Findings:
     return replace(answer, fault_space=space if answer.n_v_given else replace(space, reason=counted(space.reason)))
 
 
-def with_signal(answer: Findings, tell: Tell) -> Findings:
+def with_signal(answer: Findings, on_progress: OnProgress) -> Findings:
     """The signal of one choice of columns out of the space, over all samples, where there is ground for one."""
     model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
     if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:
         return answer
     if not space.decided:
         return replace(answer, notes=(*answer.notes, "F, G and the fault signal are withheld: n_z is undecided, see the fault space"))
-    tell("choosing F and G", 0, 0)
+    on_progress("choosing F and G", 0, 0)
     part = rest.store.read(*loudest(sizes.energies, len(answer.record), TRIED_ON))
     F, G = choose_pair(part, model.A, model.C, space, count)
     try:
-        signal = reconstruct_fault(rest.store, model.A, F, model.C, G, judged=answer.held, on_progress=tell)
+        signal = reconstruct_fault(rest.store, model.A, F, model.C, G, within=answer.held, on_progress=on_progress)
     except InvalidData as error:
         return replace(answer, notes=(*answer.notes, f"no fault signal: {error}"))
     notes = answer.notes
     explained, by_noise = _shares(answer, signal, count)
     answer = replace(answer, explained=explained, by_noise=by_noise)
     if explained <= by_noise:
-        told = (
+        note = (
             f"F, G and the fault signal are withheld: they explain {100 * explained:.3g} % of the residual, and {count} "
             f"signal{'' if count == 1 else 's'} could explain up to {100 * by_noise:.3g} % of mere noise of its spectra"
         )
-        return replace(answer, notes=(*notes, told))
+        return replace(answer, notes=(*notes, note))
     if signal.mismatch > JOINED:
         notes += (f"the fault signal was found piece by piece, and neighbouring pieces differ by up to {signal.mismatch:.2g} of its size",)
     return replace(answer, pair=(F, G), signal=signal, notes=notes)

@@ -22,7 +22,7 @@ PolyMatrix = list[list[Poly]]
 
 
 def trimmed(coefficients: Iterable[Any]) -> Poly:
-    """The polynomial with these ascending coefficients."""
+    """The result is the polynomial with these ascending coefficients."""
     result = list(coefficients)
     while result and result[-1] == 0:
         result.pop()
@@ -30,24 +30,24 @@ def trimmed(coefficients: Iterable[Any]) -> Poly:
 
 
 def add(f: Poly, g: Poly) -> Poly:
-    """f + g."""
+    """The result is the sum f + g."""
     if len(f) < len(g):
         f, g = g, f
     return trimmed([a + b for a, b in zip(f, g, strict=False)] + list(f[len(g) :]))
 
 
 def negative(f: Poly) -> Poly:
-    """-f."""
+    """The result is -f."""
     return tuple(-a for a in f)
 
 
 def subtract(f: Poly, g: Poly) -> Poly:
-    """f - g."""
+    """The result is the difference f - g."""
     return add(f, negative(g))
 
 
 def multiply(f: Poly, g: Poly) -> Poly:
-    """f g."""
+    """The result is the product f g."""
     if not f or not g:
         return ()
     result = [f[0] * g[0] * 0] * (len(f) + len(g) - 1)
@@ -58,7 +58,7 @@ def multiply(f: Poly, g: Poly) -> Poly:
 
 
 def divide(f: Poly, g: Poly) -> tuple[Poly, Poly]:
-    """Quotient and remainder of f by g. Raises ZeroDivisionError when g is zero."""
+    """The result is the quotient and the remainder of f by g. Raises ZeroDivisionError when g is zero."""
     if not g:
         raise ZeroDivisionError("division by the zero polynomial")
     remainder = list(f)
@@ -77,14 +77,14 @@ def monic(f: Poly) -> Poly:
 
 
 def gcd(f: Poly, g: Poly) -> Poly:
-    """The monic greatest common divisor."""
+    """The result is the monic greatest common divisor."""
     while g:
         f, g = g, divide(f, g)[1]
     return monic(f)
 
 
 def evaluate(f: Poly, point: Any) -> Any:
-    """f(point); 0 for the zero polynomial."""
+    """The result is f(point), which is 0 for the zero polynomial."""
     value: Any = point * 0
     for a in reversed(f):
         value = value * point + a
@@ -92,7 +92,7 @@ def evaluate(f: Poly, point: Any) -> Any:
 
 
 def interpolate(points: Sequence[Any], values: Sequence[Any]) -> Poly:
-    """The polynomial of degree below len(points) with these values, by divided differences."""
+    """The result is the polynomial of degree below len(points) with these values, by divided differences."""
     differences = list(values)
     for width in range(1, len(points)):
         for i in reversed(range(width, len(points))):
@@ -106,13 +106,13 @@ def interpolate(points: Sequence[Any], values: Sequence[Any]) -> Poly:
 
 
 def written(f: Poly, field: Field) -> list[object]:
-    """The coefficients as the exact file formats write them."""
+    """These are the coefficients as the exact file formats write them."""
     return [field.write(a) for a in f]
 
 
 @dataclass(frozen=True)
 class SmithDiagonal:
-    """left M right = the matrix with `diagonal` and zeros elsewhere; left left_inverse = I, right right_inverse = I."""
+    """left M right is the matrix with `diagonal` and zeros elsewhere; left left_inverse and right right_inverse are identities."""
 
     diagonal: tuple[Poly, ...]
     left: PolyMatrix

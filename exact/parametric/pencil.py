@@ -43,10 +43,10 @@ class NormalRank:
 
 @dataclass(frozen=True)
 class FiniteZeros:
-    """divisor: the greatest common divisor of the minors of size n + m, a polynomial in q whose leading coefficient is a unit.
+    """`divisor` is the greatest common divisor of the minors of size n + m, a polynomial in q whose leading coefficient is a unit.
 
-    combination: sum of bezout[k] * minors[k] = divisor; multiples: scales[k] * minors[k] = quotients[k] * divisor with a
-    product of units scales[k]; all modulo the equations, as the congruences (of left side minus right side) prove.
+    `combination` proves that the sum of bezout[k] * minors[k] is the divisor, `multiples` that scales[k] * minors[k] = quotients[k] *
+    divisor with a product of units scales[k]; all are modulo the equations, and the congruences are of left side minus right side.
     """
 
     divisor: Polynomial
@@ -75,7 +75,7 @@ class EchelonRow:
 
 @dataclass(frozen=True)
 class Echelon:
-    """The rows of T_s in the order of time, each reduced by the independent ones before it."""
+    """These are the rows of T_s in the order of time, each reduced by the independent ones before it."""
 
     samples: int
     rows: tuple[EchelonRow, ...]
@@ -88,7 +88,7 @@ class Echelon:
 
 
 def pencil(entries: Indeterminates) -> list[list[Polynomial]]:
-    """P(q), (n + p) x (n + m)."""
+    """The result is P(q), (n + p) x (n + m)."""
     upper = [
         [(entries.q if i == j else 0) - entry for j, entry in enumerate(row)] + [-entry for entry in entries.F[i]]
         for i, row in enumerate(entries.A)
@@ -97,7 +97,7 @@ def pencil(entries: Indeterminates) -> list[list[Polynomial]]:
 
 
 def determinant(entries: Indeterminates, matrix: Sequence[Sequence[Polynomial]], minor: Minor) -> Polynomial:
-    """The minor, by sympy's division-free characteristic polynomial."""
+    """The result is the minor, by sympy's division-free characteristic polynomial."""
     rows, columns = minor
     size = len(rows)
     if size == 0:
@@ -108,7 +108,7 @@ def determinant(entries: Indeterminates, matrix: Sequence[Sequence[Polynomial]],
 
 
 def minors_of_size(height: int, width: int, size: int) -> list[Minor]:
-    """All choices of rows and columns; the empty minor, which is 1, for size 0."""
+    """These are all choices of rows and columns; for size 0 there is the empty minor, which is 1."""
     return [(rows, columns) for rows in combinations(range(height), size) for columns in combinations(range(width), size)]
 
 
@@ -133,7 +133,7 @@ def normal_rank(entries: Indeterminates, branch: Branch) -> NormalRank:
 
 
 def finite_zeros(entries: Indeterminates, branch: Branch) -> FiniteZeros:
-    """The gcd of the minors of size n + m, which are not all 0, by Euclid's algorithm; raises Undecided.
+    """The result is the gcd of the minors of size n + m, which are not all 0, by Euclid's algorithm; raises Undecided.
 
     Raises ArithmeticError when the pencil has not full column rank on the branch.
     """
@@ -236,7 +236,7 @@ def _tidy_row(
 
 
 def _tidy(entries: Indeterminates, branch: Branch, f: Polynomial, bezout: list[Polynomial]) -> tuple[Polynomial, list[Polynomial]]:
-    """f modulo the equations with its leading zeros in q dropped, so that the leading coefficient is a unit."""
+    """The result is f modulo the equations with its leading zeros in q dropped, so that the leading coefficient is a unit."""
     f, *bezout = branch.without_units(branch.joint_reduce([f, *bezout]))
     if f:
         branch.is_zero(_leading(entries, f))
@@ -248,7 +248,7 @@ def _leading(entries: Indeterminates, f: Polynomial) -> Polynomial:
 
 
 def _divided(entries: Indeterminates, f: Polynomial, divisor: Polynomial) -> tuple[int, Polynomial, Polynomial]:
-    """(k, Q, R) with leading**k f = Q divisor + R and R of lower degree in q than the divisor."""
+    """The result is (k, Q, R) with leading**k f = Q divisor + R and R of lower degree in q than the divisor."""
     leading, degree = _leading(entries, divisor), len(coefficients(divisor, entries.parameters)) - 1
     quotient, power = entries.ring.zero, 0
     while f and (excess := len(coefficients(f, entries.parameters)) - 1 - degree) >= 0:

@@ -31,19 +31,21 @@ from .zero_output import chain_from_rest
 
 @dataclass(frozen=True)
 class NullPolynomial:
-    """(x(q), v(q)) != 0 with (qI - A) x = F v and C x + G v = 0: `state` (e+1) x n, `fault` (e+1) x m, row j = coefficient of q^j."""
+    """(x(q), v(q)) != 0 satisfies (qI - A) x = F v and C x + G v = 0: `state` is (e+1) x n, `fault` (e+1) x m, row j the coefficient of
+    q^j.
+    """
 
     state: Matrix
     fault: Matrix
 
 
 def right_minimal_indices(system: ResidualSystem) -> tuple[int, ...]:
-    """The right minimal indices of the pencil, ascending; as many as m - r."""
+    """The right minimal indices of the pencil are ascending; there are m - r of them."""
     return kernel_representation(system.transposed()).left_minimal_indices
 
 
 def infinite_zero_orders(kernel: KernelRepresentation) -> tuple[int, ...]:
-    """The orders of the infinite zeros, ascending, one per unit of normal rank, zeros included."""
+    """These are the orders of the infinite zeros, ascending, one per unit of normal rank, zeros included."""
     orders: list[int] = []
     k, previous = 0, 0
     while len(orders) < kernel.normal_rank:
@@ -67,7 +69,7 @@ def invariant_zero_polynomial(kernel: KernelRepresentation, degree: int) -> Poly
 
 
 def zero_dynamics_polynomial(system: ResidualSystem) -> Poly:
-    """The characteristic polynomial, monic, of the motion on V*/(V* inter S*) under zero output."""
+    """The result is the characteristic polynomial, monic, of the motion on V*/(V* inter S*) under zero output."""
     nulling = largest_output_nulling(system)
     reachable = chain_from_rest(system).last_subspace
     common = right_null_space(beside(nulling, -reachable)).rows(range(nulling.ncols))
@@ -87,7 +89,7 @@ def zero_dynamics_polynomial(system: ResidualSystem) -> Poly:
 
 
 def characteristic_polynomial(matrix: Matrix) -> Poly:
-    """det(qI - M), monic."""
+    """The result is det(qI - M), monic."""
     field, size = matrix.field, matrix.nrows
     if isinstance(field, (Rationals, PrimeField)):
         poly = matrix.flint.charpoly()
@@ -106,7 +108,7 @@ def characteristic_polynomial(matrix: Matrix) -> Poly:
 
 
 def right_null_polynomial(system: ResidualSystem) -> NullPolynomial | None:
-    """A polynomial vector in the right kernel of the pencil, of least degree, or None for a left-invertible system."""
+    """The result is a polynomial vector in the right kernel of the pencil, of least degree, or None for a left-invertible system."""
     rows = kernel_representation(system.transposed()).rows
     if not rows:
         return None
@@ -121,27 +123,27 @@ def right_null_polynomial(system: ResidualSystem) -> NullPolynomial | None:
 
 
 def pencil(system: ResidualSystem) -> PolyMatrix:
-    """P(q) as a matrix of Poly, (n + p) x (n + m)."""
+    """The result is P(q) as a matrix of Poly, (n + p) x (n + m)."""
     return _linear(stacked(beside(-system.A, -system.F), beside(system.C, system.G)), _state_part(system))
 
 
 def reversed_pencil(system: ResidualSystem) -> PolyMatrix:
-    """t P(1/t) = [[I - tA, -tF], [tC, tG]]: its zeros at t = 0 are those of P at infinity."""
+    """The result is t P(1/t) = [[I - tA, -tF], [tC, tG]]: its zeros at t = 0 are those of P at infinity."""
     return _linear(_state_part(system), stacked(beside(-system.A, -system.F), beside(system.C, system.G)))
 
 
 def finite_diagonal(system: ResidualSystem) -> SmithDiagonal:
-    """A diagonal form of P(q) with unimodular multipliers."""
+    """The result is a diagonal form of P(q) with unimodular multipliers."""
     return polynomials.smith_diagonal(pencil(system), system.n + system.p, system.n + system.m, system.field.element(1))
 
 
 def infinite_diagonal(system: ResidualSystem) -> SmithDiagonal:
-    """A diagonal form of the reversed pencil with unimodular multipliers."""
+    """The result is a diagonal form of the reversed pencil with unimodular multipliers."""
     return polynomials.smith_diagonal(reversed_pencil(system), system.n + system.p, system.n + system.m, system.field.element(1))
 
 
 def _state_part(system: ResidualSystem) -> Matrix:
-    """diag(I, 0), (n + p) x (n + m): the coefficient of q in the pencil."""
+    """The result is diag(I, 0), (n + p) x (n + m): the coefficient of q in the pencil."""
     top = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.m))
     return stacked(top, Matrix.zero(system.field, system.p, system.n + system.m))
 

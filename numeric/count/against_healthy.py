@@ -40,8 +40,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
-import scipy.optimize
+import scipy  # its folders are loaded when they are first used
 from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
@@ -163,8 +162,8 @@ def fault_direction_against_healthy(
     e, regressors = healthy.innovations(r, u)
     frequencies = np.asarray(np.fft.rfftfreq(len(e))[1:-1], dtype=float)
     transforms = np.fft.rfft(e, axis=0) / np.sqrt(len(e))
-    told = np.fft.rfft(regressors, axis=0)[1:-1] / np.sqrt(len(e))
-    forecast = np.sqrt(1.0 + np.sum(np.abs(told) ** 2, axis=1))
+    explained = np.fft.rfft(regressors, axis=0)[1:-1] / np.sqrt(len(e))
+    forecast = np.sqrt(1.0 + np.sum(np.abs(explained) ** 2, axis=1))
     effect = healthy.response(frequencies)
     if (A is None) != (C is None):
         raise InvalidData("A and C: got one without the other; give both, or neither for a fault at the outputs alone")

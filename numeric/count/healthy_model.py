@@ -130,8 +130,8 @@ class HealthyReference:
         """The same for arrays (N, p) and (N, n_u) known to fit."""
         e, regressors = self._innovations(residual, inputs)
         record = covering_spectra(e, tapers)
-        told = covering_spectra(regressors, tapers).transforms
-        between = np.eye(tapers) + told @ told.conj().transpose(0, 2, 1)
+        explained = covering_spectra(regressors, tapers).transforms
+        between = np.eye(tapers) + explained @ explained.conj().transpose(0, 2, 1)
         return Spectra(record.frequencies, np.asarray(np.linalg.solve(np.linalg.cholesky(between), record.transforms), dtype=complex))
 
     def response(self, frequencies: Array) -> Complex:
@@ -183,7 +183,7 @@ class HealthyReference:
 
 
 def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: float = LEVEL) -> HealthyReference:
-    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u); `level`: of the quantiles that strain is told in.
+    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u); `level`: of the quantiles that strain is measured in.
 
     Raises InvalidData for NaN, fewer than 64 samples a channel, or channels that are constant or exact combinations of others (there
     is no noise to compare with; `fault_dimension` counts the faults of such residuals).

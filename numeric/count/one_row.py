@@ -12,7 +12,7 @@ normalised row residual, scaled to a mean logarithm of zero so that the level be
     degree              eta, the degree of N; coefficient rows N_0 .. N_eta of p entries, stacked into g
     window              psi(k) = [r(k); ..; r(k+eta)], so that N(q) r (k) = g psi(k)
     WindowMoments       second moments of psi in frequency bands: all that the likelihood needs of the data, whatever N
-    KernelRow           the fitted row, its level and the noise colour
+    FittedRow           the fitted row, its level and the noise colour
     level               log of the mean of |N r|^2 / (phi N N*): the log noise power per sample that N leaves
     angle               centre of a band, in radians per sample
 
@@ -66,7 +66,7 @@ class WindowMoments:
 
 
 @dataclass(frozen=True)
-class KernelRow:
+class FittedRow:
     """A fitted row: `coefficients` (degree+1, p), N(q) = sum_j coefficients[j] q^j, of unit norm; `level` in nats;
     `noise_colour` the monic autoregression (1, a_1, ..) of the noise; `flat` whether the last step gained less than `FLAT` nats."""
 
@@ -149,7 +149,7 @@ def kernel_row(
     within: Array | None = None,
     noise_order: int = NOISE_ORDER,
     rounds: int = 3,
-) -> KernelRow:
+) -> FittedRow:
     """The maximum-likelihood row for these moments.
 
     `starts`: coefficient arrays (d+1, p), d <= degree, tried beside the plain null space (the row that the least singular
@@ -179,7 +179,7 @@ def kernel_row(
         colour /= np.exp(np.average(np.log(colour), weights=moments.counts))
         g, cost, flat = _descend(data / colour[:, None, None], gains, g)
     level = float(np.log(max(cost, np.finfo(float).tiny)) + np.log(scale))
-    return KernelRow((basis.T @ g).reshape(degree + 1, p), level, regression, flat)
+    return FittedRow((basis.T @ g).reshape(degree + 1, p), level, regression, flat)
 
 
 def _padded(start: Array, degree: int) -> Array:

@@ -80,7 +80,7 @@ class FaultDimension:
 def fault_dimension(r: ArrayLike, *, block_rows: int | None = None, u: ArrayLike | None = None) -> FaultDimension:
     """The number of independent faults in a residual r (N, p), in any units, from its gaps up to s = block_rows.
 
-    Without `block_rows` it looks up to 20, less far for few samples or many channels. float32 data are judged by float32 rounding. For
+    Without `block_rows` it looks up to 20, less far for few samples or many channels. float32 data have float32 rounding. For
     a residual of an identified model give its inputs `u` (N, n_u): the model's error is driven by u, and without u it counts as further
     faults where it stands out of the noise; with u the ranks are those of [U_s; R_s] less those of U_s. With a record from before the
     fault, `fault_dimension_against_healthy` sees more. Raises InvalidData for NaN, constant or too few samples and for u of

@@ -1,5 +1,5 @@
-"""The Hankel matrix R_s of a residual, compressed once to a triangular factor, and the coordinates in which it is
-judged.
+"""The Hankel matrix R_s of a residual, compressed once to a triangular factor, and the coordinates in which its ranks
+are decided.
 
     hankel_factor        L, (p s, p s) with L L' = R_s R_s', by sequential QR: the only place where N enters
     leading_factor       the factor of fewer block rows from that of more

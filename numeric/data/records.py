@@ -26,7 +26,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidInput
 from .validation import PIECE
 
-Tell = Callable[[str, int, int], None]
+OnProgress = Callable[[str, int, int], None]
 
 IN_MEMORY = 1 << 24
 NUMBER = 8  # bytes
@@ -217,15 +217,15 @@ def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequ
 class Passes:
     """The pieces of a record, any number of times; each reading is told by its number, as `stage`, pass 1, 2, .."""
 
-    def __init__(self, record: Record, stage: str, tell: Tell) -> None:
-        self._record, self._stage, self._tell = record, stage, tell
+    def __init__(self, record: Record, stage: str, on_progress: OnProgress) -> None:
+        self._record, self._stage, self._on_progress = record, stage, on_progress
         self._begun = 0
 
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
         self._begun += 1
         stage, done = f"{self._stage}, pass {self._begun}", 0
-        self._tell(stage, 0, len(self._record))
+        self._on_progress(stage, 0, len(self._record))
         for y, u in self._record:
             yield y, u
             done += len(y)
-            self._tell(stage, done, len(self._record))
+            self._on_progress(stage, done, len(self._record))

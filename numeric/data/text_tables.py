@@ -65,8 +65,8 @@ class TextTable:
             _names_once(fields)
         return cls(path, separator, names, len(fields), beginning[0][0] if named else beginning[0][0] - 1)
 
-    def pieces(self, columns: Sequence[int], tell: Callable[[int, int], None]) -> Iterator[Array]:
-        """The chosen columns, (any, len(columns)), PIECE lines at a time; NaN where a line says so. `tell` hears bytes read and bytes in
+    def pieces(self, columns: Sequence[int], on_read: Callable[[int, int], None]) -> Iterator[Array]:
+        """The chosen columns, (any, len(columns)), PIECE lines at a time; NaN where a line says so. `on_read` hears bytes read and bytes in
         all. Raises InvalidInput for a field that is no number, and where there is no line of values."""
         size = self.path.stat().st_size
         with _stream(self.path) as stream:
@@ -75,7 +75,7 @@ class TextTable:
             while piece := list(islice(numbered, PIECE)):
                 empty = False
                 yield self._parsed(piece, columns)
-                tell(min(stream.buffer.tell(), size), size)
+                on_read(min(stream.buffer.tell(), size), size)
         if empty:
             raise InvalidInput(f"got no samples after line {self.skipped}, expected a record of many")
 

@@ -9,6 +9,7 @@ pieces              the checked float64 pieces (y, u) of one experiment, for dat
 experiment          the checked pieces (y, u) of one experiment, from arrays or pieces, anew at each `iter`
 checked_piece       one such piece that the caller hands over
 enough_samples      a refusal of too few samples, with a hint at transposed data
+first_not_finite    where the first number stands that is NaN or infinite
 positive            a positive integer argument
 constant_channels   numbers of the channels that never change, from their least and greatest values
 """
@@ -64,20 +65,24 @@ def two_dimensional(values: ArrayLike, name: str) -> NDArray[Any]:
 def _finite(array: NDArray[Any], name: str, first: int) -> Array:
     """`array` as float64; InvalidData that names the first sample (counted from `first`) and channel that is no finite number."""
     piece = np.asarray(array, dtype=np.float64)
+    if wrong := first_not_finite(piece):
+        row, column = wrong
+        value = "NaN" if np.isnan(piece[row, column]) else "infinite"
+        raise InvalidData(
+            f"{name} is {value} at sample {first + row}, channel {column} (counted from 0); every sample must be finite: cut the "
+            "record there, or identify from its parts as several experiments"
+        )
+    return piece
+
+
+def first_not_finite(rows: Array) -> tuple[int, int] | None:
+    """Row and column of the first number that is NaN or infinite, None where every one is finite."""
     # A finite sum needs finite terms: the element-wise search runs only where the sum is not finite (or overflows).
     with np.errstate(over="ignore", invalid="ignore"):
-        total = np.sum(piece)
-    if not np.isfinite(total):
-        wrong = np.argwhere(~np.isfinite(piece))
-        if len(wrong):
-            row, column = (int(number) for number in wrong[0])
-            value = "NaN" if np.isnan(piece[row, column]) else "infinite"
-            raise InvalidData(
-                f"{name} is {value} at sample {first + row}, channel {column} (counted from 0); every sample must be finite: cut the "
-                "record there, "
-                f"or identify from its parts as several experiments"
-            )
-    return piece
+        if np.isfinite(np.sum(rows)):
+            return None
+    wrong = np.argwhere(~np.isfinite(rows))
+    return (int(wrong[0, 0]), int(wrong[0, 1])) if len(wrong) else None
 
 
 def signal(values: ArrayLike, name: str = "y") -> Array:

@@ -175,8 +175,8 @@ def output_scale(outputs: Array, p: int, columns: int) -> Array:
 
 
 def _listed(values: Array, count: int = 24) -> str:
-    shown = ", ".join(f"{value:.3g}" for value in values[:count])
-    return shown + (f", ... ({len(values)} values)" if len(values) > count else "")
+    listed = ", ".join(f"{value:.3g}" for value in values[:count])
+    return listed + (f", ... ({len(values)} values)" if len(values) > count else "")
 
 
 def system_range(projected: Array, scale: Array, floor: float, order: int | None, instruments: int) -> Range:

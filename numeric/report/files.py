@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from ...base.errors import InvalidInput, quote_path
 from ..count.mean_shift import POWER
-from ..data.records import SampleStore, Tell
+from ..data.records import OnProgress, SampleStore
 from ..space.distances import containment_distance
 from .pictures import PICTURES, pictures
 from .summary import advice, fit, markdown, summary
@@ -112,7 +112,9 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
     return result
 
 
-def write(answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callable[[str], str] = str) -> tuple[list[str], list[str]]:
+def write(
+    answer: Findings, out: Path, data: str, on_progress: OnProgress, *, worded: Callable[[str], str] = str
+) -> tuple[list[str], list[str]]:
     """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `document`.
 
     Raises InvalidInput where the folder cannot be written into.
@@ -121,7 +123,7 @@ def write(answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callabl
     try:
         with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
             folder = Path(name)
-            _tables(answer, folder, tell)
+            _tables(answer, folder, on_progress)
             remarks += pictures(answer, folder)
             lines = [*summary(answer, data, worded=worded)]
             if remarks:
@@ -139,7 +141,7 @@ def write(answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callabl
     return written, remarks
 
 
-def _tables(answer: Findings, folder: Path, tell: Tell) -> None:
+def _tables(answer: Findings, folder: Path, on_progress: OnProgress) -> None:
     if answer.model is not None:
         model = answer.model.model.to_json()
         model |= {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
@@ -150,10 +152,10 @@ def _tables(answer: Findings, folder: Path, tell: Tell) -> None:
     if (space := _space(answer)) is not None:
         _json(folder / SPACE, space)
     if answer.signal is not None:
-        _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, tell)
+        _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, on_progress)
 
 
-def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, tell: Tell) -> None:
+def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, on_progress: OnProgress) -> None:
     """A line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back."""
     first, last = trusted
     with open(path, "w", encoding="utf-8", newline="\n") as stream:
@@ -165,7 +167,7 @@ def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, tell: Te
                 lines.append(",".join([str(k), str(int(first <= k < last)), *map(repr, row)]))
                 k += 1
             stream.write("\n".join(lines) + "\n")
-            tell("writing the fault signal", k, len(v))
+            on_progress("writing the fault signal", k, len(v))
 
 
 def _space(answer: Findings) -> dict[str, Any] | None:

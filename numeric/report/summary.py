@@ -51,9 +51,9 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         moduli = np.abs(model.model.poles)
         stability = "stable" if model.model.is_stable else "NOT stable"
         yield f"poles: {_listed(model.model.poles)} ({stability}, largest modulus {moduli.max(initial=0.0):.{DIGITS}g})"
-        shown = fit(answer)
-        if shown is not None:
-            pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, shown, strict=True)]
+        explained = fit(answer)
+        if explained is not None:
+            pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, explained, strict=True)]
             left = "what is left is faults, noise and the model's error"
             if answer.healthy is not None:
                 yield f"identified from the samples 0 to {answer.healthy - 1}, stated to be without fault"
@@ -133,8 +133,8 @@ def _visible_lines(answer: Findings) -> Iterator[str]:
     kinds = [("a constant at one output", mean.visible), ("a white signal at one output, deviation", answer.visible)]
     for kind, sizes in kinds:
         if sizes is not None:
-            told = _several([f"{name} {size:.3g}" for name, size in zip(outputs, sizes, strict=True)])
-            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {told}"
+            listed = _several([f"{name} {size:.3g}" for name, size in zip(outputs, sizes, strict=True)])
+            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {listed}"
 
 
 def _said(number: int | None) -> str:
@@ -248,8 +248,8 @@ def _counted(number: int, word: str) -> str:
 
 
 def _listed(values: ArrayLike, most: int = MOST_ROWS) -> str:
-    shown = [_number(value) for value in np.asarray(values).ravel()]
-    return ", ".join(shown[:most]) + (f", ... ({len(shown)} in all)" if len(shown) > most else "")
+    digits = [_number(value) for value in np.asarray(values).ravel()]
+    return ", ".join(digits[:most]) + (f", ... ({len(digits)} in all)" if len(digits) > most else "")
 
 
 def _number(value: Any) -> str:
@@ -266,8 +266,8 @@ def _matrix(matrix: Array) -> list[str]:
     # No minus before a zero that rounding made.
     rounded = np.round(matrix, DIGITS) + 0.0
     rows = [[f"{entry: .{DIGITS}f}" for entry in row[:MOST_ROWS]] + ["..."] * (len(row) > MOST_ROWS) for row in rounded]
-    shown = rows if len(rows) <= 2 * MOST_ROWS else [*rows[: 2 * MOST_ROWS - 1], ["..."]]
-    return ["[ " + "  ".join(row) + " ]" for row in shown]
+    kept = rows if len(rows) <= 2 * MOST_ROWS else [*rows[: 2 * MOST_ROWS - 1], ["..."]]
+    return ["[ " + "  ".join(row) + " ]" for row in kept]
 
 
 def markdown(lines: Sequence[str]) -> str:

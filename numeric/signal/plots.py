@@ -206,12 +206,12 @@ def _centres(values: Array) -> tuple[Array, Array]:
 
 def _stacked(ax: Any, names: Sequence[str], what: str, size: Array) -> list[float]:
     """The heights of the channels, first on top, and the ticks that name them; a single channel keeps its own units."""
-    shown = min(len(size), MOST_CHANNELS)
-    if shown == 1:
+    drawn_channels = min(len(size), MOST_CHANNELS)
+    if drawn_channels == 1:
         ax.set_ylabel(names[0])
         return [0.0]
-    levels = [2.3 * (shown - 1 - j) for j in range(shown)]
-    ax.set_yticks(levels, [f"{names[j]}\n±{size[j]:.2g}" for j in range(shown)])
+    levels = [2.3 * (drawn_channels - 1 - j) for j in range(drawn_channels)]
+    ax.set_yticks(levels, [f"{names[j]}\n±{size[j]:.2g}" for j in range(drawn_channels)])
     ax.set_ylabel(f"{what}, each in its own scale")
     return levels
 

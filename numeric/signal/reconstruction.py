@@ -12,25 +12,25 @@ slowly for pieces of LONGEST samples, and where the initial state is given, the 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ..count.arguments import not_zero
-from ..data.records import SampleStore, Tell, silent, stored
+from ..data.records import OnProgress, SampleStore, silent, stored
 from ..data.validation import signal
-from .smoother import Stretch, simulated, smoothed
+from .smoother import Solution, Stretch, simulated, smoothed
 
 LONGEST = 1 << 16
 LEAST_MARGIN = 1 << 10  # samples left out at an inner edge, at least: the smoother forgets noise in far fewer
 COMPARED = 64
 
 
-@dataclass(frozen=True, eq=False)
-class Reconstruction:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Reconstruction(Solution):
     """v (N, n_v) in `store`, with x(k+1) = A x + F v and `simulated` = C x + G v.
 
     delay            samples until v(k) is seen, from a known x(0), or from an unknown one if such a delay exists; None where the system
@@ -46,17 +46,9 @@ class Reconstruction:
     """
 
     store: SampleStore
-    delay: int | None
-    trusted: tuple[int, int]
-    zeros: NDArray[np.complex128]
-    left_invertible: bool
-    misfit: float
-    reason: str
     mismatch: float
     left: Array
     whole: Array
-    x0: Array
-    pair: tuple[Array, Array, Array, Array]
 
     @cached_property
     def v(self) -> Array:
@@ -96,13 +88,13 @@ def reconstruct_fault(
     G: ArrayLike,
     *,
     x0: ArrayLike | None = None,
-    judged: tuple[int, int] | None = None,
-    on_progress: Tell | None = None,
+    within: tuple[int, int] | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Reconstruction:
     """The signal v of the faults F, G whose simulated residual equals r, by the smoother of [HP98], [MZ10].
 
     r (N, p) is an array or a store, in the units of y; A (n, n), F (n, n_v), C (p, n), G (p, n_v); v comes in units of r over those of
-    G. x0 (n,) is the initial state, where it is known. `judged` are the samples (first, last) of `left` and `whole`, by default all;
+    G. x0 (n,) is the initial state, where it is known. `within` are the samples (first, last) of `left` and `whole`, by default all;
     `on_progress(stage, done, total)` hears how far it has come. Raises InvalidData for shapes that do not fit, values that are not
     finite, more faults than outputs, a fault without any effect, or a model so unstable that the record overflows.
 
@@ -113,29 +105,29 @@ def reconstruct_fault(
     >>> found.delay, bool(np.allclose(found.v, v))
     (0, True)
     """
-    tell = on_progress or silent
+    on_progress = on_progress or silent
     store = r if isinstance(r, SampleStore) else stored(signal(r, "r"))
     N = len(store)
-    within = judged or (0, N)
+    kept = within or (0, N)
 
     def solve(start: int, stop: int, state: ArrayLike | None = None) -> Stretch:
         return smoothed(store.read(start, stop), A, F, C, G, x0=state)
 
-    tell("fault signal", 0, N)
+    on_progress("fault signal", 0, N)
     not_zero(any(np.any(rows) for rows in store.pieces()))
     if x0 is not None or N <= LONGEST:
-        found = _single(solve(0, N, x0), store, within)
+        found = _single(solve(0, N, x0), store, kept)
     else:
         begin = solve(0, LONGEST)
         margin = max(begin.trusted[0], LONGEST - begin.trusted[1], LEAST_MARGIN)
         lost = begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST
-        found = _single(solve(0, N), store, within) if lost else _joined(begin, solve, store, margin, within, tell)
-    tell("fault signal", N, N)
+        found = _single(solve(0, N), store, kept) if lost else _joined(begin, solve, store, margin, kept, on_progress)
+    on_progress("fault signal", N, N)
     return found
 
 
 def _joined(
-    begin: Stretch, solve: Callable[[int, int], Stretch], r: SampleStore, margin: int, within: tuple[int, int], tell: Tell
+    begin: Stretch, solve: Callable[[int, int], Stretch], r: SampleStore, margin: int, within: tuple[int, int], on_progress: OnProgress
 ) -> Reconstruction:
     """The middles of the pieces that `solve` gives, one after the other."""
     N = len(r)
@@ -151,7 +143,7 @@ def _joined(
         left += float(np.sum(error**2))
         parts += _squares(error, given, len(v), within)
         v.append(piece.v[part])
-        tell("fault signal", kept, N)
+        on_progress("fault signal", kept, N)
         if end == N:
             break
         before = piece.v[kept - start : kept - start + COMPARED]
@@ -163,34 +155,15 @@ def _joined(
     whole = float(sum(np.sum(part**2) for part in r.pieces()))
     trusted = begin.trusted[0], N - (len(piece.v) - piece.trusted[1])
     misfit = float(np.sqrt(left / whole)) if whole else 0.0
-    return _reconstruction(v, begin, trusted, misfit, mismatch, parts)
+    known = {field.name: getattr(begin, field.name) for field in fields(Solution)} | {"trusted": trusted, "misfit": misfit}
+    return Reconstruction(store=v, mismatch=mismatch, left=parts[0], whole=parts[1], **known)
 
 
 def _single(whole: Stretch, r: SampleStore, within: tuple[int, int]) -> Reconstruction:
     given = r.read(0, len(whole.v))
     parts = _squares(given - whole.simulated, given, 0, within)
-    return _reconstruction(stored(whole.v), whole, whole.trusted, whole.misfit, 0.0, parts)
-
-
-def _reconstruction(
-    v: SampleStore, first: Stretch, trusted: tuple[int, int], misfit: float, mismatch: float, parts: Array
-) -> Reconstruction:
-    """What is known of the signal from its first piece, and what was gathered over all of them."""
-    left, whole = parts
-    return Reconstruction(
-        store=v,
-        delay=first.delay,
-        trusted=trusted,
-        zeros=first.zeros,
-        left_invertible=first.left_invertible,
-        misfit=misfit,
-        reason=first.reason,
-        mismatch=mismatch,
-        left=left,
-        whole=whole,
-        x0=first.x0,
-        pair=first.pair,
-    )
+    known = {field.name: getattr(whole, field.name) for field in fields(Solution)}
+    return Reconstruction(store=stored(whole.v), mismatch=0.0, left=parts[0], whole=parts[1], **known)
 
 
 def _squares(error: Array, given: Array, start: int, within: tuple[int, int]) -> Array:

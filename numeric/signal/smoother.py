@@ -1,7 +1,8 @@
 """The fault signal of one stretch of the residual in memory: v and x such that the simulated residual equals the given one.
 
     smoothed            the smoother for r, A, F, C, G, with the initial state known or not
-    Stretch             v, x, simulated, delay, zeros, the samples to be trusted, and why not the others
+    Solution            delay, zeros, the samples to be trusted, and why not the others
+    Stretch             a Solution with v, x and simulated in memory
     simulated           x and C x + G v from v and the initial state
     linear_recursion    x(k+1) = A x(k) + drive(k) in about 2 sqrt(N) steps
     delay               v(k) is first seen in r(k + delay): at the end of the record some samples of v are not
@@ -43,23 +44,10 @@ MOST_GAINS = 5000
 SETTLED = 1e-13
 
 
-@dataclass(frozen=True)
-class Stretch:
-    """v (N, m), x (N, n) with x(k+1) = A x + F v, and simulated = C x + G v (N, p).
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Solution:
+    """What is known of a fault signal beside its values; the docstring of `Reconstruction` tells the fields one by one."""
 
-    delay            samples until v(k) is seen, from a known x(0), or from an unknown one if such a delay exists;
-                     None where the system is not left-invertible, so that v is not determined at all
-    trusted          (first, last): v[first:last] is disturbed by no zero and no delay; empty where first >= last
-    zeros            finite zeros of (A, F, C, G)
-    left_invertible  whether v is determined by r and x(0) in principle
-    misfit           |r - simulated| / |r|
-    reason           what is determined and what is not, in words
-    x0, pair         the initial state (n,) and (A, F, C, G), from which x and simulated follow
-    """
-
-    v: Array
-    x: Array
-    simulated: Array
     delay: int | None
     trusted: tuple[int, int]
     zeros: NDArray[np.complex128]
@@ -68,6 +56,15 @@ class Stretch:
     reason: str
     x0: Array
     pair: tuple[Array, Array, Array, Array]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Stretch(Solution):
+    """The signal v (N, m) of one stretch, the states x (N, n) of x(k+1) = A x + F v, and `simulated` = C x + G v (N, p)."""
+
+    v: Array
+    x: Array
+    simulated: Array
 
 
 def smoothed(r: ArrayLike, A: ArrayLike, F: ArrayLike, C: ArrayLike, G: ArrayLike, *, x0: ArrayLike | None = None) -> Stretch:
@@ -101,7 +98,19 @@ def smoothed(r: ArrayLike, A: ArrayLike, F: ArrayLike, C: ArrayLike, G: ArrayLik
     misfit = float(np.linalg.norm(r - response)) / size if size else 0.0
     delay = limits.delay_known_state if start is not None or limits.delay_unknown_state is None else limits.delay_unknown_state
     trusted, reason = _limits(N, m, limits, delay, start is not None)
-    return Stretch(v, x, response, delay, trusted, limits.zeros, limits.left_invertible, misfit, reason, initial, (A, F, C, G))
+    return Stretch(
+        delay=delay,
+        trusted=trusted,
+        zeros=limits.zeros,
+        left_invertible=limits.left_invertible,
+        misfit=misfit,
+        reason=reason,
+        x0=initial,
+        pair=(A, F, C, G),
+        v=v,
+        x=x,
+        simulated=response,
+    )
 
 
 def _faults(n: int, p: int, F: ArrayLike, G: ArrayLike, x0: ArrayLike | None) -> tuple[Array, Array, Array | None]:
@@ -245,22 +254,22 @@ def _limits(N: int, m: int, limits: FaultZeros, delay: int | None, known: bool) 
     if delay >= N:
         return (0, 0), f"{N} samples are no more than the delay of {delay}: v is not determined"
     sizes = np.abs(zeros)
-    shown = ", ".join(f"{size:.4g}" for size in sizes)
+    moduli = ", ".join(f"{size:.4g}" for size in sizes)
     # At the end of a long record the state is known from the past, so that the shorter delay counts there.
     first, last = 0, N - tail
-    said = [f"v is seen after {delay} samples" + (f", the last {tail} are not determined" if tail else "")]
+    sentences = [f"v is seen after {delay} samples" + (f", the last {tail} are not determined" if tail else "")]
     inside, outside = sizes[sizes < 1], sizes[sizes > 1]
     if inside.size and not known:
         first = min(_fading(float(inside.max()), N), N)
-        said.append(f"zeros inside the unit circle leave the first {first} samples to the unknown initial state")
+        sentences.append(f"zeros inside the unit circle leave the first {first} samples to the unknown initial state")
     if outside.size:
         lost = min(_fading(1 / float(outside.min()), N), N)
         last = max(last - lost, 0)
-        said.append(f"zeros outside the unit circle leave the last {lost} uncertain, although the future was used")
+        sentences.append(f"zeros outside the unit circle leave the last {lost} uncertain, although the future was used")
     if np.any(np.isclose(sizes, 1, atol=1e-6, rtol=0)):
-        said.append(f"a zero on the unit circle disturbs every sample (moduli {shown})")
-        return (0, 0), "; ".join(said)
-    return (first, last), "; ".join(said) + (f" (moduli of the zeros: {shown})" if zeros.size else "")
+        sentences.append(f"a zero on the unit circle disturbs every sample (moduli {moduli})")
+        return (0, 0), "; ".join(sentences)
+    return (first, last), "; ".join(sentences) + (f" (moduli of the zeros: {moduli})" if zeros.size else "")
 
 
 def _fading(rate: float, most: int) -> int:

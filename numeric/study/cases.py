@@ -27,7 +27,7 @@ from ..model.toeplitz_factorisation import toeplitz_factorisation
 from ..space.by_likelihood import fault_space_by_likelihood
 from ..space.distances import containment_error, two_sided_error
 from ..space.result import orthonormal
-from .experiments import NOISE_GAIN, Experiment, experiment, response
+from .runs import NOISE_GAIN, StudyRun, response, study_run
 from .systems import MOST_ZEROS, N_V, N_X, P, StudySystem, study_system
 
 Estimator = Callable[[Array, StateSpaceModel, int], Array]
@@ -138,7 +138,7 @@ class _Drawn:
         of_system, of_run, of_start, of_subspace = parts
         self.index, self.window = index, window
         self.system: StudySystem = study_system(index % (MOST_ZEROS + 1), of_system)
-        self.run: Experiment = experiment(self.system, of_run, level=level, samples=samples)
+        self.run: StudyRun = study_run(self.system, of_run, level=level, samples=samples)
         self.start, self.subspace = np.random.default_rng(of_start), np.random.default_rng(of_subspace)
         self.rank = N_X + window * N_V - self.system.n_zeros
         self.vacuous = self.rank >= P * window

@@ -33,10 +33,10 @@ LEAST = 1e-2
 def error_histogram(study: Study, ax: Any = None, *, estimator: str = PAPER) -> Any:
     """Number of cases by error, coloured by number of zeros; vacuous cases have no error and stand hatched at the left edge."""
     ax = _axes(ax)
-    shown = [case for case in study.cases if _percent(study, case, estimator) is not None and not case.vacuous]
+    drawn = [case for case in study.cases if _percent(study, case, estimator) is not None and not case.vacuous]
     edges = np.geomspace(LEAST, 100, BINS + 1)
-    kinds = sorted({case.n_zeros for case in shown})
-    samples = [[_percent(study, case, estimator) for case in shown if case.n_zeros == k] for k in kinds]
+    kinds = sorted({case.n_zeros for case in drawn})
+    samples = [[_percent(study, case, estimator) for case in drawn if case.n_zeros == k] for k in kinds]
     if samples:
         colours, labels = [COLOURS[k] for k in kinds], [_zeros(k) for k in kinds]
         ax.hist(samples, edges, stacked=True, color=colours, label=labels, edgecolor="white", linewidth=0.5)
@@ -137,8 +137,8 @@ def _boxes(ax: Any, study: Study, groups: list[Group], members: dict[str, list[C
             name = group.label.replace("not minimum ", "not minimum\n")
             ticks.append(f"{name}\n({group.cases}{_remark(group)})")
         if group.vacuous:
-            told = "vacuous:\nno null row,\nerror zero by\nconstruction"
-            ax.text(place, LEAST * 1.2, told, ha="center", va="bottom", fontsize="small", color=INK)
+            label = "vacuous:\nno null row,\nerror zero by\nconstruction"
+            ax.text(place, LEAST * 1.2, label, ha="center", va="bottom", fontsize="small", color=INK)
             continue
         if group.quantiles is None:
             continue

@@ -43,7 +43,7 @@ import scipy.special
 from ...base.errors import InvalidData
 from ..data.validation import positive
 from .cases import LIKELIHOOD, PAPER, Case, corrected_case, corrected_identified_case, identified_case, published_case
-from .experiments import SAMPLES
+from .runs import SAMPLES
 from .workers import Progress, in_order
 
 SEED = 1907

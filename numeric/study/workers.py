@@ -83,6 +83,6 @@ def _client(address: str) -> AbstractContextManager[Any]:
     try:
         client: AbstractContextManager[Any] = Client(address, timeout=PATIENCE)
     except (OSError, ValueError, TypeError) as error:
-        told = " ".join(str(error).split()) or type(error).__name__
-        raise InvalidData(f"cluster: no Dask scheduler answers at {address!r} ({told}); an address is like tcp://HOST:8786") from None
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise InvalidData(f"cluster: no Dask scheduler answers at {address!r} ({reason}); an address is like tcp://HOST:8786") from None
     return client

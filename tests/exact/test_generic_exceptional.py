@@ -26,7 +26,7 @@ ALL = [(n, p, m) for n in range(3) for p in range(4) for m in range(3)]
 
 
 def matrices_at(found: GenericExceptional, values: list[int]) -> dict[str, Matrix]:
-    """A, C and the basis of Z at these values."""
+    """The result is A, C and the basis of Z at these values."""
     entries = found.entries
     shapes = {"A": (entries.n, entries.n), "C": (entries.p, entries.n)}
     result = {

@@ -121,7 +121,7 @@ def test_no_columns() -> None:
 
 
 @pytest.mark.parametrize(
-    "U, V, said",
+    "U, V, message",
     [
         (np.eye(3), np.eye(4), r"U, V: got 3 and 4 rows"),
         (np.ones((3, 2)), np.eye(3), r"U: columns are dependent"),
@@ -130,8 +130,8 @@ def test_no_columns() -> None:
         (np.array([[np.nan]]), np.eye(1), r"U: got an array of shape \(1, 1\); a basis is"),
     ],
 )
-def test_what_is_no_basis(U: Any, V: Any, said: str) -> None:
-    with pytest.raises(InvalidData, match=said):
+def test_what_is_no_basis(U: Any, V: Any, message: str) -> None:
+    with pytest.raises(InvalidData, match=message):
         principal_angles(U, V)
 
 

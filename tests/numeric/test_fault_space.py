@@ -394,9 +394,9 @@ BAD = [
 
 
 @pytest.mark.parametrize("method", [fault_space, noise_free_fault_space, fault_space_by_likelihood, least_squares])
-@pytest.mark.parametrize("change, said", BAD)
-def test_bad_input(method: Any, change: dict[str, Any], said: str) -> None:
+@pytest.mark.parametrize("change, message", BAD)
+def test_bad_input(method: Any, change: dict[str, Any], message: str) -> None:
     system = planted(14)
     given = {"r": residual(system), "A": system.A, "C": system.C, "n_v": None, "block_rows": None} | change
-    with pytest.raises(InvalidData, match=said):
+    with pytest.raises(InvalidData, match=message):
         method(given["r"], given["A"], given["C"], n_v=given["n_v"], block_rows=given["block_rows"])

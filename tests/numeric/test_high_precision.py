@@ -55,7 +55,7 @@ CASES = [(1, 1, 1), (1, 2, 2), (2, 2, 1), (3, 1, 2), (3, 2, 2)]  # n, n_u, p
 DIGITS_KEPT = 1e-40
 
 
-def said(label: str, got: float, bound: float) -> None:
+def print_margin(label: str, got: float, bound: float) -> None:
     print(f"{label}: got {got:.1e}, bound {bound:.1e}, ratio {got / bound:.1e}")
 
 
@@ -161,7 +161,7 @@ def excess(both: Both, backward: BackwardError, kind: str) -> float:
     for name, bound in bounds.items():
         off = both.got[name]
         place = np.unravel_index(np.argmax(off / bound), off.shape)
-        said(f"{both.label} {kind} {name}", float(off[place]), float(bound[place]))
+        print_margin(f"{both.label} {kind} {name}", float(off[place]), float(bound[place]))
         largest = max(largest, float(off[place] / bound[place]))
         assert float(bound[place]) < 1e-3, "a bound that nothing could exceed"
     return largest
@@ -185,7 +185,7 @@ def test_qr_and_fifty_digits_on_faulty_data(n: int, n_u: int, p: int, smoothing:
     both = both_ways(n, n_u, p, smoothing, noise, "qr")
     with precise.precise():
         size, worst = measured_by_qr(both.where, both.H), reflections_error(len(both.H), both.where.compression.columns)
-    said(f"{both.label} backward error", size, worst)
+    print_margin(f"{both.label} backward error", size, worst)
     assert size <= worst
     assert excess(both, by_qr(both.where), "worst case") <= 1
     assert excess(both, measured(both.where, size), "measured") <= 1
@@ -197,7 +197,7 @@ def test_gram_and_fifty_digits_on_faulty_data(n: int, n_u: int, p: int, smoothin
     both = both_ways(n, n_u, p, smoothing, noise, "gram")
     with precise.precise():
         size, worst = measured_by_gram(both.where, both.H), gram_error(both.where)
-    said(f"{both.label} backward error", size, worst)
+    print_margin(f"{both.label} backward error", size, worst)
     assert size <= worst
     assert excess(both, by_gram(both.where), "worst case") <= 1
 
@@ -293,7 +293,7 @@ def test_residual_from_a_given_state(seed: int) -> None:
     model, x0 = rounded(case), floats(case.x0).ravel()
     bound = given_state_error(y, u, model, x0)
     got = float(np.linalg.norm(residual(y, u, model, x0=x0).r - floats(response)))
-    said("residual, x0 given", got, bound)
+    print_margin("residual, x0 given", got, bound)
     assert got <= bound
     assert np.linalg.norm(residual(y, u, model, x0=x0 * (1 + 1e-9)).r - floats(response)) > bound
 
@@ -315,7 +315,7 @@ def test_residual_with_a_fitted_state(seed: int) -> None:
         got = float(precise.norm(precise.lift(found) - exact))
         unfitted = float(precise.norm(precise.lift(response) - exact))
     bound = fitted_state_error(y, u, model, found)
-    said("residual, x0 fitted", got, bound)
+    print_margin("residual, x0 fitted", got, bound)
     assert got <= bound < 1e-6 < unfitted
 
 
@@ -333,7 +333,7 @@ def test_singular_values_of_the_residual(seed: int, windows: int = 6) -> None:
         assert sum(value > DIGITS_KEPT for value in exact[s - 1]) == true_rank
         bound = singular_value_error(values[s - 1], columns)
         got = float(np.max(np.abs(values[s - 1] - exact[s - 1].astype(float))))
-        said(f"singular values of R_{s}", got, bound)
+        print_margin(f"singular values of R_{s}", got, bound)
         assert got <= bound and int(np.sum(values[s - 1] > bound)) == true_rank
         # Windows one sample short: another matrix, and not within the bound.
         other = np.linalg.svd(np.vstack([floats(response)[i : i + columns - 1].T for i in range(s)]), compute_uv=False)
@@ -352,7 +352,9 @@ def test_the_fault_signal(seed: int, direct: bool, known: bool) -> None:
     first, last = found.trusted
     bound = fault_signal_error(r, A, F, C, G, found, x0=x0)
     got = float(np.linalg.norm((found.v - floats(v))[first:last]))
-    said(f"fault signal, G {'given' if direct else 'zero'}, state {'known' if known else 'unknown'}, samples {first}..{last}", got, bound)
+    print_margin(
+        f"fault signal, G {'given' if direct else 'zero'}, state {'known' if known else 'unknown'}, samples {first}..{last}", got, bound
+    )
     assert last - first >= len(r) - 4 and got <= bound < 1e-6
     assert np.linalg.norm((np.roll(found.v, 1, axis=0) - floats(v))[first:last]) > bound
 

@@ -374,7 +374,7 @@ def test_inputs_that_excite_few_past_directions_serve_as_far_as_they_go() -> Non
         pi_moesp(y, u[100:], order=3, block_rows=12)
 
 
-def test_silent_outputs_and_enormous_signals_are_told() -> None:
+def test_silent_outputs_and_enormous_signals_are_reported() -> None:
     u = np.random.default_rng(21).standard_normal((300, 1))
     with pytest.raises(InvalidData, match="no dynamics are seen"):
         pi_moesp(np.zeros((300, 2)), u, block_rows=5)
@@ -387,7 +387,7 @@ def test_silent_outputs_and_enormous_signals_are_told() -> None:
         pi_moesp(np.ma.masked_greater(u, 2), u, order=1, block_rows=5)
 
 
-def test_block_rows_at_the_lag_are_told() -> None:
+def test_block_rows_at_the_lag_are_reported() -> None:
     """Two outputs, lag 3: O_2 has rank below 3, so the shift from O_3 cannot be solved for A."""
     truth = StateSpaceModel(np.diag([0.9, 0.5, -0.4]), np.ones((3, 1)), [[1, 1, 1], [2, 2, 2]], np.zeros((2, 1)))
     u = np.random.default_rng(20).standard_normal((300, 1))

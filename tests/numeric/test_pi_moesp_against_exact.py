@@ -94,7 +94,7 @@ def differences(case: ExactCase, found: Any, error: ModelError) -> dict[str, tup
     return worst
 
 
-def shown(label: str, worst: dict[str, tuple[float, float]]) -> None:
+def print_margins(label: str, worst: dict[str, tuple[float, float]]) -> None:
     for name, (got, bound) in worst.items():
         print(f"{label} {name}: got {got:.1e}, bound {bound:.1e}, ratio {got / bound:.1e}")
 
@@ -108,7 +108,7 @@ def test_floats_agree_with_the_exact_system(n: int, n_u: int, p: int, route: str
     assert not case.x0.is_zero() and not case.D.is_zero() and not case.B.is_zero()
     found, error = method(case, route)
     worst = differences(case, found, error)
-    shown(f"n={n} n_u={n_u} p={p} {route} {method.__name__}", worst)
+    print_margins(f"n={n} n_u={n_u} p={p} {route} {method.__name__}", worst)
     assert all(got <= bound for got, bound in worst.values())
     assert all(bound < 1e-5 for _, bound in worst.values())
 
@@ -122,7 +122,7 @@ def test_smooth_inputs(smoothing: int, method: Any) -> None:
     for route in ROUTES:
         found, error = method(case, route)
         worst = differences(case, found, error)
-        shown(f"condition {found.condition_numbers['inputs']:.1e} {route} {method.__name__}", worst)
+        print_margins(f"condition {found.condition_numbers['inputs']:.1e} {route} {method.__name__}", worst)
         assert all(got <= bound for got, bound in worst.values())
         errors[route] = worst["Markov parameters"]
     if smoothing == 12:
@@ -236,7 +236,7 @@ def test_a_broken_formula_exceeds_the_bound(broken: Any, method: Any, monkeypatc
     broken(monkeypatch)
     found, error = method(case, "qr")
     worst = differences(case, found, error)
-    shown(f"{broken.__name__} {method.__name__}", worst)
+    print_margins(f"{broken.__name__} {method.__name__}", worst)
     assert max(got / bound for got, bound in worst.values()) > 100
 
 

@@ -227,9 +227,9 @@ BAD = [
 ]
 
 
-@pytest.mark.parametrize("change, said", BAD)
-def test_bad_input(change: dict[str, Any], said: str) -> None:
+@pytest.mark.parametrize("change, message", BAD)
+def test_bad_input(change: dict[str, Any], message: str) -> None:
     system = planted(12)
     given = {"r": np.ones((1000, 3)), "A": system.A, "F": system.F, "C": system.C, "G": system.G, "x0": None} | change
-    with pytest.raises(InvalidData, match=said):
+    with pytest.raises(InvalidData, match=message):
         reconstruct_fault(given["r"], given["A"], given["F"], given["C"], given["G"], x0=given["x0"])

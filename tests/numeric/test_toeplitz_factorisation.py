@@ -13,14 +13,14 @@ from faultspace.numeric.count.windows import hankel_factor
 from faultspace.numeric.model.toeplitz_factorisation import toeplitz_factorisation
 from faultspace.numeric.space.distances import author_error, subspace_distance
 from faultspace.numeric.space.result import kernel_conditions
-from faultspace.numeric.study.experiments import experiment
+from faultspace.numeric.study.runs import study_run
 from faultspace.numeric.study.systems import StudySystem, study_system
 
 Array = NDArray[np.float64]
 
 
 def residual_of(system: StudySystem, level: float) -> Array:
-    run = experiment(system, 9, level=level)
+    run = study_run(system, 9, level=level)
     return run.y - system.model.simulate(run.u)
 
 
