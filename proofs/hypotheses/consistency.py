@@ -36,8 +36,8 @@ from .facets import degenerate
 class Driven:
     """An experiment with certified limits, as a subject.
 
-    `record` is what accepted certificates say of it; `model_right` says that the limit carries A and C, and `autoregressive` that u is so, of
-    order at most s.
+    `record` is what accepted certificates say of it; `model_right` says that the limit carries A and C, and `autoregressive` that u is so,
+    of order at most s.
     """
 
     record: LimitEvidence
