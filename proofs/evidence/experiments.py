@@ -39,11 +39,13 @@ Rows = list[list[str]]
 
 @dataclass(frozen=True)
 class LimitEvidence:
-    """`past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
+    """What accepted certificates say of an experiment and of its signals.
+
+    `past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
 
     `observable`: on s - 1 samples already, which shift invariance takes; `long_past`: past >= n. `within`: the limit of PI-MOESP lies in
-    the range of O_s; `equal`: is that range; the same for PO-MOESP. `inputs_right`: every regression that has a unique limit gives the
-    true B and D. `weight` is 1.
+    the range of O_s; `equal`: is that range; the same for PO-MOESP. `inputs_right`: every regression that has a unique limit gives the true
+    B and D. `weight` is 1.
     """
 
     origin: str

@@ -37,7 +37,9 @@ MOST_STATES = 3
 
 @dataclass(frozen=True)
 class PairByPolynomial:
-    """`polynomial`: D(q; P), monic, ascending, as written; () for a bad P. The rest is what accepted certificates say.
+    """A pair (Fhat P, Ghat P), by its polynomial and by accepted certificates.
+
+    `polynomial` is D(q; P), monic, ascending, as written, and () for a bad P. The rest is what accepted certificates say.
 
     `purpose` says how P was chosen: good, bad, given zeros, random. `zeta` is n less the left minimal indices of the system.
     """

@@ -34,8 +34,10 @@ from .facets import degenerate
 
 @dataclass(frozen=True)
 class Driven:
-    """An experiment with what accepted certificates say of it; `model_right`: the limit carries A and C; `autoregressive`: u is, of order
-    at most s.
+    """An experiment with certified limits, as a subject.
+
+    `record` is what accepted certificates say of it; `model_right` says that the limit carries A and C, and `autoregressive` that u is so,
+    of order at most s.
     """
 
     record: LimitEvidence

@@ -31,7 +31,10 @@ BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
 
 @dataclass(frozen=True)
 class Pair:
-    """`alternative` has the (A, C) of `system` and columns [F'; G'] that solve its problem (11) at the window."""
+    """A system and other fault matrices for its (A, C), as a subject.
+
+    `alternative` has the (A, C) of `system` and columns [F'; G'] that solve its problem (11) at the window.
+    """
 
     system: ResidualSystem
     alternative: ResidualSystem

@@ -32,7 +32,10 @@ BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 
 @dataclass(frozen=True)
 class Simulated:
-    """`gap` is rank R_(s+1) - rank R_s, `excitation` the rank of [X; V_(s+1)], both of certificates; `order` that of persistency of v."""
+    """A trajectory of a system, as a subject.
+
+    `gap` is rank R_(s+1) - rank R_s, `excitation` the rank of [X; V_(s+1)], both of certificates; `order` that of persistency of v.
+    """
 
     system: ResidualSystem
     x0: Matrix

@@ -65,8 +65,11 @@ class Windowed:
 
 @dataclass(frozen=True)
 class Condition:
-    """`holds` decides on certificates. `first_look` at integer systems leaves out what surely violates it (of a hypothesis) or surely
-    meets it (of a conclusion)."""
+    """A hypothesis or a conclusion about a system and a window.
+
+    `holds` decides on certificates. `first_look` at integer systems leaves out what surely violates it (of a hypothesis) or surely meets it
+    (of a conclusion).
+    """
 
     holds: Callable[[Windowed], bool]
     first_look: Callable[[Facts, int], Flags]

@@ -59,9 +59,11 @@ class Proof:
 
 @dataclass(frozen=True)
 class Ablation(Generic[S]):
-    """`claim` is the id in the ledger. `over_q(bench, dropped)`: the smallest subject over Q that meets the hypotheses not dropped and
-    fails, or None, and in words where it was sought. `show` gives certificates of a subject. `implied`: hypotheses that follow from the
-    others, and why.
+    """What a claim is when hypotheses of it are dropped: its conclusion, its hypotheses, and where it is tried.
+
+    `claim` is the id in the ledger. `over_q(bench, dropped)`: the smallest subject over Q that meets the hypotheses not dropped and fails,
+    or None, and in words where it was sought. `show` gives certificates of a subject. `implied`: hypotheses that follow from the others,
+    and why.
     """
 
     name: str
