@@ -235,7 +235,7 @@ def test_the_verdict_of_the_adversary_is_told_in_a_sentence(monkeypatch: pytest.
 
 
 class Window(io.StringIO):
-    """A terminal."""
+    """It says that it is a terminal."""
 
     def isatty(self) -> bool:
         return True
