@@ -20,11 +20,11 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import flint
-import sympy
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod
 
 from ...base.errors import InvalidInput, shorten
 from . import pickling as pickling
+from .sympy_values import is_rational
 from .validation import MAX_FIELD_DEGREE, parse_rational
 from .writing import sum_of_powers
 
@@ -37,7 +37,7 @@ def _as_rational(value: object, where: str) -> fmpq:
         return value
     if isinstance(value, fmpz):
         return fmpq(value)
-    if isinstance(value, (Fraction, sympy.Rational)):
+    if isinstance(value, Fraction) or is_rational(value):
         return fmpq(int(value.numerator), int(value.denominator))
     return parse_rational(value, where)
 

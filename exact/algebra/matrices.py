@@ -17,15 +17,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import sympy
 from flint import fmpq_mat, fmpz, nmod_mat
-from sympy.polys.domains import AlgebraicField
-from sympy.polys.matrices import DomainMatrix
 
 from ...base.errors import InvalidInput, shorten
 from .fields import QQ, Field, NumberField, PrimeField, base_matrix
+from .sympy_values import is_domain_matrix, is_matrix
+
+if TYPE_CHECKING:
+    import sympy
+    from sympy.polys.domains import AlgebraicField
+    from sympy.polys.matrices import DomainMatrix
 
 PRIME = 2**61 - 1
 
@@ -133,6 +136,8 @@ class Matrix:
 
     def to_sympy(self) -> sympy.ImmutableMatrix:
         """The result is the sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
+        import sympy  # here, where it is needed
+
         a = sympy.Symbol("a")
 
         def one(x: Any) -> sympy.Expr:
@@ -402,10 +407,10 @@ def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:
 
 def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where: str) -> tuple[list[list[object]], tuple[int, int]]:
     """Nested lists of the entries and the shape they have, checked for ragged rows and against `shape`."""
-    if isinstance(entries, DomainMatrix):
+    if is_domain_matrix(entries):
         found = (int(entries.shape[0]), int(entries.shape[1]))
         rows = _rows_of_domain_matrix(entries, field, where)
-    elif isinstance(entries, sympy.MatrixBase):
+    elif is_matrix(entries):
         found = (int(entries.rows), int(entries.cols))
         rows = [list(entries.row(i)) for i in range(entries.rows)]
     elif isinstance(entries, (list, tuple)):
@@ -428,6 +433,8 @@ def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where
 
 
 def _rows_of_domain_matrix(entries: DomainMatrix, field: Field, where: str) -> list[list[object]]:
+    from sympy.polys.domains import AlgebraicField  # loaded before, for there is a DomainMatrix
+
     if not isinstance(entries.domain, AlgebraicField):
         table = entries.to_Matrix()
         return [list(table.row(i)) for i in range(table.rows)]

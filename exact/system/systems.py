@@ -16,8 +16,6 @@ from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any
 
-import sympy
-
 from ...base.errors import InvalidInput, shorten
 from ..algebra.fields import QQ, Field, field_from_json
 from ..algebra.matrices import Matrix
@@ -344,7 +342,7 @@ def _extent(entries: object, axis: int) -> int | None:
     """
     if isinstance(entries, (Matrix,)):
         return entries.shape[axis]
-    if isinstance(entries, sympy.MatrixBase) or hasattr(entries, "shape"):
+    if hasattr(entries, "shape"):
         return int(entries.shape[axis])
     if isinstance(entries, (list, tuple)) and entries:
         if axis == 0:

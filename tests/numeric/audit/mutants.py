@@ -231,9 +231,9 @@ def _count_unscaled(r: Any) -> int:
 
 
 def _square_time(r: Any, windows: int) -> Any:
-    """Where the running median of each channel stands, from the beginning for every sample."""
-    order = [np.argsort(r[: k + 1], axis=0)[k // 2].copy() for k in range(len(r))]  # a view would keep every sorted array
-    assert np.all(np.less_equal(0, order))
+    """The place of every sample among all before it, found by looking at all of them: the cheapest square that stands out clearly."""
+    order = [np.sum(r[: k + 1] <= r[k], axis=0) for k in range(len(r))]
+    assert np.all(np.less_equal(1, order))
     return reference.window_ranks(r, windows)
 
 
