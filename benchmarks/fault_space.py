@@ -53,7 +53,7 @@ class Trial:
 
 
 def paper_like(zeros: int, samples: int, seed: int) -> Trial:
-    """A system of the study."""
+    """This is a system of the study."""
     system = study_system(zeros, np.random.SeedSequence([seed, zeros]))
     rng = np.random.default_rng([seed, zeros, samples])
     model = StateSpaceModel(system.model.A, system.F, system.model.C, system.G)
@@ -114,7 +114,7 @@ def coverage(trials: list[Trial], answers: list[FaultSpaceEstimate]) -> str:
 
 
 def line(label: str, samples: int, trials: list[Trial], seed: int) -> str:
-    """One row of the table."""
+    """This writes one row of the table."""
     answers = [fault_space_by_likelihood(t.r, t.A, t.C, n_v=t.n_v) for t in trials]
     squares = [fault_space_by_least_squares(t.r, t.A, t.C, n_v=t.n_v) for t in trials]
     rng = np.random.default_rng(seed)

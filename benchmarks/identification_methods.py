@@ -51,7 +51,7 @@ class Method:
     needs: str = ""
 
     def missing(self, fault_id: Path | None) -> str | None:
-        """Why it cannot run here, or None."""
+        """It says why the method cannot run here; None means that it can."""
         if self.needs == "octave":
             if self.name == "fault-id" and fault_id is None:
                 return "no clone of ggleizer/fault_id given (--fault-id)"
@@ -63,7 +63,7 @@ class Method:
         return None
 
     def version(self) -> str:
-        """Package with its version."""
+        """It names the package and its version."""
         if self.needs == "octave":
             return octave_version()
         return f"{self.needs} {version(self.needs)}" if self.needs else f"numpy {np.__version__}, scipy {version('scipy')}"

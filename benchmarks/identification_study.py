@@ -49,7 +49,7 @@ class Comparison:
 
 
 def sections(notebook: Path) -> list[str]:
-    """The code cells of a MATLAB live script."""
+    """These are the code cells of a MATLAB live script."""
     with zipfile.ZipFile(notebook) as archive:
         root = ElementTree.fromstring(archive.read("matlab/document.xml"))
     space = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
@@ -85,7 +85,7 @@ def study_here() -> dict[str, Any]:
 
 
 def compare(fault_id: Path | None) -> Comparison:
-    """Both sides, one after the other."""
+    """Both sides are measured, one after the other."""
     ours = Comparison(**_answer(python_command("study"), Path.cwd()))
     why = "no clone of ggleizer/fault_id given (--fault-id)" if fault_id is None else octave_missing()
     if fault_id is None or why is not None:

@@ -33,7 +33,7 @@ def time_table(run: Run) -> Sheet:
 
 
 def error_table(run: Run) -> Sheet:
-    """One row a method that gives a model."""
+    """There is one row for each method that gives a model."""
     rows = [
         [method.name, method.instruments, *(_errors(by[method.name]) for by in run.cells.values())]
         for method in METHODS
@@ -55,13 +55,13 @@ def growth_table(run: Run) -> Sheet:
 
 
 def aim_table(run: Run) -> Sheet:
-    """Aims and what the run says."""
+    """The table has the aims, and what the run says of each."""
     said = {True: "met", False: "missed", None: "open"}
     return Sheet("aims", ["aim", "measured", ""], [[aim.words, aim.measured, said[aim.met]] for aim in aims(run, MODELS)])
 
 
 def sheets(run: Run) -> list[Sheet]:
-    """All tables with rows in them."""
+    """These are all tables that have rows."""
     return [sheet for sheet in (time_table(run), error_table(run), growth_table(run), aim_table(run)) if sheet.rows]
 
 

@@ -30,7 +30,7 @@ OUTPUTS, INPUTS = ("y1", "y2", "y3"), ("u1", "u2")
 
 
 def plant(random: np.random.Generator) -> StateSpaceModel:
-    """A stable plant."""
+    """This draws a stable plant."""
     A = random.standard_normal((3, 3))
     A *= random.uniform(0.3, 0.95) / np.abs(np.linalg.eigvals(A)).max()
     return StateSpaceModel(A, random.standard_normal((3, 2)), random.standard_normal((3, 3)), np.zeros((3, 2)))

@@ -28,7 +28,7 @@ BRIEF = 1.0  # CPU seconds below which a cell is repeated
 
 @dataclass(frozen=True)
 class Budget:
-    """What a cell may take."""
+    """These are the limits of a cell."""
 
     seconds: float = 60.0
     setup: float = 120.0

@@ -39,7 +39,7 @@ class SystemCells:
 
 @dataclass(frozen=True)
 class Run:
-    """A whole run."""
+    """This is a whole run."""
 
     machine: dict[str, str]
     limits: Budget

@@ -135,12 +135,12 @@ def distance(estimates: Any, exact: Any) -> float:
 
 
 def size(exact: Any) -> float:
-    """Its Euclidean norm, 1 for zero."""
+    """The unit is its Euclidean norm, and 1 for zero."""
     return float(np.linalg.norm(exact)) or 1.0
 
 
 def compared(family: str, found: PopulationLimits, lengths: list[int], seeds: int) -> Iterator[Comparison]:
-    """One Comparison for each exact vector."""
+    """There is one Comparison for each exact vector."""
     exact = expected(found)
     tables: dict[tuple[str, str], dict[int, list[Any]]] = {key: {N: [] for N in lengths} for key in exact}
     for seed in range(seeds):
@@ -159,7 +159,7 @@ def compared(family: str, found: PopulationLimits, lengths: list[int], seeds: in
 
 
 def table(rows: list[Comparison]) -> Sheet:
-    """A line for each comparison."""
+    """The table has a line for each comparison."""
     lengths = list(rows[0].errors)
     head = ["family", "method", "rank L", "n", "range of O_s", "compared", *(f"N = {N:.0e}".replace("e+0", "e") for N in lengths)]
     lines = []

@@ -85,7 +85,7 @@ def benchmark_experiment(setting: Setting) -> Experiment:
 
 
 def _power(experiment: Experiment) -> Fraction:
-    """E|y|^2."""
+    """The power is E|y|^2."""
     known = covariances(experiment)
     now = known.now(known.process.y, known.process.y)
     return sum((Fraction(str(now[i, i])) for i in range(now.nrows)), Fraction(0))
@@ -154,7 +154,7 @@ def free_order(found: PopulationLimits) -> FreeOrder:
 
 
 def measured(setting: Setting, rank: int, peer_python: str | None) -> Iterator[Row]:
-    """On the benchmark's record."""
+    """The methods are run on the benchmark's record."""
     samples = f"{setting.samples:.0e}".replace("e+0", "e")
     y, u = record(setting)
     for who, method, order in (("PI-MOESP", pi_moesp, ORDER), ("PO-MOESP", po_moesp, ORDER), ("PO-MOESP", po_moesp, rank)):
@@ -171,7 +171,7 @@ def measured(setting: Setting, rank: int, peer_python: str | None) -> Iterator[R
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Prints a section for each shape."""
+    """This prints a section for each shape."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--largest", type=int, default=10**6, help="samples of the longest record (default 1e6)")
     parser.add_argument("--quick", action="store_true", help="the first two of the benchmark's four cells")

@@ -27,7 +27,7 @@ BEGIN, END = "<!-- docs/make.py makes what stands here -->", "<!-- as far as her
 
 
 def claims_table() -> list[str]:
-    """The table of claims.md, a row a reading."""
+    """The table of claims.md has a row for each reading."""
     rows = ["| claim | verdict | read as | verdict on the reading |", "|---|---|---|---|"]
     for claim in load():
         for i, reading in enumerate(claim.readings):
@@ -86,7 +86,7 @@ def attacks_table() -> list[str]:
 
 
 def tried(record: AttackRecord) -> str:
-    """How much an attack tried, and when."""
+    """The words say how much an attack tried, and when."""
     spent = f"{record['seconds']:.0f} s, {record['date']}"
     if record["aim"] == SWEPT:
         extent = "all" if record["complete"] else "part of the box:"

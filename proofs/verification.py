@@ -29,10 +29,10 @@ EFFORTS = ("quick", "full")
 TRUSTED = "this trusts Rocq's kernel, MathComp, and files compiled before in your cache, which --recheck compiles anew"
 
 
-def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, progress: Progress | None = None) -> Report:
+def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, on_progress: Progress | None = None) -> Report:
     """Every claim of the ledger, or those with the ids `claims`, decided now: each reading with a verdict and the evidence it rests on.
 
-    `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core), and `progress(stage, done, total)` hears how far
+    `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core), and `on_progress(stage, done, total)` hears how far
     the run is. The Report has `claims`, `hypotheses`, `as_expected` (whether every verdict is the one that the ledger expects),
     `certificates()`, `summary()` and `plot()`. Most claims take tens of seconds, because the systems and certificates that their readings
     rest on are made anew; the one of the example below needs less than a second. The claims are those of [G25].
@@ -54,7 +54,7 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
     if unknown:
         raise InvalidInput(f"claim: got {unknown[0]!r}, expected one of {', '.join(ledger)}")
     chosen = [claim for claim in ledger.values() if claims is None or claim.id in claims]
-    report = progress or (lambda stage, done, total: None)
+    report = on_progress or (lambda stage, done, total: None)
     started = time.perf_counter()
     bench = Workbench(effort, jobs, report)
     total = sum(len(claim.readings) for claim in chosen)

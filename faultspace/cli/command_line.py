@@ -36,14 +36,14 @@ _UsageError: type[Any] = typer.BadParameter.__bases__[0]
 
 
 class Effort(StrEnum):
-    """How long `verify` looks."""
+    """It says how long `verify` looks."""
 
     quick = "quick"
     full = "full"
 
 
 class Expected(StrEnum):
-    """What `compare` can be told to expect."""
+    """These are the answers that `compare` can be made to expect."""
 
     equivalent = "equivalent"
     different = "different"

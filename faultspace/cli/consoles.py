@@ -31,7 +31,7 @@ class _Answers(Console):
 
 
 def answers() -> Console:
-    """The console that tables are printed on."""
+    """Answers are printed on this console."""
     plain = not sys.stdout.isatty()
     width = max(PIPED_WIDTH, _columns()) if plain else None
     return _Answers(file=sys.stdout, width=width, markup=False, highlight=False, emoji=False)

@@ -51,7 +51,7 @@ class State:
 
     @property
     def line(self) -> str:
-        """The plain line."""
+        """This is the plain line."""
         return f"{self.stage} ({self.amount})" if self.amount else f"{self.stage} ..."
 
 

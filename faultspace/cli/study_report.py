@@ -50,7 +50,7 @@ EXPLANATION = (
 
 
 def document(studies: Sequence[Study]) -> dict[str, Any]:
-    """What studies.json and --json hold."""
+    """This is what studies.json and --json hold."""
     return {"format": FORMAT, "remarks": remarks(studies), "studies": [study.to_json() for study in studies]}
 
 
@@ -79,7 +79,7 @@ def remarks(studies: Sequence[Study]) -> list[str]:
 
 
 def table(study: Study) -> Table:
-    """The groups by zeros and by phase."""
+    """The table shows the groups by zeros and by phase."""
     title = f"{study.plan.title}\nerror in percent: {study.plan.metric_text}"
     rows = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left", pad_edge=False, padding=(0, 1, 0, 0))
     for heading in ("cases", *HEADER):
@@ -92,7 +92,7 @@ def table(study: Study) -> Table:
 
 
 def lines(studies: Sequence[Study]) -> Iterator[str]:
-    """The summary, line by line."""
+    """The summary comes line by line."""
     first = studies[0]
     yield "# The Monte Carlo study"
     yield ""
@@ -133,7 +133,7 @@ def write(studies: Sequence[Study], out: Path) -> list[str]:
 
 
 def _cells(group: Group) -> list[str]:
-    """The row of a group under HEADER."""
+    """These cells are the row of a group under HEADER."""
     quantiles = dict(zip(QUANTILES, group.quantiles, strict=True)) if group.quantiles else {}
     interval = " .. ".join(_percent(end, digits=2) for end in group.interval) if group.interval else ""
     remark = [f"{group.vacuous} vacuous" if group.vacuous else "", f"{group.failed} refused" if group.failed else ""]
@@ -151,7 +151,7 @@ def _cells(group: Group) -> list[str]:
 
 
 def _percent(value: float | None, digits: int = 3) -> str:
-    """Angles at rounding level are zero."""
+    """Angles at the level of rounding are shown as zero."""
     return "" if value is None else f"{100 * value:.{digits}g}" if value > ROUNDING else "0"
 
 

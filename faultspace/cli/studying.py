@@ -25,7 +25,7 @@ def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, se
     with working("starting") as tell:
         for name, plan in STUDIES.items():
             watch = _of_study(tell, name)
-            studies.append(monte_carlo(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, progress=watch))
+            studies.append(monte_carlo(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, on_progress=watch))
     written = write(studies, out)
     if as_json:
         print_json(document(studies))

@@ -68,7 +68,7 @@ def resting_on(claim: ClaimResult, *, ours: bool) -> str:
 
 
 def differences(report: Report) -> Iterator[str]:
-    """What is not as expected, a line each."""
+    """There is a line for whatever is not as expected."""
     for claim in report.claims:
         if claim.verdict != claim.expected:
             yield f"{claim.claim.id}: {claim.verdict} (expected {claim.expected})"

@@ -53,13 +53,13 @@ class ZeroStructure:
 
 
 class Identifies(Protocol):
-    """An implementation that identifies."""
+    """This is an implementation that identifies."""
 
     def identify(self, y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]: ...
 
 
 class Simulates(Protocol):
-    """An implementation that makes residuals."""
+    """This is an implementation that makes residuals."""
 
     def residual(self, y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Any: ...
 
@@ -71,7 +71,7 @@ class RanksWindows(Protocol):
 
 
 class CountsFaults(Protocol):
-    """An implementation that counts faults."""
+    """This is an implementation that counts faults."""
 
     def fault_dimension(self, r: Array) -> int | None: ...
 

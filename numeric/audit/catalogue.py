@@ -35,7 +35,7 @@ MODULES = (
 
 
 def all_checks() -> Iterator[Check]:
-    """Every check."""
+    """This yields every check."""
     for module in MODULES:
         yield from module.checks()
 

@@ -48,12 +48,12 @@ def lifted(values: Any, name: str, shape: tuple[int, int]) -> Matrix:
 
 
 def markov(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) -> list[Matrix]:
-    """D, CB, CAB, ...: `count` of them."""
+    """These are the first `count` of D, CB, CAB, ...."""
     return markov_parameters(A, B, C, D, count)
 
 
 def polynomial_from_the_top(A: Matrix) -> list[Fraction]:
-    """det(zI - A) from z^n = 1 down."""
+    """These are the coefficients of det(zI - A), from that of z^n, which is 1, down."""
     return list(reversed(stability.rational_characteristic_polynomial(A)))
 
 
@@ -75,7 +75,7 @@ def roots(ascending: Sequence[Any]) -> tuple[complex, ...]:
 
 
 def poles(A: Matrix) -> tuple[complex, ...]:
-    """The eigenvalues."""
+    """The poles are the eigenvalues of A."""
     return roots(stability.rational_characteristic_polynomial(A)) if A.nrows else ()
 
 

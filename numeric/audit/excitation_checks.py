@@ -25,7 +25,7 @@ from .vectors import IdentificationVector, shipped
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for vector in shipped("unexciting"):
         yield _ranks(vector)
         yield _count(vector)
@@ -36,7 +36,7 @@ def checks() -> Iterator[Check]:
 
 
 def sine_samples(count: int) -> list[Fraction]:
-    """cos(k a) for k = 0 .. count - 1."""
+    """The samples are cos(k a) for k = 0 .. count - 1."""
     c, s, result = Fraction(1), Fraction(0), []
     for _ in range(count):
         result.append(c)

@@ -27,7 +27,7 @@ RECOVERY = "the model is wrong although the data determine it: every prediction 
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for vector in shipped("identification"):
         p, n_u = vector.C.nrows, vector.B.ncols
         ones = [Fraction(1)]
@@ -120,6 +120,6 @@ def _rows_over(given: Matrix, units: Sequence[Fraction]) -> Matrix:
 
 
 def _worst(quantity: str, got: Array, bound: Array) -> Measurement:
-    """The entry with the largest ratio."""
+    """This measures the entry with the largest ratio."""
     place = np.unravel_index(int(np.argmax(got / np.maximum(bound, np.finfo(float).tiny))), got.shape)
     return Measurement(quantity, float(got[place]), float(bound[place]))

@@ -47,7 +47,7 @@ class Isolated:
         self._program.close()
 
     def perform(self, check: Check) -> CheckResult:
-        """Never raises for what the adapter does."""
+        """This never raises for what the adapter does."""
         begun = time.perf_counter()
         try:
             if not self._loaded:

@@ -88,7 +88,7 @@ def _nearly_twice(system: ResidualSystem) -> tuple[Matrix, Matrix]:
 
 
 def fault_vectors() -> list[FaultVector]:
-    """See the module."""
+    """The module says what these vectors are."""
     return [_faults(slug, system) for slug, system in fault_systems()]
 
 
@@ -171,7 +171,7 @@ def singular_values(H: Matrix) -> tuple[float, float]:
 
 
 def unexciting_vectors() -> list[UnexcitingVector]:
-    """See the module."""
+    """The module says what these vectors are."""
     systems = dict(fault_systems())
     rng = Random("unexciting")
     one, two, N = systems["one-fault"], systems["two-faults"], 2 * HALF

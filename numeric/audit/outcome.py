@@ -27,7 +27,7 @@ class FunctionTally:
 
     @property
     def free(self) -> int:
-        """How many cannot fail."""
+        """So many checks cannot fail."""
         return self.checks - self.passed - self.failed
 
 
@@ -50,7 +50,7 @@ class Audit(Shown, Sequence[CheckResult]):
 
     @property
     def failed(self) -> tuple[CheckResult, ...]:
-        """Those whose must is not met."""
+        """These are the results whose must is not met."""
         return tuple(one for one in self.results if one.failed)
 
     @property

@@ -37,7 +37,7 @@ class NotOffered(Exception):
 
 
 class Demand(StrEnum):
-    """What the check asks for."""
+    """This is what a check asks for."""
 
     MUST_HOLD = "must-hold"
     MUST_REFUSE = "must-refuse"
@@ -88,7 +88,7 @@ class Named:
 
     @property
     def name(self) -> str:
-        """slug[vector]."""
+        """The name is slug[vector]."""
         return f"{self.slug}[{self.vector}]"
 
     @property
@@ -134,7 +134,7 @@ class CheckResult(Named):
 
     @property
     def failed(self) -> bool:
-        """Whether a must is not met."""
+        """It has failed where a must is not met."""
         return self.kind != Demand.FREE and self.verdict not in (Status.PASS, Status.NOT_OFFERED)
 
     def to_json(self) -> dict[str, Any]:
@@ -170,7 +170,7 @@ def perform(check: Check, function: Function) -> CheckResult:
 
 
 def broken(check: Check, failure: Exception, seconds: float) -> CheckResult:
-    """BROKEN, in the words of the failure."""
+    """The status is BROKEN, in the words of the failure."""
     return _result(check, Status.BROKEN, None, str(failure), seconds)
 
 

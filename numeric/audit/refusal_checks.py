@@ -26,7 +26,7 @@ MISSING = "a missing sample goes into the estimate unnoticed"
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     yield from _of_identify(next(v for v in shipped("identification") if v.C.nrows > 1 and v.B.ncols > 1))
     yield from _of_faults(next(v for v in shipped("faults") if v.slug == "two-faults"))
     for vector in shipped("faults"):

@@ -92,7 +92,7 @@ def _words(one: Tally) -> str:
 
 
 def _short(text: str) -> str:
-    """One line of at most 200 characters."""
+    """The text becomes one line of at most 200 characters."""
     line = " ".join(text.split()).rstrip(".")
     return line if len(line) <= 200 else line[:197] + "..."
 

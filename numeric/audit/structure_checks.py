@@ -15,7 +15,7 @@ from .vectors import StructureVector, floats, shipped
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for vector in shipped("structure"):
         effect = "independent faults are taken for dependent or the reverse"
         yield _check("normal-rank", vector, "proposition-3", effect, _ranks, "normal_rank", "left_invertible")

@@ -43,11 +43,11 @@ class InProcess:
 
     @property
     def functions(self) -> tuple[str, ...]:
-        """The names of the functions that it has."""
+        """These are the names of the functions that it has."""
         return tuple(self._called)
 
     def perform(self, check: Check) -> CheckResult:
-        """The result of one check."""
+        """This is the result of one check."""
         return perform(check, self._called[check.function])
 
 

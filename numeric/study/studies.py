@@ -160,14 +160,14 @@ def monte_carlo(
     samples: int = SAMPLES,
     jobs: int | None = None,
     cluster: str | None = None,
-    progress: Progress | None = None,
+    on_progress: Progress | None = None,
 ) -> Study:
     """Run the paper's Monte Carlo study: how far the estimated fault space lies from the true one, over many random systems.
 
     `plan` is one of PUBLISHED, IDENTIFIED, CORRECTED and CORRECTED_IDENTIFIED, or its name in `STUDIES`: "published", "identified",
     "corrected", "corrected-identified". `systems` random systems are drawn, a quarter for each number of zeros from 0 to 3, with records of
     `samples` samples each; equal seeds give equal cases. `jobs` processes share the work (None: all cores, as far as they are worth their
-    start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `progress` is called with (done,
+    start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `on_progress` is called with (done,
     total, seconds left) as cases come in. The Study has `cases`, whose errors are fractions of the metric's maximum, and `to_json()`.
     Source: [G25] section V; [YL16] for the distances.
 
@@ -187,7 +187,7 @@ def monte_carlo(
         raise InvalidData(f"seed: got {seed}; a whole number from 0 on is needed")
     start = time.perf_counter()
     tasks = [(index, child, samples) for index, child in enumerate(np.random.SeedSequence(seed).spawn(systems))]
-    cases = in_order(plan.case, tasks, worth=plan.worth, jobs=jobs, cluster=cluster, progress=progress)
+    cases = in_order(plan.case, tasks, worth=plan.worth, jobs=jobs, cluster=cluster, progress=on_progress)
     return Study(plan, seed, samples, tuple(cases), time.perf_counter() - start)
 
 

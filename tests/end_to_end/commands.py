@@ -35,7 +35,7 @@ _SCHEMAS = {"certificate": "faultspace.proofs"}
 
 @dataclass(frozen=True)
 class Run:
-    """What a run left behind."""
+    """This is what a run left behind."""
 
     code: int
     out: str
@@ -79,5 +79,5 @@ def validator(name: str) -> jsonschema.Draft202012Validator:
 
 
 def example(name: str) -> Any:
-    """The document of a packaged system."""
+    """This is the document of a packaged system."""
     return json.loads(EXAMPLES.joinpath(f"{name}.json").read_text("utf-8"))

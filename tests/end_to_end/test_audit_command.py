@@ -40,7 +40,7 @@ Made = Callable[[tuple[CheckResult, ...]], None]
 
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> Made:
-    """Call it with the results of the run."""
+    """The test calls it with the results of the run."""
     return lambda results: monkeypatch.setattr(auditing, "audit", lambda name, **settings: Audit(str(name), results))
 
 
@@ -72,7 +72,7 @@ def test_every_check_is_printed_when_asked_for(made: Made) -> None:
 
 
 class Window(io.StringIO):
-    """A terminal."""
+    """It says that it is a terminal."""
 
     def isatty(self) -> bool:
         return True

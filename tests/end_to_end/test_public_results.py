@@ -22,7 +22,7 @@ from tests.end_to_end.commands import call
 
 
 def example(name: str) -> Any:
-    """The dict of an example's file."""
+    """This is the dict of an example's file."""
     return json.loads(files("faultspace").joinpath("examples", f"{name}.json").read_text("utf-8"))
 
 
@@ -77,7 +77,7 @@ def test_the_summary_of_an_audit_has_the_numbers_and_the_failures_that_the_comma
 
 
 def results() -> dict[str, Shown]:
-    """One of each result."""
+    """There is one of each result."""
     system = fs.System(**FAULT)
     first = load()[0]
     decided = ClaimResult(first, tuple(ReadingResult(one, Outcome(Verdict(one.expected), "as stated"), 0.5) for one in first.readings))

@@ -25,7 +25,7 @@ from tests.end_to_end.commands import ROOT, call, environment
 
 
 class Terminal(io.StringIO):
-    """A stream that says it is a terminal."""
+    """This stream says that it is a terminal."""
 
     def isatty(self) -> bool:
         return True

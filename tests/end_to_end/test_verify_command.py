@@ -62,11 +62,11 @@ def pretended(monkeypatch: pytest.MonkeyPatch) -> Callable[[Verdict], list[dict[
     def pretend(second: Verdict) -> list[dict[str, object]]:
         calls: list[dict[str, object]] = []
 
-        def verify(claims: Sequence[str] | None, *, effort: str, jobs: int, progress: Callable[[str, int, int], None]) -> Report:
+        def verify(claims: Sequence[str] | None, *, effort: str, jobs: int, on_progress: Callable[[str, int, int], None]) -> Report:
             calls.append({"claims": claims, "effort": effort, "jobs": jobs})
-            progress("systems", 0, 12)
-            progress("systems", 12, 12)
-            progress("claim-a: as-printed", 0, 3)
+            on_progress("systems", 0, 12)
+            on_progress("systems", 12, 12)
+            on_progress("claim-a: as-printed", 0, 3)
             return report(claims, second)
 
         monkeypatch.setattr(verifying, "load", lambda: CLAIMS)
@@ -235,7 +235,7 @@ def test_the_verdict_of_the_adversary_is_told_in_a_sentence(monkeypatch: pytest.
 
 
 class Window(io.StringIO):
-    """A terminal."""
+    """It says that it is a terminal."""
 
     def isatty(self) -> bool:
         return True

@@ -50,7 +50,7 @@ class Errand:
 
 
 def travelled(body: Body) -> Journey:
-    """Runs the body and watches it."""
+    """This runs the body and watches it."""
     seen: set[CodeType] = set()
     ours: dict[CodeType, bool] = {}
     stack: list[CodeType] = []

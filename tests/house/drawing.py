@@ -25,7 +25,7 @@ WIDTH = 100
 
 
 def room_of(place: str) -> str:
-    """The room that a place lies in."""
+    """This is the room that a place lies in."""
     return place.partition("/")[0]
 
 
@@ -90,7 +90,7 @@ PAGES: dict[str, Callable[[Graph], list[str]]] = {"CONTRIBUTING.md": figure, "do
 
 
 def main() -> None:
-    """Draws every page again."""
+    """This draws every page again."""
     graph = counted(file_graph(house()))
     for page, made in PAGES.items():
         path = ROOT / page

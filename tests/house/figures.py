@@ -98,7 +98,7 @@ def needs(names: Iterable[str]) -> Iterator[Need]:
 
 
 def tables(*, errands: bool = True) -> list[str]:
-    """The rows of the page."""
+    """These are the rows of the page."""
     modules = list(house())
     graph = counted(file_graph(modules))
     rows = ["| room | files | lines | folders, or files at its top | fullest folder |", "|---|---|---|---|---|"]
@@ -121,7 +121,7 @@ def tables(*, errands: bool = True) -> list[str]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Writes the page."""
+    """This writes the page."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--show", action="store_true", help="print the tables and leave the page alone")
     parser.add_argument("--without-errands", action="store_true", help="leave out the depth, which takes a minute")

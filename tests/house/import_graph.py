@@ -28,7 +28,7 @@ LEFT: set[tuple[str, str]] = set()
 
 @dataclass(frozen=True)
 class Module:
-    """A module by its import name."""
+    """A module goes by its import name."""
 
     name: str
     source: str
@@ -111,7 +111,7 @@ def place_graph(files: Mapping[str, set[str]]) -> Graph:
 
 
 def counted(graph: Graph) -> Graph:
-    """Without what is left."""
+    """The graph comes without what is left."""
     return {name: {one for one in imported if (name, one) not in LEFT} for name, imported in graph.items()}
 
 

@@ -41,7 +41,7 @@ def loaded_after(statement: str) -> set[str]:
 
 
 def lacking(docstring: str, *, from_literature: bool) -> list[str]:
-    """What a public docstring does not say."""
+    """These are the things that a public docstring does not say."""
     first = docstring.strip().partition("\n")[0]
     asked = {
         "a first line of words": re.fullmatch(r"[A-Z].*[.:,]", first) and len(first.split()) >= 6,

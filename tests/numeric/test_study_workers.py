@@ -43,7 +43,7 @@ def test_a_cluster_gives_the_same_cases_and_only_its_scheduler_counts() -> None:
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
         seen: list[int] = []
         address = cluster.scheduler_address
-        spread = monte_carlo(CORRECTED, systems=6, seed=4, samples=300, cluster=address, progress=lambda done, *_: seen.append(done))
+        spread = monte_carlo(CORRECTED, systems=6, seed=4, samples=300, cluster=address, on_progress=lambda done, *_: seen.append(done))
     assert seen == [1, 2, 3, 4, 5, 6]
     assert_same(monte_carlo(CORRECTED, systems=6, seed=4, samples=300, jobs=1), spread)
 

@@ -98,7 +98,7 @@ PEERS = (
 
 
 def peer(name: str) -> Peer:
-    """Raises InvalidData for an unknown name."""
+    """This is the peer of that name. Raises InvalidData where there is none."""
     found = next((one for one in PEERS if one.name == name), None)
     if found is None:
         raise InvalidData(f"peer {name}: there is none of that name; there are {', '.join(one.name for one in PEERS)}")

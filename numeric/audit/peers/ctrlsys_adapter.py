@@ -31,7 +31,7 @@ def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any,
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
-    """No scaling, the default tolerance."""
+    """It is called without scaling, at the default tolerance."""
     n, m = len(A), F.shape[1]
     matrices = (np.asfortranarray(M) for M in (A, F, C, G))
     nu, rank, dinfz, _, _, infz, _, _, Af, Bf, info = ctrlsys.ab08nd("N", n, m, len(C), *matrices, 0.0)

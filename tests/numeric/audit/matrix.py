@@ -27,7 +27,7 @@ for the mutant. Columns where nothing fails are left out. Made by `python -m tes
 
 
 def counted(mutant: Mutant) -> dict[tuple[str, str], tuple[int, int]]:
-    """Of one mutant."""
+    """The counts are those of one mutant."""
     result: dict[tuple[str, str], tuple[int, int]] = {}
     for record in audit(mutant.adapter):
         failed, asked = result.get((mutant.name, record.slug), (0, 0))
@@ -37,7 +37,7 @@ def counted(mutant: Mutant) -> dict[tuple[str, str], tuple[int, int]]:
 
 
 def page(mutants: Sequence[Mutant], counts: Counts) -> str:
-    """All tables."""
+    """The page has all tables."""
     parts = [HEAD]
     slugs = list(dict.fromkeys((one.function, one.slug) for one in all_checks()))
     for function in FUNCTIONS:
@@ -60,7 +60,7 @@ def _cell(count: tuple[int, int], named: bool) -> str:
 
 
 def main() -> None:
-    """Writes the page."""
+    """This writes the page."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, metavar="FILE")
     out: Path = parser.parse_args().out

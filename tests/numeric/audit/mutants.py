@@ -219,7 +219,7 @@ def _space_padded(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
 
 
 def _ranks_as_if_excited(r: Any, windows: int) -> Any:
-    """The first step goes on for ever."""
+    """It takes the first step to go on for ever."""
     one, two = reference.window_ranks(r, 2)
     return [one + (s - 1) * (two - one) for s in range(1, windows + 1)]
 
@@ -238,7 +238,7 @@ def _square_time(r: Any, windows: int) -> Any:
 
 
 def _window_of_n(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
-    """n block rows where lag + 1 are needed."""
+    """It takes n block rows where lag + 1 are needed."""
     return noise_free_fault_space(r, A, C, n_v=n_v, block_rows=len(A)).basis
 
 
@@ -310,7 +310,7 @@ def _residual_of_reversed_inputs(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any)
 
 
 def _residual_late(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
-    """x(k+1) used for x(k)."""
+    """It uses x(k+1) for x(k)."""
     model = StateSpaceModel(A, B, C, D)
     late = np.vstack([model.simulate(u)[1:], np.zeros((1, len(C)))])
     return y - late
@@ -321,7 +321,7 @@ def _signal_from_rest(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
 
 
 def _residual_rounded(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
-    """A fixed resolution."""
+    """It has a fixed resolution."""
     return np.round(reference.residual(y, u, A, B, C, D), 12)
 
 
