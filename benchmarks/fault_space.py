@@ -126,9 +126,9 @@ def line(label: str, samples: int, trials: list[Trial], seed: int) -> str:
         [angle(t, a.basis) for t, a in zip(trials, answers, strict=True)],
         [angle(t, np.linalg.qr(rng.standard_normal(t.Z.shape))[0]) for t in trials],
     ]
-    shown = "".join(f"{np.median(column):>13.3g}" for column in columns)
+    medians = "".join(f"{np.median(column):>13.3g}" for column in columns)
     counts = f"{verdicts(trials, answers):>10}{verdicts(trials, squares):>15}{coverage(trials, answers):>10}"
-    return f"{label:<22}{samples:>6}{shown}{counts}"
+    return f"{label:<22}{samples:>6}{medians}{counts}"
 
 
 def seconds_by_window(seed: int) -> str:

@@ -61,8 +61,8 @@ def rates_here() -> Rates:
 
 def measure_rates() -> Rates:
     """The same in a process with one thread."""
-    told = subprocess.run(python_command("rates"), cwd=ROOT, env=environment(), capture_output=True, check=True, text=True).stdout
-    return Rates(**json.loads(told[len(RESULT) :]))
+    printed = subprocess.run(python_command("rates"), cwd=ROOT, env=environment(), capture_output=True, check=True, text=True).stdout
+    return Rates(**json.loads(printed[len(RESULT) :]))
 
 
 def best(*measured: Rates) -> Rates:

@@ -258,12 +258,12 @@ def run(name: str, folder: Path) -> dict[str, Any]:
         start = cpu_seconds()
         again()
         times.append(cpu_seconds() - start)
-    told: dict[str, Any] = {"seconds": min(times), "changed": changed}
+    answer: dict[str, Any] = {"seconds": min(times), "changed": changed}
     if floor is not None and peak is not None:
-        told["megabytes"] = max(peak - floor, 0) / 1024
+        answer["megabytes"] = max(peak - floor, 0) / 1024
     if matrices is not None:
-        told |= {letter: np.atleast_2d(np.asarray(matrix)).tolist() for letter, matrix in zip("ABCD", matrices, strict=True)}
-    return told
+        answer |= {letter: np.atleast_2d(np.asarray(matrix)).tolist() for letter, matrix in zip("ABCD", matrices, strict=True)}
+    return answer
 
 
 def _status(field: str) -> int | None:

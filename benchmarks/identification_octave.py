@@ -105,5 +105,5 @@ def octave_missing() -> str | None:
 def octave_version() -> str:
     """Octave and its control package."""
     asked = 'd = pkg ("describe", "control"); printf ("Octave %s, control %s", version (), d{1}.version)'
-    told = subprocess.run(octave_command(asked), capture_output=True, check=False, stdin=subprocess.DEVNULL, text=True)
-    return told.stdout.strip() or "Octave"
+    run = subprocess.run(octave_command(asked), capture_output=True, check=False, stdin=subprocess.DEVNULL, text=True)
+    return run.stdout.strip() or "Octave"

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from benchmarks.ladder_cells import BRIEF, Cell
 from benchmarks.ladder_methods import METHODS
-from benchmarks.ladder_run import OURS, Record, Run, aims, disagreements, exponent, ratio
+from benchmarks.ladder_run import OURS, Run, SystemCells, aims, disagreements, exponent, ratio
 from benchmarks.sheets import Sheet
 
 
@@ -95,7 +95,7 @@ def _outcome(cell: Cell) -> str:
     return cell.outcome
 
 
-def _ratio(record: Record, method: str) -> str:
+def _ratio(record: SystemCells, method: str) -> str:
     found = ratio(record, method)
     if found is None:
         return _outcome(record.cells[method]) if record.cells[method].outcome != "finished" else "-"

@@ -35,7 +35,7 @@ FROM_IDENTIFIED = (
 
 
 def with_space(answer: Findings, on_progress: OnProgress) -> Findings:
-    """The space of all fault columns, on the samples that faults were counted on."""
+    """Return the space of all fault columns, on the samples that faults were counted on."""
     model, rest = answer.model, answer.residual
     if not answer.n_v or model is None or rest is None:
         return answer
@@ -50,7 +50,7 @@ def with_space(answer: Findings, on_progress: OnProgress) -> Findings:
 
 
 def with_signal(answer: Findings, on_progress: OnProgress) -> Findings:
-    """The signal of one choice of columns out of the space, over all samples, where there is ground for one."""
+    """Return the signal of one choice of columns out of the space, over all samples, where there is ground for one."""
     model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
     if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:
         return answer
@@ -78,7 +78,7 @@ def with_signal(answer: Findings, on_progress: OnProgress) -> Findings:
 
 
 def _shares(answer: Findings, signal: Reconstruction, count: int) -> tuple[float, float]:
-    """What the signal explains of the residual that was counted on, and what so many signals could of noise; outputs in units of the
+    """Return what the signal explains of the residual that was counted on, and what so many signals could of noise; outputs in units of the
     healthy residual where there is one, else each in units of its own size."""
     rest, sizes, until = answer.residual, answer.sizes, answer.healthy
     assert rest is not None and sizes is not None
@@ -94,12 +94,12 @@ def _shares(answer: Findings, signal: Reconstruction, count: int) -> tuple[float
 
 
 def counted(reason: str) -> str:
-    """The reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
+    """Return the reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
     return reason.replace("n_v as given", "n_v as counted").replace("was given but", "was counted but")
 
 
 def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: int) -> tuple[Array, Array]:
-    """F (n, n_v), G (p, n_v) out of the space: of a few choices the one whose signal explains the residual r best, then the one with
+    """Return F (n, n_v), G (p, n_v) out of the space: of a few choices the one whose signal explains the residual r best, then the one with
     most samples that no zero disturbs.
 
     Tried are the directions of largest G, which have the least delay, and general mixes: a special choice of columns may be inequivalent.
@@ -124,14 +124,14 @@ def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: in
 
 
 def largest(record: Record) -> Array:
-    """The largest |y| of each output, as the record is read."""
+    """Return the largest |y| of each output, as the record is read."""
     low, high = record.channels.least - record.offset, record.channels.greatest - record.offset
     return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
 
 
 def beyond_rounding(answer: Findings) -> Array:
-    """The residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their rounding
-    would be scaled up and counted as faults."""
+    """Return the residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their
+    rounding would be scaled up and counted as faults."""
     rest, sizes = answer.residual, answer.sizes
     assert rest is not None and sizes is not None
     return np.asarray(rest.store.read(*answer.held) * (sizes.peak > ROUNDING * largest(answer.record)))

@@ -20,7 +20,7 @@ from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
 
 COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
-"""What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
+"""An n_v rests on one of these: the user, a model that explains everything, or one of the two ways of counting."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,20 +56,22 @@ class Findings:
     explained: float | None = None
     by_noise: float | None = None
     notes: tuple[str, ...] = ()
+    dt: float | None = None
 
     @property
     def modelled(self) -> int:
-        """How many samples, from the first on, the model is from."""
+        """Return how many samples, from the first on, the model is from."""
         return self.healthy or len(self.record)
 
     @property
     def at_least(self) -> int:
-        """Faults that act in any case: the count where there is one; else one where anything stands out, the mean included."""
+        """Return the number of faults that act in any case: the count where there is one; else one where anything stands out, the mean
+        included."""
         if self.n_v is not None:
             return self.n_v
         return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
 
     @property
     def moved(self) -> bool:
-        """Whether the mean of the residual left that of the healthy samples."""
+        """Say whether the mean of the residual left that of the healthy samples."""
         return self.healthy is not None and self.mean is not None and self.mean.shifted is True

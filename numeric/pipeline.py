@@ -63,6 +63,7 @@ def identify(
     remove_means: bool = False,
     inputs: Sequence[str] | None = None,
     outputs: Sequence[str] | None = None,
+    dt: float | None = None,
     on_progress: OnProgress | None = None,
 ) -> Identification:
     """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults [V93], [G25].
@@ -73,8 +74,9 @@ def identify(
 
     `order` is the number n of states, `block_rows` the samples of a window, `n_v` the number of faults, each found from the data where it
     is not stated; `healthy` says how many samples, from the first on, are without fault; `remove_means` takes the means off, of the healthy
-    samples where there are any. `on_progress(stage, done, total)` hears how far it has come. Raises InvalidInput for a file that cannot be
-    read, and InvalidData for data from which no model can be had; what cannot be told after that is a note of the Identification.
+    samples where there are any. `dt` is the time from sample to sample in seconds, which only the exports need. `on_progress(stage, done,
+    total)` hears how far it has come. Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can
+    be had; what cannot be told after that is a note of the Identification.
 
     >>> import numpy as np
     >>> from faultspace.numeric import identify
@@ -91,8 +93,10 @@ def identify(
         raise InvalidData(f"n_v: got {n_v} for {record.p} outputs; at most as many can be told apart: state fewer")
     if healthy is not None and not 0 < healthy < len(record):
         raise InvalidData(f"healthy: got {healthy} for {len(record)} samples; some must follow: state fewer")
+    if dt is not None and not (dt > 0 and np.isfinite(dt)):
+        raise InvalidData(f"dt: got {dt}; the seconds from sample to sample are needed, or None where they are not known")
     found = _findings(record, order, block_rows, n_v, healthy, remove_means, on_progress)
-    return Identification(**vars(found))
+    return Identification(**vars(found) | {"dt": dt})
 
 
 def _findings(
@@ -104,7 +108,7 @@ def _findings(
     remove_means: bool,
     on_progress: OnProgress,
 ) -> Findings:
-    """The chain of the module's docstring."""
+    """Go through the chain of the module's docstring."""
     part = record if healthy is None else record.beginning(healthy)
     rows = block_rows if block_rows is not None else default_block_rows(len(part), record.p, record.n_u, order)
     try:
@@ -132,8 +136,9 @@ def _findings(
 
 
 def _residual(record: Record, model: MoespModel, on_progress: OnProgress) -> ResidualSignal:
-    """From the state that goes with the model's B and D, where output error has found one and the model can be run from it over the whole
-    record, of which it may have seen a part: no sample is then held. Its covariance has taken off all parameters that were fitted."""
+    """Take the residual from the state that goes with the model's B and D, where output error has found one and the model can be run from
+    it over the whole record, of which it may have seen a part: no sample is then held. Its covariance has taken off all parameters that
+    were fitted."""
     data = Passes(record, "residual", on_progress)
     if model.x0 is None or model.residual_covariance is None or growing_modes(model.model, len(record)):
         return residual(data, None, model.model)
@@ -154,7 +159,7 @@ def _nothing_left(answer: Findings) -> str:
 
 
 def _with_count(answer: Findings, faults: int | None, on_progress: OnProgress) -> Findings:
-    """How many faults act, from the residual beside the inputs."""
+    """Count the faults, from the residual beside the inputs."""
     record, rest, sizes, notes = answer.record, answer.residual, answer.sizes, answer.notes
     assert rest is not None and sizes is not None
     on_progress("counting faults", 0, 0)
@@ -194,8 +199,8 @@ def _with_count(answer: Findings, faults: int | None, on_progress: OnProgress) -
 
 
 def _about_zero(answer: Findings, r: Array) -> Findings:
-    """Without healthy samples: the mean of the residual against zero, where it was not removed. It decides nothing, since a constant fault
-    over a whole record cannot be told from an operating point."""
+    """Hold the mean of the residual against zero, where there are no healthy samples and it was not removed. It decides nothing, since a
+    constant fault over a whole record cannot be told from an operating point."""
     if answer.n_v == 0:
         answer = replace(answer, reason=f"{answer.reason}; a fault that is constant over the whole record would not be seen")
     if answer.means_removed:
@@ -211,7 +216,7 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
 
 
 def _against_healthy(answer: Findings, r: Array, on_progress: OnProgress) -> Findings:
-    """The count of `answer`'s residual r beside that against the samples stated to be without fault, of which the last HELD numbers are
+    """Count the faults in the residual r of `answer` against the samples stated to be without fault, of which the last HELD numbers are
     held, and beside the test of the mean."""
     record, rest, sizes, until = answer.record, answer.residual, answer.sizes, answer.healthy
     assert rest is not None and sizes is not None and until is not None
@@ -246,7 +251,7 @@ def _against_healthy(answer: Findings, r: Array, on_progress: OnProgress) -> Fin
 
 
 def _zero_or_not(answer: Findings) -> Findings:
-    """0 is said only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
+    """Leave 0 only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
     if answer.n_v != 0 and not (answer.n_v is None and (answer.moved or answer.unexplained)):
         return answer
     mean, against = answer.mean, answer.against
@@ -270,14 +275,15 @@ def _zero_or_not(answer: Findings) -> Findings:
 
 
 def default_block_rows(samples: int, p: int, n_u: int, order: int | None) -> int:
-    """20 block rows, more where a given order needs them, fewer where the record is short."""
+    """Return 20 block rows, more where a given order needs them, fewer where the record is short."""
     wanted = DEFAULT_WINDOW if order is None else max(DEFAULT_WINDOW, -(-order // p) + 2, -(-order // n_u) + 1)
     affordable = samples // (2 + SPARE * (2 * n_u + p))
     return max(min(wanted, affordable), 2)
 
 
 def _model(record: Record, order: int | None, rows: int, on_progress: OnProgress) -> tuple[MoespModel | None, Array, str]:
-    """The model with its singular values; without an order to trust None, the values and the reason. Raises InvalidData for bad data."""
+    """Return the model with its singular values; without an order to trust None, the values and the reason. Raises InvalidData for bad
+    data."""
     try:
         found = pi_moesp(Passes(record, "identifying the model", on_progress), order=order, block_rows=rows)
     except OrderUndecided as error:

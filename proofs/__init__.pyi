@@ -1,6 +1,5 @@
 from .checking import Checked as Checked
 from .checking import CheckedFile as CheckedFile
-from .checking import ask_rocq as ask_rocq
 from .checking import check as check
 from .checking import check_file as check_file
 from .trust.certifying import certify as certify

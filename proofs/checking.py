@@ -29,7 +29,9 @@ class Checked(Shown):
 
     `statement` names the systems that it is about. `assumes` is the list of what was taken for granted, empty in most cases: at most that a
     polynomial is irreducible. `rocq` is None where Rocq was not asked, else it has a `result` ("accepted", "rejected", "not covered" or
-    "undecided") and a `reason`. Nothing is raised.
+    "undecided") and a `reason`.
+
+    Raises nothing.
 
     >>> import faultspace as fs
     >>> found = fs.check(fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "infinite-zeros"))
@@ -64,7 +66,14 @@ class CheckedFile(Shown):
     """A file with the checker's answer: "file" and "result", then "kind", "statement", "assumes" and "sha256", or a "reason".
 
     The result is one of "verified", "verified under an assumption", "rejected" and "malformed". `rocq` is None where Rocq was not asked,
-    else it has a "result", which is "not asked" for a file that the checker has not verified, and a "reason".
+    else it has a "result", which is "not asked" for a file that the checker has not verified, and a "reason". `to_json` gives all of it as
+    one dict.
+
+    Raises nothing.
+
+    >>> from faultspace.proofs import check_file
+    >>> check_file("no-such-file.json").title
+    'no-such-file.json: malformed'
     """
 
     answer: Mapping[str, Any]
@@ -120,9 +129,19 @@ def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Iter
 
 
 def check_file(path: str | os.PathLike[str], systems: Iterable[Any] = ()) -> CheckedFile:
-    """The checker's answer about a file, which is never raised: what cannot be read is "malformed".
+    """The checker's answer about a certificate's file, whatever it is: what cannot be read is "malformed", and nothing of it is raised.
 
-    Each of `systems` is as for `check`. Raises Malformed or Rejected for one of these that is no system.
+    The `answer` of the result is a dict. `path` names the file, and each of `systems` is as for `check`: systems, experiments, JSON-ready
+    dicts or names of their files.
+
+    Raises `faultspace.proofs.Malformed` or `faultspace.proofs.Rejected` for one of `systems` that is none.
+
+    >>> import json, tempfile, faultspace as fs
+    >>> from faultspace.proofs import check_file
+    >>> certificate = fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "schur-stable")
+    >>> with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+    ...     file.write(json.dumps(certificate)) > 0, file.flush(), check_file(file.name).result
+    (True, None, 'verified')
     """
     return CheckedFile(checker.result_of(os.fspath(path), [_subject(one) for one in systems]))
 
@@ -130,8 +149,10 @@ def check_file(path: str | os.PathLike[str], systems: Iterable[Any] = ()) -> Che
 def ask_rocq(files: Sequence[CheckedFile], progress: Progress = lambda stage, done, total: None) -> list[CheckedFile]:
     """The files, each that parses with what Rocq makes of it: its kernel is asked about verified ones alone, about all of them at once.
 
-    Certificates are not kept meanwhile: a file that holds another one now is "not asked". Raises InvalidInput where there is no Rocq, or
-    one that does not compile the theory.
+    `files` is a list of what `check_file` returns, and `progress(stage, done, total)` hears how far the work is. Certificates are not kept
+    meanwhile: a file that holds another one now is "not asked".
+
+    Raises InvalidInput where there is no Rocq, or one that does not compile the theory.
     """
     answers: dict[int, Mapping[str, str]] = {}
     certificates: dict[int, Any] = {}

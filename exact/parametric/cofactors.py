@@ -34,7 +34,7 @@ from ..structure.kernel_rows import kernel_representation
 from ..system.systems import ResidualSystem
 from .case_tree import Polynomial, coefficients, evaluate
 from .identities import IdentityFailure, SecondRoute, flint_determinant
-from .pencil import determinant
+from .pencil import determinant, indeterminate_pencil
 from .stratification import Indeterminates, indeterminates, times
 
 LARGEST = (2, 3, 2)
@@ -120,7 +120,7 @@ def _generic(n: int, p: int, m: int, *, zero_feedthrough: bool) -> GenericExcept
     P = _table(list(ring.gens[entries.parameters + 1 :]), r + zeta, r)
     basis, b, a = _space(entries, zero_feedthrough)
     columns = [times(row, P, r, ring) for row in basis]
-    matrix = _pencil(entries, columns[:n], columns[n:])
+    matrix = indeterminate_pencil(entries, columns[:n], columns[n:])
     inner = [[*line, *(entries.q * x - y for x, y in zip(left, right, strict=True))] for line, left, right in zip(P, b, a, strict=True)]
     D = determinant(entries, inner, _full(r + zeta))
     route = SecondRoute(ring)
@@ -153,14 +153,6 @@ def _space(entries: Indeterminates, zero_feedthrough: bool) -> tuple[Rows, Rows,
     outputs = [[*[ring.zero] * m, *times(row, entries.F, m, ring)] for row in entries.C]
     nothing = [[ring.zero] * m for _ in range(m)]
     return _frozen([*states, *outputs]), _frozen([*unit(m), *nothing]), _frozen([*nothing, *unit(m)])
-
-
-def _pencil(entries: Indeterminates, F: Sequence[Sequence[Polynomial]], G: Sequence[Sequence[Polynomial]]) -> list[list[Polynomial]]:
-    upper = [
-        [(entries.q if i == j else 0) - f for j, f in enumerate(row)] + [-f for f in line]
-        for i, (row, line) in enumerate(zip(entries.A, F, strict=True))
-    ]
-    return upper + [[*row, *line] for row, line in zip(entries.C, G, strict=True)]
 
 
 def _point(entries: Indeterminates, zero_feedthrough: bool, zeta: int, cofactors: Sequence[Polynomial]) -> tuple[int, ...]:

@@ -5,7 +5,7 @@ the greatest common divisor of its maximal minors, the infinite ones from an ord
 an independent measure of what the elimination in `stratification` found. All functions ask a `Branch`, so `refine` runs
 them on every stratum. What they return carries congruences, which `pencil_expansion` multiplies out by FLINT.
 
-    pencil, determinant
+    indeterminate_pencil, determinant
     NormalRank, normal_rank     minors that vanish, and one that does not
     FiniteZeros, finite_zeros   gcd of the maximal minors, for full column rank, with cofactors both ways
     Echelon, toeplitz_echelon   rank profile of T_s by rows in the order of time
@@ -23,6 +23,7 @@ from .case_tree import Branch, Congruence, Polynomial, UnitProduct, coefficients
 from .stratification import Indeterminates, Row
 
 Minor = tuple[tuple[int, ...], tuple[int, ...]]
+Table = Sequence[Sequence[Polynomial]]
 
 
 @dataclass(frozen=True)
@@ -87,13 +88,13 @@ class Echelon:
         return sum(row.pivot is not None for row in self.rows if row.row[0] < s)
 
 
-def pencil(entries: Indeterminates) -> list[list[Polynomial]]:
-    """The result is P(q), (n + p) x (n + m)."""
+def indeterminate_pencil(entries: Indeterminates, F: Table, G: Table) -> list[list[Polynomial]]:
+    """The result is [[q I - A, -F], [C, G]] for the A and C of the entries, (n + p) x (n + columns of F and G)."""
     upper = [
-        [(entries.q if i == j else 0) - entry for j, entry in enumerate(row)] + [-entry for entry in entries.F[i]]
-        for i, row in enumerate(entries.A)
+        [(entries.q if i == j else 0) - f for j, f in enumerate(row)] + [-f for f in line]
+        for i, (row, line) in enumerate(zip(entries.A, F, strict=True))
     ]
-    return upper + [[*c, *g] for c, g in zip(entries.C, entries.G, strict=True)]
+    return upper + [[*row, *line] for row, line in zip(entries.C, G, strict=True)]
 
 
 def determinant(entries: Indeterminates, matrix: Sequence[Sequence[Polynomial]], minor: Minor) -> Polynomial:
@@ -114,7 +115,7 @@ def minors_of_size(height: int, width: int, size: int) -> list[Minor]:
 
 def normal_rank(entries: Indeterminates, branch: Branch) -> NormalRank:
     """Normal rank of P, by its minors from the largest down; raises Undecided when the branch must be split."""
-    matrix = pencil(entries)
+    matrix = indeterminate_pencil(entries, entries.F, entries.G)
     height, width = entries.n + entries.p, entries.n + entries.m
     vanishing: list[tuple[Minor, Congruence]] = []
     for size in range(min(height, width), -1, -1):
@@ -137,7 +138,7 @@ def finite_zeros(entries: Indeterminates, branch: Branch) -> FiniteZeros:
 
     Raises ArithmeticError when the pencil has not full column rank on the branch.
     """
-    matrix = pencil(entries)
+    matrix = indeterminate_pencil(entries, entries.F, entries.G)
     minors = minors_of_size(entries.n + entries.p, entries.n + entries.m, entries.n + entries.m)
     values = [determinant(entries, matrix, minor) for minor in minors]
     zero, one = entries.ring.zero, entries.ring.one

@@ -160,12 +160,12 @@ def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation
         one = inner.field.element(1)
         state = [[inner.field.element(0)] for _ in range(inner.n)]
         fault = [[inner.field.element(0)] * inner.m for _ in range(row.degree + 1)]
-        place = _first_nonzero(left.at_state)
-        if place is not None:
-            state[place][0] = one
+        if left.at_state.is_zero():
+            k, j = _first_nonzero(left.at_fault)
+            fault[k][j] = one
         else:
-            k, place = next((k, j) for k, part in enumerate(left.at_fault) if (j := _first_nonzero(part)) is not None)
-            fault[k][place] = one
+            _, j = _first_nonzero(left.at_state)
+            state[j][0] = one
         x0 = Matrix.from_elements(inner.field, inner.n, 1, state)
         v = Matrix.from_elements(inner.field, row.degree + 1, inner.m, fault)
         return Separation(row.degree + 1, x0, v, row)
@@ -201,8 +201,8 @@ def _kernel(system: System | KernelRepresentation) -> KernelRepresentation:
     return kernel_representation(system.residual)
 
 
-def _first_nonzero(row: Matrix) -> int | None:
-    return next((j for j, x in enumerate(row.elements()[0]) if x != 0), None) if row.ncols else None
+def _first_nonzero(matrix: Matrix) -> tuple[int, int]:
+    return next((i, j) for i, row in enumerate(matrix.elements()) for j, x in enumerate(row) if x != 0)
 
 
 def _comparable(first: ResidualSystem, second: ResidualSystem) -> None:

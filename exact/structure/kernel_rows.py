@@ -3,7 +3,8 @@
     KernelRow              one row N(q) = sum c_k q^k of degree mu, with its pivot output
     KernelRepresentation   the rows, ascending by degree; the image (prime, root) that proves them complete
     left minimal indices   the degrees mu of the rows; lag = the largest; normal rank r = p - number of rows
-    horner                 X_k = N_k C + X_(k+1) A and N_k G + X_(k+1) F: all zero iff the row annihilates a system
+    horner_states          X_k = N_k C + X_(k+1) A, the one recursion behind the next two
+    horner                 X_0 and N_k G + X_(k+1) F: all zero iff the row annihilates a system
     column_conditions      the rows [X_(k+1), N_k]: what the row asks of a fault column [f; g]
 
 Rows whose leading coefficients are triangular by their pivots, and which annihilate the system, bound every gap from above: gap(k) <= p
@@ -95,38 +96,33 @@ class KernelRepresentation:
 
 @dataclass(frozen=True)
 class Horner:
-    """What is left of a row at a system is `at_state` (1 x n) for x(0) and `at_fault[k]` (1 x m) for v(k); the row annihilates iff all are
-    0.
-    """
+    """What is left of a row at a system is `at_state`, 1 x n for x(0), and `at_fault`, (mu + 1) x m, row k for v(k)."""
 
     at_state: Matrix
-    at_fault: tuple[Matrix, ...]
+    at_fault: Matrix
 
     def vanishes(self) -> bool:
         """This tells whether the row annihilates the system."""
-        return self.at_state.is_zero() and all(part.is_zero() for part in self.at_fault)
+        return self.at_state.is_zero() and self.at_fault.is_zero()
+
+
+def horner_states(coefficients: Matrix, A: Matrix, C: Matrix) -> tuple[Matrix, ...]:
+    """These are X_0, ..., X_(mu+1), each 1 x n, with X_k = N_k C + X_(k+1) A and X_(mu+1) = 0."""
+    states = [Matrix.zero(A.field, 1, A.nrows)]
+    for k in reversed(range(coefficients.nrows)):
+        states.append(coefficients.rows([k]) @ C + states[-1] @ A)
+    return tuple(reversed(states))
 
 
 def horner(coefficients: Matrix, system: ResidualSystem) -> Horner:
-    """The result is the row with these (mu + 1) x p coefficients applied to [O_(mu+1) T_(mu+1)] of a system, without building it."""
-    carried = Matrix.zero(system.field, 1, system.n)
-    at_fault: list[Matrix] = []
-    for k in reversed(range(coefficients.nrows)):
-        coefficient = coefficients.rows([k])
-        at_fault.append(coefficient @ system.G + carried @ system.F)
-        carried = coefficient @ system.C + carried @ system.A
-    return Horner(carried, tuple(reversed(at_fault)))
+    """The result is the row with these (mu + 1) x p coefficients times [O_(mu+1) T_(mu+1)] of a system, which is not built."""
+    first, *later = horner_states(coefficients, system.A, system.C)
+    return Horner(first, coefficients @ system.G + stacked(*later) @ system.F)
 
 
 def column_conditions(coefficients: Matrix, A: Matrix, C: Matrix) -> Matrix:
     """The result is (mu + 1) x (n + p), row k = [X_(k+1), N_k]: a fault column z = [f; g] is annihilated iff every row kills it."""
-    carried = Matrix.zero(A.field, 1, A.nrows)
-    conditions: list[Matrix] = []
-    for k in reversed(range(coefficients.nrows)):
-        coefficient = coefficients.rows([k])
-        conditions.append(beside(carried, coefficient))
-        carried = coefficient @ C + carried @ A
-    return stacked(Matrix.zero(A.field, 0, A.nrows + C.nrows), *reversed(conditions))
+    return beside(stacked(*horner_states(coefficients, A, C)[1:]), coefficients)
 
 
 def annihilates(row: KernelRow, system: ResidualSystem) -> bool:

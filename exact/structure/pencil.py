@@ -6,6 +6,7 @@
                                  are the eigenvalues of A that C does not show, though the transfer function is zero
     zero_dynamics_polynomial     the same from the motion inside V*/R*, where no output sees it: another route
     right_null_polynomial        (x(q), v(q)) with P(q) [x; v] = 0, the proof of not being left-invertible
+    PencilParts, pencil_parts    P(q) as constant + q slope
     finite_diagonal, infinite_diagonal   diagonal forms with multipliers, of P(q) and of the reversed pencil, for certificates
 
 n = sum eta + sum eps + n_f + n_inf, so the degree n_f is known before the polynomial is. Source: [K80] 6.3, [VD79], [TSH01] ch. 7.
@@ -25,7 +26,7 @@ from ..algebra.polynomials import Poly, PolyMatrix, SmithDiagonal
 from ..system.systems import ResidualSystem
 from ..system.windows import toeplitz_matrix
 from .inversion import largest_output_nulling
-from .kernel_rows import KernelRepresentation, kernel_representation
+from .kernel_rows import KernelRepresentation, horner_states, kernel_representation
 from .zero_output import chain_from_rest
 
 
@@ -37,6 +38,14 @@ class NullPolynomial:
 
     state: Matrix
     fault: Matrix
+
+
+@dataclass(frozen=True)
+class PencilParts:
+    """P(q) = constant + q slope, both (n + p) x (n + m)."""
+
+    constant: Matrix
+    slope: Matrix
 
 
 def right_minimal_indices(system: ResidualSystem) -> tuple[int, ...]:
@@ -114,22 +123,28 @@ def right_null_polynomial(system: ResidualSystem) -> NullPolynomial | None:
         return None
     # the transposed row annihilates (A', C', F', G'): its Horner states are the x(q) belonging to v(q)
     coefficients = rows[0].coefficients
-    states = []
-    carried = Matrix.zero(system.field, 1, system.n)
-    for k in reversed(range(coefficients.nrows)):
-        states.append(carried)
-        carried = coefficients.rows([k]) @ system.F.transposed() + carried @ system.A.transposed()
-    return NullPolynomial(stacked(*reversed(states)), coefficients)
+    _, *states = horner_states(coefficients, system.A.transposed(), system.F.transposed())
+    return NullPolynomial(stacked(*states), coefficients)
+
+
+def pencil_parts(system: ResidualSystem) -> PencilParts:
+    """The pencil is assembled here and nowhere else: [[qI - A, -F], [C, G]]."""
+    field, n = system.field, system.n
+    top = beside(Matrix.identity(field, n), Matrix.zero(field, n, system.m))
+    constant = stacked(beside(-system.A, -system.F), beside(system.C, system.G))
+    return PencilParts(constant, stacked(top, Matrix.zero(field, system.p, top.ncols)))
 
 
 def pencil(system: ResidualSystem) -> PolyMatrix:
     """The result is P(q) as a matrix of Poly, (n + p) x (n + m)."""
-    return _linear(stacked(beside(-system.A, -system.F), beside(system.C, system.G)), _state_part(system))
+    parts = pencil_parts(system)
+    return _linear(parts.constant, parts.slope)
 
 
 def reversed_pencil(system: ResidualSystem) -> PolyMatrix:
     """The result is t P(1/t) = [[I - tA, -tF], [tC, tG]]: its zeros at t = 0 are those of P at infinity."""
-    return _linear(_state_part(system), stacked(beside(-system.A, -system.F), beside(system.C, system.G)))
+    parts = pencil_parts(system)
+    return _linear(parts.slope, parts.constant)
 
 
 def finite_diagonal(system: ResidualSystem) -> SmithDiagonal:
@@ -142,12 +157,6 @@ def infinite_diagonal(system: ResidualSystem) -> SmithDiagonal:
     return polynomials.smith_diagonal(reversed_pencil(system), system.n + system.p, system.n + system.m, system.field.element(1))
 
 
-def _state_part(system: ResidualSystem) -> Matrix:
-    """The result is diag(I, 0), (n + p) x (n + m): the coefficient of q in the pencil."""
-    top = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.m))
-    return stacked(top, Matrix.zero(system.field, system.p, system.n + system.m))
-
-
 def _linear(constant: Matrix, slope: Matrix) -> PolyMatrix:
     pairs = zip(constant.elements(), slope.elements(), strict=True)
     return [[polynomials.trimmed(pair) for pair in zip(row, other, strict=True)] for row, other in pairs]
@@ -157,14 +166,13 @@ def _gcd_of_minors(kernel: KernelRepresentation, degree: int) -> Poly:
     """gcd of det(R P(q) S) over integer R, S, taken until its degree is n_f; each is a multiple of the invariant polynomials."""
     system = kernel.system
     size = system.n + kernel.normal_rank
-    constant = stacked(beside(-system.A, -system.F), beside(system.C, system.G))
-    slope = _state_part(system)
+    parts = pencil_parts(system)
     rng = random.Random(system.n)
     result: Poly = ()
     while len(result) != degree + 1:
         left = _small_integers(rng, size, system.n + system.p)
         right = _small_integers(rng, system.n + system.m, size)
-        h, e = (left @ constant @ right).flint, (left @ slope @ right).flint
+        h, e = (left @ parts.constant @ right).flint, (left @ parts.slope @ right).flint
         (top, bottom), (slope_top, slope_bottom) = h.numer_denom(), e.numer_denom()
         a, b = fmpz_mat(top * slope_bottom), fmpz_mat(slope_top * bottom)
         points = [fmpq(k) for k in range(system.n + 1)]

@@ -16,7 +16,7 @@ from rich.text import Text
 
 from ..numeric.audit.outcome import Audit, FunctionTally
 from ..numeric.audit.peers import PEERS
-from ..numeric.audit.records import CheckResult, Kind
+from ..numeric.audit.records import CheckResult, Demand
 from ..numeric.audit.running import audit
 from .consoles import answers, paragraph, print_json, print_table
 from .failures import ANSWERED, NOT_AS_EXPECTED
@@ -110,6 +110,6 @@ def table(results: Sequence[CheckResult]) -> Table:
 
 def _row(result: CheckResult) -> list[Text]:
     numbers = [("" if x is None else f"{x:.2g}") for x in (result.got, result.bound, result.ratio)]
-    asks = str(result.kind) if result.kind != Kind.MUST_HOLD else ""
+    asks = str(result.kind) if result.kind != Demand.MUST_HOLD else ""
     cells = (result.name, result.claim or "", asks, result.verdict, result.quantity or "", *numbers)
     return [Text(cell, style="red" if result.failed else "") for cell in cells]

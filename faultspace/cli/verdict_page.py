@@ -13,7 +13,7 @@ from rich.text import Text
 from ..proofs.trust.structure_certificates import sha256
 from ..proofs.verdict.verdicts import ClaimResult, ReadingResult, Row
 from .consoles import paragraph
-from .verdict_tables import attack_lines, hashes, told_rows, verdict_text
+from .verdict_tables import attack_lines, hashes, rows_worth_reading, verdict_text
 
 
 def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> None:
@@ -28,7 +28,7 @@ def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> Non
         for label, text in _reading(result):
             paragraph(console, text, f"    {label:<14}")
     ablation = None
-    for row in told_rows(rows):
+    for row in rows_worth_reading(rows):
         if row.ablation != ablation:
             ablation = row.ablation
             paragraph(console, row.conclusion, "  which hypotheses are needed for: ")

@@ -63,8 +63,8 @@ def resting_on(claim: ClaimResult, *, ours: bool) -> str:
     """How many of the readings as printed, or of ours, have which verdict: "1 proved, 2 refuted"."""
     verdicts = [result.outcome.verdict for result in claim.readings if result.reading.repair == ours]
     counts = Counter(verdicts)
-    told = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])
-    return f"parts: {told}" if claim.claim.in_parts and not ours else told or "-"
+    parts = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])
+    return f"parts: {parts}" if claim.claim.in_parts and not ours else parts or "-"
 
 
 def differences(report: Report) -> Iterator[str]:
@@ -93,10 +93,10 @@ def hypothesis_words(rows: Sequence[Row]) -> str:
         "not seen to be needed": "without which no counterexample was found",
     }
     order = [*words, *(meaning for meaning in meanings if meaning not in words)]
-    told = ", ".join(f"{meanings[meaning]} {words.get(meaning, meaning)}" for meaning in order if meanings[meaning])
+    parts = ", ".join(f"{meanings[meaning]} {words.get(meaning, meaning)}" for meaning in order if meanings[meaning])
     together = [row for row in rows if len(row.dropped) == 2]
     pairs = sum(row.verdict == Verdict.REFUTED and row.already is None for row in together)
-    return f"{len(single)} dropped alone: {told or 'none'}; {len(together)} pairs: {pairs} needed only together."
+    return f"{len(single)} dropped alone: {parts or 'none'}; {len(together)} pairs: {pairs} needed only together."
 
 
 def attack_words(report: Report) -> str:

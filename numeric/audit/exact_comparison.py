@@ -2,7 +2,7 @@
 
 lifted                     a float matrix over Q
 markov                     D, CB, CAB, ... over Q
-characteristic_polynomial  of z^n, ..., z, 1 over Q
+polynomial_from_the_top    the coefficients of det(zI - A), of z^n, ..., z, 1, over Q
 transfer                   D + C (zI - A)^-1 B at a rational z
 poles                      eigenvalues of a rational matrix, from certified enclosures
 roots                      the same for a polynomial
@@ -52,7 +52,7 @@ def markov(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) -> list[Matri
     return markov_parameters(A, B, C, D, count)
 
 
-def characteristic_polynomial(A: Matrix) -> list[Fraction]:
+def polynomial_from_the_top(A: Matrix) -> list[Fraction]:
     """det(zI - A) from z^n = 1 down."""
     return list(reversed(stability.rational_characteristic_polynomial(A)))
 

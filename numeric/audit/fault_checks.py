@@ -25,7 +25,7 @@ from ..space.distances import compare_subspaces
 from .exact_comparison import lifted
 from .fault_vectors import FaultVector, channel_units
 from .rationals import floats, matrix, scaled
-from .records import Broken, Check, Function, Kind, Measurement, Severity
+from .records import Broken, Check, Demand, Function, Measurement, Severity
 from .vectors import shipped
 
 LONG_WINDOW = 10
@@ -134,7 +134,7 @@ def _as_many_as_outputs(vector: FaultVector) -> Check:
 
     effect = "noise is taken for faults, or faults for noise"
     slug, severity = "as-many-faults-as-outputs", Severity.SOMETIMES
-    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, severity, measure, Kind.FREE)
+    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, severity, measure, Demand.FREE)
 
 
 def as_number(value: Any) -> float:

@@ -186,7 +186,7 @@ class FaultVector:
 
 @dataclass(frozen=True, eq=False)
 class UnexcitingVector:
-    """A residual of m faults whose signals show `shown` < m independent ones. ranks, gaps: as of FaultVector."""
+    """A residual of m faults whose signals show `visible` < m independent ones. ranks, gaps: as of FaultVector."""
 
     slug: str
     system: ResidualSystem
@@ -194,7 +194,7 @@ class UnexcitingVector:
     v: Matrix
     ranks: tuple[int, ...]
     gaps: tuple[tuple[float, float], ...]
-    shown: int
+    visible: int
 
     @cached_property
     def r(self) -> Matrix:
@@ -207,7 +207,7 @@ class UnexcitingVector:
             "slug": self.slug,
             "system": self.system.to_json(),
             **{name: getattr(self, name).to_json() for name in ("x0", "v", "r")},
-            "expected": {"window_ranks": list(self.ranks), "shown": self.shown},
+            "expected": {"window_ranks": list(self.ranks), "shown": self.visible},
             **gaps_to_json(self.r, self.gaps),
         }
 

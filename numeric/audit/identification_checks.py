@@ -16,7 +16,7 @@ import numpy as np
 from faultspace.exact.algebra.matrices import Matrix
 
 from ...base.arrays import Array
-from .exact_comparison import characteristic_polynomial, distances, lifted, markov, matched, poles, transfer
+from .exact_comparison import distances, lifted, markov, matched, poles, polynomial_from_the_top, transfer
 from .rationals import floats, scaled
 from .records import Broken, Check, Function, Measurement, Severity
 from .vectors import POINTS, IdentificationVector, shipped
@@ -109,7 +109,7 @@ def models_off(
     yield _worst("Markov parameters", distances(markov(*found, count), markov(*truth, count)), moved)
     for z, bound in zip(POINTS, vector.bound("transfer", part), strict=True):
         yield _worst(f"transfer function at {z}", distances([transfer(*found, z)], [transfer(*truth, z)])[0], bound[entries])
-    polynomials = [characteristic_polynomial(one)[1:] for one in (A, vector.A)]
+    polynomials = [polynomial_from_the_top(one)[1:] for one in (A, vector.A)]
     off = np.array([abs(float(x - y)) for x, y in zip(*polynomials, strict=True)])
     yield _worst("characteristic polynomial", off, vector.bound("characteristic_polynomial", part))
     yield _worst("eigenvalues", matched(poles(A), poles(vector.A))[1], vector.bound("poles", part))

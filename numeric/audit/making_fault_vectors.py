@@ -186,15 +186,15 @@ def unexciting_vectors() -> list[UnexcitingVector]:
     return [_unexciting(*case) for case in cases]
 
 
-def _unexciting(slug: str, system: ResidualSystem, v: Matrix, shown: int) -> UnexcitingVector:
+def _unexciting(slug: str, system: ResidualSystem, v: Matrix, visible: int) -> UnexcitingVector:
     windows = system.n + 5
     x0 = drawn(Random(slug), system.n, 1, 1)
     r = simulate(system, x0, v).residuals
     ranks = tuple(rank(hankel(r, s)) for s in range(1, windows + 1))
-    if {ranks[-1] - ranks[-2], ranks[-2] - ranks[-3]} != {shown}:
-        raise ArithmeticError(f"{slug}: the ranks {ranks} do not show {shown}")
+    if {ranks[-1] - ranks[-2], ranks[-2] - ranks[-3]} != {visible}:
+        raise ArithmeticError(f"{slug}: the ranks {ranks} do not show {visible}")
     gaps = tuple(singular_values(hankel(in_channel_units(r), s)) for s in range(1, windows + 1))
-    return UnexcitingVector(slug, system, x0, v, ranks, gaps, shown)
+    return UnexcitingVector(slug, system, x0, v, ranks, gaps, visible)
 
 
 # -- noise ------------------------------------------------------------------------------------------------------------------------------

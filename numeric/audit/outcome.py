@@ -12,7 +12,7 @@ from typing import Any, overload
 
 from ...base.errors import quote_path
 from ...base.sheets import Shown
-from .records import CheckResult, Kind, Status, grouped, message
+from .records import CheckResult, Demand, Status, grouped, message
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class Audit(Shown, Sequence[CheckResult]):
 
 
 def _tally(function: str, results: Sequence[CheckResult]) -> FunctionTally:
-    musts = [one for one in results if one.kind != Kind.FREE]
+    musts = [one for one in results if one.kind != Demand.FREE]
     ratios = [one.ratio for one in musts if one.ratio is not None]
     passed, failed = sum(one.verdict == Status.PASS for one in musts), sum(one.failed for one in musts)
     return FunctionTally(function, len(results), passed, failed, max(ratios, default=None))

@@ -4,7 +4,7 @@ Check         slug, function tested, vector, claim, effect on a user, severity, 
 Measurement   quantity, got, bound: a distance from the exact answer, and what rounding may make of it
 Named         what both are called by
 CheckResult   a check's outcome: verdict (a Status), the worst measurement, in words what happened
-Kind          must-hold, must-refuse (an answer is the failure) or free (told, never failed)
+Demand        must-hold, must-refuse (an answer is the failure) or free (told, never failed)
 Refused       the implementation declined to answer; Broken: it crashed, hung or answered what is no answer
 perform       runs one check; never raises for what the implementation does
 broken        the result of a check during which the implementation broke
@@ -36,7 +36,7 @@ class NotOffered(Exception):
     """The implementation answers, but not what this check asks of it: some do not tell all that a function can."""
 
 
-class Kind(StrEnum):
+class Demand(StrEnum):
     """What the check asks for."""
 
     MUST_HOLD = "must-hold"
@@ -113,7 +113,7 @@ class Check(Named):
     effect: str
     severity: Severity
     measure: Callable[[Function], Iterable[Measurement]]
-    kind: Kind = Kind.MUST_HOLD
+    kind: Demand = Demand.MUST_HOLD
 
 
 @dataclass(frozen=True)
@@ -135,12 +135,12 @@ class CheckResult(Named):
     @property
     def failed(self) -> bool:
         """Whether a must is not met."""
-        return self.kind != Kind.FREE and self.verdict not in (Status.PASS, Status.NOT_OFFERED)
+        return self.kind != Demand.FREE and self.verdict not in (Status.PASS, Status.NOT_OFFERED)
 
     def to_json(self) -> dict[str, Any]:
         """JSON-ready; numbers that are not finite as strings."""
-        shown = {name: str(value) if isinstance(value, float) and abs(value) == inf else value for name, value in asdict(self).items()}
-        return {"check": self.name, **shown, "failed": self.failed}
+        values = {name: str(value) if isinstance(value, float) and abs(value) == inf else value for name, value in asdict(self).items()}
+        return {"check": self.name, **values, "failed": self.failed}
 
 
 def perform(check: Check, function: Function) -> CheckResult:
@@ -150,7 +150,7 @@ def perform(check: Check, function: Function) -> CheckResult:
     detail = ""
     try:
         measured = list(check.measure(function))
-        if check.kind is Kind.MUST_REFUSE:
+        if check.kind is Demand.MUST_REFUSE:
             verdict, detail = Status.FAIL, "answered where no answer can be right"
         else:
             worst = max(measured, key=lambda one: one.ratio)
@@ -158,7 +158,7 @@ def perform(check: Check, function: Function) -> CheckResult:
             beyond = [one.quantity for one in measured if one.ratio > 1]
             detail = f"beyond the bound: {', '.join(dict.fromkeys(beyond))}" if beyond else ""
     except Refused as refusal:
-        verdict = Status.PASS if check.kind is Kind.MUST_REFUSE else Status.REFUSED
+        verdict = Status.PASS if check.kind is Demand.MUST_REFUSE else Status.REFUSED
         detail = str(refusal)
     except Broken as failure:
         verdict, detail = Status.BROKEN, str(failure)
@@ -197,7 +197,7 @@ def message(result: CheckResult, adapter: str = "ADAPTER") -> str:
 def _result(check: Check, verdict: Status, worst: Measurement | None, detail: str, seconds: float) -> CheckResult:
     effect, severity = check.effect, check.severity
     if verdict in (Status.REFUSED, Status.BROKEN):  # whoever gets no answer is not misled
-        due = "something was to be said of the question" if check.kind is Kind.MUST_REFUSE else "there is an answer"
+        due = "something was to be said of the question" if check.kind is Demand.MUST_REFUSE else "there is an answer"
         effect, severity = f"no answer where {due}", Severity.NUISANCE
     return CheckResult(
         check.slug,

@@ -19,7 +19,7 @@ from .catalogue import chosen
 from .isolation import Isolated
 from .outcome import Audit
 from .records import Check, CheckResult, Status, message
-from .subjects import Command, InProcess, Subject, label, opened
+from .subjects import Auditee, Command, InProcess, label, opened
 
 Test = TypeVar("Test", bound=Callable[..., object])
 SECONDS, GIBIBYTES = 60.0, 4.0
@@ -92,7 +92,7 @@ def parametrize_with_checks(
     """
     import pytest
 
-    subject: Subject
+    subject: Auditee
     if isinstance(adapter, str):
         subject = worker = Isolated(adapter, Limits(seconds, int(gibibytes * 2**30)))
         atexit.register(worker.close)
@@ -103,7 +103,7 @@ def parametrize_with_checks(
     return pytest.mark.parametrize("check", cases)
 
 
-def _todo(subject: Subject, only: Sequence[str], expected: Sequence[ExpectedFailure]) -> list[Check]:
+def _todo(subject: Auditee, only: Sequence[str], expected: Sequence[ExpectedFailure]) -> list[Check]:
     """The checks to run; that there are checks of the expected names is seen first."""
     if expected:
         chosen((), [one.name for one in expected])
@@ -120,7 +120,7 @@ def _expecting(result: CheckResult, expected: Sequence[ExpectedFailure]) -> Chec
     return replace(result, verdict=str(Status.PASS), detail=f"fails as expected: {known.reason}")
 
 
-def _asserted(check: Check, subject: Subject, expected: Sequence[ExpectedFailure], adapter: str) -> CheckResult:
+def _asserted(check: Check, subject: Auditee, expected: Sequence[ExpectedFailure], adapter: str) -> CheckResult:
     result = _expecting(subject.perform(check), expected)
     if result.failed:
         raise AssertionError(message(result, adapter))

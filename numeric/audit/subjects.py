@@ -1,6 +1,6 @@
 """Who is put through the checks: an object in this process, an adapter by its name, a program, a published package.
 
-Subject      has `functions`, what it offers, and `perform`, which gives the result of one check and never raises for what the subject does
+Auditee      has `functions`, what it offers, and `perform`, which gives the result of one check and never raises for what the subject does
 InProcess    an object whose functions run in this process, without limits
 opened       the subject that the arguments of `audit` name, closed at the end
 label        how `faultspace audit` is told of it
@@ -26,7 +26,7 @@ REFERENCE = "faultspace.numeric.audit.reference"
 Command = str | Sequence[str]
 
 
-class Subject(Protocol):
+class Auditee(Protocol):
     """It answers checks; `functions` are those that it offers."""
 
     @property
@@ -52,7 +52,7 @@ class InProcess:
 
 
 @contextmanager
-def opened(adapter: object, command: Command | None, peer: str | None, limits: Limits) -> Iterator[Subject]:
+def opened(adapter: object, command: Command | None, peer: str | None, limits: Limits) -> Iterator[Auditee]:
     """At most one of the three is given; without any it is our own reference. Raises InvalidData for more, and where nothing answers."""
     if sum(one is not None for one in (adapter, command, peer)) > 1:
         raise InvalidData("got more than one of an adapter, command= and peer=, expected one of them")

@@ -86,12 +86,12 @@ class IdentificationVector:
 
     def to_json(self) -> dict[str, Any]:
         """With the exact outputs and answers spelt out for other languages."""
-        from .exact_comparison import characteristic_polynomial, markov, poles, transfer
+        from .exact_comparison import markov, poles, polynomial_from_the_top, transfer
 
         parts: dict[str, Any] = {name: getattr(self, name).to_json() for name in ("A", "B", "C", "D", "x0", "u", "y")}
         expected = {
             "markov": [part.to_json() for part in markov(self.A, self.B, self.C, self.D, 2 * self.order + 2)],
-            "characteristic_polynomial": [str(c) for c in characteristic_polynomial(self.A)],
+            "characteristic_polynomial": [str(c) for c in polynomial_from_the_top(self.A)],
             "transfer": [{"z": z, "value": transfer(self.A, self.B, self.C, self.D, z).to_json()} for z in POINTS],
             "poles": [[z.real, z.imag] for z in poles(self.A)],
         }

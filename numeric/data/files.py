@@ -54,7 +54,8 @@ _SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
 
 @dataclass(frozen=True)
 class _Opened:
-    """What a reader found: channels of each selector, an output known to float32 only or not, rows (any, sum of widths) in time's order."""
+    """This is what a reader found: the channels of each selector, whether an output is known to float32 only, and rows (any, sum of
+    widths) in time's order."""
 
     widths: tuple[int, ...]
     single: bool
@@ -62,13 +63,13 @@ class _Opened:
 
 
 def split_names(given: Sequence[str]) -> list[str]:
-    """The names in options that may each hold several, separated by commas outside brackets."""
+    """Return the names in options that may each hold several, separated by commas outside brackets."""
     names = [name.strip() for text in given for name in re.split(r",(?![^\[\]]*\])", text)]
     return [name for name in names if name]
 
 
 def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], on_progress: OnProgress | None = None) -> Record:
-    """The record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
+    """Return the record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 
     `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the
     names of columns or, for matrices, as NAME[:,j]. Rows are samples, in the order of time and in the file's units, and every number
@@ -132,7 +133,7 @@ def _once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
 
 
 def _labels(selector: str, count: int) -> list[str]:
-    """The channels that a selector stands for: itself, or for several its last range replaced by each number."""
+    """Return the channels that a selector stands for: itself, or for several its last range replaced by each number."""
     if count == 1:
         return [selector]
     match = _SELECTOR.match(selector)
@@ -245,7 +246,7 @@ def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
 
 
 def _member(archive: zipfile.ZipFile, name: str, folder: Path) -> Any:
-    """An array of the archive: read where it is small, else unpacked and mapped."""
+    """Return an array of the archive: read where it is small, else unpacked and mapped."""
     with archive.open(name) as packed:
         if archive.getinfo(name).file_size <= MAPPED:
             return np.load(io.BytesIO(packed.read()), allow_pickle=False)
@@ -289,7 +290,7 @@ def _mat(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
 
 
 def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read: OnRead) -> _Opened:
-    """Signals (N, k) of one length, joined piece by piece."""
+    """Return signals (N, k) of one length, joined piece by piece."""
     samples = len(signals[0])
     if any(len(values) != samples for values in signals):
         sizes = ", ".join(f"{name} {len(values)}" for name, values in zip(names, signals, strict=True))
@@ -316,7 +317,7 @@ def _forget(values: Any) -> None:
 
 
 class _Lazily(Mapping[str, Any]):
-    """Arrays by name, each read when asked for and then kept."""
+    """The mapping gives arrays by name; each is read when it is asked for and then kept."""
 
     def __init__(self, names: Sequence[str], read: Callable[[str], Any]) -> None:
         self._names, self._read = list(names), read
@@ -335,7 +336,7 @@ class _Lazily(Mapping[str, Any]):
 
 
 def _picked(arrays: Mapping[str, Any], selector: str, what: str) -> Any:
-    """What the selector stands for: an array itself, or NAME[...] of one."""
+    """Return what the selector stands for: an array itself, or NAME[...] of one."""
     there = list(arrays)
     if selector in there:
         return arrays[selector]
@@ -370,7 +371,7 @@ def _range(text: str) -> slice:
 
 
 def _signal(values: Any, name: str) -> NDArray[Any]:
-    """Values as a view (N, k) of their own type: a vector is one channel, whichever way it lies."""
+    """Return the values as a view (N, k) of their own type: a vector is one channel, whichever way it lies."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         hint = "its real and imaginary part as two channels" if array.dtype.kind == "c" else "a plain array of numbers"

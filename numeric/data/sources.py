@@ -32,7 +32,7 @@ def record_from(
     outputs: Sequence[str] | None = None,
     on_progress: OnProgress | None = None,
 ) -> Record:
-    """The record of y (N, p) and u (N, n_u): arrays, or data frames, whose columns give the names, in any
+    """Return the record of y (N, p) and u (N, n_u): arrays, or data frames, whose columns give the names, in any
     units; or of y alone: a Record, the path of a
     file (then `inputs` and `outputs` choose its channels), a frame (likewise), or pieces (y, u) in the order of time, read once.
 
@@ -100,7 +100,7 @@ def _pairs(chunks: Iterable[Any]) -> Iterable[tuple[ArrayLike, ArrayLike]]:
 
 
 def _columns(values: Any) -> list[str] | None:
-    """The names of a frame's columns, or of a series; None for what has none."""
+    """Return the names of a frame's columns, or of a series; None for what has none."""
     if hasattr(values, "columns") and hasattr(values, "to_numpy"):
         return [str(name) for name in values.columns]
     if hasattr(values, "name") and hasattr(values, "to_numpy"):

@@ -27,7 +27,7 @@ CANDIDATES = 3
 
 
 def fit(answer: Findings) -> Array | None:
-    """100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
+    """Return 100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
     if answer.sizes is None:
         return None
     record = answer.record if answer.healthy is None else answer.record.beginning(answer.healthy)
@@ -36,7 +36,7 @@ def fit(answer: Findings) -> Array | None:
 
 
 def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
-    """The answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
+    """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
     yield f"{len(record)} samples, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
@@ -94,7 +94,7 @@ def _why_the_order(answer: Findings) -> str:
 
 
 def _healthy_lines(answer: Findings) -> Iterator[str]:
-    """Both counts, where there are two."""
+    """Yield both counts, where there are two."""
     against, alone = answer.against, answer.dimension
     if against is None:
         return
@@ -111,7 +111,7 @@ def _count(answer: Findings) -> str:
 
 
 def _mean_lines(answer: Findings) -> Iterator[str]:
-    """The mean beside the rank: what moved it, by how much."""
+    """Yield what moved the mean, and by how much, beside the rank."""
     mean, sizes, record = answer.mean, answer.sizes, answer.record
     if mean is None or sizes is None:
         return
@@ -126,7 +126,7 @@ def _mean_lines(answer: Findings) -> Iterator[str]:
 
 
 def _visible_lines(answer: Findings) -> Iterator[str]:
-    """What would have been seen, where little or nothing was."""
+    """Yield what would have been seen, where little or nothing was."""
     mean, outputs = answer.mean, answer.record.outputs
     if answer.healthy is None or mean is None:
         return
@@ -194,7 +194,7 @@ def _signal_lines(answer: Findings) -> Iterator[str]:
 
 
 def advice(answer: Findings) -> list[str]:
-    """What to try next: about what is undecided first, and how to make sure of what is not."""
+    """Say what to try next: about what is undecided first, and how to make sure of what is not."""
     model, record = answer.model, answer.record
     if model is None:
         return [
@@ -271,7 +271,7 @@ def _matrix(matrix: Array) -> list[str]:
 
 
 def markdown(lines: Sequence[str]) -> str:
-    """The lines with blank ones around headings, code and lists; a plain line is a paragraph's own line."""
+    """Return the lines with blank ones around headings, code and lists; a plain line is a paragraph's own line."""
     text: list[str] = []
     for line in lines:
         plain = bool(line) and not line.startswith(("#", "-", "    "))

@@ -44,9 +44,9 @@ MOST_GAINS = 5000
 SETTLED = 1e-13
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Solution:
-    """What is known of a fault signal beside its values; the docstring of `Reconstruction` tells the fields one by one."""
+    """This is what is known of a fault signal beside its values; the docstring of `Reconstruction` explains the fields one by one."""
 
     delay: int | None
     trusted: tuple[int, int]
@@ -60,7 +60,8 @@ class Solution:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Stretch(Solution):
-    """The signal v (N, m) of one stretch, the states x (N, n) of x(k+1) = A x + F v, and `simulated` = C x + G v (N, p)."""
+    """This is one stretch of a solution: the signal v (N, m), the states x (N, n) of x(k+1) = A x + F v, and `simulated` = C x + G v (N,
+    p)."""
 
     v: Array
     x: Array
@@ -68,7 +69,7 @@ class Stretch(Solution):
 
 
 def smoothed(r: ArrayLike, A: ArrayLike, F: ArrayLike, C: ArrayLike, G: ArrayLike, *, x0: ArrayLike | None = None) -> Stretch:
-    """v and x from r (N, p) for A (n, n), F (n, m), C (p, n), G (p, m); x0 (n,) if the initial state is known.
+    """Find v and x from r (N, p) for A (n, n), F (n, m), C (p, n), G (p, m); x0 (n,) if the initial state is known.
 
     Raises InvalidData for shapes that do not fit, values that are not finite, more faults than outputs, a fault
     without any effect, or a model so unstable that the record overflows.
@@ -132,7 +133,7 @@ def _faults(n: int, p: int, F: ArrayLike, G: ArrayLike, x0: ArrayLike | None) ->
 
 @dataclass(frozen=True)
 class _Gains:
-    """v = from_r r + from_t t - from_x x; the cost to come before this sample: |S x - (t_from_r r + t_from_t t)|^2."""
+    """The gains make v = from_r r + from_t t - from_x x, and the cost to come before this sample |S x - (t_from_r r + t_from_t t)|^2."""
 
     from_x: Array
     from_r: Array
@@ -143,7 +144,7 @@ class _Gains:
 
 
 class _Smoother:
-    """The gains for N samples, counted from the end; they repeat once S has settled."""
+    """The smoother holds the gains for N samples, counted from the end; they repeat once S has settled."""
 
     def __init__(self, coordinates: ObservedCoordinates, F: Array, G: Array, samples: int) -> None:
         self.A, self.F, self.C, self.G = coordinates.A, F, coordinates.C, G
@@ -172,7 +173,7 @@ class _Smoother:
         return _Gains(top[:, :n], top[:, n : n + p], top[:, n + p :], R[m:, m:], below[:, :p], below[:, p:])
 
     def solve(self, r: Array, start: Array | None) -> tuple[Array, Array]:
-        """v (N, m) and x(0) for r (N, p), regularised."""
+        """Return v (N, m) and x(0) for r (N, p), regularised."""
         N = len(r)
         n, m = self.F.shape
         steady, settling = self.gains[-1], min(len(self.gains), N)
@@ -199,7 +200,7 @@ class _Smoother:
 
 
 def _refined(smoother: _Smoother, r: Array, start: Array | None) -> tuple[Array, Array]:
-    """The solution plus the solutions for what it leaves over, until that stops shrinking."""
+    """Return the solution plus the solutions for what it leaves over, until that stops shrinking."""
     v, x0 = smoother.solve(r, start)
     matrices = smoother.A, smoother.F, smoother.C, smoother.G
     left = r - simulated(*matrices, x0, v)[1]
@@ -216,13 +217,13 @@ def _refined(smoother: _Smoother, r: Array, start: Array | None) -> tuple[Array,
 
 
 def simulated(A: Array, F: Array, C: Array, G: Array, x0: Array, v: Array) -> tuple[Array, Array]:
-    """x (N, n) and C x + G v (N, p) of x(k+1) = A x + F v from x(0) = x0 (n,)."""
+    """Return x (N, n) and C x + G v (N, p) of x(k+1) = A x + F v from x(0) = x0 (n,)."""
     x = linear_recursion(A, v @ F.T, x0)[:-1]
     return x, x @ C.T + v @ G.T
 
 
 def linear_recursion(A: Array, drive: Array, start: Array) -> Array:
-    """x (N + 1, n) with x(0) = start, x(k+1) = A x(k) + drive(k), for drive (N, n).
+    """Return x (N + 1, n) with x(0) = start, x(k+1) = A x(k) + drive(k), for drive (N, n).
 
     Blocks of about sqrt(N) samples run side by side from zero; then their starts one after the other: 2 sqrt(N) steps.
     """
@@ -247,7 +248,7 @@ def linear_recursion(A: Array, drive: Array, start: Array) -> Array:
 
 
 def _limits(N: int, m: int, limits: FaultZeros, delay: int | None, known: bool) -> tuple[tuple[int, int], str]:
-    """The samples that nothing disturbs, and the sentence about the others."""
+    """Return the samples that nothing disturbs, and the sentence about the others."""
     zeros, tail = limits.zeros, limits.delay_known_state
     if delay is None or tail is None:
         return (0, 0), f"not left-invertible: other signals of {m} faults give the same residual; v is one, a small one"
@@ -273,5 +274,5 @@ def _limits(N: int, m: int, limits: FaultZeros, delay: int | None, known: bool) 
 
 
 def _fading(rate: float, most: int) -> int:
-    """Samples until rate^k has fallen to FADED."""
+    """Return samples until rate^k has fallen to FADED."""
     return 1 if rate == 0 else min(int(np.ceil(np.log(FADED) / np.log(rate))), most)

@@ -38,7 +38,8 @@ NOISE_GAIN = _noise_gain()
 
 @dataclass(frozen=True, eq=False)
 class StudyRun:
-    """u (N, n_u), y (N, p) with noise, v (N, n_v); `decibels` by which the noise lies below the outputs' standard deviation, on average."""
+    """The run has u (N, n_u), y (N, p) with noise and v (N, n_v); the noise lies `decibels` below the outputs' standard deviation, on
+    average."""
 
     u: Array
     y: Array
@@ -47,7 +48,8 @@ class StudyRun:
 
 
 def study_run(system: StudySystem, seed: np.random.SeedSequence | int, *, level: float, samples: int = SAMPLES) -> StudyRun:
-    """u white normal, faults of the study, noise of `level` times each output's standard deviation through the low-pass of the study.
+    """Simulate one run: u is white and normal, the faults are those of the study, the noise is `level` times each output's standard
+    deviation through the low-pass of the study.
 
     level = 0.01 is the published setting; level = 0.01 / NOISE_GAIN makes noise of 1 % in fact. The same seed makes the same u, v and
     noise shape for every level. Raises InvalidData for `samples` below one.
@@ -64,7 +66,7 @@ def study_run(system: StudySystem, seed: np.random.SeedSequence | int, *, level:
 
 
 def response(model: StateSpaceModel, u: Array, x0: Array) -> Array:
-    """y (N, p) of a model of few states for u (N, n_u) and x(0) = x0 (n,).
+    """Return y (N, p) of a model of few states for u (N, n_u) and x(0) = x0 (n,).
 
     With a(q) the characteristic polynomial of A, a(q) y is a finite sum of past inputs, and of x0 in the first n samples. The
     recursion by a costs nothing to set up; it loses digits where many poles crowd, so large models use `StateSpaceModel.simulate`.
@@ -83,11 +85,11 @@ def response(model: StateSpaceModel, u: Array, x0: Array) -> Array:
 
 
 def study_faults(samples: int, rng: np.random.Generator) -> Array:
-    """(samples, 2): a chirp of rising frequency with an offset, and a slow rise buried in white noise."""
+    """Return (samples, 2): a chirp of rising frequency with an offset, and a slow rise buried in white noise."""
     t = np.arange(samples)
     return np.column_stack([np.sin(0.25 * t**1.3) + 0.1, 1 - 0.99**t + rng.standard_normal(samples)])
 
 
 def coloured_noise(samples: int, channels: int, rng: np.random.Generator) -> Array:
-    """(samples, channels) white normal noise through the low-pass, from rest as published: standard deviation NOISE_GAIN."""
+    """Return (samples, channels) of white normal noise through the low-pass, from rest as published: standard deviation NOISE_GAIN."""
     return np.asarray(scipy.signal.lfilter(*LOW_PASS, rng.standard_normal((samples, channels)), axis=0), dtype=np.float64)

@@ -36,7 +36,8 @@ def in_order(
     cluster: str | None = None,
     progress: Progress | None = None,
 ) -> list[Result]:
-    """function(*task) for every task; `jobs` processes (None: all cores), or the workers of the Dask scheduler at the address `cluster`.
+    """Call function(*task) for every task and return the results in order; `jobs` processes (None: all cores), or the workers of the Dask
+    scheduler at the address `cluster`.
 
     Raises InvalidData for numbers below one, for a cluster and jobs at once, and for a cluster that cannot be used.
     """

@@ -26,28 +26,28 @@ from .common import GAP_BOX, delay_of, delays, gap_is_m_from, under_assumption_4
 
 
 def n_minus_1_known(bench: Workbench) -> Outcome:
-    """s >= max(l, n - 1), l the delay for known initial state."""
+    """The gap is claimed to be m for s >= max(l, n - 1), where l is the delay for a known initial state."""
     test = wrong_gap(lambda f: f.delay_known_state)
     return refute(bench, GAP_BOX, test, under_assumption_4(True), _from(True, -1), delays)
 
 
 def n_minus_1_unknown(bench: Workbench) -> Outcome:
-    """s >= max(l, n - 1), l the delay for unknown initial state."""
+    """The gap is claimed to be m for s >= max(l, n - 1), where l is the delay for an unknown initial state."""
     return refute(bench, GAP_BOX, wrong_gap(lambda f: f.delay_unknown_state), under_assumption_4(False), _from(False, -1), delays)
 
 
 def n_known(bench: Workbench) -> Outcome:
-    """s >= max(l, n), l the delay for known initial state."""
+    """The gap is m for s >= max(l, n), where l is the delay for a known initial state."""
     return certify(bench, under_assumption_4(True), _from(True, 0), delays)
 
 
 def n_unknown(bench: Workbench) -> Outcome:
-    """s >= max(l, n), l the delay for unknown initial state."""
+    """The gap is m for s >= max(l, n), where l is the delay for an unknown initial state."""
     return certify(bench, under_assumption_4(False), _from(False, 0), delays)
 
 
 def lag(bench: Workbench) -> Outcome:
-    """gap(s) = m for every s >= lag and, unless p = m, for no s < lag; neither observability nor any delay is used."""
+    """The gap is m for every s >= lag and, unless p = m, for no s < lag; neither observability nor any delay is used."""
 
     def holds(e: Evidence) -> bool:
         return all((e.kernel.gap(s) == e.system.m) == (s >= e.kernel.lag) for s in range(0, e.system.n + 3))
@@ -63,7 +63,7 @@ def _from(known_state: bool, shift: int) -> Test:
 
 
 def excitation_at_s(bench: Workbench) -> Outcome:
-    """[X; V_s] of full row rank at the s of the statement only: the smallest trajectory on which the rank gap of R is wrong."""
+    """[X; V_s] of full row rank at the s of the statement is not enough: this finds the smallest trajectory whose gap of R is wrong."""
     box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
     samples = 5
     for system in systems_in_order(box, _valid):
@@ -81,12 +81,12 @@ def excitation_at_s(bench: Workbench) -> Outcome:
 
 
 def _valid(facts: Facts) -> Flags:
-    """Observable, left-invertible, and n = s = 1 at least both delays."""
+    """Whether systems are observable and left-invertible, and n = s = 1 is at least both delays."""
     return facts.observable & facts.left_invertible & (facts.delay_unknown_state <= 1)
 
 
 def excitation_at_s_plus_1(bench: Workbench) -> Outcome:
-    """[X; V_(s+1)] of full row rank: rank R_s and rank R_(s+1) are the model's, so the gap is m for s >= lag."""
+    """Where [X; V_(s+1)] has full row rank, R_s and R_(s+1) have the ranks of the model, so that the gap is m for s >= lag."""
     return _on_data(bench, excited=True)
 
 
@@ -108,12 +108,12 @@ def excitation_necessary(bench: Workbench) -> Outcome:
 
 
 def persistency_suffices(bench: Workbench) -> Outcome:
-    """v persistently exciting of order n + s + 1 and s >= lag: the gap of R is m, whether or not [X; V_(s+1)] has full row rank."""
+    """Where v is persistently exciting of order n + s + 1 and s >= lag, the gap of R is m, whatever the rank of [X; V_(s+1)] is."""
     return _on_data(bench, excited=False)
 
 
 def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
-    """Random trajectories of left-invertible systems: rank R_(s+1) - rank R_s = m at s = max(lag, 1), with accepted rank certificates."""
+    """On random trajectories of left-invertible systems, rank R_(s+1) - rank R_s is m at s = max(lag, 1), by certificates of rank."""
     rng = random.Random(4)
     systems = [s for _, s in adversarial() if 0 < s.n <= 3] + list(
         islice(random_systems(QQ, 4000, seed=5, largest=3), 400 if bench.full else 90)

@@ -32,13 +32,13 @@ from .one_determinant import show, words
 
 
 def one_fault(bench: Workbench) -> Outcome:
-    """(A, C) observable, r = 1: every P other than 0 is good."""
+    """Where (A, C) is observable and r = 1, every P other than 0 is good."""
     records = [e for e in bench.pairs_by_polynomial if e.observable and e.normal_rank == 1 and e.full_column_rank]
     return certify_records(records, [e for e in records if not e.equal], words, show)
 
 
 def no_zeros(bench: Workbench) -> Outcome:
-    """zeta = 0: P is square, and good iff det P is not zero; the bad P are a hypersurface of degree r."""
+    """Where zeta = 0, P is square, and it is good iff det P is not zero: the bad P are a hypersurface of degree r."""
     records = [e for e in bench.pairs_by_polynomial if e.zeta == 0]
     return certify_records(records, [e for e in records if e.equal != e.full_column_rank], words, show)
 
@@ -58,7 +58,7 @@ def full_rank(bench: Workbench) -> Outcome:
 
 
 def codimension_two(bench: Workbench) -> Outcome:
-    """(A, C) observable, r >= 2, zeta >= 1: codimension at least two, by a line of P that meets no bad one, over any extension field."""
+    """Where (A, C) is observable, r >= 2 and zeta >= 1, the codimension is at least two: some line of P meets no bad one."""
     tried = [pencil for pencil in _pencils(bench) if pencil.observable and pencil.columns >= 2 and pencil.zeta >= 1]
     count, missed = 0, 0
     headline: tuple[Certificate, ...] = ()
@@ -83,7 +83,7 @@ def codimension_two(bench: Workbench) -> Outcome:
 
 
 def codimension_unobservable(bench: Workbench) -> Outcome:
-    """Codimension at least two when zeta >= 1, (A, C) observable or not."""
+    """The codimension is claimed to be at least two when zeta >= 1, whether (A, C) is observable or not."""
     box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
     for system in systems_in_order(box, lambda f: np.asarray(~f.observable & f.left_invertible)):
         pencil = pencil_of(system)
@@ -113,7 +113,7 @@ def _pencils(bench: Workbench) -> Iterator[Exceptional]:
 
 
 def _line(pencil: Exceptional) -> Certificate | None:
-    """A line through two random P that meets no bad one: nearly every line does where the codimension is two or more."""
+    """A line through two random P that meets no bad one is sought; nearly every line does where the codimension is two or more."""
     rng, field = random.Random(str(pencil.system)), pencil.system.field
     shape = (pencil.n_z, pencil.columns)
     for _ in range(6):

@@ -25,7 +25,7 @@ def same_a_c(bench: Workbench) -> Outcome:
 
 
 def any_a_c(bench: Workbench) -> Outcome:
-    """The same for systems with different (A, C): equal behaviours, so equal Z. The smallest system and feedback that say no."""
+    """The same is claimed for different (A, C): equal behaviours have equal Z. This finds the smallest system and feedback that say no."""
     box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
     for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
         kernel = kernel_representation(system)
@@ -41,7 +41,7 @@ def any_a_c(bench: Workbench) -> Outcome:
 
 
 def feedback(bench: Workbench) -> Outcome:
-    """B names (A, C): a system with other A and C by feedback of the state into the fault has the same behaviour."""
+    """B is claimed to name (A, C): but feedback of the state into the fault gives a system with other A and C and the same behaviour."""
     box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
     for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
         kernel = kernel_representation(system)
@@ -54,7 +54,7 @@ def feedback(bench: Workbench) -> Outcome:
 
 
 def popov_rows(bench: Workbench) -> Outcome:
-    """Whatever (A, C), n and m: the behaviours are equal iff the Popov rows of N(q) are."""
+    """Whatever (A, C), n and m are, the behaviours are equal iff the Popov rows of N(q) are."""
     failing = [e for e in bench.pairs if (e.first_difference is None) != (_name(e.first) == _name(e.second))]
     return certify_records(bench.pairs, failing, lambda e: f"{e.first} and {e.second}", _show_pair)
 

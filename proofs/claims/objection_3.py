@@ -31,12 +31,12 @@ def controllability_needed(bench: Workbench) -> Outcome:
 
 
 def gap_without_controllability(bench: Workbench) -> Outcome:
-    """Not controllable, left-invertible, s >= n: the gap is m all the same."""
+    """Where a left-invertible system is not controllable and s >= n, the gap is m all the same."""
     return certify(bench, lambda e: e.left_invertible and not e.controllable, gap_is_m_from(lambda e: e.system.n), zeros)
 
 
 def ranks_without_minimality(bench: Workbench) -> Outcome:
-    """Neither controllable nor observable, left-invertible: rank [O_s T_s] = n + s m - zeta for s >= lag, zeros of the pencil."""
+    """Without controllability or observability, rank [O_s T_s] = n + s m - zeta for s >= lag, with the zeros of the pencil."""
 
     def holds(e: Evidence) -> bool:
         return all(e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta for s in range(e.kernel.lag, e.system.n + 4))

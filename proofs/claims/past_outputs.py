@@ -13,7 +13,7 @@ from .proposition_1 import certify_limits, smallest_limit, smallest_seasonal
 
 
 def coloured_fault(bench: Workbench) -> Outcome:
-    """u white, v coloured and independent of u: the limit of PO-MOESP lies in the range of O_s, as that of PI-MOESP does."""
+    """With u white and v coloured and independent of u, the limit of PO-MOESP is claimed to lie in the range of O_s, as PI-MOESP's does."""
 
     def drive(system: dict[str, Any]) -> Experiment:
         return experiment_of(system, [[["1", "0"]]], [[["0", "1"]], [["0", "1"]]])
@@ -26,12 +26,12 @@ def coloured_fault(bench: Workbench) -> Outcome:
 
 
 def white_fault(bench: Workbench) -> Outcome:
-    """u and v white and independent, no other noise: it does."""
+    """With u and v white and independent and no other noise, it does lie there."""
     return certify_limits([e for e in bench.limits if e.origin == "u and v white and independent"], lambda e: e.past_outputs_within)
 
 
 def past_inputs(bench: Workbench) -> Outcome:
-    """Where PO-MOESP fails under a fault uncorrelated with u, PI-MOESP is right: some inputs of period 3 defeat both."""
+    """Where PO-MOESP fails under a fault uncorrelated with u, PI-MOESP is claimed to be right: some inputs of period 3 defeat both."""
     others = [name for name in WITHOUT_RANK if name.endswith("coloured-fault") or name.startswith("rational")]
     return smallest_seasonal(lambda e: e.whole_range_expected and not e.past_outputs_within and not e.equal, taps=3, others=others)
 

@@ -22,7 +22,7 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def window_n(bench: Workbench) -> Outcome:
-    """At s = max(l, n) under assumption 4 the solutions are those of every longer window."""
+    """At s = max(l, n), under assumption 4, the solutions are claimed to be those of every longer window."""
 
     def candidate(facts: Facts) -> Flags:
         return np.asarray(facts.observable & facts.left_invertible & (facts.delay_known_state <= facts.n))
@@ -34,7 +34,7 @@ def window_n(bench: Workbench) -> Outcome:
 
 
 def window_n_plus_1(bench: Workbench) -> Outcome:
-    """At every s >= n + 1, no hypothesis at all, the solutions are the limit Z."""
+    """At every s >= n + 1 the solutions are the limit Z, without any hypothesis."""
     return certify(
         bench,
         lambda e: True,
@@ -55,7 +55,7 @@ def lag_plus_1(bench: Workbench) -> Outcome:
 
 
 def dimension(bench: Workbench) -> Outcome:
-    """Left-invertible: the limit has dimension n_v + zeta, zeta the zeros of the pencil, finite and infinite."""
+    """The limit of a left-invertible system has dimension n_v + zeta, where zeta counts the zeros of the pencil, finite and infinite."""
 
     def show(system: ResidualSystem) -> Iterator[Certificate]:
         yield from zeros(system)

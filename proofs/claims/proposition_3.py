@@ -13,12 +13,12 @@ from .common import gap_is_m_from, identity, ranks_and_inversion
 
 
 def n_alone(bench: Workbench) -> Outcome:
-    """Left-invertible and s >= n: nothing else."""
+    """The gap is m where the system is left-invertible and s >= n; nothing else is asked."""
     return certify(bench, lambda e: e.left_invertible, gap_is_m_from(lambda e: e.system.n), ranks_and_inversion)
 
 
 def lag_exactly(bench: Workbench) -> Outcome:
-    """Left-invertible: the gap is m for all s >= lag, and never before unless p = m."""
+    """The gap of a left-invertible system is m for all s >= lag, and never before unless p = m."""
 
     def holds(e: Evidence) -> bool:
         return all((e.kernel.gap(s) == e.system.m) == (s >= e.kernel.lag or e.system.p == e.system.m) for s in range(0, e.system.n + 3))
@@ -27,7 +27,7 @@ def lag_exactly(bench: Workbench) -> Outcome:
 
 
 def without_left_invertibility(bench: Workbench) -> Outcome:
-    """Without left-invertibility the gap is not m, for any window."""
+    """The gap is claimed to be m without left-invertibility too; it is not, for any window."""
     return refute(
         bench,
         Box(total=4, largest_n=2, largest_m=2, largest_p=2),
@@ -39,7 +39,7 @@ def without_left_invertibility(bench: Workbench) -> Outcome:
 
 
 def normal_rank(bench: Workbench) -> Outcome:
-    """No hypothesis at all: for s >= n the gap is the normal rank, as certified on a diagonal form of the pencil."""
+    """For s >= n the gap is the normal rank, as certified on a diagonal form of the pencil, without any hypothesis."""
 
     def holds(e: Evidence) -> bool:
         return all(e.kernel.gap(s) == len(e.infinite_zero_orders) for s in range(e.system.n, e.system.n + 3))
@@ -48,7 +48,7 @@ def normal_rank(bench: Workbench) -> Outcome:
 
 
 def parametric(bench: Workbench) -> Outcome:
-    """All entries indeterminate: on every stratum of the parameter space the gap is the normal rank from n on."""
+    """With all entries indeterminate, the gap is the normal rank from n on, on every stratum of the parameter space."""
     return identity(
         bench, gap_claim, [(1, 1, 1), (1, 2, 1), (1, 1, 2), (1, 2, 2), (2, 1, 1), (2, 2, 1)], [(1, 3, 1), (2, 1, 2), (1, 3, 2), (2, 2, 2)]
     )

@@ -15,7 +15,7 @@ NOT_ALL = ("following-fault", "following-fault-regression", "following-fault-two
 
 
 def biased(bench: Workbench) -> Outcome:
-    """One such fault: A and C are right, the limit having the range of O_s; B or D are wrong by either regression."""
+    """There is such a fault with A and C right, as the limit has the range of O_s, and B or D wrong by either regression."""
     return witnessed(
         smallest_limit(
             [partial(following, gain="1")],
@@ -26,7 +26,7 @@ def biased(bench: Workbench) -> Outcome:
 
 
 def for_every_system(bench: Workbench) -> Outcome:
-    """A, C of order n, B or D come out wrong in every case: the leading left singular vectors of a limit of rank n + 1 can span O_s."""
+    """Every case is claimed to give wrong A, C, B or D; but the leading left singular vectors of a limit of rank n + 1 can span O_s."""
     made, words = [], []
     for name in NOT_ALL:
         found = limit(kept(name))
@@ -46,12 +46,12 @@ def for_every_system(bench: Workbench) -> Outcome:
 
 
 def a_c_wrong(bench: Workbench) -> Outcome:
-    """A and C themselves come out wrong, the limit having rank n + 1: not where a zero of the fault at 0 cancels the delay."""
+    """A and C are claimed to come out wrong, the limit having rank n + 1; but a zero of the fault at 0 can cancel the delay."""
     return smallest_limit([partial(following, gain="1")], lambda e: _regular(e) and e.equal, "v(k) = u(k-1), u white")
 
 
 def not_both(bench: Workbench) -> Outcome:
-    """Not both: the limit has the range of O_s, and output error gives the true B and D."""
+    """It never is so that the limit has the range of O_s and output error gives the true B and D."""
     records = [e for e in bench.limits if e.origin.startswith("u white, v(k) = K u(k-1)") and e.observable and _seen(e)]
     return certify_limits(records, lambda e: not (e.equal and e.output_error_right))
 
@@ -67,6 +67,6 @@ def _regular(e: LimitEvidence) -> bool:
 
 
 def _seen(e: LimitEvidence) -> bool:
-    """K is not 0 and [F; G] K is not 0."""
+    """Whether neither K nor [F; G] K is 0."""
     residual, K = e.experiment.system.residual, e.experiment.v_filter.numerator[1]
     return not ((residual.F @ K).is_zero() and (residual.G @ K).is_zero())

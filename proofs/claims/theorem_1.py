@@ -26,12 +26,12 @@ BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 
 
 def n_samples(bench: Workbench) -> Outcome:
-    """n samples, both systems with n states, observable, controllable, left-invertible."""
+    """n samples are claimed to decide, both systems having n states and being observable, controllable and left-invertible."""
     return _smallest_pair(same_A_and_C=False)
 
 
 def n_samples_same_a_c(bench: Workbench) -> Outcome:
-    """n samples, both with the same (A, C)."""
+    """n samples are claimed to decide where both systems have the same (A, C)."""
     return _smallest_pair(same_A_and_C=True)
 
 
@@ -54,20 +54,20 @@ def n_plus_1_samples(bench: Workbench) -> Outcome:
 
 
 def lag_plus_1(bench: Workbench) -> Outcome:
-    """One sample more than the larger of the two lags."""
+    """One sample more than the larger of the two lags decides."""
     failing = [e for e in bench.pairs if e.first_difference is not None and e.first_difference > max(e.lags) + 1]
     return certify_records(bench.pairs, failing, _words, _show)
 
 
 def either_lag(bench: Workbench) -> Outcome:
-    """Equal normal ranks: one sample more than either of the lags."""
+    """One sample more than either of the lags decides where the normal ranks are equal."""
     records = [e for e in bench.pairs if e.normal_ranks[0] == e.normal_ranks[1]]
     failing = [e for e in records if e.first_difference is not None and e.first_difference > min(e.lags) + 1]
     return certify_records(records, failing, _words, _show)
 
 
 def sharp(bench: Workbench) -> Outcome:
-    """For every n tried, two left-invertible systems with the same (A, C) that agree on n samples and differ on n + 1."""
+    """For every n tried, two left-invertible systems with the same (A, C) agree on n samples and differ on n + 1."""
     largest = 12 if bench.full else 8
     certificates: list[Certificate] = []
     for n in range(1, largest + 1):
@@ -81,13 +81,13 @@ def sharp(bench: Workbench) -> Outcome:
 
 
 def parametric(bench: Workbench) -> Outcome:
-    """All entries of both systems indeterminate: inclusion on n + 1 samples is inclusion on every window."""
+    """With all entries of both systems indeterminate, inclusion on n + 1 samples is inclusion on every window."""
     quick = [(1, 1, 1), (1, 2, 1), (1, 1, 2), (1, 2, 2), (2, 1, 1), (2, 2, 1)]
     return identity(bench, inclusion_claim, quick, [(1, 3, 1), (2, 1, 2), (1, 3, 2), (2, 2, 2)])
 
 
 def _smallest_pair(*, same_A_and_C: bool) -> Outcome:
-    """The first system of the box that has a partner equal on n samples but not on n + 1; with its first partner."""
+    """REFUTED by the first system of the box that has a partner equal on n samples but not on n + 1, with its first partner."""
     for dimensions in BOX.dimensions():
         n, m, p = dimensions
         box = Box(total=sum(dimensions), largest_n=n, largest_m=m, largest_p=p, least_m=m)

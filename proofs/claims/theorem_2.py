@@ -22,7 +22,7 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def finite_zeros_only(bench: Workbench) -> Outcome:
-    """zeta counts finite zeros; minimal, left-invertible, s >= n."""
+    """The formula is claimed with zeta counting finite zeros, for minimal left-invertible systems and s >= n."""
 
     def with_infinite_zeros(facts: Facts) -> Flags:
         deficient = facts.rank_from_rest(facts.n + 1) < (facts.n + 1) * facts.m
@@ -32,7 +32,7 @@ def finite_zeros_only(bench: Workbench) -> Outcome:
 
 
 def transfer_function_zeros(bench: Workbench) -> Outcome:
-    """zeta counts the zeros, finite and infinite, of the transfer function; observable and left-invertible, not controllable."""
+    """The formula is claimed with the zeros of the transfer function, for observable left-invertible systems, controllable or not."""
 
     def confirm(system: ResidualSystem) -> bool:
         statements = {c["kind"]: c["statement"] for c in _with_reachable_part(system)}
@@ -50,7 +50,7 @@ def transfer_function_zeros(bench: Workbench) -> Outcome:
 
 
 def every_window(bench: Workbench) -> Outcome:
-    """zeta counts the zeros of the pencil, finite and infinite; minimal, left-invertible, any s >= 1."""
+    """The formula is claimed with the zeros of the pencil for minimal left-invertible systems and any s >= 1."""
 
     def short_window(facts: Facts) -> Flags:
         late = facts.gap(facts.n + 1)
@@ -61,12 +61,12 @@ def every_window(bench: Workbench) -> Outcome:
 
 
 def pencil_zeros_minimal(bench: Workbench) -> Outcome:
-    """zeta counts the zeros of the pencil, finite and infinite; minimal, left-invertible, s >= n."""
+    """The formula holds with the zeros of the pencil, finite and infinite, for minimal left-invertible systems and s >= n."""
     return certify(bench, _minimal, lambda e: _formula(e, e.zeta, e.system.n), zeros)
 
 
 def pencil_zeros(bench: Workbench) -> Outcome:
-    """The same without observability and controllability, for s >= lag and no other s."""
+    """It holds without observability and controllability, for s >= lag and no other s."""
 
     def holds(e: Evidence) -> bool:
         return all((e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta) == (s >= e.kernel.lag) for s in range(0, e.system.n + 4))
@@ -75,7 +75,7 @@ def pencil_zeros(bench: Workbench) -> Outcome:
 
 
 def parametric(bench: Workbench) -> Outcome:
-    """All entries indeterminate: the formula on every stratum with r = m, zeros counted on the pencil."""
+    """With all entries indeterminate the formula holds on every stratum with r = m, where the zeros are counted on the pencil."""
     return identity(bench, zero_count_claim, [(1, 1, 1), (1, 2, 1), (1, 2, 2), (2, 1, 1)], [(2, 2, 1), (1, 3, 1), (2, 1, 2), (1, 3, 2)])
 
 
@@ -88,7 +88,7 @@ def _formula(e: Evidence, zeta: int, start: int) -> bool:
 
 
 def _with_reachable_part(system: ResidualSystem) -> Iterator[Certificate]:
-    """Window ranks of the system, and the zeros of its reachable part, a minimal realisation where the system is observable."""
+    """Certificates of the window ranks, and of the zeros of the reachable part, which is minimal where the system is observable."""
     yield from zeros(system)
     basis = column_basis(reachability_matrix(system))
     coordinates = [solve_left(basis.transposed(), part.transposed()) for part in (system.A @ basis, system.F)]

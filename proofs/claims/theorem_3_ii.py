@@ -26,7 +26,7 @@ BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
 
 
 def every_p(bench: Workbench) -> Outcome:
-    """Every P of full column rank gives an equivalent pair, at s = lag + 1, observable and left-invertible."""
+    """Every P of full column rank is claimed to give an equivalent pair at s = lag + 1, for observable left-invertible systems."""
     return _smallest_bad_pair(
         lambda kernel: kernel.lag + 1, lambda alternative: True, "s = lag + 1, P with entries in {-1, 0, 1} and full column rank"
     )
@@ -44,26 +44,26 @@ def columns_in_space(bench: Workbench) -> Outcome:
 
 
 def almost_every(bench: Workbench) -> Outcome:
-    """D(q; P) is no zero polynomial in P: one good P a system, and the bad ones are zeros of polynomials that do not all vanish."""
+    """D(q; P) is no zero polynomial in P: each system has a good P, and the bad ones are zeros of polynomials that do not all vanish."""
     records = [e for e in bench.pairs_by_polynomial if e.purpose == "good"]
     return certify_records(records, [e for e in records if not e.equal], pair_words, show_pair, unit="systems")
 
 
 def criterion(bench: Workbench) -> Outcome:
-    """s >= lag + 1: the pair is equivalent iff its normal rank is that of the system; left-invertible: iff it is m."""
+    """For s >= lag + 1 the pair is equivalent iff its normal rank is that of the system, which is m where that is left-invertible."""
     records = [e for e in bench.alternatives if e.in_space]
     failing = [e for e in records if e.equal != (e.alternative_normal_rank == kernel_representation(e.system).normal_rank)]
     return certify_records(records, failing, words, show)
 
 
 def criterion_left_invertible(bench: Workbench) -> Outcome:
-    """The same among left-invertible systems, where the criterion is normal rank m."""
+    """Among left-invertible systems the criterion is that the pair has normal rank m."""
     records = [e for e in bench.alternatives if e.in_space and e.left_invertible]
     return certify_records(records, [e for e in records if e.equal != (e.alternative_normal_rank == e.system.m)], words, show)
 
 
 def criterion_window_n(bench: Workbench) -> Outcome:
-    """The criterion with Fhat, Ghat taken at s = n."""
+    """The criterion is claimed with Fhat and Ghat taken at s = n."""
     return _smallest_bad_pair(
         lambda kernel: kernel.system.n,
         lambda alternative: alternative.normal_rank == alternative.system.m,
@@ -74,7 +74,7 @@ def criterion_window_n(bench: Workbench) -> Outcome:
 def _smallest_bad_pair(
     window: Callable[[KernelRepresentation], int], counts: Callable[[KernelRepresentation], bool], scope: str
 ) -> Outcome:
-    """The first system and P of full column rank whose pair counts and is not equivalent."""
+    """REFUTED by the first system and P of full column rank whose pair counts and is not equivalent."""
     for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
         kernel = kernel_representation(system)
         space = fault_space(kernel, window(kernel))

@@ -21,7 +21,7 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def state_known(bench: Workbench) -> Outcome:
-    """x(0) known: v is determined iff the system is left-invertible, with a delay of the largest infinite zero order at most."""
+    """With x(0) known, v is determined iff the system is left-invertible; the delay is at most the largest order of an infinite zero."""
 
     def holds(e: Evidence) -> bool:
         if not e.left_invertible:
@@ -32,7 +32,7 @@ def state_known(bench: Workbench) -> Outcome:
 
 
 def state_unknown(bench: Workbench) -> Outcome:
-    """x(0) unknown: left-invertible and observable, so v is determined."""
+    """With x(0) unknown, v is claimed to be determined where the system is left-invertible and observable."""
     return refute(
         bench,
         BOX,
@@ -44,7 +44,7 @@ def state_unknown(bench: Workbench) -> Outcome:
 
 
 def no_finite_zeros(bench: Workbench) -> Outcome:
-    """x(0) unknown: v is determined iff left-invertible and all finite zeros are unobservable modes, none where (A, C) is observable."""
+    """With x(0) unknown, v is determined iff the system is left-invertible and its finite zeros are the unobservable modes, counted."""
 
     def holds(e: Evidence) -> bool:
         hidden = e.system.n - rank(observability_matrix(e.system, e.system.n))
@@ -54,7 +54,7 @@ def no_finite_zeros(bench: Workbench) -> Outcome:
 
 
 def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:
-    """x(0) unknown: v is determined iff left-invertible and every finite zero is an unobservable mode, multiplicities not counted."""
+    """The same is claimed with multiplicities not counted: that every finite zero is an unobservable mode."""
 
     def holds(e: Evidence) -> bool:
         return (e.delay_unknown_state is not None) == (e.left_invertible and zeros_are_hidden_modes(e.system))
@@ -73,7 +73,7 @@ def zeros_are_hidden_modes(system: ResidualSystem) -> bool:
 
 
 def zero_feedthrough_signal(bench: Workbench) -> Outcome:
-    """G = 0: v is the same in all equivalent pairs, up to a basis, iff rank CF = m and the finite zeros are the unobservable modes."""
+    """With G = 0, v is the same in all equivalent pairs up to a basis iff rank CF = m and the finite zeros are the unobservable modes."""
 
     def holds(e: Evidence) -> bool:
         found = zero_feedthrough(kernel_representation(e.system))

@@ -15,12 +15,12 @@ from .common import spaces, zeros
 
 
 def ranks(bench: Workbench) -> Outcome:
-    """rank [O_s T_s] = s r + sum of min(s, eta_i) against the rank of each window by itself, s = 1..n + 2."""
+    """rank [O_s T_s] = s r + sum of min(s, eta_i), which is compared with the rank of each window by itself for s = 1, ..., n + 2."""
     return certify(bench, lambda e: True, lambda e: all(e.kernel.rank(s) == rank for s, rank in enumerate(e.window_ranks, 1)), _windows)
 
 
 def indices(bench: Workbench) -> Outcome:
-    """n = sum eta + sum eps + n_f + n_inf: left and right minimal indices, finite and infinite zeros, each from certificates of its own."""
+    """n = sum eta + sum eps + n_f + n_inf, where indices and zeros are each from certificates of their own."""
 
     def holds(e: Evidence) -> bool:
         return e.system.n == sum(e.kernel.left_minimal_indices) + sum(e.right_minimal_indices) + e.zeta
@@ -42,7 +42,7 @@ def solutions(bench: Workbench) -> Outcome:
 
 
 def limit(bench: Workbench) -> Outcome:
-    """n_z = r + zeta + sum eps: so n_v + zeta where the system is left-invertible."""
+    """The limit has n_z = r + zeta + sum eps, which is n_v + zeta where the system is left-invertible."""
 
     def holds(e: Evidence) -> bool:
         return e.fault_space.dimension == e.kernel.normal_rank + e.zeta + sum(e.right_minimal_indices)

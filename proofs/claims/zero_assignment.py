@@ -22,17 +22,17 @@ from .one_determinant import show, words
 
 
 def every_polynomial(bench: Workbench) -> Outcome:
-    """(A, C) observable: for every monic polynomial of degree at most zeta there is a P whose pair has exactly these finite zeros."""
+    """Where (A, C) is observable, every monic polynomial of degree at most zeta is the zero polynomial of the pair of some P."""
     return _placed(bench, lambda pair: pair.observable)
 
 
 def unobservable(bench: Workbench) -> Outcome:
-    """Observable or not: every multiple, of degree at most zeta, of the characteristic polynomial of the unobservable modes."""
+    """Observable or not, so is every multiple, of degree at most zeta, of the characteristic polynomial of the unobservable modes."""
     return _placed(bench, lambda pair: True)
 
 
 def without_observability(bench: Workbench) -> Outcome:
-    """Every polynomial of degree at most zeta, (A, C) not observable: the unobservable mode is a zero of every pair."""
+    """The same is claimed without observability; but an unobservable mode is a zero of every pair."""
     box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
     for system in systems_in_order(box, lambda f: ~f.observable & f.left_invertible):
         pencil = pencil_of(system)

@@ -22,7 +22,7 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def fault_matrices(bench: Workbench) -> Outcome:
-    """Left-invertible and observable, G = 0 known: every member of Z without feedthrough lies in im F."""
+    """With G = 0 known, every member of Z without feedthrough is claimed to lie in im F, for left-invertible observable systems."""
     return refute(
         bench,
         BOX,
@@ -34,7 +34,7 @@ def fault_matrices(bench: Workbench) -> Outcome:
 
 
 def exactly_when(bench: Workbench) -> Outcome:
-    """G = 0, left-invertible: im F is determined iff zeta = m, that is iff rank CF = m and there are no finite zeros."""
+    """With G = 0 and a left-invertible system, im F is determined iff zeta = m, that is iff rank CF = m and there are no finite zeros."""
 
     def holds(e: Evidence) -> bool:
         condition = rank(e.system.C @ e.system.F) == e.system.m and e.finite_zeros == 0

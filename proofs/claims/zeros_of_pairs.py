@@ -19,7 +19,7 @@ def number(bench: Workbench) -> Outcome:
 
 
 def split(bench: Workbench) -> Outcome:
-    """All good pairs of a system have the same number of finite zeros."""
+    """All good pairs of a system are claimed to have the same number of finite zeros."""
     groups: dict[ResidualSystem, list[PairByPolynomial]] = defaultdict(list)
     for pair in bench.pairs_by_polynomial:
         if pair.equal and pair.system.field.to_json() == "Q":

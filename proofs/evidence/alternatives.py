@@ -1,9 +1,11 @@
 """Pairs of systems whose behaviours are compared, each with certificates that the checker has accepted.
 
-PairEvidence     two systems: equal, or the first window on which they differ; their lags and normal ranks
-AlternativeEvidence    a system and other fault matrices for the same (A, C): equal or not, inside the fault space or not
-compared_pairs   exhaustive over GF(2), shift registers, perturbed and equivalent systems over Q
-alternatives  every pair (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
+PairEvidence              two systems: equal, or the first window on which they differ; their lags and normal ranks
+AlternativeEvidence       a system and other fault matrices for the same (A, C): equal or not, inside the fault space or not
+compared_pairs            all pairs over GF(2) at small dimensions, shift registers, perturbed and equivalent systems over Q
+alternatives              every (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
+examine_pair, examine_alternative    the evidence on one of each
+comparison_certificate    the certificate of equality or of the first difference, whichever is so
 """
 
 from __future__ import annotations
@@ -31,7 +33,7 @@ from .families import adversarial, random_systems, shift_registers
 
 @dataclass(frozen=True)
 class PairEvidence:
-    """What accepted certificates say of two systems; `first_difference` None: the behaviours are equal."""
+    """What accepted certificates say of two systems; `first_difference` is None where the behaviours are equal."""
 
     origin: str
     first: ResidualSystem
@@ -45,7 +47,7 @@ class PairEvidence:
 
 @dataclass(frozen=True)
 class AlternativeEvidence:
-    """A system, other fault matrices for its (A, C), and how they compare; `in_space`: every column solves problem (11) in the limit."""
+    """A system, other fault matrices for its (A, C), and how they compare; `in_space` says that every column solves problem (11)."""
 
     origin: str
     system: ResidualSystem
@@ -60,7 +62,7 @@ class AlternativeEvidence:
 
 
 def comparison_certificate(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
-    """Equality, or the difference on the shortest window, whichever is so."""
+    """The certificate of equality, or of the difference on the shortest window, whichever is so."""
     found = compare(first, second)
     if found.first_difference is None:
         return make.behaviour_equality(first, second)
@@ -71,7 +73,7 @@ def comparison_certificate(first: KernelRepresentation, second: KernelRepresenta
 
 
 def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, weight: int = 1) -> PairEvidence:
-    """Certify equality or the first difference of two systems, and their lags."""
+    """The evidence on two systems: equality or the first difference, and their lags, each certified."""
     kernels = kernel_representation(first), kernel_representation(second)
     verdict = comparison_certificate(*kernels)
     certificates = [verdict, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
@@ -87,7 +89,7 @@ def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, wei
 
 
 def examine_alternative(origin: str, system: ResidualSystem, alternative: ResidualSystem, weight: int = 1) -> AlternativeEvidence:
-    """Certify whether other fault matrices make the same outputs, and whether they lie in the fault space."""
+    """The evidence on other fault matrices: whether they make the same outputs, and whether they lie in the fault space."""
     kernels = kernel_representation(system), kernel_representation(alternative)
     space = make.fault_space(kernels[0], fault_space(kernels[0]))
     certificates = [comparison_certificate(*kernels), space, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
@@ -110,12 +112,12 @@ def examine_alternative(origin: str, system: ResidualSystem, alternative: Residu
 
 
 def compared_pairs(effort: str, jobs: int, progress: Progress) -> tuple[PairEvidence, ...]:
-    """All pairs of the effort."""
+    """All pairs of systems of the effort, made on `jobs` processes."""
     return tuple(_in_parallel(examine_pair, list(_pairs(effort == "full")), jobs, progress, "comparing pairs"))
 
 
 def alternatives(effort: str, jobs: int, progress: Progress) -> tuple[AlternativeEvidence, ...]:
-    """All systems with alternative fault matrices of the effort."""
+    """All systems of the effort with other fault matrices, made on `jobs` processes."""
     return tuple(_in_parallel(examine_alternative, list(_alternatives(effort == "full")), jobs, progress, "trying other fault matrices"))
 
 
@@ -155,7 +157,9 @@ def _pairs(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, in
 
 
 def _relatives(system: ResidualSystem, rng: random.Random) -> Iterator[ResidualSystem]:
-    """Feedback of the state into the fault, another basis of the state (both with the same outputs), an entry changed, a state more."""
+    """Systems made of one: by feedback of the state into the fault and by another basis (with the same outputs), by a changed entry, by a
+    state more.
+    """
     K = Matrix.of([[rng.choice([-1, 0, 1]) for _ in range(system.n)] for _ in range(system.m)], QQ, shape=(system.m, system.n))
     yield ResidualSystem(system.A + system.F @ K, system.F, system.C + system.G @ K, system.G)
     if system.n:
@@ -196,7 +200,7 @@ def _alternatives(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSys
 
 
 def _choices(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
-    """Generic, sparse, unit and rank-deficient P."""
+    """P of several kinds: generic, sparse, of unit columns and rank-deficient."""
     for density in (1.0, 0.5, 0.3):
         yield Matrix.of(
             [[rng.randint(-3, 3) if rng.random() < density else 0 for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)

@@ -88,7 +88,7 @@ class Attack:
 
     @property
     def id(self) -> str:
-        """What names it in the file of results."""
+        """The name that it has in the file of results."""
         return f"{self.target} by {self.name}"
 
 

@@ -172,7 +172,7 @@ def _exhaustive_boxes(full: bool) -> Iterator[tuple[int, int, int, int]]:
 
 
 def _limits(q: int, full: bool) -> tuple[int, int, int]:
-    """Largest n, p, m of the exhaustive box over GF(q)."""
+    """The largest n, p, m of the exhaustive box over GF(q)."""
     if q == 2:
         return (2, 3, 2) if full else (2, 2, 1)
     return (2, 2, 1) if full else (1, 2, 1)

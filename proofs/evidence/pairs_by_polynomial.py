@@ -62,7 +62,7 @@ class PairByPolynomial:
 
 @lru_cache(maxsize=1 << 16)
 def pencil_of(system: ResidualSystem) -> Exceptional:
-    """[P | q b - a] of the system's fault space."""
+    """The pencil [P | q b - a] of the system's fault space."""
     return exceptional(kernel_representation(system))
 
 
@@ -130,7 +130,7 @@ def _all(batch: list[tuple[str, ResidualSystem, int]]) -> list[PairByPolynomial]
 
 
 def _choices(system: ResidualSystem) -> Iterator[tuple[str, Matrix, object]]:
-    """(purpose, P, wanted polynomial or None)."""
+    """Triples of a purpose, a P, and the polynomial wanted or None."""
     pencil, rng = pencil_of(system), random.Random(str(system))
     field, shape = system.field, (pencil.n_z, pencil.columns)
     yield "good", good_columns(pencil).verdict.P, None
@@ -162,5 +162,5 @@ def _systems(full: bool) -> Iterator[tuple[str, ResidualSystem, int]]:
 
 
 def _hashable(coefficients: object) -> tuple[object, ...]:
-    """Written coefficients as a tuple: entries of Q(a) are lists, made tuples."""
+    """Written coefficients as a tuple; entries of Q(a), which are lists, become tuples."""
     return tuple(tuple(c) if isinstance(c, list) else c for c in coefficients)  # type: ignore[attr-defined]

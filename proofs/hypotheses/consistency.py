@@ -44,29 +44,29 @@ class Driven:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p + nu, then n, m, p, nu, s, past, then how long the experiment is in words."""
+        """The numbers n + m + p + nu, then n, m, p, nu, s, past, then how long the experiment is in words."""
         e = self.record.experiment
         r, nu = e.system.residual, e.system.nu
         return (r.n + r.m + r.p + nu, r.n, r.m, r.p, nu, e.s, e.past, len(str(self)))
 
     @property
     def weight(self) -> int:
-        """One."""
+        """An experiment stands for itself alone."""
         return 1
 
     @property
     def field(self) -> str:
-        """Always Q."""
+        """An experiment is always over Q."""
         return "Q"
 
     @property
     def accepted(self) -> int:
-        """Accepted certificates."""
+        """The number of accepted certificates."""
         return self.record.accepted
 
     @cached_property
     def degenerate(self) -> str:
-        """Why it would be a poor witness: its system is, its B is zero, or the weighting of a limit of higher rank decides."""
+        """Why it would be a poor witness: its system is one, its B is zero, or the weighting of a limit of higher rank decides."""
         weighted = self.record.limit_rank > self.record.experiment.system.residual.n and self.record.inputs_right
         return _degenerate(self.record.experiment) or (WEIGHTED if weighted else "")
 
@@ -86,12 +86,12 @@ UNCORRELATED: dict[str, Callable[[Driven], bool]] = {
 
 
 def consistency() -> Ablation[Driven]:
-    """With the hypothesis that is usually made."""
+    """The ablation with the hypothesis that is usually made, u white."""
     return _ablation("consistency", {**UNCORRELATED, "u white": lambda x: x.record.white})
 
 
 def consistency_coloured() -> Ablation[Driven]:
-    """With the weaker one that is enough."""
+    """The ablation with the weaker hypothesis that is enough, u autoregressive of order at most s."""
     return _ablation("consistency-coloured", {**UNCORRELATED, "u autoregressive of order at most s": lambda x: x.autoregressive})
 
 
@@ -109,7 +109,7 @@ def _ablation(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -> 
 
 
 def driven(record: LimitEvidence) -> Driven:
-    """The subject made of an experiment with certified limits."""
+    """The subject that is made of an experiment with certified limits."""
     found = limit(record.experiment)
     state, residual = found.past_inputs.state, record.experiment.system.residual
     read = None if state is None else similarity(_without_faults(residual), _model(state.A, state.C))
@@ -176,7 +176,7 @@ def _without_faults(system: ResidualSystem) -> ResidualSystem:
 
 
 def _show(subject: Driven) -> Iterator[Certificate]:
-    """The limits and the regressions, and the rank of O_(s-1), which must be n for A to be read."""
+    """Certificates of the limits, the regressions, and the rank of O_(s-1), which must be n for A to be read."""
     experiment = subject.record.experiment
     yield from certificates_of(limit(experiment))
     if experiment.s > 1:

@@ -42,17 +42,17 @@ class Pair:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p, then n, m, p, then the window."""
+        """The numbers n + m + p, then n, m, p, then the window."""
         return (*size(self.system), self.window)
 
     @property
     def field(self) -> str:
-        """The field in words."""
+        """The field in words, as it is printed."""
         return str(self.system.field)
 
     @property
     def degenerate(self) -> str:
-        """Why it would be a poor witness: the system is, or P is not of full column rank."""
+        """Why it would be a poor witness: the system is one, or P is not of full column rank."""
         return degenerate(self.system) or degenerate(self.alternative)
 
     def __str__(self) -> str:
@@ -69,7 +69,7 @@ HYPOTHESES: dict[str, Callable[[Pair], bool]] = {
 
 
 def theorem_3_ii() -> Ablation[Pair]:
-    """The pair is equivalent to the system."""
+    """The ablation of the claim that the pair is equivalent to the system."""
     return Ablation(
         name="equivalent-pair",
         claim="theorem-3-ii",
@@ -87,7 +87,7 @@ def theorem_3_ii() -> Ablation[Pair]:
 
 
 def _subjects(bench: Workbench) -> Iterator[Pair]:
-    """Every alternative with columns in Z, at lag + 1; the others at the longest window whose solutions they are, if there is one."""
+    """Every alternative with columns in Z, at lag + 1; the others stand at the longest window whose solutions they are, if there is one."""
     for d in (*bench.alternatives, *bench.records("aimed alternatives", partial(_aimed, 150 if bench.full else 40))):
         window = facets(d.system).lag + 1 if d.in_space else _longest(d.system, d.alternative)
         if window:
@@ -95,7 +95,7 @@ def _subjects(bench: Workbench) -> Iterator[Pair]:
 
 
 def _aimed(count: int) -> list[AlternativeEvidence]:
-    """Two random P for each aimed system, with m columns: bad for some, good for most."""
+    """Two random P of m columns for each aimed system; they are bad for some and good for most."""
     found = []
     for system in aimed_systems(count):
         space, rng = fault_space(kernel_representation(system)), Random(str(system))

@@ -1,6 +1,6 @@
-"""zero-assignment, tried: polynomials of every degree up to zeta, each made the zero polynomial of a pair, and found there again.
+"""Zeros that are given to a pair: polynomials of every degree up to zeta, each made the zero polynomial of a pair, and found there again.
 
-every_polynomial_is_reached   of a system's exceptional pencil: whether all of `wanted` are
+every_polynomial_is_reached   whether each of `wanted` is the zero polynomial of a pair of this pencil
 wanted                        the polynomials: random of every degree, with a zero constant term, with one repeated root, not monic
 """
 
@@ -40,7 +40,7 @@ def every_polynomial_is_reached(pencil: Exceptional) -> bool:
 
 
 def wanted(pencil: Exceptional) -> Iterator[Poly]:
-    """A nonzero constant; of each degree up to zeta a random one; q^zeta, (q - c)^zeta and c q^zeta + ... + 1."""
+    """The polynomials: a nonzero constant, a random one of each degree up to zeta, q^zeta, (q - c)^zeta and c q^zeta + ... + 1."""
     field, zeta, random = pencil.system.field, pencil.zeta, Random(str(pencil.system))
     size = min(field.p, 7) if isinstance(field, PrimeField) else 7
 

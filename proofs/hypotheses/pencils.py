@@ -1,6 +1,13 @@
 """The hypotheses of the claims about all P at once: size of the bad set, bad P of full column rank, zero assignment; and about one P.
 
-The size of the bad set is counted from the degrees of L(q) by exact/bad_set, which certificates of lines confirm in the claim itself.
+Chosen              a pair (Fhat P, Ghat P) with a chosen P, as a subject
+codimension         the bad P have codimension at least two
+bad_of_full_rank    some P of full column rank is bad
+placement           every polynomial of degree at most zeta is the zero polynomial of a pair
+determinant         D(q; P) is the zero polynomial of the pair
+zeros_of_pair       a pair has as many zeros as its system
+
+The size of the bad set is counted from the degrees of L(q) by exact/pairs, which certificates of lines confirm in the claim itself.
 """
 
 from __future__ import annotations
@@ -46,7 +53,7 @@ def _normal_rank(facts: Facts) -> Integers:
 
 
 def _zeta(facts: Facts) -> Integers:
-    """n less the left minimal indices, read off a late window."""
+    """The number n less the left minimal indices, read off a late window."""
     late = facts.n + 1
     return facts.n - facts.rank(late) + late * _normal_rank(facts)
 
@@ -74,7 +81,7 @@ def codimension() -> Ablation[Windowed]:
 
 
 def bad_of_full_rank() -> Ablation[Windowed]:
-    """bad-set: full column rank is not enough."""
+    """The ablation of the claim, in bad-set, that some P of full column rank is bad."""
 
     def exists(subject: Windowed) -> bool:
         return isinstance(bad_pair(pencil_of(subject.evidence.system)), BadPair)
@@ -85,7 +92,7 @@ def bad_of_full_rank() -> Ablation[Windowed]:
 
 
 def placement() -> Ablation[Windowed]:
-    """zero-assignment: polynomials of every degree up to zeta, each assigned and looked for in the pair; at least one column for P."""
+    """The ablation of zero-assignment: polynomials of every degree up to zeta are each assigned and looked for in the pair."""
 
     def reached(subject: Windowed) -> bool:
         return every_polynomial_is_reached(pencil_of(subject.evidence.system))
@@ -103,7 +110,7 @@ def _of_pencils(name: str, words: str, conclusion: Condition, proof: Proof | Non
 
 
 def _show(system: ResidualSystem) -> Iterator[Certificate]:
-    """Z, the indices, and a bad P of full column rank where there is one."""
+    """Certificates of Z, of the indices, and of a bad P of full column rank where there is one."""
     pencil = pencil_of(system)
     yield make.fault_space(pencil.kernel, pencil.space)
     yield make.window_ranks(pencil.kernel)
@@ -123,27 +130,27 @@ class Chosen:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p, then n, m, p."""
+        """The numbers n + m + p, then n, m, p."""
         return size(self.record.system)
 
     @property
     def weight(self) -> int:
-        """Systems of the orbit."""
+        """The number of systems in the orbit."""
         return self.record.weight
 
     @property
     def field(self) -> str:
-        """The field in words."""
+        """The field in words, as it is printed."""
         return str(self.record.system.field)
 
     @property
     def accepted(self) -> int:
-        """Accepted certificates."""
+        """The number of accepted certificates."""
         return self.record.accepted
 
     @property
     def degenerate(self) -> str:
-        """Why it would be a poor witness: the system is, or P is not of full column rank."""
+        """Why it would be a poor witness: the system is one, or P is not of full column rank."""
         return degenerate(self.record.system) or ("" if self.record.full_column_rank else "P is not of full column rank")
 
     def __str__(self) -> str:
@@ -160,7 +167,7 @@ def _subjects(bench: Workbench) -> Iterator[Chosen]:
 
 
 def _aimed(count: int) -> list[PairByPolynomial]:
-    """Random P for each aimed system."""
+    """Pairs of random P, two for each aimed system."""
     found = []
     for system in aimed_systems(count):
         pencil, rng = pencil_of(system), Random(str(system))
@@ -172,7 +179,7 @@ def _aimed(count: int) -> list[PairByPolynomial]:
 
 
 def determinant() -> Ablation[Chosen]:
-    """one-determinant: what D(q; P) says is what the certificates say; there is nothing to search for where no pair tried disagrees."""
+    """The ablation of one-determinant; there is nothing to search for where D(q; P) and the certificates agree on every pair tried."""
     return Ablation(
         name="determinant",
         claim="one-determinant",
@@ -187,7 +194,7 @@ def determinant() -> Ablation[Chosen]:
 
 
 def zeros_of_pair() -> Ablation[Chosen]:
-    """zeros-of-pairs: as many zeros as the system has."""
+    """The ablation of zeros-of-pairs: a pair has as many zeros as the system."""
     hypotheses: dict[str, Callable[[Chosen], bool]] = {
         **OF_SYSTEM,
         GOOD: lambda pair: pair.record.pair_normal_rank == pair.record.normal_rank,

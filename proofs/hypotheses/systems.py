@@ -1,4 +1,13 @@
-"""The hypotheses of the claims about one system: rank formula, rank gap, problem (11), the number of fault columns, zero feedthrough."""
+"""The hypotheses of the claims about one system, each as an ablation on windows of systems.
+
+rank_formula                        theorem-2
+gap, gap_from_lag                   proposition-3, as the paper bounds s and with the sharp bound
+solutions, solutions_from_lag       problem (11) at a window, with both bounds
+columns                             the number of columns of (Fhat, Ghat)
+range_of_f                          zero-feedthrough
+signal_from_known_state, signal_from_unknown_state    trajectory-recovered
+every_window, sharp_gap             window-ranks and sharp-windows
+"""
 
 from __future__ import annotations
 
@@ -35,14 +44,14 @@ def _formula(subject: Windowed) -> bool:
 
 
 def _formula_look(facts: Facts, s: int) -> Flags:
-    """Left-invertible systems: zeta read off a late rank. Others stay open."""
+    """Whether the formula surely holds: of left-invertible systems, whose zeta is read off a late rank; others stay open."""
     late = facts.n + 1
     zeta = facts.n + late * facts.m - facts.rank(late)
     return np.asarray(facts.left_invertible & (facts.rank(s) == facts.n + s * facts.m - zeta))
 
 
 def _settled(facts: Facts, s: int) -> Flags:
-    """No left minimal index above s - 1."""
+    """Whether no left minimal index is above s - 1."""
     return np.asarray(facts.gap(s - 1) == facts.gap(facts.n + 1))
 
 
@@ -51,7 +60,7 @@ LIMIT_REACHED = Condition(lambda w: w.evidence.space_dimensions[w.window - 1] ==
 
 
 def rank_formula() -> Ablation[Windowed]:
-    """theorem-2, zeros of the pencil counted."""
+    """The ablation of theorem-2 with the zeros of the pencil."""
     hypotheses = {**MODEL, "s >= n": from_n()}
     conclusion = Condition(_formula, _formula_look)
     proof = _proof("theorem_2", "lag_at_most_n", uses={INVERTIBLE, "s >= n"})
@@ -59,7 +68,7 @@ def rank_formula() -> Ablation[Windowed]:
 
 
 def gap() -> Ablation[Windowed]:
-    """proposition-3 as the paper bounds s."""
+    """The ablation of proposition-3 as the paper bounds s."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= n": from_n()}
     proof = _proof("proposition_3", uses={INVERTIBLE, "s >= n"})
     implied = {"s >= l": "a left-invertible system is inverted with delay n at most (theorem left_invertible_delay), so l <= n <= s"}
@@ -67,14 +76,14 @@ def gap() -> Ablation[Windowed]:
 
 
 def gap_from_lag() -> Ablation[Windowed]:
-    """proposition-3 with the sharp bound."""
+    """The ablation of proposition-3 with the sharp bound on s."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= lag": from_lag()}
     proof = _proof("proposition_3_lag", uses={INVERTIBLE, "s >= lag"})
     return windowed("gap-from-lag", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays, proof=proof)
 
 
 def solutions() -> Ablation[Windowed]:
-    """problem (11) at a window: are its solutions those of every longer one?"""
+    """The ablation of problem (11) at a window: its solutions are those of every longer one."""
     hypotheses = {**MODEL, "s >= n + 1": from_n(1)}
     words = "the solutions of problem (11) at s are Z"
     proof = _proof("problem_11", uses={"s >= n + 1"})
@@ -82,7 +91,7 @@ def solutions() -> Ablation[Windowed]:
 
 
 def solutions_from_lag() -> Ablation[Windowed]:
-    """The same with the sharp bound."""
+    """The same ablation with the sharp bound on s."""
     hypotheses = {**MODEL, "s >= lag + 1": from_lag(1)}
     words = "the solutions of problem (11) at s are Z"
     proof = _proof("problem_11_lag", uses={"s >= lag + 1"})
@@ -90,7 +99,7 @@ def solutions_from_lag() -> Ablation[Windowed]:
 
 
 def columns() -> Ablation[Windowed]:
-    """The number of columns of (Fhat, Ghat)."""
+    """The ablation of the claim on the number of columns of (Fhat, Ghat)."""
     conclusion = Condition(
         lambda w: w.evidence.fault_space.dimension == w.evidence.system.m + w.evidence.zeta, lambda f, s: f.left_invertible
     )
@@ -111,7 +120,7 @@ ONLY_UNOBSERVABLE = Condition(
 
 
 def range_of_f() -> Ablation[Windowed]:
-    """zero-feedthrough: with G = 0 known, is im F determined by the outputs?"""
+    """The ablation of zero-feedthrough: with G = 0 known, im F is determined by the outputs."""
     hypotheses = {**MODEL, "rank CF = m": RELATIVE_DEGREE_ONE, "no finite zeros": NO_FINITE_ZEROS}
     conclusion = Condition(lambda w: w.evidence.without_feedthrough == rank(w.evidence.system.F), lambda f, s: np.full(len(f.A), False))
     words = "the members of Z without feedthrough are im F"
@@ -126,7 +135,7 @@ def range_of_f() -> Ablation[Windowed]:
 
 
 def signal_from_known_state() -> Ablation[Windowed]:
-    """trajectory-recovered: v from the outputs and x(0)."""
+    """The ablation of trajectory-recovered where v is found from the outputs and x(0)."""
     conclusion = Condition(lambda w: w.evidence.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n))
     words = "the outputs and x(0) determine v"
     proof = _proof("trajectory_state_known", uses={INVERTIBLE})
@@ -135,7 +144,7 @@ def signal_from_known_state() -> Ablation[Windowed]:
 
 
 def signal_from_unknown_state() -> Ablation[Windowed]:
-    """trajectory-recovered: v from the outputs alone."""
+    """The ablation of trajectory-recovered where v is found from the outputs alone."""
     zeros_hidden = "as many finite zeros as unobservable modes"
     hypotheses = {**MODEL, zeros_hidden: ONLY_UNOBSERVABLE}
     conclusion = Condition(lambda w: w.evidence.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n))
@@ -146,7 +155,7 @@ def signal_from_unknown_state() -> Ablation[Windowed]:
 
 
 def every_window() -> Ablation[Windowed]:
-    """window-ranks: the formula of the indices against the rank of the window by itself."""
+    """The ablation of window-ranks: the formula of the indices gives the rank of each window."""
     conclusion = Condition(
         lambda w: w.evidence.kernel.rank(w.window) == w.evidence.window_ranks[w.window - 1], lambda f, s: np.full(len(f.A), False)
     )
@@ -156,7 +165,7 @@ def every_window() -> Ablation[Windowed]:
 
 
 def sharp_gap() -> Ablation[Windowed]:
-    """sharp-windows: the gap is r for exactly the s >= lag."""
+    """The ablation of sharp-windows: the gap is r for exactly the s >= lag."""
     conclusion = Condition(
         lambda w: (w.evidence.kernel.gap(w.window) == w.evidence.kernel.normal_rank) == (w.window >= w.evidence.kernel.lag),
         lambda f, s: np.full(len(f.A), False),

@@ -1,6 +1,6 @@
 """The hypotheses of the rank gap read off data: which trajectories show m = rank R_(s+1) - rank R_s?
 
-Simulated                 a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
+Simulated              a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
 excited                with [X; V_(s+1)] of full row rank
 persistently_excited   with v persistently exciting of order n + s + 1
 """
@@ -46,17 +46,17 @@ class Simulated:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p, then n, m, p, then the window, then the number of samples."""
+        """The numbers n + m + p, then n, m, p, then the window, then the number of samples."""
         return (*size(self.system), self.window, self.v.nrows)
 
     @property
     def field(self) -> str:
-        """The field in words."""
+        """The field in words, as it is printed."""
         return str(self.system.field)
 
     @property
     def degenerate(self) -> str:
-        """Why it would be a poor witness."""
+        """Why the system would be a poor witness."""
         return degenerate(self.system)
 
     def __str__(self) -> str:
@@ -72,7 +72,7 @@ PERSISTENT = "v persistently exciting of order n + s + 1"
 
 
 def excited() -> Ablation[Simulated]:
-    """Full row rank of [X; V_(s+1)], in which the paper's assumption has s."""
+    """The ablation with full row rank of [X; V_(s+1)], where the paper's assumption has s."""
 
     def full(record: Simulated) -> bool:
         return record.excitation == record.system.n + record.system.m * (record.window + 1)
@@ -81,7 +81,7 @@ def excited() -> Ablation[Simulated]:
 
 
 def persistently_excited() -> Ablation[Simulated]:
-    """Persistency of v of order n + s + 1, whatever the modes that F does not reach do."""
+    """The ablation with persistency of v of order n + s + 1, whatever the modes that F does not reach do."""
 
     def persistent(record: Simulated) -> bool:
         return record.order >= record.system.n + record.window + 1
@@ -104,7 +104,7 @@ def _ablation(name: str, hypotheses: Mapping[str, Callable[[Simulated], bool]], 
 
 
 def signals(system: ResidualSystem, s: int, count: int) -> Iterator[tuple[Matrix, Matrix]]:
-    """(x0, v): zero state with constant v, with v1 = v2 = ... = 1, 0, 0, ..., and `count` random ones, entries in {-1, 0, 1}."""
+    """Pairs (x0, v): the zero state with a constant v and with a pulse, then `count` random ones, with entries in {-1, 0, 1}."""
     rng = random.Random(f"{system} {s}")
     samples = (system.m + 1) * (system.n + s + 1) + system.n + 2
     field: Field = system.field
@@ -122,7 +122,7 @@ def signals(system: ResidualSystem, s: int, count: int) -> Iterator[tuple[Matrix
 
 
 def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int = 1) -> Simulated:
-    """A record, with its ranks certified."""
+    """The subject of this trajectory, with its ranks certified."""
     bare = Simulated(system, x0, v, s, 0, 0, persistency(v), weight, 0)
     ranks = []
     for certificate in _data_ranks(bare):

@@ -36,27 +36,27 @@ class Windowed:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p, then n, m, p, then the window."""
+        """The numbers n + m + p, then n, m, p, then the window."""
         return (*size(self.evidence.system), self.window)
 
     @property
     def weight(self) -> int:
-        """Systems of the orbit; windows are not counted as more of them."""
+        """The number of systems in the orbit; windows are not counted as more of them."""
         return self.evidence.weight
 
     @cached_property
     def field(self) -> str:
-        """The field in words."""
+        """The field in words, as it is printed."""
         return str(self.evidence.system.field)
 
     @property
     def accepted(self) -> int:
-        """Accepted certificates, told once a system: at its first window."""
+        """The number of accepted certificates, which count once a system, at its first window."""
         return self.evidence.accepted if self.window <= 1 else 0
 
     @cached_property
     def degenerate(self) -> str:
-        """Why it would be a poor witness."""
+        """Why the system would be a poor witness."""
         return degenerate(self.evidence.system)
 
     def __str__(self) -> str:
@@ -79,12 +79,12 @@ STABLE = Condition(lambda w: facets(w.evidence.system).stable, lambda f, s: nilp
 
 
 def from_n(extra: int = 0) -> Condition:
-    """s >= n + extra."""
+    """The condition s >= n + extra."""
     return Condition(lambda w: w.window >= w.evidence.system.n + extra, lambda f, s: np.full(len(f.A), s >= f.n + extra))
 
 
 def from_lag(extra: int = 0) -> Condition:
-    """s >= lag + extra."""
+    """The condition s >= lag + extra."""
 
     def first_look(facts: Facts, s: int) -> Flags:
         reached = facts.gap(s - extra) == facts.gap(facts.n + 1) if s > extra else np.zeros(len(facts.A), dtype=np.bool_)
@@ -94,7 +94,7 @@ def from_lag(extra: int = 0) -> Condition:
 
 
 def _from_delay(subject: Windowed) -> bool:
-    """s >= l, the delay of left inversion with known initial state; no bound where there is no delay."""
+    """Whether s >= l, the delay of left inversion with known initial state; there is no bound where there is no delay."""
     delay = subject.evidence.delay_known_state
     return delay is None or subject.window >= delay
 
@@ -122,7 +122,7 @@ def windowed(
     proof: Proof | None = None,
     implied: Mapping[str, str] | None = None,
 ) -> Ablation[Windowed]:
-    """The ablation on every system of the corpus, and every aimed one, in the scope, at every window."""
+    """The ablation on every system of the corpus and every aimed one that is in the scope, at every window."""
 
     def subjects(bench: Workbench) -> Iterator[Windowed]:
         for evidence in (*bench.corpus, *aimed_evidence(bench)):

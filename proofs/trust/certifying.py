@@ -23,7 +23,7 @@ from .structure_certificates import Certificate, Unprovable
 
 
 class _Kind(NamedTuple):
-    """What a kind asks for beside its subject, what it may be told, and its maker, which gets subject and options."""
+    """What a kind needs to know beside its subject, what it may be given, and its maker, which gets subject and options."""
 
     needed: tuple[str, ...]
     optional: tuple[str, ...]

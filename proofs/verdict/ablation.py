@@ -2,7 +2,7 @@
 
     Subject       what a claim is about, certified: a system with a window, a pair of systems, a trajectory
     Proof         theorems of Rocq that prove the conclusion, and the hypotheses they prove it from
-    Ablation    a conclusion, the hypotheses it is said to rest on, the subjects tried, and the search over Q
+    Ablation      a conclusion, the hypotheses it is said to rest on, the subjects tried, and the search over Q
     ablate        all rows of an ablation: every hypothesis alone, and every two; REFUTED: needed, CERTIFIED: no counterexample found
 
 One pass over the subjects notes, for each, which hypotheses it violates and whether the conclusion holds. The claim without the set D is
@@ -86,7 +86,7 @@ class Ablation(Generic[S]):
 
 @dataclass(frozen=True)
 class Found(Generic[S]):
-    """The end of a search: a subject or None, and the box in words."""
+    """The end of a search: a subject or None, and in words where it was sought."""
 
     subject: S | None
     box: str
@@ -131,7 +131,7 @@ class _Count:
 
 
 def ablate(bench: Workbench, ablation: Ablation[S], expected: Mapping[str, str]) -> tuple[Row, ...]:
-    """Rows for each hypothesis alone, in order, then for each two. `expected` has the ledger's entry for each alone."""
+    """The rows of an ablation: for each hypothesis alone, in order, then for each two. `expected` has the ledger's entry for each alone."""
     tally = _tally(bench, ablation)
     flawed = tally.smallest(frozenset())
     if flawed:

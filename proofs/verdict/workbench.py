@@ -1,9 +1,10 @@
-"""What a check of a claim has at hand, and the two ways it comes to a verdict.
+"""What a check of a claim has at hand, and the ways in which it comes to a verdict.
 
-Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, alternatives
+Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, alternatives, limits
 certify       the statement on every system of the corpus that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
 refute        the smallest counterexample in a box, found by search: REFUTED, or what `certify` says when there is none
 witnessed     the opposite of a statement, by the counterexample to it
+counterexample, certify_records    the outcome of a search, and of a statement on pairs, alternatives or experiments
 accepted      certificates, each put before the checker once more: headline certificates are never shown unchecked
 """
 
@@ -31,7 +32,7 @@ Made = TypeVar("Made")
 
 @dataclass
 class Workbench:
-    """The effort ("quick" or "full"), the number of processes, and where progress goes."""
+    """The effort ("quick" or "full"), the number of processes, where progress goes, and the certified material of a run."""
 
     effort: str
     jobs: int
@@ -39,7 +40,7 @@ class Workbench:
 
     @cached_property
     def corpus(self) -> tuple[Evidence, ...]:
-        """Single systems with accepted certificates."""
+        """Single systems, with the structure that accepted certificates state."""
         return corpus(self.effort, self.jobs, self.progress)
 
     @cached_property
@@ -87,12 +88,12 @@ def accepted(certificates: Iterable[Certificate]) -> tuple[Certificate, ...]:
 
 
 def size(system: ResidualSystem) -> tuple[int, ...]:
-    """n + m + p, then n, m, p: the order in which the smallest is sought."""
+    """The numbers n + m + p, then n, m, p: the order in which the smallest is sought."""
     return (system.n + system.m + system.p, system.n, system.m, system.p)
 
 
 def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome:
-    """`holds` on every system of the corpus to which the statement applies."""
+    """The outcome of the statement `holds` on every system of the corpus to which it applies: CERTIFIED, or REFUTED by the smallest."""
     tried = [e for e in bench.corpus if applies(e)]
     failing = sorted((e for e in tried if not holds(e)), key=lambda e: size(e.system))
     if failing:
@@ -134,7 +135,7 @@ def witnessed(found: Outcome) -> Outcome:
 
 
 def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:
-    """REFUTED by these certificates."""
+    """The outcome REFUTED, by these certificates."""
     checked = accepted(certificates)
     return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", checked, len(checked))
 

@@ -25,12 +25,12 @@ def small_csv(folder: Path, text: str, name: str = "data.csv") -> Path:
 
 
 def identified(path: Path, out: Path, *options: str, channels: tuple[str, ...] = CHANNELS) -> Run:
-    """A run with the packaged record's channels unless others are given."""
+    """Run with the packaged record's channels unless others are given."""
     return call("identify", str(path), *channels, "--out", str(out), *options)
 
 
 def refused(run: Run, *parts: str) -> None:
-    """One line on standard error with these parts; nothing on standard output; exit code 2."""
+    """Assert one line on standard error with these parts, nothing on standard output, and exit code 2."""
     assert (run.code, run.out) == (2, ""), run
     (line,) = run.err.strip().splitlines()
     assert line.startswith("faultspace: "), run.err
@@ -39,6 +39,6 @@ def refused(run: Run, *parts: str) -> None:
 
 
 def valid(name: str, document: Any) -> Any:
-    """The document, which the schema NAME.schema.json accepts."""
+    """Return the document, which the schema NAME.schema.json accepts."""
     validator(name, "faultspace.numeric").validate(document)
     return document

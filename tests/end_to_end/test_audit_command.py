@@ -16,11 +16,11 @@ import pytest
 from faultspace.cli import auditing
 from faultspace.cli.command_line import main
 from faultspace.numeric.audit.outcome import Audit
-from faultspace.numeric.audit.records import CheckResult, Kind, Severity, Status
+from faultspace.numeric.audit.records import CheckResult, Demand, Severity, Status
 from tests.end_to_end.commands import call
 
 
-def result(function: str, vector: str, kind: Kind, verdict: Status, ratio: float | None) -> CheckResult:
+def result(function: str, vector: str, kind: Demand, verdict: Status, ratio: float | None) -> CheckResult:
     """A check of the slug "exact-recovery" with this outcome; its bound is 1e-9."""
     got = None if ratio is None else ratio * 1e-9
     asked = ("exact-recovery", function, vector, "proposition-1", "the model is wrong", str(Severity.SILENT), str(kind), str(verdict))
@@ -28,12 +28,12 @@ def result(function: str, vector: str, kind: Kind, verdict: Status, ratio: float
 
 
 RESULTS = (
-    result("identify", "n2-u1-p1", Kind.MUST_HOLD, Status.PASS, 0.25),
-    result("identify", "n3-u1-p2-with-a-very-long-name-of-a-vector", Kind.MUST_HOLD, Status.PASS, 0.5),
-    result("fault_space", "delayed", Kind.MUST_HOLD, Status.FAIL, 300.0),
-    result("fault_space", "zero-outside", Kind.MUST_HOLD, Status.FAIL, 20.0),
-    result("fault_space", "one-fault", Kind.FREE, Status.FAIL, 1e6),
-    result("fault_space", "two-faults", Kind.MUST_HOLD, Status.NOT_OFFERED, None),
+    result("identify", "n2-u1-p1", Demand.MUST_HOLD, Status.PASS, 0.25),
+    result("identify", "n3-u1-p2-with-a-very-long-name-of-a-vector", Demand.MUST_HOLD, Status.PASS, 0.5),
+    result("fault_space", "delayed", Demand.MUST_HOLD, Status.FAIL, 300.0),
+    result("fault_space", "zero-outside", Demand.MUST_HOLD, Status.FAIL, 20.0),
+    result("fault_space", "one-fault", Demand.FREE, Status.FAIL, 1e6),
+    result("fault_space", "two-faults", Demand.MUST_HOLD, Status.NOT_OFFERED, None),
 )
 Made = Callable[[tuple[CheckResult, ...]], None]
 
@@ -86,8 +86,8 @@ def test_nothing_is_cut_on_a_terminal_of_any_width(made: Made, monkeypatch: pyte
     window = Window()
     with contextlib.redirect_stdout(window):
         assert main(["audit", "-v"]) == 1
-    shown = re.sub(r"\x1b\[[0-9;?]*m", "", window.getvalue())
-    assert max(map(len, shown.splitlines())) <= width and "…" not in shown
-    together = re.sub(r"\s", "", shown)
+    printed = re.sub(r"\x1b\[[0-9;?]*m", "", window.getvalue())
+    assert max(map(len, printed.splitlines())) <= width and "…" not in printed
+    together = re.sub(r"\s", "", printed)
     wanted = [*(one.name for one in RESULTS), "proposition-1", "not offered", "ratio", "largest ratio", "3e+02", "2 failed"]
     assert [text for text in wanted if re.sub(r"\s", "", text) not in together] == []

@@ -50,7 +50,7 @@ def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
 
 
 def response(A: Any, F: Any, C: Any, G: Any, count: int = 8) -> Array:
-    """G, CF, CAF, ... of each column, stacked (count p, m)."""
+    """Return G, CF, CAF, ... of each column, stacked (count p, m)."""
     columns = np.asarray(F, dtype=float).shape[1]
     return StateSpaceModel(A, F, C, G).markov(count).reshape(-1, columns)
 
@@ -215,7 +215,7 @@ def test_faults_given_override_the_count_and_are_reported(csv_file: Path, tmp_pa
 
 
 def late_faults(folder: Path, loudness: float, number: int) -> Path:
-    """1500 samples without fault, then 1500 with so many, under noise of very unequal and coloured levels."""
+    """Return 1500 samples without fault, then 1500 with so many, under noise of very unequal and coloured levels."""
     draw = np.random.default_rng(8)
     truth = StateSpaceModel(made.A, np.hstack([made.B, np.eye(3)[:, :number]]), made.C, np.zeros((3, 2 + number)))
     u, v = draw.standard_normal((3000, 2)), loudness * draw.standard_normal((3000, number))

@@ -44,7 +44,7 @@ def clean(u: Array, A: Array = made.A) -> Array:
 def answered(
     y: Array, u: Array, *, until: int = START, outputs: tuple[str, ...] = made.OUTPUTS, **options: Any
 ) -> tuple[Identification, dict[str, Any], str]:
-    """The answer, its document, which the schema accepts, and what people read."""
+    """Return the answer, its document, which the schema accepts, and what people read."""
     answer = identify(recorded(y, u, outputs=outputs, inputs=made.INPUTS), order=3, healthy=until, **options)
     document = valid("identify", report.document(answer, "record") | {"files": []})
     space = answer.fault_space

@@ -46,7 +46,7 @@ def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
 
 
 def write_tables(folder: Path, u: Array, y: Array) -> dict[str, tuple[Path, str, str]]:
-    """The same record in every way of writing it: path, inputs, outputs."""
+    """Write the same record in every way of writing it, and return path, inputs and outputs of each."""
     rows = np.hstack([u, y]).tolist()
     names = ["a", "b", "p", "q", "r"]
     ways = {}

@@ -23,6 +23,7 @@ from faultspace.exact.pairs.linear_determinants import linear_determinant
 from faultspace.exact.pairs.polynomial import Exceptional
 from faultspace.exact.structure.fault_columns import with_pair
 from faultspace.exact.structure.inversion import largest_output_nulling
+from faultspace.exact.structure.pencil import pencil_parts
 from faultspace.exact.structure.zero_output import chain_from_rest
 from faultspace.exact.system.systems import ResidualSystem
 
@@ -41,10 +42,12 @@ def pluecker_forms(pencil: Exceptional) -> dict[Subset, Poly]:
     field, r = pencil.system.field, pencil.columns
     subsets = list(combinations(range(pencil.n_z), r))
     unit = Matrix.identity(field, pencil.n_z)
-    pencils = {J: _constant_and_slope(with_pair(pencil.space, unit.columns(J))) for J in subsets}
-    rows = next(found for X, Y in pencils.values() if (found := _independent_rows(X, Y)) is not None)
+    pencils = {J: pencil_parts(with_pair(pencil.space, unit.columns(J))) for J in subsets}
+    rows = next(found for one in pencils.values() if (found := _independent_rows(one.constant, one.slope)) is not None)
     size = range(len(rows))
-    minors = {J: linear_determinant(X.rows(rows).columns(size), Y.rows(rows).columns(size)) for J, (X, Y) in pencils.items()}
+    minors = {
+        J: linear_determinant(one.constant.rows(rows).columns(size), one.slope.rows(rows).columns(size)) for J, one in pencils.items()
+    }
     common: Poly = ()
     for minor in minors.values():
         common = polynomials.gcd(common, minor)
@@ -72,13 +75,6 @@ def dimension_of(equations: Sequence[Any], unknowns: Sequence[Any]) -> int:
             if not any(support <= set(free) for support in supports):
                 return size
     raise ArithmeticError("the empty set of unknowns is always free")
-
-
-def _constant_and_slope(system: ResidualSystem) -> tuple[Matrix, Matrix]:
-    """The result is the pencil [[qI - A, -F], [C, G]] as X + q Y."""
-    top = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.m))
-    slope = stacked(top, Matrix.zero(system.field, system.p, system.n + system.m))
-    return stacked(beside(-system.A, -system.F), beside(system.C, system.G)), slope
 
 
 def _independent_rows(constant: Matrix, slope: Matrix) -> Subset | None:

@@ -108,7 +108,7 @@ def _all_of_it() -> Any:
 
 
 BROKEN = {
-    "F enters with the wrong sign": ("_pencil", "[-f for f in line]", "[f for f in line]"),
+    "F enters with the wrong sign": ("indeterminate_pencil", "[-f for f in line]", "[f for f in line]"),
     "C F is forgotten": ("_space", "[*[ring.zero] * m, *times(row, entries.F, m, ring)]", "[ring.zero] * 2 * m"),
     "a forgets A": ("_space", "_frozen([*entries.A, *entries.C])", "_frozen([*entries.A, *([ring.zero] * n for _ in entries.C)])"),
 }

@@ -235,7 +235,7 @@ def test_polynomials(field: Field, data: st.DataObject) -> None:
     assert dense(polynomials.add(f, g)) == dup_add(dense(f), dense(g), domain)
     assert dense(polynomials.multiply(f, g)) == dup_mul(dense(f), dense(g), domain)
     assert dense(polynomials.gcd(f, g)) == dup_gcd(dense(f), dense(g), domain)
-    assert polynomials.subtract(polynomials.add(f, g), g) == f
+    assert polynomials.add(polynomials.add(f, g), polynomials.negative(g)) == f
     if g:
         quotient, remainder = polynomials.divide(f, g)
         assert (dense(quotient), dense(remainder)) == dup_div(dense(f), dense(g), domain)
@@ -243,8 +243,16 @@ def test_polynomials(field: Field, data: st.DataObject) -> None:
         with pytest.raises(ZeroDivisionError):
             polynomials.divide(f, g)
     point = random_element(rng, field)
-    assert polynomials.evaluate(polynomials.multiply(f, g), point) == polynomials.evaluate(f, point) * polynomials.evaluate(g, point)
+    assert evaluate(polynomials.multiply(f, g), point) == evaluate(f, point) * evaluate(g, point)
     assert field_written_back(field, f) == f
+
+
+def evaluate(f: polynomials.Poly, point: Any) -> Any:
+    """The result is f(point), by Horner's rule."""
+    value: Any = point * 0
+    for coefficient in reversed(f):
+        value = value * point + coefficient
+    return value
 
 
 def field_written_back(field: Field, f: polynomials.Poly) -> polynomials.Poly:
@@ -268,7 +276,7 @@ def test_polynomials_in_print(coefficients: list[str]) -> None:
 def test_interpolation(values: list[Any], more: int) -> None:
     f = polynomials.trimmed(QQ.element(c) for c in values)
     points = [QQ.element(k) for k in range(len(values) + more)]
-    assert polynomials.interpolate(points, [polynomials.evaluate(f, x) for x in points]) == f
+    assert polynomials.interpolate(points, [evaluate(f, x) for x in points]) == f
 
 
 def test_smith_diagonal_of_a_full_matrix() -> None:

@@ -77,13 +77,13 @@ def opening(source: str) -> str:
     return " ".join(text.partition("\n\n")[0].split()).replace("|", "\\|")
 
 
-def filled(page: str, rows: Sequence[str]) -> str:
+def filled(page: str, rows: Sequence[str], begin: str = BEGIN, end: str = END) -> str:
     """The page with the rows between its marks."""
-    before, _, rest = page.partition(BEGIN)
-    _, mark, after = rest.partition(END)
+    before, _, rest = page.partition(begin)
+    _, mark, after = rest.partition(end)
     if not mark:
-        raise ValueError(f"the page has no place for a drawing: {BEGIN}")
-    return f"{before}{BEGIN}\n" + "\n".join(["", *rows, ""]) + f"\n{END}{after}"
+        raise ValueError(f"the page has no place for a drawing: {begin}")
+    return f"{before}{begin}\n" + "\n".join(["", *rows, ""]) + f"\n{end}{after}"
 
 
 PAGES: dict[str, Callable[[Graph], list[str]]] = {"CONTRIBUTING.md": figure, "docs/house.md": table}

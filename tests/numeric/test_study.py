@@ -23,7 +23,7 @@ RECORDED_MEDIANS = {1: 2.3, 2: 1.7, 3: 0.9}
 
 
 def errors(case: Case) -> Errors:
-    """Of the published estimator, which answers every case."""
+    """Return the errors of the published estimator, which answers every case."""
     found = case.estimates[PAPER].errors
     assert found is not None
     return found
@@ -202,7 +202,7 @@ def test_the_example_tells_where_its_ranks_differ_from_theory(published_run: lis
 
 @pytest.fixture(scope="module")
 def published_run() -> list[str]:
-    """The example's own words for its default seed."""
+    """Return the example's own words for its default seed."""
     run = example_v()
     assert run.theory == (2, 4, 5, 6, 7, 8)
     assert run.default_true == run.theory

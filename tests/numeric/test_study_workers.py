@@ -19,7 +19,7 @@ def squared(number: int) -> int:
 
 
 def assert_same(one: Study, two: Study) -> None:
-    """BLAS may run on other numbers of threads here and there: equal up to rounding."""
+    """Two studies are equal up to rounding, as BLAS may run on other numbers of threads here and there."""
     for first, second in zip(one.cases, two.cases, strict=True):
         assert first.zeros == second.zeros
         assert [estimate.n_z for estimate in first.estimates.values()] == [estimate.n_z for estimate in second.estimates.values()]

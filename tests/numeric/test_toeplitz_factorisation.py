@@ -25,7 +25,7 @@ def residual_of(system: StudySystem, level: float) -> Array:
 
 
 def null_rows(r: Array, A: Array, C: Array, s: int, rank: int, n_z: int) -> Array:
-    """The columns that least violate N_s T_s(z) = 0, N_s from the singular vectors beyond the rank."""
+    """Return the columns that least violate N_s T_s(z) = 0, N_s from the singular vectors beyond the rank."""
     rows = np.linalg.svd(hankel_factor(r, s))[0][:, rank:].T.reshape(-1, s, C.shape[0])
     conditions = kernel_conditions(rows, A, C).reshape(-1, A.shape[0] + C.shape[0])
     return np.asarray(np.linalg.svd(conditions)[2][-n_z:].T)

@@ -14,7 +14,7 @@ from rich.progress import track
 
 from faultspace.numeric.audit.adapter import FUNCTIONS, offered
 from faultspace.numeric.audit.catalogue import all_checks
-from faultspace.numeric.audit.records import Kind
+from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
 from tests.numeric.audit.mutants import MUTANTS, Mutant
 
@@ -31,7 +31,7 @@ def counted(mutant: Mutant) -> dict[tuple[str, str], tuple[int, int]]:
     result: dict[tuple[str, str], tuple[int, int]] = {}
     for record in audit(mutant.adapter):
         failed, asked = result.get((mutant.name, record.slug), (0, 0))
-        if record.kind != Kind.FREE:
+        if record.kind != Demand.FREE:
             result[mutant.name, record.slug] = failed + record.failed, asked + 1
     return result
 
@@ -55,8 +55,8 @@ def page(mutants: Sequence[Mutant], counts: Counts) -> str:
 
 def _cell(count: tuple[int, int], named: bool) -> str:
     failed, asked = count
-    shown = f"{failed}/{asked}" if failed else ""
-    return f"**{shown}**" if named else shown
+    cell = f"{failed}/{asked}" if failed else ""
+    return f"**{cell}**" if named else cell
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import adapter, reference
 from faultspace.numeric.audit.adapter import FUNCTIONS, load
 from faultspace.numeric.audit.catalogue import all_checks
-from faultspace.numeric.audit.records import CheckResult, Kind, Measurement, message
+from faultspace.numeric.audit.records import CheckResult, Demand, Measurement, message
 from faultspace.numeric.audit.running import ExpectedFailure, audit, parametrize_with_checks
 
 # What mypy checks: the reference is what the protocols describe.
@@ -37,7 +37,7 @@ def test_the_reference_passes_every_check(check: Any) -> None:
 def test_every_function_has_checks_that_hold_and_that_refuse() -> None:
     checks = list(all_checks())
     assert {one.function for one in checks} == set(FUNCTIONS)
-    assert {one.function for one in checks if one.kind is Kind.MUST_REFUSE} == set(FUNCTIONS)
+    assert {one.function for one in checks if one.kind is Demand.MUST_REFUSE} == set(FUNCTIONS)
     named = [(one.name, one.function) for one in checks]
     assert len(named) == len(set(named))
 

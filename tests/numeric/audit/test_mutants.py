@@ -9,7 +9,7 @@ import pytest
 
 from faultspace.numeric.audit.adapter import ZeroStructure
 from faultspace.numeric.audit.catalogue import all_checks
-from faultspace.numeric.audit.records import Kind
+from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.vectors import shipped
 from tests.numeric.audit.mutants import MUTANTS, Mutant
@@ -72,7 +72,7 @@ def _answers_everything() -> SimpleNamespace:
     )
 
 
-REFUSALS = sorted({check.slug for check in all_checks() if check.kind is Kind.MUST_REFUSE})
+REFUSALS = sorted({check.slug for check in all_checks() if check.kind is Demand.MUST_REFUSE})
 
 
 def test_who_answers_everything_fails_every_check_that_asks_for_a_refusal() -> None:
@@ -83,7 +83,7 @@ def test_who_answers_everything_fails_every_check_that_asks_for_a_refusal() -> N
 
 def test_every_must_is_seen_to_fail() -> None:
     """By a mutant, or by who answers everything."""
-    musts = {check.slug for check in all_checks() if check.kind is not Kind.FREE}
+    musts = {check.slug for check in all_checks() if check.kind is not Demand.FREE}
     assert musts == {slug for mutant in MUTANTS for slug in (mutant.caught_by, *mutant.also)} | set(REFUSALS)
 
 

@@ -90,8 +90,8 @@ def test_the_registry_is_well_formed() -> None:
 
 def test_the_registry_imports_no_peer() -> None:
     code = f"import sys, faultspace.numeric.audit.peers; print([name for name in {PACKAGES} if name in sys.modules])"
-    told = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
-    assert told.stdout.strip() == "[]"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
+    assert run.stdout.strip() == "[]"
 
 
 @pytest.mark.parametrize("name", OFFERED)

@@ -14,7 +14,7 @@ from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import peers
 from faultspace.numeric.audit.catalogue import all_checks
 from faultspace.numeric.audit.peers import PEERS, Peer
-from faultspace.numeric.audit.records import Kind
+from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.scoreboard import main, merged, tallies
 from faultspace.numeric.audit.scoreboard_pages import findings, table, write_pages
@@ -74,7 +74,7 @@ def test_tallies_count_and_show_the_first_failure() -> None:
     counts = [vector.n_v for vector in shipped("faults")]
     wrong = sum(count != 1 for count in counts)
     assert (one.asked, one.failed, one.verdict, one.got, one.bound) == (len(counts), wrong, "fail", 1.0, 0.0)
-    assert one.vector == "two-faults" and rows["as-many-faults-as-outputs"].kind == Kind.FREE
+    assert one.vector == "two-faults" and rows["as-many-faults-as-outputs"].kind == Demand.FREE
 
 
 def test_what_an_answer_lacks_is_not_asked() -> None:

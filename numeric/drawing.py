@@ -5,6 +5,9 @@ plot_window_ranks             singular values of R_s and R_(s+1), with threshold
 plot_zeros_and_poles          in the complex plane, with the unit circle
 plot_measured_and_simulated   outputs and the model's, one below the other
 plot_fault_signal             the reconstructed signals, the samples shaded that are not determined
+plot_stored_signal            the same for a signal of any length in a store
+plot_residual                 a residual, one output below the other
+plot_levels                   what the best law on so many mixed outputs leaves, which jumps at the number of faults
 plot_principal_angles         between two subspaces, in degrees
 
 matplotlib is imported when a figure is made, so that the package does without it. Colours are ones that the colour-blind tell
@@ -15,25 +18,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib import import_module
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...base.arrays import Array
-from ...base.errors import InvalidData
-from ..count.rank_gap import FaultDimension
-from ..data.validation import signal
+from ..base.arrays import Array
+from ..base.errors import InvalidData
+from .data.records import SampleStore
+from .data.validation import signal
 
 BLUE, ORANGE, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#777777"
 MOST_POINTS = 3000
+MOST_DRAWN = 1 << 15  # rows of a stored signal that are drawn: of a longer one the extremes of equal parts, two rows each
+TICKS = 7
 MOST_CHANNELS = 8
 LOWEST = 1e-18  # relative: smaller singular values are drawn there
 ANGLE_FLOOR = 1e-14  # degrees, below rounding
 
 
 def plot_singular_values(values: ArrayLike, *, order: int | None = None, ax: Any = None) -> Any:
-    """The singular values (k,) of PI-MOESP, falling; those of the order filled, the others open."""
+    """Draw the singular values (k,) of PI-MOESP, which fall; those of the order filled, the others open."""
     ax = _axes(ax)
     sigma = _spectrum(values, "values")
     count = np.arange(1, len(sigma) + 1)
@@ -47,8 +52,61 @@ def plot_singular_values(values: ArrayLike, *, order: int | None = None, ax: Any
     return _finished(ax, legend=True)
 
 
-def plot_window_ranks(dimension: FaultDimension, *, window: int | None = None, ax: Any = None) -> Any:
-    """Singular values of R_s (circles) and R_(s+1) (squares) with their thresholds; filled above it, and the ranks in the legend.
+class Level(Protocol):
+    """This is what the kernel-row test saw on so many mixed outputs: levels in nats over the mixtures tried."""
+
+    @property
+    def outputs(self) -> int:
+        """Return how many outputs were mixed."""
+
+    @property
+    def least(self) -> float:
+        """Return the least level."""
+
+    @property
+    def largest(self) -> float:
+        """Return the largest level."""
+
+    @property
+    def middle(self) -> float:
+        """Return the level half way between them."""
+
+
+class WindowRanks(Protocol):
+    """This is a count of faults by windows, as `FaultDimension` is: n_v, regime and what belongs to each window."""
+
+    @property
+    def n_v(self) -> int | None:
+        """Return the number of faults, None where it is undecided."""
+
+    @property
+    def regime(self) -> str:
+        """Return "rounding" or "noise"."""
+
+    @property
+    def windows(self) -> tuple[int, ...]:
+        """Return the windows looked at, 1 and on."""
+
+    @property
+    def ranks(self) -> tuple[int, ...]:
+        """Return the rank of each window."""
+
+    @property
+    def gaps(self) -> tuple[int, ...]:
+        """Return the differences of neighbouring ranks."""
+
+    @property
+    def thresholds(self) -> tuple[float, ...]:
+        """Return the threshold of each window."""
+
+    @property
+    def singular_values(self) -> tuple[Array, ...]:
+        """Return the singular values of each window."""
+
+
+def plot_window_ranks(dimension: WindowRanks, *, window: int | None = None, ax: Any = None) -> Any:
+    """Draw the singular values of R_s (circles) and R_(s+1) (squares) with their thresholds; those above are filled, the legend has the
+    ranks.
 
     `window` is s, by default the longest with a successor. Raises InvalidData for an s that was not looked at.
     """
@@ -68,14 +126,15 @@ def plot_window_ranks(dimension: FaultDimension, *, window: int | None = None, a
         ax.axhline(threshold, color=colour, linewidth=1, linestyle=style, label=f"threshold of {name}")
     gap = dimension.gaps[s - 1]
     verdict = "undecided" if dimension.n_v is None else f"$n_v$ = {dimension.n_v}"
-    what = f"ranks differ by {gap}" if dimension.regime == "rounding" else "noise fills every direction"
-    ax.set(xlabel="number", ylabel="singular value", title=f"Windows of the residual: {what}; {verdict}")
+    counts = f"ranks differ by {gap}; {verdict}"
+    title = counts if dimension.regime == "rounding" else "noise fills every direction, their ranks do not count faults"
+    ax.set(xlabel="number", ylabel="singular value", title=f"Windows of the residual: {title}")
     _whole_numbers(ax)
     return _finished(ax, legend=True)
 
 
 def plot_zeros_and_poles(poles: ArrayLike, zeros: ArrayLike = (), *, ax: Any = None) -> Any:
-    """Poles (crosses) and finite zeros (circles) with the unit circle, in equal scales."""
+    """Draw poles (crosses) and finite zeros (circles) with the unit circle, in equal scales."""
     ax = _axes(ax)
     sets = {name: np.asarray(given, dtype=np.complex128).ravel() for name, given in (("poles", poles), ("zeros", zeros))}
     for name, given in sets.items():
@@ -98,7 +157,7 @@ def plot_zeros_and_poles(poles: ArrayLike, zeros: ArrayLike = (), *, ax: Any = N
 def plot_measured_and_simulated(
     y: ArrayLike, simulated: ArrayLike, *, names: Sequence[str] | None = None, first: int = 0, ax: Any = None
 ) -> Any:
-    """y (N, p) and simulated (N, p), channel above channel, `first` the number of the first sample; at most 8 channels are drawn."""
+    """Draw y (N, p) and simulated (N, p), channel above channel, `first` the number of the first sample; at most 8 channels are drawn."""
     measured, model = signal(y, "y"), signal(simulated, "simulated")
     if measured.shape != model.shape:
         raise InvalidData(f"y is {measured.shape} and simulated {model.shape}; equal shapes are needed: cut both to the samples they share")
@@ -115,7 +174,7 @@ def plot_measured_and_simulated(
 
 
 def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, names: Sequence[str] | None = None, ax: Any = None) -> Any:
-    """v (N, n_v), signal above signal; outside v[first:last] = `trusted` the background is shaded. At most 8 signals are drawn."""
+    """Draw v (N, n_v), signal above signal; outside v[first:last] = `trusted` the background is shaded. At most 8 signals are drawn."""
     values = signal(v, "v")
     ax = _axes(ax)
     N, m = values.shape
@@ -135,8 +194,55 @@ def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, n
     return _finished(ax, legend=bool(lost), outside=True)
 
 
+def plot_stored_signal(v: SampleStore, trusted: tuple[int, int], *, first: int = 0, last: int | None = None, ax: Any = None) -> Any:
+    """Draw samples first .. last - 1 (by default all) of v (N, n_v) as `plot_fault_signal` does; a long one is drawn by its extremes."""
+    ax = _axes(ax)
+    end = len(v) if last is None else last
+    step = 1 if end - first <= MOST_DRAWN else -(-2 * (end - first) // MOST_DRAWN)
+    if step == 1:
+        rows, samples = v.read(first, end), 1.0
+    else:
+        parts = (v.read(start, min(start + step, end)) for start in range(first, end, step))
+        rows, samples = np.array([ends for part in parts for ends in (part.min(axis=0), part.max(axis=0))]), step / 2
+    a, b = (int(np.clip(round((edge - first) / samples), 0, len(rows))) for edge in trusted)
+    plot_fault_signal(rows, trusted=(a, b), ax=ax)
+    ticker: Any = import_module("matplotlib.ticker")
+    reach = first + samples * (len(rows) - 1)
+    ticks = [place for place in ticker.MaxNLocator(TICKS, integer=True).tick_values(first, reach) if first <= place <= reach]
+    ax.set_xticks([(place - first) / samples for place in ticks], [f"{place:,.0f}" for place in ticks])
+    return ax
+
+
+def plot_residual(r: ArrayLike, *, names: Sequence[str] | None = None, ax: Any = None) -> Any:
+    """Draw r (N, p), output above output, each in its own scale; at most 8 outputs are drawn."""
+    values = signal(r, "r")
+    ax = _axes(ax)
+    p = values.shape[1]
+    middle, size = _centres(values)
+    for j, level in enumerate(_stacked(ax, names or [f"r{j + 1}" for j in range(p)], "outputs", size)):
+        _line(ax, 0, values[:, j] if p == 1 else (values[:, j] - middle[j]) / size[j] + level, BLUE, "-", None)
+    ax.set(xlabel="sample", title="Residual" + _some_of(p))
+    ax.margins(x=0.01)
+    return _finished(ax, legend=False)
+
+
+def plot_levels(levels: Sequence[Level], n_v: int | None, *, ax: Any = None) -> Any:
+    """Draw the levels of the kernel-row test by number of mixed outputs, from least to largest over the mixtures tried."""
+    ax = _axes(ax)
+    by_count = sorted(levels, key=lambda level: level.outputs)
+    count, middle = [level.outputs for level in by_count], [level.middle for level in by_count]
+    reach = [(level.largest - level.least) / 2 for level in by_count]
+    ax.errorbar(count, middle, yerr=reach, fmt="o-", color=BLUE, linewidth=1, capsize=4, label="noise left by the best law")
+    if n_v:
+        ax.axvline(n_v + 0.5, color=GREY, linestyle="--", linewidth=1, label=f"$n_v$ = {n_v}: no law up to here")
+    verdict = "undecided" if n_v is None else f"{n_v}"
+    ax.set(xlabel="outputs mixed", ylabel="log noise power (nats)", title=f"How many outputs still obey a common law? Faults: {verdict}")
+    ax.set_xticks(count)
+    return _finished(ax, legend=True)
+
+
 def plot_principal_angles(angles: ArrayLike, *, names: tuple[str, str] = ("first", "second"), ax: Any = None) -> Any:
-    """Principal angles (radians, ascending, as `distances.principal_angles` gives them), in degrees on a logarithmic scale."""
+    """Draw principal angles (radians, ascending, as `distances.principal_angles` gives them), in degrees on a logarithmic scale."""
     given = np.asarray(angles, dtype=np.float64).ravel()
     if not np.all(np.isfinite(given)) or np.any(given < 0):
         raise InvalidData("angles: got negative or not finite ones; radians from 0 to pi/2 are needed")
@@ -159,7 +265,7 @@ def plot_principal_angles(angles: ArrayLike, *, names: tuple[str, str] = ("first
 
 
 def _axes(ax: Any) -> Any:
-    """`ax`, or the axes of a new figure of pyplot."""
+    """Return `ax`, or the axes of a new figure of pyplot."""
     if ax is not None:
         return ax
     try:
@@ -184,7 +290,7 @@ def _finished(ax: Any, *, legend: bool, place: str = "best", outside: bool = Fal
 
 
 def _spectrum(values: ArrayLike, name: str) -> Array:
-    """Singular values as they can be drawn on a logarithmic scale."""
+    """Return singular values as they can be drawn on a logarithmic scale."""
     sigma = np.asarray(values, dtype=np.float64).ravel()
     if not np.all(np.isfinite(sigma)) or np.any(sigma < 0):
         raise InvalidData(f"{name}: got negative or not finite ones; singular values are needed")
@@ -198,14 +304,14 @@ def _whole_numbers(ax: Any) -> None:
 
 
 def _centres(values: Array) -> tuple[Array, Array]:
-    """Middle and half-range of each column; half-range 1 for a constant one."""
+    """Return middle and half-range of each column; half-range 1 for a constant one."""
     low, high = values.min(axis=0), values.max(axis=0)
     half = (high - low) / 2
     return (high + low) / 2, np.where(half > 0, half, 1.0)
 
 
 def _stacked(ax: Any, names: Sequence[str], what: str, size: Array) -> list[float]:
-    """The heights of the channels, first on top, and the ticks that name them; a single channel keeps its own units."""
+    """Return the heights of the channels, first on top, and the ticks that name them; a single channel keeps its own units."""
     drawn_channels = min(len(size), MOST_CHANNELS)
     if drawn_channels == 1:
         ax.set_ylabel(names[0])
@@ -225,7 +331,7 @@ def _some_of(count: int) -> str:
 
 
 def _line(ax: Any, first: int, values: Array, colour: str, style: str, label: str | None) -> None:
-    """A line; a band between the extremes of equal parts where there are more samples than can be seen."""
+    """Draw a line, or a band between the extremes of equal parts where there are more samples than can be seen."""
     N = len(values)
     if N <= MOST_POINTS:
         ax.plot(np.arange(first, first + N), values, style, color=colour, linewidth=1.2, label=label)
