@@ -90,11 +90,15 @@ class Facts:
 
     def rank(self, s: int) -> Integers:
         """The rank of [O_s T_s] of every system."""
-        return ranks(self.window(s))
+        if s not in self._ranks:
+            self._ranks[s] = ranks(self.window(s))
+        return self._ranks[s]
 
     def rank_from_rest(self, s: int) -> Integers:
         """The rank of T_s of every system."""
-        return ranks(self.window(s)[:, :, self.n :])
+        if s not in self._ranks_from_rest:
+            self._ranks_from_rest[s] = ranks(self.window(s)[:, :, self.n :])
+        return self._ranks_from_rest[s]
 
     def gap(self, s: int) -> Integers:
         """The difference rank [O_(s+1) T_(s+1)] - rank [O_s T_s] of every system."""
@@ -134,6 +138,14 @@ class Facts:
             return np.asarray(ranks(built) == ranks(rest) + self.m)
 
         return self._least(determined)
+
+    @cached_property
+    def _ranks(self) -> dict[int, Integers]:
+        return {}  # window -> ranks, since several conditions ask for the same
+
+    @cached_property
+    def _ranks_from_rest(self) -> dict[int, Integers]:
+        return {}
 
     def _least(self, test: Callable[[int], Flags]) -> Integers:
         found = np.full(len(self.A), self.n + 1, dtype=np.int64)

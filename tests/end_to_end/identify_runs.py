@@ -9,15 +9,11 @@ valid           a document that the schema of that name in the package accepts
 
 from __future__ import annotations
 
-import json
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import jsonschema
-
 from faultspace import example_data as made
-from tests.end_to_end.commands import Run, call
+from tests.end_to_end.commands import Run, call, validator
 
 CHANNELS = ("--inputs", ",".join(made.INPUTS), "--outputs", ",".join(made.OUTPUTS))
 
@@ -44,7 +40,5 @@ def refused(run: Run, *parts: str) -> None:
 
 def valid(name: str, document: Any) -> Any:
     """Return the document, which the schema NAME.schema.json accepts."""
-    schema = json.loads(resources.files("faultspace.numeric").joinpath("schemas", f"{name}.schema.json").read_text("utf-8"))
-    jsonschema.Draft202012Validator.check_schema(schema)
-    jsonschema.Draft202012Validator(schema).validate(document)
+    validator(name, "faultspace.numeric").validate(document)
     return document

@@ -12,6 +12,7 @@ import pytest
 from faultspace.proofs.evidence import corpus
 from faultspace.proofs.evidence.search import Box, chunks
 from faultspace.proofs.hypotheses import ablations
+from faultspace.proofs.hypotheses.aimed import HIDDEN_ZEROS, aimed_systems
 from faultspace.proofs.hypotheses.facets import degenerate, flags
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
 from faultspace.proofs.rocq.sources import sources
@@ -154,10 +155,12 @@ def test_a_counterexample_to_what_is_proved_is_an_error() -> None:
 
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
-    """A workbench with every ninth system of the quick corpus."""
+    """A workbench with every ninth system of the quick corpus and every fourth of the aimed ones, twenty for each hypothesis."""
     made = Workbench("quick", 1, quiet)
     sources = list(corpus._sources("quick"))[::9]
     made.corpus = tuple(corpus.examine(*source) for source in sources)
+    few = [*HIDDEN_ZEROS, *list(aimed_systems(80))[::4]]
+    made.records("aimed systems", lambda: [corpus.examine("aimed", system) for system in few])
     return made
 
 
