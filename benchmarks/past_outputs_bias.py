@@ -36,7 +36,7 @@ from benchmarks.identification_cells import Limits, measure, python_command
 from benchmarks.identification_data import FAULT_POLE, ORDER, Setting, errors, record, system, write
 from benchmarks.sheets import Sheet, markdown
 from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, stacked
-from faultspace.exact.algebra.stability import characteristic_polynomial
+from faultspace.exact.algebra.stability import rational_characteristic_polynomial
 from faultspace.exact.limits.column_space import state_part
 from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.inputs import by_output_error
@@ -141,7 +141,7 @@ def free_order(found: PopulationLimits) -> FreeOrder:
     state = state_part(column_basis(limit.matrix), residual.p)
     poles = markov = False
     if state is not None:
-        own, pole = characteristic_polynomial(residual.A), Fraction(FAULT_POLE)
+        own, pole = rational_characteristic_polynomial(residual.A), Fraction(FAULT_POLE)
         longer = [low - pole * high for low, high in zip((Fraction(0), *own), (*own, Fraction(0)), strict=True)]
         poles = tuple(longer) == state.characteristic_polynomial
         inputs = by_output_error(found.known, state.A, state.C)

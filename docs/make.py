@@ -17,7 +17,7 @@ from pathlib import Path
 
 from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
 from faultspace.proofs.evidence.attacks import Aim
-from faultspace.proofs.hypotheses import experiments
+from faultspace.proofs.hypotheses import ablations
 from faultspace.proofs.verdict.ledger import Claim, expected_without, load
 from faultspace.proofs.verdict.verdicts import Verdict, of_readings
 
@@ -45,16 +45,16 @@ def claims_table() -> list[str]:
 
 
 def hypotheses_table() -> list[str]:
-    """The table of hypotheses.md, a row an experiment: what the ledger expects, PROVED where the experiment names theorems that say so."""
+    """The table of hypotheses.md, a row an ablation: what the ledger expects, PROVED where it names theorems that say so."""
     heads = "claim", "conclusion", "needed", "not needed: PROVED", "no counterexample found", "follows from the others"
     rows = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     expected = expected_without()
-    for experiment in experiments():
+    for ablation in ablations():
         cells: dict[str, list[str]] = {"REFUTED": [], "PROVED": [], "CERTIFIED": [], "IMPLIED": []}
-        for name, entry in expected[experiment.name].items():
-            proved = entry == "CERTIFIED" and experiment.theorems_without((name,))
+        for name, entry in expected[ablation.name].items():
+            proved = entry == "CERTIFIED" and ablation.theorems_without((name,))
             cells["PROVED" if proved else entry].append(name)
-        rows.append(f"| {experiment.claim} | {experiment.conclusion} | {' | '.join('; '.join(names) for names in cells.values())} |")
+        rows.append(f"| {ablation.claim} | {ablation.conclusion} | {' | '.join('; '.join(names) for names in cells.values())} |")
     return rows
 
 

@@ -15,7 +15,7 @@ from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.sheets import Sheet, line
-from .consoles import answers, print_json
+from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, BAD_INPUT, say
 
 
@@ -59,8 +59,8 @@ def answer_each(names: Sequence[str], answer: Callable[[str], Answer], *, as_jso
 
 
 def _print(console: Console, name: str, given: Answer) -> None:
-    """Lines without a frame: a terminal may wrap them, a pipe gets them whole."""
-    console.print(Text.assemble((quote_path(name), "bold"), f"   {given.heading}"), soft_wrap=True)
+    """The lines have no frame."""
+    paragraph(console, Text.assemble((quote_path(name), "bold"), f"   {given.heading}"))
     for label, value in given.found.sheet():
-        console.print(Text(line(label, value), style="" if value else "bold cyan"), soft_wrap=True)
+        paragraph(console, *((value, line(label, " ")[:-1]) if value else (Text(line(label, ""), style="bold cyan"),)))
     console.print()

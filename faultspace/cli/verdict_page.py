@@ -27,10 +27,10 @@ def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> Non
         paragraph(console, name, f"  {kind} ")
         for label, text in _reading(result):
             paragraph(console, text, f"    {label:<14}")
-    experiment = None
+    ablation = None
     for row in told_rows(rows):
-        if row.experiment != experiment:
-            experiment = row.experiment
+        if row.ablation != ablation:
+            ablation = row.ablation
             paragraph(console, row.conclusion, "  which hypotheses are needed for: ")
         meaning = f", {row.meaning}" if row.meaning else ""
         verdict = Text.assemble(verdict_text(row.verdict, row.expected or row.verdict), meaning)

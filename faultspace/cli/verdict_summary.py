@@ -16,7 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..proofs.verdict.verdicts import ClaimResult, Report, Row, Verdict
-from .consoles import paragraph
+from .consoles import paragraph, print_table
 from .verdict_tables import STYLES
 
 MEANINGS = {
@@ -33,7 +33,7 @@ HELP = "--claim ID prints a page of a claim, -v the long tables, --out DIR write
 def print_lines(console: Console, report: Report) -> None:
     """A line for each claim, then a sentence on each of what they rest on."""
     claims = sorted(report.claims, key=lambda claim: claim.as_expected)  # stable: else in the order of the ledger
-    console.print(claims_table(claims))
+    print_table(console, claims_table(claims))
     for line in differences(report):
         paragraph(console, Text(line, style="bold red"), "! ")
     occurring = [verdict for verdict in Verdict if any(claim.verdict == verdict for claim in claims)]

@@ -66,10 +66,10 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
     table.add_column("verdict", no_wrap=True)
     table.add_column("counterexample or evidence", overflow="fold")
     table.add_column("certificates", no_wrap=True)
-    experiment = None
+    ablation = None
     for row in told_rows(rows):
-        if row.experiment != experiment:
-            experiment = row.experiment
+        if row.ablation != ablation:
+            ablation = row.ablation
             table.add_section()
             table.add_row(Text(row.claim, style="bold"), "", Text(row.conclusion, style="bold"), "")
         name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"

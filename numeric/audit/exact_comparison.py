@@ -18,8 +18,8 @@ from math import inf
 from typing import Any
 
 import numpy as np
+import scipy  # its folders are loaded when they are first used
 from flint import fmpq, fmpq_poly
-from scipy.optimize import linear_sum_assignment
 
 from faultspace.exact.algebra import stability
 from faultspace.exact.algebra.fields import QQ
@@ -54,7 +54,7 @@ def markov(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) -> list[Matri
 
 def characteristic_polynomial(A: Matrix) -> list[Fraction]:
     """det(zI - A) from z^n = 1 down."""
-    return list(reversed(stability.characteristic_polynomial(A)))
+    return list(reversed(stability.rational_characteristic_polynomial(A)))
 
 
 def transfer(A: Matrix, B: Matrix, C: Matrix, D: Matrix, z: int) -> Matrix:
@@ -76,7 +76,7 @@ def roots(ascending: Sequence[Any]) -> tuple[complex, ...]:
 
 def poles(A: Matrix) -> tuple[complex, ...]:
     """The eigenvalues."""
-    return roots(stability.characteristic_polynomial(A)) if A.nrows else ()
+    return roots(stability.rational_characteristic_polynomial(A)) if A.nrows else ()
 
 
 def distances(got: Sequence[Matrix], exact: Sequence[Matrix]) -> Array:
@@ -89,7 +89,7 @@ def distances(got: Sequence[Matrix], exact: Sequence[Matrix]) -> Array:
 def matched(got: Sequence[complex], exact: Sequence[complex]) -> tuple[list[int], Array]:
     """For each exact number, in order, the index of the one that it is paired with, and their distance."""
     gaps = np.array([[abs(theirs - mine) for mine in got] for theirs in exact], dtype=float).reshape(len(exact), len(got))
-    rows, columns = linear_sum_assignment(gaps)
+    rows, columns = scipy.optimize.linear_sum_assignment(gaps)
     return [int(j) for j in columns], np.asarray(gaps[rows, columns])
 
 

@@ -24,8 +24,8 @@ import numpy as np
 import psutil
 
 from ...base.arrays import Array
+from ...base.processes import family, resident
 from ..model.models import StateSpaceModel
-from .programs import family, resident
 from .rationals import floats, signs
 from .records import Check, Function, Measurement, Severity
 from .vectors import FaultVector, IdentificationVector, shipped

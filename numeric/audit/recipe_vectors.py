@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-import scipy.signal
+import scipy  # its folders are loaded when they are first used
 
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 

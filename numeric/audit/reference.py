@@ -20,7 +20,7 @@ from ..model.residuals import residual as subtract
 from ..signal.reconstruction import reconstruct_fault
 from ..signal.zeros import fault_zeros
 from ..space.by_ranks import fault_space as space
-from .adapter import Structure
+from .adapter import ZeroStructure
 
 RANK = 1e-10  # of the largest singular value: ranks of small matrices with entries of a few digits
 
@@ -66,13 +66,13 @@ def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> 
     return found.v
 
 
-def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:
+def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
     """Orders of infinite zeros from #{order <= k} = rank T_(k+1) - rank T_k; finite zeros those of the pencil."""
     if not all(np.all(np.isfinite(matrix)) for matrix in (A, F, C, G)):
         raise InvalidData("A, F, C, G: got entries that are NaN or infinite")
     orders = _infinite_zero_orders(A, F, C, G)
     found = fault_zeros(A, F, C, G)
-    return Structure(len(orders), [complex(z) for z in found.zeros], orders, len(orders) == F.shape[1])
+    return ZeroStructure(len(orders), [complex(z) for z in found.zeros], orders, len(orders) == F.shape[1])
 
 
 def _infinite_zero_orders(A: Array, F: Array, C: Array, G: Array) -> list[int]:

@@ -23,8 +23,8 @@ import psutil
 
 from ...base.errors import InvalidData
 from .adapter import guarded, load, offered
+from .catalogue import all_checks
 from .records import Function, perform
-from .running import all_checks
 
 PATIENCE = 1.0  # seconds that copies of this process have to come back
 

@@ -44,8 +44,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
-import scipy.optimize
+import scipy  # its folders are loaded when they are first used
 from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array

@@ -27,9 +27,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.fft
-import scipy.optimize
-import scipy.stats
+import scipy  # its folders are loaded when they are first used
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array

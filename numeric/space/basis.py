@@ -5,10 +5,12 @@ r = s + w with N(q) s = 0 whatever the faults are [W91], w of spectrum phi in ev
     cost(N) = sum over frequencies of tr[(N N*)^-1 N r r* N*] / phi
 
 which depends on the rows through the space they span alone, and for one row is |N r|^2 / (phi N N*). The colour phi is
-estimated in turns with N, as an autoregression of the whitened row residual scaled to a mean logarithm of zero.
+estimated in turns with N, as an autoregression of the whitened row residual scaled to a mean logarithm of zero. Where the noise has
+the power lam_c phi in channel c, N N* reads N diag(lam) N*: a channel measured without noise, as a known input, has lam_c = 0.
 
     degrees        eta_1 .. eta_k, the degree of each row
     within         for each row, the vectors that its coefficients may combine: P with P O_(eta+1) = 0
+    shares         lam (p,), the power of the noise in each channel, relative to phi
     h              what is sought: the coefficients of every row in its `within`, one after the other
     gauge          changes of h that leave the span alone: adding q^a N_j to N_i for a <= eta_i - eta_j
     KernelBasis    the rows, their level, the noise colour, and the covariance of h off the gauge
@@ -46,12 +48,14 @@ class KernelBasis:
     """The rows of a kernel basis, how much noise they leave, and how sure they are.
 
     `rows` are k arrays (eta_i + 1, p) of unit norm with N_i(q) = sum_j rows[i][j] q^j, `level` is in nats, `noise_colour` is the monic
-    autoregression of the noise, `within` is as it was given, and `covariance` is that of h, which is zero along the gauge.
+    autoregression of the noise, `spectrum` (bands,) is the phi that follows from it, of mean logarithm zero, `within` is as it was given,
+    and `covariance` is that of h, which is zero along the gauge.
     """
 
     rows: tuple[Array, ...]
     level: float
     noise_colour: Array
+    spectrum: Array
     within: tuple[Array, ...]
     covariance: Array
 
@@ -63,15 +67,43 @@ def kernel_basis(
     *,
     noise_order: int = NOISE_ORDER,
     rounds: int = ROUNDS,
+    shares: Array | None = None,
 ) -> KernelBasis:
     """Find the likeliest basis; row i combines the orthonormal rows of within[i] (q_i, p (eta_i + 1)).
 
-    `starts`: bases, each k arrays (eta_i + 1, p), tried beside the rows that the moments make least.
+    `starts`: bases, each k arrays (eta_i + 1, p), tried beside the rows that the moments make least. `shares` (p,): the power of the noise
+    in each channel, relative to the colour; equal ones where it is None.
     """
-    problem = _problem(moments, within)
+    problem = _problem(moments, within, shares)
+    starting = [_coefficients(within, start) for start in starts]
+    return _likeliest(moments, problem, within, starting + _plain(problem, within), noise_order, rounds)
+
+
+def refined_basis(
+    moments: CrossMoments,
+    within: Sequence[Array],
+    start: Sequence[Array],
+    *,
+    noise_order: int = NOISE_ORDER,
+    rounds: int = ROUNDS,
+    shares: Array | None = None,
+) -> KernelBasis:
+    """Find the same from one start alone, k arrays (eta_i + 1, p): for moments, or shares, that differ little from those it was fitted
+    to."""
+    problem = _problem(moments, within, shares)
+    return _likeliest(moments, problem, within, [_coefficients(within, start)], noise_order, rounds)
+
+
+def _coefficients(within: Sequence[Array], rows: Sequence[Array]) -> Array:
+    """Return the h of rows (eta_i + 1, p)."""
+    return np.concatenate([basis @ row.ravel() for basis, row in zip(within, rows, strict=True)])
+
+
+def _likeliest(
+    moments: CrossMoments, problem: _Problem, within: Sequence[Array], guesses: list[Array], noise_order: int, rounds: int
+) -> KernelBasis:
+    """Return the best descent of all guesses with a white colour, then colour and rows in turns."""
     colour = np.ones(len(moments.angles))
-    guesses = [np.concatenate([basis @ row.ravel() for basis, row in zip(within, start, strict=True)]) for start in starts]
-    guesses += _plain(problem, within)
     fits = [_descend(problem, colour, _normed(problem, h)) for h in guesses]
     h, cost = min(fits, key=lambda fit: max(fit[1], _rounding(problem, colour, fit[0])))
     regression = np.ones(1)
@@ -88,7 +120,7 @@ def kernel_basis(
     level = float(np.log(max(cost / k, TINY)) + np.log(problem.size))
     rows = tuple((part @ basis).reshape(-1, moments.channels) for part, basis in zip(np.split(h, problem.cuts), within, strict=True))
     covariance = _covariance(problem, colour, h, max(cost / k, TINY), moments.samples)
-    return KernelBasis(rows, level, regression, tuple(within), covariance)
+    return KernelBasis(rows, level, regression, colour, tuple(within), covariance)
 
 
 @dataclass(frozen=True)
@@ -110,10 +142,10 @@ class _Problem:
         return np.asarray(np.tensordot(h, self.spread, axes=1))
 
 
-def _problem(moments: CrossMoments, within: Sequence[Array]) -> _Problem:
+def _problem(moments: CrossMoments, within: Sequence[Array], shares: Array | None = None) -> _Problem:
     p, width = moments.channels, moments.channels * (moments.degree + 1)
     powers = np.exp(1j * np.outer(moments.angles, np.arange(moments.degree + 1)))
-    gains = np.einsum("bi,bj,kl->bikjl", powers, powers.conj(), np.eye(p), optimize=True)
+    gains = np.einsum("bi,bj,kl->bikjl", powers, powers.conj(), np.eye(p) if shares is None else np.diag(shares), optimize=True)
     size = float(np.trace(moments.moments.sum(axis=0)).real) / width or 1.0
     counts = [len(basis) for basis in within]
     spread = np.zeros((sum(counts), len(within), width))

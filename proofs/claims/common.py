@@ -19,7 +19,7 @@ from ...exact.parametric.stratification import Stratification, stratify
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.search import Box, Facts, Flags, Integers
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -46,9 +46,8 @@ def delays(system: ResidualSystem) -> Iterator[Certificate]:
 def zeros(system: ResidualSystem) -> Iterator[Certificate]:
     """Window ranks, left-invertibility, finite and infinite zeros, observability and controllability."""
     yield from ranks_and_inversion(system)
-    if system.n <= 4:
-        yield make.finite_zeros(system)
-        yield make.infinite_zeros(system)
+    yield make.finite_zeros(system)
+    yield make.infinite_zeros(system)
     yield make.matrix_rank("observability", system)
     yield make.matrix_rank("reachability", system)
 
@@ -100,22 +99,22 @@ def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Se
 def under_assumption_4(known_state: bool) -> Test:
     """Observable and left-invertible with some delay, for known or unknown initial state."""
 
-    def applies(d: Dossier) -> bool:
-        return d.observable and d.left_invertible and delay_of(d, known_state) is not None
+    def applies(e: Evidence) -> bool:
+        return e.observable and e.left_invertible and delay_of(e, known_state) is not None
 
     return applies
 
 
-def delay_of(d: Dossier, known_state: bool) -> int | None:
+def delay_of(e: Evidence, known_state: bool) -> int | None:
     """The delay of left inversion in one of its two senses."""
-    return d.delay_known_state if known_state else d.delay_unknown_state
+    return e.delay_known_state if known_state else e.delay_unknown_state
 
 
-def gap_is_m_from(bound: Callable[[Dossier], int]) -> Test:
+def gap_is_m_from(bound: Callable[[Evidence], int]) -> Test:
     """gap(s) = m for every s >= max(bound, 1)."""
 
-    def holds(d: Dossier) -> bool:
-        start = max(bound(d), 1)
-        return all(d.gap(s) == d.m for s in range(start, max(start, d.n) + 2))
+    def holds(e: Evidence) -> bool:
+        start = max(bound(e), 1)
+        return all(e.kernel.gap(s) == e.system.m for s in range(start, max(start, e.system.n) + 2))
 
     return holds

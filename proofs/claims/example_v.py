@@ -49,8 +49,8 @@ def _certificates() -> dict[str, Certificate]:
 
 def _outcome(holds: bool, words: str, *names: str) -> Outcome:
     found = _certificates()
-    shown = tuple(found[name] for name in names)
-    return Outcome(Verdict.CERTIFIED if holds else Verdict.REFUTED, words, shown, len(shown))
+    certificates = tuple(found[name] for name in names)
+    return Outcome(Verdict.CERTIFIED if holds else Verdict.REFUTED, words, certificates, len(certificates))
 
 
 def one_fault(bench: Workbench) -> Outcome:

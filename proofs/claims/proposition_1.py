@@ -19,13 +19,21 @@ from ...exact.limits.hidden_states import hides_a_state
 from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances
 from ...exact.parametric.leads import lead_identities
-from ..evidence.experiments import Drive, LimitDossier, certificates_of, examine_experiment, experiments_in_order, leading, nilpotent_points
+from ..evidence.experiments import (
+    Drive,
+    LimitEvidence,
+    certificates_of,
+    examine_experiment,
+    experiments_in_order,
+    leading,
+    nilpotent_points,
+)
 from ..evidence.kept_experiments import WITHOUT_RANK, kept
 from ..evidence.seasonal_inputs import BOX as BOX_OF_PERIOD
 from ..evidence.seasonal_inputs import in_order, seasonal
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Workbench, certify_records, counterexample
+from ..verdict.workbench import Workbench, certify_records, counterexample, witnessed
 
 WHITE = (["1"], ["1"])
 MOVING_AVERAGE = (["1", "1/2"], ["1"])
@@ -46,90 +54,95 @@ LEADS = [["0", "1"], ["0", "2"], ["0", "0", "1"]]
 
 def white_a_c(bench: Workbench) -> Outcome:
     """u white, one-sided, (A, B) controllable, (A, C) observable: the limit has the range of O_s."""
-    return smallest_limit(drives([WHITE], LEADS), lambda d: _regular(d) and not d.equal, "v leads u by one or two samples")
+    return smallest_limit(drives([WHITE], LEADS), lambda e: _regular(e) and not e.equal, "v leads u by one or two samples")
 
 
 def white_a_c_seen(bench: Workbench) -> Outcome:
     """u white, v leads it: the limit lies in the range of O_s, and is all of it iff (A, B + sum A^j F phi_j) is controllable."""
-    records = [d for d in bench.limits if d.origin == "u white, v leads it" and d.observable and d.long_past]
-    return certify_limits(records, lambda d: d.within and d.equal == d.seen_controllable)
+    records = [e for e in bench.limits if e.origin == "u white, v leads it" and e.observable and e.long_past]
+    return certify_limits(records, lambda e: e.within and e.equal == e.seen_controllable)
 
 
 def white_b_d(bench: Workbench) -> Outcome:
     """u white, one-sided: B and D by regression with the true A and C are right. Refuted where the limit gives these A and C,
     and both B and D are wrong."""
 
-    def fails(d: LimitDossier) -> bool:
-        system, found = d.experiment.system, d.state_inputs
-        return _regular(d) and d.equal and found is not None and found[0] != system.B and found[1] != system.D
+    def fails(e: LimitEvidence) -> bool:
+        system, found = e.experiment.system, e.state_inputs
+        return _regular(e) and e.equal and found is not None and found[0] != system.B and found[1] != system.D
 
     return smallest_limit(drives([WHITE], LEADS), fails, "v leads u by one or two samples, the limit having the range of O_s")
 
 
+def white_b_d_fails(bench: Workbench) -> Outcome:
+    """There is a fault that is uncorrelated with a white u at all l >= 0, leaves A and C right, and moves B and D."""
+    return witnessed(white_b_d(bench))
+
+
 def white_b_d_seen(bench: Workbench) -> Outcome:
     """u white: with the true A, C output error gives B + sum A^j F phi_j and D + G phi_0 + sum over j >= 1 of C A^(j-1) F phi_j."""
-    records = [d for d in bench.limits if d.origin in ("u white, v leads it", "u white, v(k) = u(k)") and d.state_inputs is not None]
-    return certify_limits(records, lambda d: d.state_inputs == _seen(d))
+    records = [e for e in bench.limits if e.origin in ("u white, v leads it", "u white, v(k) = u(k)") and e.state_inputs is not None]
+    return certify_limits(records, lambda e: e.state_inputs == _seen(e))
 
 
 def coloured_a_c(bench: Workbench) -> Outcome:
     """u coloured, one-sided, (A, B) controllable, (A, C) observable: the limit lies in the range of O_s."""
     return smallest_limit(
-        drives([MOVING_AVERAGE], [["0", "0", "1"]]), lambda d: _regular(d) and not d.within, "u = e(k) + e(k-1)/2, v(k) = u(k+2)"
+        drives([MOVING_AVERAGE], [["0", "0", "1"]]), lambda e: _regular(e) and not e.within, "u = e(k) + e(k-1)/2, v(k) = u(k+2)"
     )
 
 
 def autoregressive(bench: Workbench) -> Outcome:
     """u autoregressive of order at most s, v leads it: the limit still lies in the range of O_s."""
-    return certify_limits([d for d in bench.limits if d.origin.startswith("u autoregressive")], lambda d: d.within)
+    return certify_limits([e for e in bench.limits if e.origin.startswith("u autoregressive")], lambda e: e.within)
 
 
 def autoregressive_longer(bench: Workbench) -> Outcome:
     """u autoregressive of order s + 1, v leads it."""
     den = ["1", "-1/2", "1/4", "-1/8"]
     inputs = drives([(["1"], den)], [["0", "1"], ["0", "0", "1"]])
-    return smallest_limit(inputs, lambda d: _observed(d) and not d.within, "u of order 3, s = 2")
+    return smallest_limit(inputs, lambda e: _observed(e) and not e.within, "u of order 3, s = 2")
 
 
 def lead_one(bench: Workbench) -> Outcome:
     """G = 0 and v(k) = u(k+1), u of any colour: the limit still lies in the range of O_s."""
-    return certify_limits([d for d in bench.limits if d.origin == "u coloured, v(k) = u(k+1), G = 0"], lambda d: d.within)
+    return certify_limits([e for e in bench.limits if e.origin == "u coloured, v(k) = u(k+1), G = 0"], lambda e: e.within)
 
 
 def lead_one_with_feedthrough(bench: Workbench) -> Outcome:
     """The same with G other than 0."""
     return smallest_limit(
-        drives([MOVING_AVERAGE], [["0", "1"]]), lambda d: _observed(d) and not d.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
+        drives([MOVING_AVERAGE], [["0", "1"]]), lambda e: _observed(e) and not e.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
     )
 
 
 def two_sided(bench: Workbench) -> Outcome:
     """u and v uncorrelated at all lags: the limit lies in the range of O_s; B and D are right by either regression."""
-    return certify_limits([d for d in bench.limits if d.uncorrelated], lambda d: d.within and d.inputs_right)
+    return certify_limits([e for e in bench.limits if e.uncorrelated], lambda e: e.within and e.inputs_right)
 
 
 def two_sided_output_error(bench: Workbench) -> Outcome:
     """Output error with the true A and C gives the true B and D, u of any colour."""
-    return certify_limits([d for d in bench.limits if d.uncorrelated and d.state_inputs is not None], lambda d: d.output_error_right)
+    return certify_limits([e for e in bench.limits if e.uncorrelated and e.state_inputs is not None], lambda e: e.output_error_right)
 
 
 def two_sided_range(bench: Workbench) -> Outcome:
     """It is all of that range, u of any colour, (A, B) controllable, past >= n: some inputs of period 3 refute it."""
-    return smallest_seasonal(lambda d: d.whole_range_expected and not d.equal, taps=1, others=WITHOUT_RANK)
+    return smallest_seasonal(lambda e: e.whole_range_expected and not e.equal, taps=1, others=WITHOUT_RANK)
 
 
 def two_sided_one_state(bench: Workbench) -> Outcome:
     """All of it with one state, B not 0, whatever the colour and the number of inputs, past >= 1."""
-    records = [d for d in bench.limits if d.whole_range_expected and d.experiment.system.residual.n == 1]
-    return certify_limits(records, lambda d: d.equal)
+    records = [e for e in bench.limits if e.whole_range_expected and e.experiment.system.residual.n == 1]
+    return certify_limits(records, lambda e: e.equal)
 
 
 def two_sided_two_states(bench: Workbench) -> Outcome:
     """n = past = 2, one input: it is less than the range for exactly the A that a formula names. On inputs of both kinds."""
-    records = [d for d in bench.limits if d.whole_range_expected and _two_states(d)]
+    records = [e for e in bench.limits if e.whole_range_expected and _two_states(e)]
     records += [examine_experiment("kept in counterexamples/", kept(name)) for name in WITHOUT_RANK]
-    found = certify_limits(records, lambda d: d.equal != hides_a_state(d.experiment, covariances(d.experiment)))
-    lost = sum(not d.equal for d in records)
+    found = certify_limits(records, lambda e: e.equal != hides_a_state(e.experiment, covariances(e.experiment)))
+    lost = sum(not e.equal for e in records)
     if found.verdict == Verdict.CERTIFIED and lost in (0, len(records)):
         return replace(found, verdict=Verdict.ERROR, evidence="every experiment tried is of one kind")
     return replace(found, evidence=f"{found.evidence}; {lost} of them lose a state")
@@ -137,23 +150,28 @@ def two_sided_two_states(bench: Workbench) -> Outcome:
 
 def two_sided_autoregressive(bench: Workbench) -> Outcome:
     """All of it where u is autoregressive of order at most s."""
-    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.autoregressive], lambda d: d.equal)
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.autoregressive], lambda e: e.equal)
 
 
 def two_sided_nilpotent(bench: Workbench) -> Outcome:
     """All of it where A is nilpotent, u of any colour."""
-    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.nilpotent], lambda d: d.equal)
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.nilpotent], lambda e: e.equal)
 
 
 def two_sided_long_past(bench: Workbench) -> Outcome:
     """All of it where past >= n + the order of the filter of u, of any colour."""
-    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.past_of_input], lambda d: d.equal)
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.past_of_input], lambda e: e.equal)
+
+
+def two_sided_long_past_inputs(bench: Workbench) -> Outcome:
+    """With such a past B and D are right as well, by either regression."""
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.past_of_input], lambda e: e.equal and e.inputs_right)
 
 
 def two_sided_almost_every(bench: Workbench) -> Outcome:
     """For a fixed u the exceptional (A, B) are common zeros of rational functions; at one nilpotent A they do not all vanish."""
     records = [examine_experiment("at a nilpotent A, for one u, n and s each", experiment) for experiment in nilpotent_points()]
-    return certify_limits([d for d in records if d.whole_range_expected], lambda d: d.equal)
+    return certify_limits([e for e in records if e.whole_range_expected], lambda e: e.equal)
 
 
 def parametric(bench: Workbench) -> Outcome:
@@ -168,62 +186,62 @@ def parametric(bench: Workbench) -> Outcome:
     return Outcome(Verdict.IDENTITY, words)
 
 
-def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitDossier], bool], scope: str) -> Outcome:
+def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitEvidence], bool], scope: str) -> Outcome:
     """The first of the small experiments that fails, as the checker accepted it."""
     for experiment in experiments_in_order(inputs):
-        dossier = examine_experiment("search", experiment)
-        if fails(dossier):
-            return counterexample(show_words(dossier), f"{BOX}, {scope}", show(dossier))
+        evidence = examine_experiment("search", experiment)
+        if fails(evidence):
+            return counterexample(show_words(evidence), f"{BOX}, {scope}", show(evidence))
     return Outcome(Verdict.ERROR, "no counterexample among the small experiments")
 
 
-def smallest_seasonal(fails: Callable[[LimitDossier], bool], taps: int, others: Sequence[str]) -> Outcome:
+def smallest_seasonal(fails: Callable[[LimitEvidence], bool], taps: int, others: Sequence[str]) -> Outcome:
     """The smallest experiment with an input of period 3 that fails, with its two limits, and the `others`, kept in counterexamples/."""
     for one in in_order():
-        dossier = examine_experiment("search", seasonal(one, taps))
-        if not fails(dossier):
+        evidence = examine_experiment("search", seasonal(one, taps))
+        if not fails(evidence):
             continue
         wrong = [name for name in others if not fails(examine_experiment("kept", kept(name)))]
         if wrong:
             return Outcome(Verdict.ERROR, f"counterexamples/{wrong[0]}.json refutes nothing")
-        return counterexample(f"{show_words(dossier)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(dossier)[:2])
+        return counterexample(f"{show_words(evidence)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(evidence)[:2])
     return Outcome(Verdict.ERROR, "no counterexample in the family")
 
 
-def show(dossier: LimitDossier) -> list[Certificate]:
+def show(evidence: LimitEvidence) -> list[Certificate]:
     """Both limits and the regressions."""
-    return certificates_of(limit(dossier.experiment))
+    return certificates_of(limit(evidence.experiment))
 
 
-def show_words(dossier: LimitDossier) -> str:
+def show_words(evidence: LimitEvidence) -> str:
     """The experiment for a reader."""
-    e = dossier.experiment
+    e = evidence.experiment
     u, v = e.u_filter.to_json(), e.v_filter.to_json()
     return f"{e.system.residual}, B={e.system.B}, D={e.system.D}, s = {e.s}, past = {e.past}, u = {u}, v = {v}".replace("'", "")
 
 
-def certify_limits(records: Sequence[LimitDossier], holds: Callable[[LimitDossier], bool]) -> Outcome:
+def certify_limits(records: Sequence[LimitEvidence], holds: Callable[[LimitEvidence], bool]) -> Outcome:
     """`holds` on all of these experiments."""
-    return certify_records(records, [d for d in records if not holds(d)], show_words, show, unit="experiments")
+    return certify_records(records, [e for e in records if not holds(e)], show_words, show, unit="experiments")
 
 
-def _observed(d: LimitDossier) -> bool:
-    return d.controllable and d.observable
+def _observed(e: LimitEvidence) -> bool:
+    return e.controllable and e.observable
 
 
-def _two_states(d: LimitDossier) -> bool:
-    return (d.experiment.system.residual.n, d.experiment.past, d.experiment.system.nu) == (2, 2, 1)
+def _two_states(e: LimitEvidence) -> bool:
+    return (e.experiment.system.residual.n, e.experiment.past, e.experiment.system.nu) == (2, 2, 1)
 
 
-def _regular(d: LimitDossier) -> bool:
-    return d.one_sided and d.controllable and d.observable and d.long_past
+def _regular(e: LimitEvidence) -> bool:
+    return e.one_sided and e.controllable and e.observable and e.long_past
 
 
-def _seen(d: LimitDossier) -> tuple[Matrix, Matrix]:
+def _seen(e: LimitEvidence) -> tuple[Matrix, Matrix]:
     """B and D as the lead of v makes them look."""
-    residual, B, D = d.experiment.system.residual, d.experiment.system.B, d.experiment.system.D
-    delay = len(d.experiment.u_filter.numerator) - 1
-    phi = [d.experiment.v_filter.numerator[delay - j] for j in range(delay + 1)]
+    residual, B, D = e.experiment.system.residual, e.experiment.system.B, e.experiment.system.D
+    delay = len(e.experiment.u_filter.numerator) - 1
+    phi = [e.experiment.v_filter.numerator[delay - j] for j in range(delay + 1)]
     column = residual.F
     D = D + residual.G @ phi[0]
     for j, weight in enumerate(phi):

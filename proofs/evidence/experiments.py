@@ -1,7 +1,7 @@
 """Experiments whose population limits are known exactly, with certificates that the checker accepted: proposition-1 rests on these.
 
-    LimitDossier     an experiment, what its signals are like, and what accepted certificates say of both methods and both regressions
-    limit_dossiers   of an effort, in families named after how v and u belong together
+    LimitEvidence     an experiment, what its signals are like, and what accepted certificates say of both methods and both regressions
+    certified_limits   of an effort, in families named after how v and u belong together
     FAMILIES         family: how an experiment of it is drawn
     nilpotent_points   one (A, B) for each of several spectra of u, at which the limit of PI-MOESP is to have full rank
     experiments_in_order   small experiments, for the smallest counterexample
@@ -23,7 +23,7 @@ from joblib import Parallel, delayed
 
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
-from ...exact.algebra.stability import characteristic_polynomial, is_stable
+from ...exact.algebra.stability import is_stable, rational_characteristic_polynomial
 from ...exact.limits.experiments import Experiment, read_experiment
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
@@ -37,7 +37,7 @@ Rows = list[list[str]]
 
 
 @dataclass(frozen=True)
-class LimitDossier:
+class LimitEvidence:
     """`past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
 
     `observable`: on s - 1 samples already, which shift invariance takes; `long_past`: past >= n. `within`: the limit of PI-MOESP lies in
@@ -89,7 +89,7 @@ class LimitDossier:
     @property
     def nilpotent(self) -> bool:
         """A^n = 0."""
-        return not any(characteristic_polynomial(self.experiment.system.residual.A)[:-1])
+        return not any(rational_characteristic_polynomial(self.experiment.system.residual.A)[:-1])
 
     @property
     def past_of_input(self) -> bool:
@@ -113,7 +113,7 @@ def certificates_of(found: PopulationLimits) -> list[Certificate]:
     return made
 
 
-def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
+def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
     """Certify the limits of an experiment and say what its signals are like."""
     found = limit(experiment)
     certificates = certificates_of(found)
@@ -127,7 +127,7 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
     true = experiment.system.B.to_json(), experiment.system.D.to_json()
     state_inputs = None if found.true_AC is None else (found.true_AC.B, found.true_AC.D)
     inside, outside = (certificate["statement"] for certificate in certificates[:2])
-    return LimitDossier(
+    return LimitEvidence(
         origin=origin,
         experiment=experiment,
         past_lags=all(c.is_zero() for lag, c in lags.items() if lag >= 1),
@@ -150,11 +150,11 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
     )
 
 
-def limit_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[LimitDossier, ...]:
+def certified_limits(effort: str, jobs: int, progress: Progress) -> tuple[LimitEvidence, ...]:
     """All experiments of the effort."""
     count = 400 if effort == "full" else 40
     sources = [(name, seed) for name in FAMILIES for seed in range(3 * count if name == "v independent of u" else count)]
-    found: list[LimitDossier] = []
+    found: list[LimitEvidence] = []
     batches = [sources[i : i + 10] for i in range(0, len(sources), 10)]
     for batch in Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(b) for b in batches):
         found += batch
@@ -162,7 +162,7 @@ def limit_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[LimitDos
     return tuple(found)
 
 
-def _all(batch: list[tuple[str, int]]) -> list[LimitDossier]:
+def _all(batch: list[tuple[str, int]]) -> list[LimitEvidence]:
     return [examine_experiment(name, FAMILIES[name](Random(f"{name} {seed}"))) for name, seed in batch]
 
 

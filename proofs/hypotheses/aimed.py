@@ -2,7 +2,7 @@
 
     aimed_systems     as many for each of the four hypotheses: observable, controllable, left-invertible, A stable
     other_columns     one of them with other fault columns of its Z
-    aimed_dossiers    the same with accepted certificates, and HIDDEN_ZEROS, made once a run
+    aimed_evidence    the same with accepted certificates, and HIDDEN_ZEROS, made once a run
     HIDDEN_ZEROS      two systems all of whose finite zeros are unobservable modes, the zeros being more than the modes
 
 Most are without feedthrough and with more outputs than faults, so that they have zeros, at infinity and rarely finite ones: that is where
@@ -18,7 +18,7 @@ from ...exact.algebra.matrices import Matrix, beside
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier, examine
+from ..evidence.corpus import Evidence, examine
 from ..verdict.workbench import Workbench
 from .facets import of_system
 
@@ -35,7 +35,7 @@ HIDDEN_ZEROS = (
 Table = list[list[str]]
 
 
-def aimed_dossiers(bench: Workbench) -> list[Dossier]:
+def aimed_evidence(bench: Workbench) -> list[Evidence]:
     """The aimed systems of the effort, certified."""
     return bench.records("aimed systems", lambda: [examine("aimed", s) for s in (*HIDDEN_ZEROS, *aimed_systems(400 if bench.full else 80))])
 

@@ -19,11 +19,11 @@ from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..evidence.alternatives import PairDossier, comparison_certificate, examine_pair
+from ..evidence.alternatives import PairEvidence, comparison_certificate, examine_pair
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench
 from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
@@ -91,13 +91,13 @@ MODEL: dict[str, Callable[[Compared], bool]] = {
 }
 
 
-def theorem_1() -> Experiment[Compared]:
+def theorem_1() -> Ablation[Compared]:
     """Equal restricted behaviours on a window of n + 1 samples."""
 
     def long_enough(pair: Compared) -> bool:
         return pair.window is not None and pair.window >= max(pair.first.n, pair.second.n) + 1
 
-    return Experiment(
+    return Ablation(
         name="equal-on-a-window",
         claim="theorem-1",
         conclusion="behaviours equal on the window are equal for ever",
@@ -110,21 +110,21 @@ def theorem_1() -> Experiment[Compared]:
     )
 
 
-def theorem_3_i() -> Experiment[Compared]:
+def theorem_3_i() -> Ablation[Compared]:
     """Equal output behaviours of two systems with as many states: where the columns of the second lie."""
     words = "the columns [T F'; G'] of an equivalent system lie in Z, for some change T of its state"
     return _of_equivalent("columns-in-Z", words, _columns_in_space, Proof(("columns_after_change_of_state",)))
 
 
-def same_model() -> Experiment[Compared]:
+def same_model() -> Ablation[Compared]:
     """The same, with (A, C) as well: the outputs alone do not tell them."""
     words = "an equivalent system is (A, Fhat P, C, Ghat P), after some change of its state"
     # The theorem is about the second system in the coordinates where it has the (A, C) of the first.
     return _of_equivalent("same-model", words, _same_model, Proof(("theorem_3_part_i",), frozenset({SIMILAR})))
 
 
-def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool], proof: Proof) -> Experiment[Compared]:
-    return Experiment(
+def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool], proof: Proof) -> Ablation[Compared]:
+    return Ablation(
         name=name,
         claim="theorem-3-i",
         conclusion=words,
@@ -163,19 +163,19 @@ def _agreeing(bench: Workbench) -> Iterator[Compared]:
 
 def _equivalent(bench: Workbench) -> Iterator[Compared]:
     """Pairs with equal behaviours and as many states: other fault matrices for the same (A, C), and other (A, C)."""
-    for rival in bench.rivals:
-        if rival.equal:
-            yield Compared(rival.system, rival.rival, None, True, rival.weight, rival.accepted)
+    for alternative in bench.alternatives:
+        if alternative.equal:
+            yield Compared(alternative.system, alternative.alternative, None, True, alternative.weight, alternative.accepted)
     for pair in (*bench.pairs, *_made(bench)):
         if pair.first_difference is None and pair.first.n == pair.second.n:
             yield Compared(pair.first, pair.second, None, True, pair.weight, pair.accepted)
 
 
-def _made(bench: Workbench) -> list[PairDossier]:
+def _made(bench: Workbench) -> list[PairEvidence]:
     """Equivalent pairs whose (A, C) are not the same, and aimed systems with other fault columns of Z for the same (A, C), certified."""
     others, aimed = (800, 100) if bench.full else (120, 25)
 
-    def made() -> list[PairDossier]:
+    def made() -> list[PairEvidence]:
         pairs = chain(equivalent_pairs(others), ((system, other_columns(system)) for system in aimed_systems(aimed)))
         return [examine_pair("made on purpose", *two) for two in pairs]
 

@@ -17,7 +17,7 @@ from flint import fmpq, fmpq_poly, fmpz
 
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, beside, rank, row_profile, solve_left, stacked
-from ...exact.algebra.stability import characteristic_polynomial
+from ...exact.algebra.stability import rational_characteristic_polynomial
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.lyapunov import solve, stein
 from ...exact.limits.moesp import PopulationLimits
@@ -170,7 +170,7 @@ def _diagonal(entries: list[Any]) -> Matrix:
 
 
 def _ascending(A: Matrix) -> list[Any]:
-    return [fmpq(c.numerator, c.denominator) for c in characteristic_polynomial(A)]
+    return [fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)]
 
 
 def _rank_certificate(

@@ -3,7 +3,7 @@
     Claim       id, reference in the review, statement as printed, readings, expected verdict
     Reading     one precise statement; `repair` marks those that are ours and not the paper's; `check` names the function in claims/
     load        the claims of the ledger, in its order
-    expected_without   for each experiment of `hypotheses`, the verdict expected when one of its hypotheses is dropped
+    expected_without   for each ablation of `hypotheses`, the verdict expected when one of its hypotheses is dropped
 
 The verdict itself is never in the ledger: it is computed by each run and compared with the expected one.
 """
@@ -20,8 +20,9 @@ from typing import Any
 class Reading:
     """One way to read a claim, precise enough to be decided.
 
-    `theorems` of theory/Headlines.v say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
-    proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any.
+    `theorems` of theory/headlines say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
+    proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any. `check` is
+    the function in claims/ that decides it, as "file.function".
     """
 
     id: str
@@ -32,6 +33,7 @@ class Reading:
     theorems: tuple[str, ...] = ()
     missing: str = ""
     part: str = ""
+    check: str = ""
 
     @property
     def proved(self) -> str:
@@ -41,7 +43,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim of the paper or of its review. `module` is its file in claims/: the id with underscores.
+    """A claim of the paper or of its review.
 
     The readings of a claim are alternatives, or those of each `part` are; where it is made `in_parts`, each that is not ours is a part of
     its own. Of every part one must hold.
@@ -55,11 +57,6 @@ class Claim:
     in_parts: bool
     readings: tuple[Reading, ...]
 
-    @property
-    def module(self) -> str:
-        """The module in `claims` that checks it."""
-        return self.id.replace("-", "_").replace("(", "").replace(")", "")
-
 
 def load() -> tuple[Claim, ...]:
     """All claims of the ledger, in its order."""
@@ -67,7 +64,7 @@ def load() -> tuple[Claim, ...]:
 
 
 def expected_without() -> dict[str, dict[str, str]]:
-    """{experiment: {hypothesis: verdict on the claim without it}}: REFUTED where it is needed."""
+    """{ablation: {hypothesis: verdict on the claim without it}}: REFUTED where it is needed."""
     return {name: {str(key): str(value) for key, value in entry.items()} for name, entry in _contents()["without"].items()}
 
 
@@ -96,6 +93,7 @@ def _claim(name: str, entry: dict[str, object]) -> Claim:
                 theorems=tuple(value.get("theorems", ())),
                 missing=str(value.get("missing", "")),
                 part=str(value.get("part", "")),
+                check=str(value.get("check", f"{name}.{key}".replace("-", "_"))),
             )
             for key, value in readings.items()
         ),

@@ -165,7 +165,7 @@ class Row:
     expected, unless it is told why there is none.
     """
 
-    experiment: str
+    ablation: str
     claim: str
     conclusion: str
     dropped: tuple[str, ...]
@@ -211,7 +211,7 @@ class Row:
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
         return {
-            "experiment": self.experiment,
+            "experiment": self.ablation,
             "claim": self.claim,
             "conclusion": self.conclusion,
             "dropped": list(self.dropped),
@@ -266,7 +266,7 @@ class Report(Shown):
         """Every headline certificate once, in the order of the claims."""
         readings = (reading.outcome.certificates for claim in self.claims for reading in claim.readings)
         rows = (row.certificates for row in self.hypotheses)
-        return list({sha256(certificate): certificate for shown in (*readings, *rows) for certificate in shown}.values())
+        return list({sha256(certificate): certificate for several in (*readings, *rows) for certificate in several}.values())
 
     def to_json(self) -> dict[str, Any]:
         """The object that `verify --json` prints."""

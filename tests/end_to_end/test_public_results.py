@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from fractions import Fraction
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -51,6 +52,28 @@ def test_the_summary_of_a_comparison_is_what_compare_prints(names: tuple[str, st
     assert call("compare", *(f"example:{name}" for name in names), "--word", "--json").json == found.to_json()
 
 
+class Counts:
+    """An implementation that always counts two faults."""
+
+    def fault_dimension(self, r: object) -> int:
+        return 2
+
+
+def test_the_summary_of_an_audit_has_the_numbers_and_the_failures_that_the_command_prints(tmp_path: Path) -> None:
+    only = ["fault-dimension[one-fault]", "fault-dimension[two-faults]"]
+    mine = tmp_path / "mine.py"
+    mine.write_text("def fault_dimension(r):\n    return 2\n", "utf-8")
+    printed = call("audit", str(mine), *(part for name in only for part in ("--check", name))).out.splitlines()
+    found = fs.audit(str(mine), only=only)
+    title, counts, failure = found.summary().splitlines()
+    assert title == printed[-1] == "2 checks of fault_dimension: 1 failed"
+    assert counts.split() == ["fault_dimension", "1", "of", "2", "passed,", "1", "failed,", "0", "free,", "largest", "ratio", "inf"]
+    assert printed[1].split() == ["!", "fault_dimension", "2", "1", "1", "0", "inf"]
+    assert failure.split() == ["failed", *printed[2].removeprefix("! ").split()] and str(mine) in failure
+    assert [one.failed for one in found] == [True, False] and found.failed == (found[0],) == found[:1] and len(found) == 2
+    assert [one.verdict for one in fs.audit(Counts(), only=only)] == [one.verdict for one in found]
+
+
 def results() -> dict[str, Shown]:
     """One of each result."""
     system = fs.System(**FAULT)
@@ -60,10 +83,11 @@ def results() -> dict[str, Shown]:
         "PopulationLimits": fs.limit(example("fault-leads-input")),
         "Checked": fs.check(fs.certify(system, "window-ranks")),
         "Report": Report("quick", (), (), "", 0.0),
+        "Audit": fs.audit(Counts(), only=["fault-dimension[one-fault]", "fault-dimension[two-faults]", "fault-dimension[delayed]"]),
     }
 
 
-@pytest.mark.parametrize("name", ["Structure", "Comparison", "PopulationLimits", "Checked", "Report"])
+@pytest.mark.parametrize("name", ["Structure", "Comparison", "PopulationLimits", "Checked", "Report", "Audit"])
 def test_a_result_shows_itself(name: str) -> None:
     result = results()[name]
     assert repr(result) == f"<{name}: {result.title}>" and len(repr(result)) < 140

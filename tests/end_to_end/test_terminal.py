@@ -20,7 +20,8 @@ from rich.table import Table
 from rich.text import Text
 
 from faultspace.cli import consoles, failures, progress
-from tests.end_to_end.commands import ROOT, environment
+from faultspace.cli.command_line import main
+from tests.end_to_end.commands import ROOT, call, environment
 
 
 class Terminal(io.StringIO):
@@ -111,6 +112,45 @@ def test_no_cell_is_cut_at_any_width(width: int) -> None:
         assert all(cell in together for row in cells for cell in row) and "…" not in together
         assert "avalue" in together and "another" in together
         assert not isinstance(stream, Terminal) or max(map(len, lines)) <= width
+
+
+WORDS = {
+    "inspect": ["inspect", "example:paper", "example:theorem-3"],
+    "compare": ["compare", "example:theorem-1-first", "example:theorem-1-second", "--word"],
+    "limit": ["limit", "example:fault-follows-input"],
+    "examples": ["examples"],
+    "a complaint": ["verify", "--claim", "theorem-99"],
+    "help": ["--help"],
+}
+
+
+@pytest.mark.parametrize("width", [60, 80, 120])
+@pytest.mark.parametrize("name", list(WORDS))
+def test_lines_are_broken_between_words(monkeypatch: pytest.MonkeyPatch, name: str, width: int) -> None:
+    piped = call(*WORDS[name])
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setattr(progress, "PATIENCE", 3600.0)
+    out, err = Terminal(), Terminal()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        assert main(WORDS[name]) == piped.code
+    for stream, plain in ((out, piped.out), (err, piped.err)):
+        shown = re.sub(r"\x1b\[[0-9;?]*m", "", stream.getvalue())
+        assert shown.split() == plain.split(), "a word is broken"
+        assert max(map(len, shown.splitlines()), default=0) <= width
+        assert not any(line.endswith(" ") for line in shown.splitlines() if line not in plain.splitlines())
+
+
+def test_the_lines_below_begin_below_the_first_where_there_is_room() -> None:
+    def shown(width: int, label: str, text: str) -> list[str]:
+        stream = Terminal()
+        consoles.paragraph(Console(width=width, file=stream, markup=False, color_system=None), text, label)
+        return stream.getvalue().splitlines()
+
+    assert shown(20, "  name: ", "one two three four") == ["  name: one two", "        three four"]
+    assert shown(16, "  a long name: ", "one two") == ["  a long name:", "      one two"]
+    assert shown(10, "", "- one two three") == ["- one two", "  three"]
+    assert shown(8, "", "0123456789 ab") == ["01234567", "89 ab"]
 
 
 def test_no_color_is_respected_on_a_terminal() -> None:

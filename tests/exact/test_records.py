@@ -6,9 +6,10 @@ RECORDS     name -> a function from a system to a result
 
 from __future__ import annotations
 
+import copy
 import pickle
 from collections.abc import Callable
-from dataclasses import FrozenInstanceError, fields
+from dataclasses import FrozenInstanceError, fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -18,6 +19,7 @@ import sympy
 from hypothesis import given, settings
 from sympy.polys.matrices import DomainMatrix
 
+from faultspace.base.errors import InvalidInput
 from faultspace.exact.algebra.fields import QQ, AlgebraicNumber, Field, NumberField, PrimeField, field_from_json
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.behavior import compare
@@ -29,7 +31,7 @@ from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.structure.zero_output import zero_output_chain
 from faultspace.exact.system.modular import image
-from faultspace.exact.system.systems import FaultySystem, ResidualSystem, from_float_exactly, read_system
+from faultspace.exact.system.systems import FaultySystem, ResidualSystem, System, from_float_exactly, read_system
 from tests.exact import checks
 from tests.oracle.families import CUBIC, FIELDS, SQRT2
 from tests.oracle.strategies import systems
@@ -87,7 +89,7 @@ FIELD_OBJECTS: dict[str, Field] = {name: field_from_json(f) for name, f in FIELD
 
 
 def example(field: Field) -> ResidualSystem:
-    """One fault, two outputs, three states, entries 0, 1 and 2."""
+    """The system has one fault, two outputs, three states and the entries 0, 1 and 2."""
     return ResidualSystem.of([[0, 1, 0], [0, 0, 1], [2, 1, 1]], [[1], [0], [1]], [[1, 0, 0], [0, 1, 0]], [[0], [0]], field=field)
 
 
@@ -107,13 +109,31 @@ def test_records_are_values(name: str, over: str) -> None:
     assert record is not None
     again = make(example(FIELD_OBJECTS[over]))
     assert again == record and hash(again) == hash(record)
-    copy = pickle.loads(pickle.dumps(record))
-    assert copy == record and hash(copy) == hash(record) and type(copy) is type(record)
+    loaded = pickle.loads(pickle.dumps(record))
+    assert loaded == record and hash(loaded) == hash(record) and type(loaded) is type(record)
     for place in fields(record):
         with pytest.raises(FrozenInstanceError):
             setattr(record, place.name, None)
     with pytest.raises((FrozenInstanceError, TypeError)):
         record.something_new = 1
+
+
+def test_both_kinds_are_systems_and_nothing_else_is() -> None:
+    """What `System` makes is an instance of it and equal to what the class of its kind makes; neither kind is the other."""
+    rows = SAME["strings"]
+    inputs: Json = {"B": [["1"], ["0"]], "D": [["2"]]}
+    without, faulty = System(*rows), System(*rows, **inputs)
+    assert (type(without), type(faulty)) == (ResidualSystem, FaultySystem)
+    assert without == ONE_WAY == without.residual == faulty.residual
+    assert faulty == FaultySystem(ONE_WAY, Matrix.of([[1], [0]]), Matrix.of([[2]])) == read_system({**ONE_WAY.to_json(), **inputs})
+    assert all(isinstance(one, System) for one in (without, faulty, ONE_WAY)) and not isinstance(ONE_WAY.A, System)
+    for one in (without, faulty):
+        assert (one.n, one.m, one.p, one.field) == (2, 1, 1, QQ)
+        assert replace(one) == copy.deepcopy(one) == one
+    moved = replace(without, G=Matrix.of([[5]]))
+    assert Matrix.of([[5]]) == moved.G and moved.A == ONE_WAY.A
+    with pytest.raises(InvalidInput, match="G: got shape"):
+        replace(without, G=Matrix.zero(QQ, 2, 2))
 
 
 @pytest.mark.parametrize("over", list(FIELD_OBJECTS))
@@ -193,7 +213,7 @@ def test_domain_matrices_over_other_domains() -> None:
 
 
 def test_the_example_of_the_paper_through_sympy() -> None:
-    """The cubic field of the example, its F given as a DomainMatrix over QQ<a>."""
+    """The example has a cubic field, and its F is given as a DomainMatrix over QQ<a>."""
     x = sympy.Symbol("x")
     field = field_from_json(CUBIC)
     domain = sympy.QQ.algebraic_field(sympy.CRootOf(4 * x**3 - x**2 - 3 * x + 1, 0))

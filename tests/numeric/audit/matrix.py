@@ -13,8 +13,9 @@ from pathlib import Path
 from rich.progress import track
 
 from faultspace.numeric.audit.adapter import FUNCTIONS, offered
+from faultspace.numeric.audit.catalogue import all_checks
 from faultspace.numeric.audit.records import Kind
-from faultspace.numeric.audit.running import all_checks, audit
+from faultspace.numeric.audit.running import audit
 from tests.numeric.audit.mutants import MUTANTS, Mutant
 
 Counts = Mapping[tuple[str, str], tuple[int, int]]

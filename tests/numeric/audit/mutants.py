@@ -16,7 +16,7 @@ from unittest.mock import patch
 import numpy as np
 
 from faultspace.numeric.audit import reference
-from faultspace.numeric.audit.adapter import Structure
+from faultspace.numeric.audit.adapter import ZeroStructure
 from faultspace.numeric.count.windows import hankel_factor
 from faultspace.numeric.model import compression, input_matrices, toeplitz_factorisation
 from faultspace.numeric.model.compression import Blocks, Compression
@@ -340,17 +340,17 @@ def _signal_limited(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
 # -- structure ---------------------------------------------------------------------------------------------------------------------
 
 
-def _finite_only(A: Any, F: Any, C: Any, G: Any) -> Structure:
+def _finite_only(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     found = reference.structure(A, F, C, G)
     return replace(found, infinite_zero_orders=[0] * found.normal_rank)
 
 
-def _inside_only(A: Any, F: Any, C: Any, G: Any) -> Structure:
+def _inside_only(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     found = reference.structure(A, F, C, G)
     return replace(found, finite_zeros=[z for z in found.finite_zeros if abs(z) < 1])
 
 
-def _columns_counted(A: Any, F: Any, C: Any, G: Any) -> Structure:
+def _columns_counted(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     found = reference.structure(A, F, C, G)
     return replace(found, normal_rank=min(F.shape[1], len(C)), left_invertible=F.shape[1] <= len(C))
 

@@ -7,9 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from faultspace.numeric.audit.adapter import Structure
+from faultspace.numeric.audit.adapter import ZeroStructure
+from faultspace.numeric.audit.catalogue import all_checks
 from faultspace.numeric.audit.records import Kind
-from faultspace.numeric.audit.running import all_checks, audit
+from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.vectors import shipped
 from tests.numeric.audit.mutants import MUTANTS, Mutant
 
@@ -67,7 +68,7 @@ def _answers_everything() -> SimpleNamespace:
         fault_dimension=lambda r: 1,
         fault_space=lambda r, A, C, n_v, block_rows: np.eye(len(A) + len(C))[:, :n_v],
         reconstruct=lambda r, A, F, C, G, x0: np.zeros((len(r), F.shape[1])),
-        structure=lambda A, F, C, G: Structure(1, [], [0], True),
+        structure=lambda A, F, C, G: ZeroStructure(1, [], [0], True),
     )
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.audit.programs import Limits
+from faultspace.base.processes import Limits
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subprocess_adapter import Exec
 

@@ -1,0 +1,1 @@
+"""What no unbiased estimate can do better: Cramer-Rao bounds for the model."""

@@ -1,0 +1,148 @@
+"""All that an ARX model, an input spectrum and PI-MOESP need of a record of any length: one triangular factor of its windows.
+
+A window of lags + 1 samples that ends at k is the row [u(k), y(k-1), u(k-1), ..., y(k-lags), u(k-lags), y(k)]. With R upper triangular and
+R.T @ R = the sum of row.T @ row over all windows, the squared residuals of the ARX model of EVERY order h <= lags stand in R: those of y(k)
+on the first n_u + h (p + n_u) columns are what R has in its last p columns from row n_u + h (p + n_u) on. So the length of the record
+enters once. Factors of pieces, and of several experiments, add up: the factor of stacked factors is that of all windows.
+
+ArxWindows          the factor with its dimensions
+arx_windows         of one experiment, given in consecutive pieces
+merge_windows       of several experiments
+longest_lag         how many lags experiments of given lengths carry
+past_input_compression   the factor of [Uf; Up; Yf] that PI-MOESP asks for, out of the windows
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from .compression import EPS, Compression, scaled_condition, window_rows
+from .sequential_qr import SequentialQR, triangular
+
+RATE = 1.6
+"""Lags over the cube root of the samples. The bias of a truncated autoregression falls as fast as any power of 1/lags, and its variance is
+normal as long as lags^3 / N stays bounded [LR85]; the factor is calibrated by `python benchmarks/at_the_bound.py --calibrate lags`, which
+compares errors at 0.8, 1.6 and 3.2 on fresh seeds."""
+SHARE = 4
+"""At least that many windows for every regressor of an equation: the covariance of the innovations then has three degrees of freedom of
+four left, and its inverse is wrong by a factor of about 4/3 at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class ArxWindows:
+    """`factor` (k, k), k = (lags + 1) (p + n_u), of `rows` windows of `lags` + 1 samples; `samples` counts those of all experiments."""
+
+    factor: Array
+    lags: int
+    p: int
+    n_u: int
+    rows: int
+    samples: int
+
+    def regressors(self, order: int) -> int:
+        """Columns that an ARX model of this order regresses on."""
+        return self.n_u + order * (self.p + self.n_u)
+
+    @cached_property
+    def scales(self) -> tuple[Array, Array]:
+        """Root mean squares (p,), (n_u,) of outputs and inputs at the windows' ends; 1 for a channel that is zero."""
+        sizes = np.linalg.norm(self.factor, axis=0) / np.sqrt(max(self.rows, 1))
+        sizes = np.where(sizes > 0, sizes, 1.0)
+        return sizes[-self.p :], sizes[: self.n_u]
+
+    @cached_property
+    def scaled(self) -> Array:
+        """The factor of the record in channels of root mean square one."""
+        y, u = self.scales
+        result: Array = self.factor / np.concatenate([u, np.tile(np.concatenate([y, u]), self.lags), y])
+        return result
+
+    @property
+    def growth(self) -> float:
+        """Logarithm of the growth of the outputs over the record, were it that between the first and the last sample of a window: of order
+        one where they do not grow, whatever their colour."""
+        if self.lags == 0:
+            return 0.0
+        last, first = (np.linalg.norm(self.factor[:, self.outputs(lag)]) for lag in (0, self.lags))
+        return float(np.log(last / first) * self.rows / self.lags) if last > 0 and first > 0 else 0.0
+
+    def inputs(self, lag: int) -> NDArray[np.intp]:
+        """Columns of u(k - lag)."""
+        first = 0 if lag == 0 else self.n_u + (lag - 1) * (self.p + self.n_u) + self.p
+        return np.arange(first, first + self.n_u)
+
+    def outputs(self, lag: int) -> NDArray[np.intp]:
+        """Columns of y(k - lag)."""
+        first = len(self.factor) - self.p if lag == 0 else self.n_u + (lag - 1) * (self.p + self.n_u)
+        return np.arange(first, first + self.p)
+
+
+def longest_lag(lengths: Sequence[int], p: int, n_u: int) -> int:
+    """RATE times the cube root of all samples of experiments of these lengths, or what leaves SHARE windows a regressor; -1 where not even
+    u(k) alone does.
+    """
+    lags = int(RATE * np.cbrt(sum(lengths)))
+    while lags >= 0 and sum(max(length - lags, 0) for length in lengths) < SHARE * (n_u + lags * (p + n_u)):
+        lags -= 1
+    return lags
+
+
+def arx_windows(data: Iterable[tuple[Array, Array]], lags: int) -> ArxWindows:
+    """The windows of one experiment whose consecutive pieces (y, u) are float64. InvalidData for no pieces or unequal channels."""
+    running: SequentialQR | None = None
+    p = n_u = samples = 0
+    for y, u in data:
+        if running is None:
+            p, n_u = y.shape[1], u.shape[1]
+            running = SequentialQR(_rows(p, n_u, lags), n_u + p)
+        elif (y.shape[1], u.shape[1]) != (p, n_u):
+            raise InvalidData(
+                f"a piece has {u.shape[1]} inputs and {y.shape[1]} outputs where the first has {n_u} and {p}: all need the same"
+            )
+        running.append(np.concatenate([u, y], axis=1))
+        samples += len(y)
+    if running is None:
+        raise InvalidData("no data: the iterable of pieces (y, u) is empty")
+    return ArxWindows(running.factor(), lags, p, n_u, running.columns, samples)
+
+
+def merge_windows(parts: Sequence[ArxWindows]) -> ArxWindows:
+    """The windows of all parts together. InvalidData without parts or where lags or channels differ."""
+    if not parts:
+        raise InvalidData("nothing to merge: give the windows of at least one experiment")
+    first = parts[0]
+    for other in parts:
+        for name in ("lags", "p", "n_u"):
+            if getattr(other, name) != getattr(first, name):
+                raise InvalidData(f"windows with {name} = {getattr(first, name)} and {getattr(other, name)} cannot be merged")
+    if len(parts) == 1:
+        return first
+    factor = triangular(*(part.factor for part in parts))
+    return ArxWindows(factor, first.lags, first.p, first.n_u, sum(part.rows for part in parts), sum(part.samples for part in parts))
+
+
+def past_input_compression(windows: ArxWindows, block_rows: int, past_rows: int) -> Compression:
+    """The factor of [Uf; Up; Yf] over the same windows, in channels of unit size; block_rows + past_rows <= lags + 1."""
+    span = past_rows + block_rows
+    chosen = [
+        (windows.inputs if channel < windows.n_u else windows.outputs)(span - 1 - lag)[channel - (channel >= windows.n_u) * windows.n_u]
+        for lag, channel in window_rows(windows.n_u, windows.p, past_rows, block_rows)
+    ]
+    factor = triangular(windows.scaled[:, chosen])
+    inputs = span * windows.n_u
+    condition = scaled_condition(factor[:inputs, :inputs])
+    return Compression(block_rows, past_rows, windows.p, windows.n_u, windows.samples, windows.rows, factor, "qr", condition, EPS)
+
+
+def _rows(p: int, n_u: int, lags: int) -> NDArray[np.intp]:
+    """(lag, channel) of the joint signal [u, y] for each column, lags counted from the window's first sample."""
+    inputs, outputs = range(n_u), range(n_u, n_u + p)
+    past = [(lags - back, channel) for back in range(1, lags + 1) for part in (outputs, inputs) for channel in part]
+    return np.array([(lags, c) for c in inputs] + past + [(lags, c) for c in outputs], dtype=np.intp)

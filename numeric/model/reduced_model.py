@@ -1,0 +1,152 @@
+"""The weighted reduction of an ARX model to order n, from the windows of the data alone, with its uncertainty.
+
+Uncertainty. Were the weight W the true one, the information of T would be the matrix of the normal equations. W = A* S^-1 A is estimated,
+and too large on average: by 1 + p h / f, since the errors of A at one angle have the covariance (h / f) S x Phi^-1 [B74], and S^-1 by
+f / (f - p - 1), the mean of an inverse Wishart matrix with f degrees of freedom. The same errors of the weight make the estimate vary more,
+by the same share to first order [KR97]. So the information is divided by both twice.
+
+ReducedModel        the result
+reduced             the model of order n from windows
+reduction_problem   the ARX model and what is minimised, at given angles
+enough_angles       how many angles the sums over them need
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from .arx import Arx, adjoint, fitted_arx, input_spectrum
+from .arx_windows import ArxWindows
+from .compression import EPS
+from .invariants import state_space
+from .models import StateSpaceModel
+from .order_evidence import OrderEvidence
+from .reduction_starts import starts
+from .uncertainty import Uncertainty, uncertainty_of
+from .weighted_reduction import Reduction, circle, descend, ladder, spectral_radius
+
+COARSE, FINE = 64, 4096  # least and most angles
+SAME_SUM = 1e-2  # relative change of the sums that twice the angles may make
+KEPT = 2  # starts that are followed to the end
+FIRST, MIDDLE, LAST = (25, 1e-4), (15, 1e-3), (40, 1e-6)  # most steps, and gain of a step below which a rung is left
+DISTINCT = 1e-2  # relative difference of costs from which two starts are thought to lie in different valleys
+UNBELIEVABLE = 1e-6  # probability of a misfit that is not put down to chance
+AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called unstable where data or misfit say so too
+
+
+@dataclass(frozen=True, eq=False)
+class ReducedModel:
+    """The model with what it rests on, in the units of the data.
+
+    model: A (n, n), B (n, n_u), C (p, n), D (p, n_u). innovation_covariance (p, p): of the ARX model's one-step errors. uncertainty:
+    standard deviations of Markov parameters, transfer function and poles. arx: the ARX model; its `disturbance(angles)` is the spectrum (M,
+    p, p) of faults and noise together. cost: the weighted sum of squares that the reduction left, the likelihood ratio of the ARX plant
+    against this one. initial_states: one (n,) an experiment, by least squares; none where the data are not there any more. orders: the
+    evidence where the order was left open. notes: what a user must know.
+    """
+
+    model: StateSpaceModel
+    innovation_covariance: Array
+    uncertainty: Uncertainty
+    arx: Arx
+    cost: float
+    initial_states: tuple[Array, ...] = ()
+    orders: OrderEvidence | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def order(self) -> int:
+        """n."""
+        return self.model.n
+
+    @property
+    def x0(self) -> Array | None:
+        """State (n,) at the first sample of the first experiment."""
+        return self.initial_states[0] if self.initial_states else None
+
+
+def reduced(windows: ArxWindows, n: int) -> ReducedModel:
+    """The model of order n >= 0 from the windows alone; no initial states. InvalidData as `arx_reduction`."""
+    return reduced_from(windows, fitted_arx(windows, -(-n // windows.p)), n)
+
+
+def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
+    """The same with the ARX model (in channels of unit size) made beforehand."""
+    problem = reduction_problem(windows, arx, circle(enough_angles(windows, arx)))
+    matrix, cost = _minimum(windows, arx, problem, n)
+    y, u = windows.scales
+    rows, columns = np.concatenate([np.ones(n), y]), np.concatenate([np.ones(n), 1 / u])
+    p, freedom = windows.p, arx.freedom
+    too_large = (1 + p * arx.order / freedom) * freedom / max(freedom - p - 1, 1)
+    scaled = uncertainty_of(state_space(matrix, n), problem.information(matrix, n) / too_large**2)
+    model = state_space(matrix * rows[:, None] * columns, n)
+    uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
+    inner = arx.scaled(y, u)
+    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, notes=_notes(model, inner, windows, cost))
+
+
+def reduction_problem(windows: ArxWindows, arx: Arx, angles: Array) -> Reduction:
+    """What is minimised: the ARX plant under its own weight and the input's spectrum, at these angles."""
+    return Reduction(angles, arx.plant(angles), arx.weight(angles), input_spectrum(windows, angles), windows.rows)
+
+
+def enough_angles(windows: ArxWindows, arx: Arx) -> int:
+    """As many as make the power of the plant's response, plain and weighted, the same as twice as many do."""
+    count, before = COARSE, np.zeros(2)
+    while True:
+        problem = reduction_problem(windows, arx, circle(count))
+        output = problem.plant @ problem.spectrum @ adjoint(problem.plant)
+        sums = np.array([np.mean(np.trace(part, axis1=1, axis2=2).real) for part in (output, problem.weight @ output)])
+        if np.all(np.abs(sums - before) <= SAME_SUM * sums):
+            return count // 2
+        if count >= FINE:
+            return count
+        count, before = 2 * count, sums
+
+
+def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple[Array, float]:
+    """T of the least cost found, and that cost. The ladder is climbed on few angles, its last rung is the problem itself."""
+    coarse = problem if len(problem.angles) == COARSE else reduction_problem(windows, arx, circle(COARSE))
+    rungs = list(ladder(coarse, arx.disturbance(coarse.angles)))
+    first = [descend(rungs[0], start, n, *FIRST) for start in starts(windows, arx, rungs[0], n)]
+    if not first:
+        raise InvalidData(f"no start for order {n}: the data show no dynamics that a model of this order could be begun from")
+    distinct: list[tuple[Array, float]] = []
+    for matrix, cost in sorted(first, key=lambda found: found[1]):
+        if all(cost - other > DISTINCT * cost for _, other in distinct):
+            distinct.append((matrix, cost))
+    finished = []
+    for matrix, _ in distinct[:KEPT]:
+        for rung in rungs[1:-1]:
+            matrix, _ = descend(rung, matrix, n, *MIDDLE)
+        finished.append(descend(problem, matrix, n, *LAST))
+    return min(finished, key=lambda found: found[1])
+
+
+def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -> tuple[str, ...]:
+    """What the cost and the poles tell. InvalidData for a plant that seems to be unstable.
+
+    At the true plant the cost is part of the likelihood ratio of all ARX parameters, chi-squared with as many degrees of freedom; at its
+    minimum it is less. Roots of A(q) outside the unit circle alone tell little: of many roots some lie there by chance. They count where
+    the outputs grow or the misfit is large.
+    """
+    parameters = windows.p * windows.regressors(arx.order)
+    radius, misfit = spectral_radius(model.A), float(chi2.sf(cost, parameters)) < UNBELIEVABLE
+    on_circle, most = radius > 1 - EPS**0.25, np.log(AMPLIFICATION)
+    growing = np.log(max(arx.radius(), 1e-300)) * arx.rows > most
+    if (misfit and (on_circle or growing)) or (growing and windows.growth > most):
+        raise InvalidData(
+            f"no stable model of order {model.n} explains the data: its poles reach modulus {radius:.6g}, those of the ARX model "
+            f"{arx.radius():.6g}, and the misfit is {cost:.4g} where {parameters} is usual; the plant may be unstable (pi_moesp takes "
+            "such), or the order too low"
+        )
+    if misfit:
+        return (f"order {model.n} leaves a misfit of {cost:.4g} where at most about {parameters} is usual: the order may be too low",)
+    if on_circle:
+        return (f"a pole has modulus {radius:.6g}: the plant may be unstable, or integrate, which is not fitted here",)
+    return ()

@@ -1,0 +1,90 @@
+"""Where a weighted reduction starts: A and C by subspaces, from the data's windows and from an ARX model's Markov parameters.
+
+    PI-MOESP [V93] on windows of the ARX factor: all of them, and half as long
+    realisation [HK66, K78] of the ARX plant, plain, and under the weight of the noise model's Toeplitz matrix
+
+No single one is near the minimum in all data: PI-MOESP suffers from few instruments or an unlucky colour of the input, the realisation from
+the noise of high lags. B and D follow linearly.
+
+starts          system matrices T with a stable A, one a method that gives one
+hankel_factors  the realisation's singular vectors and values
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from .arx import Arx
+from .arx_windows import ArxWindows, past_input_compression
+from .past_inputs import pi_moesp_from_compression
+from .weighted_reduction import Reduction
+
+MARGIN = 1e-3  # distance from the unit circle at which a reflected pole is left
+
+
+def starts(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> Iterator[Array]:
+    """System matrices (n + p, n + n_u) in the units of the ARX model; for n = 0 the one with the best D."""
+    p, n_u = windows.p, windows.n_u
+    if n == 0:
+        yield problem.input_matrices(np.zeros((0, 0)), np.zeros((p, 0)))
+        return
+    least = max(-(-n // p) + 1, -(-n // n_u))
+    half = (windows.lags + 1) // 2
+    pairs = [_by_past_inputs(windows, n, rows) for rows in (half, half // 2) if rows >= least]
+    for rows in (max(half, least), max(windows.lags, least)):
+        pairs += [_realised(arx, n, rows, weighted) for weighted in (False, True)]
+    for pair in pairs:
+        if pair is not None and np.all(np.isfinite(pair[0])) and np.all(np.isfinite(pair[1])):
+            yield problem.input_matrices(_reflected(pair[0]), pair[1])
+
+
+def _by_past_inputs(windows: ArxWindows, n: int, rows: int) -> tuple[Array, Array] | None:
+    try:
+        model = pi_moesp_from_compression(past_input_compression(windows, rows, rows), order=n).model
+    except InvalidData:
+        return None
+    return model.A, model.C
+
+
+def hankel_factors(arx: Arx, rows: int, weighted: bool) -> tuple[Array, Array, Array]:
+    """The weight V and U, S of the singular values V^-1 H = U S .., H the block Hankel matrix (rows p, rows n_u) of the ARX plant's Markov
+    parameters, V the Toeplitz matrix of the noise model, or I."""
+    plant, noise = arx.markov(2 * rows)
+    p, n_u = plant.shape[1:]
+    numbers = np.arange(rows)
+    hankel = plant[1 + np.add.outer(numbers, numbers)].transpose(0, 2, 1, 3).reshape(rows * p, rows * n_u)
+    colour = np.eye(rows * p)
+    if weighted:
+        lags = np.subtract.outer(numbers, numbers)
+        blocks = np.where((lags >= 0)[:, :, None, None], noise[np.maximum(lags, 0)], 0.0)
+        colour = blocks.transpose(0, 2, 1, 3).reshape(rows * p, rows * p)
+    left, values, _ = np.linalg.svd(np.linalg.solve(colour, hankel), full_matrices=False)
+    return colour, left, values
+
+
+def _realised(arx: Arx, n: int, rows: int, weighted: bool) -> tuple[Array, Array] | None:
+    try:
+        colour, left, values = hankel_factors(arx, rows, weighted)
+    except np.linalg.LinAlgError:
+        return None
+    p = len(arx.covariance)
+    observability = colour @ (left[:, :n] * np.sqrt(values[:n]))
+    A = np.asarray(np.linalg.lstsq(observability[:-p], observability[p:], rcond=None)[0], dtype=np.float64)
+    return A, observability[:p]
+
+
+def _reflected(A: Array) -> Array:
+    """A with the poles outside the unit circle moved inside it, which leaves the modulus of each factor of the transfer function."""
+    values, vectors = np.linalg.eig(A)
+    sizes = np.abs(values)
+    if np.all(sizes < 1):
+        return A
+    moved = np.where(sizes >= 1, values / sizes * np.minimum(1 / np.maximum(sizes, 1.0), 1 - MARGIN), values)
+    try:
+        return np.asarray((vectors * moved @ np.linalg.inv(vectors)).real, dtype=np.float64)
+    except np.linalg.LinAlgError:
+        return np.asarray(A / sizes.max() * (1 - MARGIN), dtype=np.float64)

@@ -1,0 +1,66 @@
+"""The uncertainty of a model as that of what does not depend on the state basis: Markov parameters, transfer function, poles.
+
+A Fisher information J of T = [[A, B], [C, D]] is singular along the gauge, and only there for a minimal, excited model. With Q across the
+gauge and Q' J Q = R R', the covariance of an invariant with Jacobian H (delta method, [VV07, ch. 4]) is H Q (R R')^-1 Q' H', whatever Q.
+
+Uncertainty        a model with its covariance off the gauge
+uncertainty_of     from an information matrix
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eigh
+
+from ...base.arrays import Array
+from .invariants import markov_jacobian, off_gauge, pole_jacobian, system_matrix, transfer_jacobian
+from .models import StateSpaceModel
+
+ComplexArray = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False)
+class Uncertainty:
+    """`root` (K, K - n^2) with root @ root.T the covariance of T's entries in row order, in the gauge orthogonal to changes of basis.
+
+    Standard deviations are in the units of what they belong to. Those of complex numbers are returned as complex numbers: the real part is
+    the deviation of the real part, the imaginary part that of the imaginary part.
+    """
+
+    model: StateSpaceModel
+    root: Array
+
+    def markov(self, count: int) -> Array:
+        """Standard deviations (count, p, n_u) of D, CB, CAB, .."""
+        spread = markov_jacobian(system_matrix(self.model), self.model.n, count) @ self.root
+        return np.asarray(np.linalg.norm(spread, axis=1).reshape(count, self.model.p, self.model.n_u))
+
+    def transfer(self, angles: Array) -> ComplexArray:
+        """Standard deviations (M, p, n_u) of G(exp(i angle)), angles in radians a sample."""
+        points = np.atleast_1d(np.asarray(angles, dtype=np.float64))
+        spread = transfer_jacobian(system_matrix(self.model), self.model.n, points) @ self.root
+        return _parts(spread).reshape(len(points), self.model.p, self.model.n_u)
+
+    def poles(self) -> ComplexArray:
+        """Standard deviations (n,) of the poles, to first order, which says little where they come near the distances between poles, in the
+        order of `model.poles`; a real pole has none across the real axis, a multiple one an infinite or huge one."""
+        with np.errstate(invalid="ignore"):
+            deviations = _parts(pole_jacobian(system_matrix(self.model), self.model.n)[1] @ self.root)
+        return np.where(np.isnan(deviations), np.inf, deviations)
+
+
+def _parts(spread: ComplexArray) -> ComplexArray:
+    return np.asarray(np.linalg.norm(spread.real, axis=1) + 1j * np.linalg.norm(spread.imag, axis=1))
+
+
+def uncertainty_of(model: StateSpaceModel, information: Array) -> Uncertainty:
+    """From the Fisher information (K, K) of T. A direction that is not determined gets the deviation that goes with rounding, which is
+    huge."""
+    across = off_gauge(system_matrix(model), model.n)
+    values, vectors = eigh(across.T @ information @ across)
+    rounding = np.finfo(np.float64)
+    level = max(len(values) * float(rounding.eps) * float(np.max(values, initial=0.0)), float(rounding.tiny))
+    return Uncertainty(model, across @ vectors / np.sqrt(np.maximum(values, level)))
