@@ -132,8 +132,8 @@ def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -
     """What the cost and the poles tell. InvalidData for a plant that seems to be unstable.
 
     At the true plant the cost is part of the likelihood ratio of all ARX parameters, chi-squared with as many degrees of freedom; at its
-    minimum it is less. Roots of A(q) outside the unit circle alone tell little: of many roots some lie there by chance. They count where the
-    outputs grow or the misfit is large.
+    minimum it is less. Roots of A(q) outside the unit circle alone tell little: of many roots some lie there by chance. They count where
+    the outputs grow or the misfit is large.
     """
     parameters = windows.p * windows.regressors(arx.order)
     radius, misfit = spectral_radius(model.A), float(chi2.sf(cost, parameters)) < UNBELIEVABLE

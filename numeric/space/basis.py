@@ -88,20 +88,21 @@ def refined_basis(
     rounds: int = ROUNDS,
     shares: Array | None = None,
 ) -> KernelBasis:
-    """The same from one start alone, k arrays (eta_i + 1, p): for moments, or shares, that differ little from those it was fitted to."""
+    """Find the same from one start alone, k arrays (eta_i + 1, p): for moments, or shares, that differ little from those it was fitted
+    to."""
     problem = _problem(moments, within, shares)
     return _likeliest(moments, problem, within, [_coefficients(within, start)], noise_order, rounds)
 
 
 def _coefficients(within: Sequence[Array], rows: Sequence[Array]) -> Array:
-    """h of rows (eta_i + 1, p)."""
+    """Return the h of rows (eta_i + 1, p)."""
     return np.concatenate([basis @ row.ravel() for basis, row in zip(within, rows, strict=True)])
 
 
 def _likeliest(
     moments: CrossMoments, problem: _Problem, within: Sequence[Array], guesses: list[Array], noise_order: int, rounds: int
 ) -> KernelBasis:
-    """The best descent of all guesses with a white colour, then colour and rows in turns."""
+    """Return the best descent of all guesses with a white colour, then colour and rows in turns."""
     colour = np.ones(len(moments.angles))
     fits = [_descend(problem, colour, _normed(problem, h)) for h in guesses]
     h, cost = min(fits, key=lambda fit: max(fit[1], _rounding(problem, colour, fit[0])))
