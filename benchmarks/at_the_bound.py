@@ -36,6 +36,7 @@ from faultspace.numeric.model.asymptotic_likelihood import arx_reduction
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.model.past_outputs import po_moesp
+from faultspace.numeric.model.uncertainty import Uncertainty
 
 Array = NDArray[np.float64]
 Method = Callable[[Trial], StateSpaceModel]
@@ -81,16 +82,19 @@ def changed(replacements: tuple[tuple[object, str, object], ...]) -> Iterator[No
         yield
 
 
+def error(method: Method, trial: Trial, bound: Uncertainty) -> float:
+    """Over the bound; infinite where there is no model."""
+    try:
+        return relative_error(method(trial), trial.model, bound)
+    except InvalidData:
+        return float("inf")
+
+
 def compared(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
     """All methods on one record."""
     trial = cell.trial(seed, number, samples)
     bound = cramer_rao(trial.model, trial.spectra, samples)
-    errors = {}
-    for name, method in METHODS.items():
-        try:
-            errors[name] = relative_error(method(trial), trial.model, bound)
-        except InvalidData:
-            errors[name] = float("inf")
+    errors = {name: error(method, trial, bound) for name, method in METHODS.items()}
     data = [(trial.y, trial.u)]
     windows = arx_windows.arx_windows(data, arx_windows.longest_lag([samples], trial.model.p, trial.model.n_u))
     started = time.process_time()
@@ -113,7 +117,7 @@ def calibrated(constant: str, cell: Cell, seed: int, number: int, samples: int) 
     errors = {}
     for label, replacements in VARIANTS[constant].items():
         with changed(replacements):
-            errors[label] = relative_error(arx_reduction(trial.y, trial.u, order=trial.model.n).model, trial.model, bound)
+            errors[label] = error(lambda trial: arx_reduction(trial.y, trial.u, order=trial.model.n).model, trial, bound)
     return Outcome(errors)
 
 

@@ -28,8 +28,8 @@ from .sequential_qr import SequentialQR, triangular
 
 RATE = 1.6
 """Lags over the cube root of the samples. The bias of a truncated autoregression falls as fast as any power of 1/lags, and its variance is
-normal as long as lags^3 / N stays bounded [LR85]; the factor is calibrated by `python benchmarks/at_the_bound.py --calibrate lags`, which
-compares errors at 0.8, 1.6 and 3.2 on fresh seeds."""
+normal as long as lags^3 / N stays bounded [LR85]; the factor is calibrated by `python benchmarks/at_the_bound.py --calibrate lags`: errors
+are the same from 1.2 to 3.2, and larger at 0.8 where the noise has a spectral null."""
 SHARE = 4
 """At least that many windows for every regressor of an equation: the covariance of the innovations then has three degrees of freedom of
 four left, and its inverse is wrong by a factor of about 4/3 at most."""

@@ -87,7 +87,7 @@ def pole_jacobian(matrix: Array, n: int) -> tuple[ComplexArray, ComplexArray]:
         jacobian[:, :n, :n] = np.einsum("ir,ci->irc", duals, vectors)
     except np.linalg.LinAlgError:
         jacobian[:, :n, :n] = np.inf
-    return values[order], jacobian[order].reshape(n, -1)
+    return values[order], jacobian[order].reshape(n, matrix.size)
 
 
 def off_gauge(matrix: Array, n: int) -> Array:

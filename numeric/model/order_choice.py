@@ -50,7 +50,9 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int) ->
         parameters = n * (whole.p + whole.n_u) + whole.p * whole.n_u
         criterion = found.cost + parameters * np.log(whole.rows)
         one_step, free_run = _fits(training, held, n)
-        rows.append(OrderRow(n, found.cost, float(criterion), 0.0, one_step, free_run, gaps[n - 1] if 0 < n <= len(gaps) else float("nan")))
+        rows.append(
+            OrderRow(n, found.cost, float(criterion), 0.0, one_step, free_run, float(gaps[n - 1]) if 0 < n <= len(gaps) else float("nan"))
+        )
         models.append(found)
         best, since = (criterion, 0) if criterion < best else (best, since + 1)
         if since == PATIENCE:

@@ -13,6 +13,7 @@ enough_angles       how many angles the sums over them need
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,14 +27,15 @@ from .compression import EPS
 from .invariants import state_space
 from .models import StateSpaceModel
 from .order_evidence import OrderEvidence
-from .reduction_starts import starts
+from .reduction_starts import one_state_less, starts
 from .uncertainty import Uncertainty, uncertainty_of
 from .weighted_reduction import Reduction, circle, descend, ladder, spectral_radius
 
 COARSE, FINE = 64, 4096  # least and most angles
 SAME_SUM = 1e-2  # relative change of the sums that twice the angles may make
 KEPT = 2  # starts that are followed to the end
-FIRST, MIDDLE, LAST = (25, 1e-4), (15, 1e-3), (40, 1e-6)  # most steps, and gain of a step below which a rung is left
+NEAREST = 2  # starts of the least cost under the true weight that are followed without the ladder
+RUNGS, TRUE, LAST = (15, 1e-3), (25, 1e-4), (60, 1e-7)  # most steps, and gain of a step below which a rung is left
 DISTINCT = 1e-2  # relative difference of costs from which two starts are thought to lie in different valleys
 UNBELIEVABLE = 1e-6  # probability of a misfit that is not put down to chance
 AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called unstable where data or misfit say so too
@@ -110,22 +112,33 @@ def enough_angles(windows: ArxWindows, arx: Arx) -> int:
 
 
 def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple[Array, float]:
-    """T of the least cost found, and that cost. The ladder is climbed on few angles, its last rung is the problem itself."""
+    """T of the least cost found, and that cost. The search goes on few angles, only its end is the problem itself."""
     coarse = problem if len(problem.angles) == COARSE else reduction_problem(windows, arx, circle(COARSE))
     rungs = list(ladder(coarse, arx.disturbance(coarse.angles)))
-    first = [descend(rungs[0], start, n, *FIRST) for start in starts(windows, arx, rungs[0], n)]
-    if not first:
+    begun = list(starts(windows, arx, rungs[0], n))
+    found = _climbed(rungs, begun, n, KEPT)
+    # What a flat weight cannot tell apart the true one can, from the start or from one state more.
+    longer = _climbed(rungs, starts(windows, arx, rungs[0], n + 1), n + 1, 1) if n else []
+    near = begun + [less for start, _ in longer for less in one_state_less(start, n + 1, coarse)]
+    near.sort(key=lambda start: coarse.cost(start, n))
+    found += [descend(coarse, start, n, *TRUE) for start in near[:NEAREST]]
+    if not found:
         raise InvalidData(f"no start for order {n}: the data show no dynamics that a model of this order could be begun from")
+    return descend(problem, min(found, key=lambda one: one[1])[0], n, *LAST)
+
+
+def _climbed(rungs: Sequence[Reduction], begun: Iterable[Array], n: int, kept: int) -> list[tuple[Array, float]]:
+    """The ends of the ladder from the `kept` best distinct starts, the least cost first."""
     distinct: list[tuple[Array, float]] = []
-    for matrix, cost in sorted(first, key=lambda found: found[1]):
+    for matrix, cost in sorted((descend(rungs[0], start, n, *RUNGS) for start in begun), key=lambda one: one[1]):
         if all(cost - other > DISTINCT * cost for _, other in distinct):
             distinct.append((matrix, cost))
-    finished = []
-    for matrix, _ in distinct[:KEPT]:
+    ends = []
+    for matrix, _ in distinct[:kept]:
         for rung in rungs[1:-1]:
-            matrix, _ = descend(rung, matrix, n, *MIDDLE)
-        finished.append(descend(problem, matrix, n, *LAST))
-    return min(finished, key=lambda found: found[1])
+            matrix, _ = descend(rung, matrix, n, *RUNGS)
+        ends.append(descend(rungs[-1], matrix, n, *TRUE))
+    return sorted(ends, key=lambda one: one[1])
 
 
 def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -> tuple[str, ...]:
@@ -139,11 +152,11 @@ def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -
     radius, misfit = spectral_radius(model.A), float(chi2.sf(cost, parameters)) < UNBELIEVABLE
     on_circle, most = radius > 1 - EPS**0.25, np.log(AMPLIFICATION)
     growing = np.log(max(arx.radius(), 1e-300)) * arx.rows > most
-    if (misfit and (on_circle or growing)) or (growing and windows.growth > most):
+    if (misfit and arx.radius() > 1 and (on_circle or growing)) or (growing and windows.growth > most):
         raise InvalidData(
             f"no stable model of order {model.n} explains the data: its poles reach modulus {radius:.6g}, those of the ARX model "
-            f"{arx.radius():.6g}, and the misfit is {cost:.4g} where {parameters} is usual; the plant may be unstable (pi_moesp takes "
-            "such), or the order too low"
+            f"{arx.radius():.6g}, the outputs grow by about exp({windows.growth:.3g}), and the misfit is {cost:.4g} where {parameters} is "
+            "usual; the plant may be unstable (pi_moesp takes such), or the order too low"
         )
     if misfit:
         return (f"order {model.n} leaves a misfit of {cost:.4g} where at most about {parameters} is usual: the order may be too low",)

@@ -7,6 +7,7 @@ No single one is near the minimum in all data: PI-MOESP suffers from few instrum
 the noise of high lags. B and D follow linearly.
 
 starts          system matrices T with a stable A, one a method that gives one
+one_state_less  system matrices out of one with a state more
 hankel_factors  the realisation's singular vectors and values
 """
 
@@ -15,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
@@ -40,6 +42,28 @@ def starts(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> Iterato
     for pair in pairs:
         if pair is not None and np.all(np.isfinite(pair[0])) and np.all(np.isfinite(pair[1])):
             yield problem.input_matrices(_reflected(pair[0]), pair[1])
+
+
+def one_state_less(matrix: Array, n: int, problem: Reduction) -> Iterator[Array]:
+    """System matrices with n - 1 states out of one with n: each real pole left out, or each pair made one real pole, with the best B and D.
+
+    Descent is easier with a state to spare: all modes of the plant are then there, and one that is not.
+    """
+    A, C = matrix[:n, :n], matrix[n:, :n]
+    values, vectors = np.linalg.eig(A)
+    blocks = [(value, vector) for value, vector in zip(values, vectors.T, strict=True) if value.imag >= 0]
+    for left_out in range(len(blocks)):
+        states, outputs = [], []
+        for number, (value, vector) in enumerate(blocks):
+            seen, pair = C @ vector, value.imag > 0
+            if number != left_out and pair:
+                states.append(np.array([[value.real, value.imag], [-value.imag, value.real]]))
+                outputs += [seen.real, seen.imag]
+            elif number != left_out or pair:
+                states.append(np.array([[value.real]]))
+                outputs.append(seen.real)
+        shorter = np.array(outputs).T.reshape(len(C), n - 1)
+        yield problem.input_matrices(block_diag(*states) if states else np.zeros((0, 0)), shorter)
 
 
 def _by_past_inputs(windows: ArxWindows, n: int, rows: int) -> tuple[Array, Array] | None:

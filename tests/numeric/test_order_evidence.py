@@ -1,0 +1,85 @@
+"""The evidence for an order: the range left open, and how often the choice is right."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy.signal
+
+from faultspace.base.arrays import Array
+from faultspace.base.errors import InvalidData
+from faultspace.numeric import StateSpaceModel, arx_reduction, arx_reduction_experiments
+from faultspace.numeric.model.order_evidence import OrderRow, weighed
+
+PLANT = StateSpaceModel(
+    [[0.9, 0.2, 0.0], [0.0, -0.6, 0.0], [0.0, 0.0, 0.3]], [[1.0], [1.0], [1.0]], [[1.0, 1.0, 1.0], [1.0, -1.0, 0.5]], [[0.3], [0.0]]
+)
+STATIC = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((2, 0)), [[1.0], [2.0]])
+N = 500
+
+
+def fault(seed: int) -> Array:
+    return np.asarray(scipy.signal.lfilter([1.0], [1.0, -0.9], np.random.default_rng(seed).standard_normal((N, 2)), axis=0))
+
+
+def row(order: int, criterion: float) -> OrderRow:
+    return OrderRow(order, criterion, criterion, 0.0, 0.5, 0.5, 2.0)
+
+
+def test_the_range_is_the_shortest_that_holds_the_odds() -> None:
+    clear = weighed([row(0, 100.0), row(1, 10.0), row(2, 30.0)])
+    assert (clear.best, clear.least, clear.most, clear.decided) == (1, 1, 1, True)
+    open_ = weighed([row(0, 100.0), row(1, 10.0), row(2, 12.0), row(3, 13.0), row(4, 40.0)])
+    assert (open_.best, open_.least, open_.most, open_.decided) == (1, 1, 3, False)
+    # Odds 1 : e^-1 : e^-1.5 : ..
+    shares = np.array([one.odds for one in open_.rows])
+    assert shares.sum() == pytest.approx(1) and shares[2] / shares[1] == pytest.approx(np.exp(-1))
+    alone = weighed([row(0, 5.0)])
+    assert alone.decided and alone.best == 0
+
+
+@pytest.mark.parametrize(("plant", "noise"), [(PLANT, 0.3), (PLANT, 0.0), (STATIC, 1.0)])
+def test_the_order_is_found(plant: StateSpaceModel, noise: float) -> None:
+    u = np.random.default_rng(1).standard_normal((N, 1))
+    found = arx_reduction(plant.simulate(u) + noise * fault(2), u)
+    assert found.orders is not None and found.orders.decided and found.order == found.orders.best == plant.n
+    rows = {one.order: one for one in found.orders.rows}
+    below, right = rows.get(plant.n - 1), rows[plant.n]
+    if below is not None:
+        assert right.one_step > below.one_step and right.free_run > below.free_run and right.cost < below.cost
+        assert right.gap > rows[plant.n + 1].gap
+    assert len(str(found.orders).splitlines()) == 1 + len(found.orders.rows)
+
+
+def test_data_that_tell_nothing_of_a_weak_state_leave_the_order_open_or_lower() -> None:
+    weak = StateSpaceModel(PLANT.A, PLANT.B, PLANT.C * [1.0, 1.0, 0.04], PLANT.D)
+    u = np.random.default_rng(1).standard_normal((N, 1))
+    ranges = []
+    for seed in range(2):
+        found = arx_reduction(weak.simulate(u) + 0.3 * fault(seed), u)
+        assert found.orders is not None
+        ranges.append((found.orders.least, found.orders.most))
+        assert found.orders.decided or "open" in found.notes[-1]
+    assert all(least == 2 for least, _ in ranges)
+
+
+def test_fits_on_held_back_samples_are_those_of_the_part_before() -> None:
+    """Without a fault the free run is exact, with a white one its error is the one-step error."""
+    u = np.random.default_rng(1).standard_normal((N, 1))
+    clean = PLANT.simulate(u)
+    exact = arx_reduction(clean, u).orders
+    assert exact is not None and exact.rows[3].free_run > 1 - 1e-6 and exact.rows[3].one_step > 1 - 1e-6
+    noisy = arx_reduction(clean + 0.5 * np.random.default_rng(3).standard_normal(clean.shape), u).orders
+    assert noisy is not None
+    share = 0.5 / np.sqrt(np.mean((clean / clean.std(axis=0)) ** 2)) / clean.std(axis=0)
+    assert 1 - noisy.rows[3].free_run == pytest.approx(np.sqrt(np.mean(share**2 / (1 + share**2))), rel=0.15)
+    assert noisy.rows[3].one_step == pytest.approx(noisy.rows[3].free_run, abs=0.02)
+
+
+def test_several_experiments() -> None:
+    u = np.random.default_rng(1).standard_normal((N, 1))
+    y = PLANT.simulate(u) + 0.3 * fault(4)
+    found = arx_reduction_experiments([(y[:200], u[:200]), (y[200:], u[200:])])
+    assert found.order == 3 and len(found.initial_states) == 2
+    with pytest.raises(InvalidData, match="record more"):
+        arx_reduction(y[:3], u[:3])
