@@ -73,7 +73,7 @@ def timed(action: Callable[[], object], repeats: int) -> tuple[float, object]:
 
 
 def main() -> None:
-    """Print the table in Markdown."""
+    """This prints the table in Markdown."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])  # type: ignore[union-attr]
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--limit", type=float, default=20.0, help="seconds after which a method is given up for larger systems")

@@ -87,7 +87,7 @@ class Plant:
 
 
 def random_plant(random: np.random.Generator, p: int, m: int, n: int = 5) -> Plant:
-    """One plant with one input."""
+    """This draws one plant with one input."""
     A = random.standard_normal((n, n))
     A *= random.uniform(0.5, 0.95) / np.max(np.abs(np.linalg.eigvals(A)))
     B, D = random.standard_normal((n, 1)), random.standard_normal((p, 1))
@@ -103,7 +103,7 @@ def noise(random: np.random.Generator, samples: int, levels: Array) -> Array:
 
 
 def answer(cell: Cell, random: np.random.Generator, samples: int) -> int | None:
-    """The n_v found in one trial of a cell."""
+    """This is the n_v that one trial of a cell finds."""
     plant = random_plant(random, cell.p, cell.m)
     state, u, v = random.standard_normal(5), random.standard_normal((samples, 1)), fault_signals(random, samples, cell.m)
     by_fault, by_input = plant.respond(state, u, v)

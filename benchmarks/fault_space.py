@@ -30,7 +30,7 @@ from faultspace.numeric.space import by_likelihood as noisy_fault_space
 from faultspace.numeric.space.by_ranks import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
 from faultspace.numeric.space.distances import principal_angles
 from faultspace.numeric.space.result import FaultSpaceEstimate, kernel_conditions
-from faultspace.numeric.study.experiments import coloured_noise, study_faults
+from faultspace.numeric.study.runs import coloured_noise, study_faults
 from faultspace.numeric.study.systems import study_system
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ class Trial:
 
 
 def paper_like(zeros: int, samples: int, seed: int) -> Trial:
-    """A system of the study."""
+    """This is a system of the study."""
     system = study_system(zeros, np.random.SeedSequence([seed, zeros]))
     rng = np.random.default_rng([seed, zeros, samples])
     model = StateSpaceModel(system.model.A, system.F, system.model.C, system.G)
@@ -114,7 +114,7 @@ def coverage(trials: list[Trial], answers: list[FaultSpaceEstimate]) -> str:
 
 
 def line(label: str, samples: int, trials: list[Trial], seed: int) -> str:
-    """One row of the table."""
+    """This writes one row of the table."""
     answers = [fault_space_by_likelihood(t.r, t.A, t.C, n_v=t.n_v) for t in trials]
     squares = [fault_space_by_least_squares(t.r, t.A, t.C, n_v=t.n_v) for t in trials]
     rng = np.random.default_rng(seed)
@@ -126,9 +126,9 @@ def line(label: str, samples: int, trials: list[Trial], seed: int) -> str:
         [angle(t, a.basis) for t, a in zip(trials, answers, strict=True)],
         [angle(t, np.linalg.qr(rng.standard_normal(t.Z.shape))[0]) for t in trials],
     ]
-    shown = "".join(f"{np.median(column):>13.3g}" for column in columns)
+    medians = "".join(f"{np.median(column):>13.3g}" for column in columns)
     counts = f"{verdicts(trials, answers):>10}{verdicts(trials, squares):>15}{coverage(trials, answers):>10}"
-    return f"{label:<22}{samples:>6}{shown}{counts}"
+    return f"{label:<22}{samples:>6}{medians}{counts}"
 
 
 def seconds_by_window(seed: int) -> str:

@@ -22,13 +22,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone
 from rich.console import Console
 
 from benchmarks.identification_bounds import best, growth, measure_rates
-from benchmarks.identification_cells import Cell, Limits, measure
+from benchmarks.identification_cells import CELL, Cell, measure
 from benchmarks.identification_data import Setting, write
 from benchmarks.identification_methods import METHODS, Method
 from benchmarks.identification_run import OURS, Run, to_json
 from benchmarks.identification_study import compare
 from benchmarks.identification_tables import MODELS, notes, sheets
 from benchmarks.sheets import markdown, show
+from faultspace.base.processes import Limits
 
 NOISE = 0.01  # of the input's effect: 40 dB down
 GROWING = ("ours", "ours-gram", "ours-qr")
@@ -43,7 +44,7 @@ def settings(samples: int) -> tuple[Setting, ...]:
 def main(arguments: list[str] | None = None) -> int:
     """Measure, print, and say whether ours have worked: 0 or 1."""
     options = _options(arguments)
-    limits = Limits(options.limit, options.memory)
+    limits = Limits(options.limit, options.memory << 20)
     absent = {method.name: why for method in METHODS if (why := method.missing(options.fault_id))}
     absent |= {name: "left out" for name in options.without}
     here = [method for method in METHODS if method.name not in absent]
@@ -106,8 +107,8 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Identification from long faulty records, ours beside the programs people have today.")
     parser.add_argument("--quick", action="store_true", help="N = 1e5 in place of 1e6")
     parser.add_argument("--fault-id", type=Path, metavar="DIR", help="a clone of github.com/ggleizer/fault_id, run under Octave")
-    parser.add_argument("--limit", type=float, metavar="SECONDS", default=Limits.seconds, help="CPU time a process (default %(default)g)")
-    parser.add_argument("--memory", type=int, metavar="MB", default=Limits.megabytes, help="address space a process (default %(default)s)")
+    parser.add_argument("--limit", type=float, metavar="SECONDS", default=CELL.seconds, help="CPU time a process (default %(default)g)")
+    parser.add_argument("--memory", type=int, metavar="MB", default=CELL.memory >> 20, help="address space a process (default %(default)s)")
     names = [method.name for method in METHODS]
     parser.add_argument("--without", nargs="+", default=[], choices=names, metavar="METHOD", help="peers to leave out")
     parser.add_argument("--markdown", action="store_true", help="tables in Markdown")

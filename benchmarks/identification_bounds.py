@@ -33,7 +33,7 @@ BEST_OF = 8
 
 @dataclass(frozen=True)
 class Rates:
-    """Flops a second."""
+    """The rates are in flops a second."""
 
     dgemm: float
     dsyrk: float
@@ -47,7 +47,7 @@ def flops(route: str, setting: Setting) -> float:
 
 
 def bound(route: str, setting: Setting, rates: Rates) -> float:
-    """Seconds."""
+    """The bound is in seconds."""
     return flops(route, setting) / (rates.dsyrk if route == "plain Gram" else rates.dgemm)
 
 
@@ -60,9 +60,9 @@ def rates_here() -> Rates:
 
 
 def measure_rates() -> Rates:
-    """The same in a process with one thread."""
-    told = subprocess.run(python_command("rates"), cwd=ROOT, env=environment(), capture_output=True, check=True, text=True).stdout
-    return Rates(**json.loads(told[len(RESULT) :]))
+    """The rates are measured in a process with one thread."""
+    printed = subprocess.run(python_command("rates"), cwd=ROOT, env=environment(), capture_output=True, check=True, text=True).stdout
+    return Rates(**json.loads(printed[len(RESULT) :]))
 
 
 def best(*measured: Rates) -> Rates:
@@ -99,5 +99,5 @@ def growth(quick: bool) -> dict[str, list[Setting]]:
 
 
 def grown(name: str, setting: Setting) -> float:
-    """What grows, as a number."""
+    """This is what grows, as a number."""
     return float({"N": setting.samples, "s": setting.block_rows, "n_u + p": setting.n_u + setting.p}[name])

@@ -1,6 +1,6 @@
 """One cell of the identification benchmark: one method on one record, in a process of its own with a limit on time and address space.
 
-    Limits    CPU seconds of the whole process, address space in MB
+    CELL      the limits of a cell: CPU seconds of the whole process, bytes of address space
     Cell      how it ended, seconds (the least of the repeats), peak memory above imports and data, errors of the model if it gave one
     environment, python_command   what a cell runs in and by
     measure   runs a command in a folder with a record and reads the one line that it writes: RESULT and a JSON object
@@ -12,9 +12,7 @@ clock stops a cell only after PATIENCE times as much.
 from __future__ import annotations
 
 import json
-import math
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -23,20 +21,14 @@ from pathlib import Path
 
 from benchmarks.identification_data import Setting, errors
 from faultspace.base.errors import InvalidData
+from faultspace.base.processes import Limits, kill_session, session
 from faultspace.numeric.model.models import StateSpaceModel
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULT = "RESULT "
 PATIENCE = 10.0
+CELL = Limits(seconds=60.0, memory=8000 << 20)
 OUT_OF_MEMORY = ("memory", "cannot allocate", "bad_alloc", "unable to allocate")
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What a cell may take."""
-
-    seconds: float = 60.0
-    megabytes: int = 8000
 
 
 @dataclass(frozen=True)
@@ -54,24 +46,24 @@ class Cell:
 
 def measure(command: list[str], setting: Setting, folder: Path, limits: Limits) -> Cell:
     """The command on the record in `folder`, stopped at the limit."""
-    process = subprocess.Popen(
+    process = session(
         command,
+        address_space=limits.memory,
+        cpu_seconds=limits.seconds,
         cwd=folder,
         env=environment(),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        start_new_session=True,
-        preexec_fn=lambda: _limit(limits),
     )
     try:
         out, complaint = process.communicate(timeout=PATIENCE * limits.seconds)
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
+        kill_session(process.pid)
         process.communicate()
         return Cell("limit", seconds=0.0, why=f"not done after {PATIENCE * limits.seconds:g} s of wall time")
     except BaseException:  # the reader gives up: the process is in a session of its own and would go on
-        os.killpg(process.pid, signal.SIGKILL)
+        kill_session(process.pid)
         raise
     if process.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
         return Cell("limit", seconds=limits.seconds)
@@ -79,32 +71,25 @@ def measure(command: list[str], setting: Setting, folder: Path, limits: Limits) 
     if not lines:
         said = [line for line in complaint.decode("utf-8", "replace").splitlines() if line.strip()]
         if any(word in line.lower() for word in OUT_OF_MEMORY for line in said):
-            return Cell("memory", why=f"more than {limits.megabytes} MB")
+            return Cell("memory", why=f"more than {limits.memory >> 20} MB")
         # Octave's message is the first of its lines that say so, Python's is the last line.
-        told = next((line for line in said if line.startswith("error")), said[-1] if said else "no message")
-        return Cell("failed", why=f"exit {process.returncode}: {told.strip()[:120]}")
-    return judged(json.loads(lines[-1][len(RESULT) :]), setting)
+        complaint_line = next((line for line in said if line.startswith("error")), said[-1] if said else "no message")
+        return Cell("failed", why=f"exit {process.returncode}: {complaint_line.strip()[:120]}")
+    return cell_of(json.loads(lines[-1][len(RESULT) :]), setting)
 
 
-def judged(told: dict[str, object], setting: Setting) -> Cell:
+def cell_of(answer: dict[str, object], setting: Setting) -> Cell:
     """The cell that a method tells: seconds, megabytes, whether y or u was written to, and A, B, C, D where it gives a model."""
-    seconds, megabytes = told["seconds"], told.get("megabytes")
+    seconds, megabytes = answer["seconds"], answer.get("megabytes")
     assert isinstance(seconds, float | int) and (megabytes is None or isinstance(megabytes, float | int))
-    changed = bool(told.get("changed"))
-    if "A" not in told:
+    changed = bool(answer.get("changed"))
+    if "A" not in answer:
         return Cell("finished", seconds, megabytes, changed=changed)
     try:
-        model = StateSpaceModel(*(told[name] for name in "ABCD"))  # type: ignore[arg-type]
+        model = StateSpaceModel(*(answer[name] for name in "ABCD"))  # type: ignore[arg-type]
     except InvalidData as error:
         return Cell("failed", seconds, megabytes, why=f"no model: {error}"[:120], changed=changed)
     return Cell("finished", seconds, megabytes, *errors(model, setting.n_u, setting.p), changed=changed)
-
-
-def _limit(limits: Limits) -> None:
-    """Of this process, before it becomes the cell's."""
-    seconds = math.ceil(limits.seconds)
-    resource.setrlimit(resource.RLIMIT_AS, (limits.megabytes * 2**20,) * 2)
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
 
 
 def environment() -> dict[str, str]:

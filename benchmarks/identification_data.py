@@ -92,7 +92,7 @@ def write(setting: Setting, folder: Path) -> None:
 
 
 def read(folder: Path) -> tuple[Setting, Array, Array]:
-    """What `write` has written."""
+    """This reads what `write` has written."""
     setting = Setting(**json.loads((folder / "setting.json").read_text("utf-8")))
     return setting, np.fromfile(folder / "y.bin").reshape(-1, setting.p), np.fromfile(folder / "u.bin").reshape(-1, setting.n_u)
 

@@ -51,7 +51,7 @@ class Method:
     needs: str = ""
 
     def missing(self, fault_id: Path | None) -> str | None:
-        """Why it cannot run here, or None."""
+        """It says why the method cannot run here; None means that it can."""
         if self.needs == "octave":
             if self.name == "fault-id" and fault_id is None:
                 return "no clone of ggleizer/fault_id given (--fault-id)"
@@ -63,7 +63,7 @@ class Method:
         return None
 
     def version(self) -> str:
-        """Package with its version."""
+        """It names the package and its version."""
         if self.needs == "octave":
             return octave_version()
         return f"{self.needs} {version(self.needs)}" if self.needs else f"numpy {np.__version__}, scipy {version('scipy')}"
@@ -258,12 +258,12 @@ def run(name: str, folder: Path) -> dict[str, Any]:
         start = cpu_seconds()
         again()
         times.append(cpu_seconds() - start)
-    told: dict[str, Any] = {"seconds": min(times), "changed": changed}
+    answer: dict[str, Any] = {"seconds": min(times), "changed": changed}
     if floor is not None and peak is not None:
-        told["megabytes"] = max(peak - floor, 0) / 1024
+        answer["megabytes"] = max(peak - floor, 0) / 1024
     if matrices is not None:
-        told |= {letter: np.atleast_2d(np.asarray(matrix)).tolist() for letter, matrix in zip("ABCD", matrices, strict=True)}
-    return told
+        answer |= {letter: np.atleast_2d(np.asarray(matrix)).tolist() for letter, matrix in zip("ABCD", matrices, strict=True)}
+    return answer
 
 
 def _status(field: str) -> int | None:

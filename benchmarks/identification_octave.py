@@ -78,17 +78,17 @@ def _script(text: str, setting: Setting, **words: object) -> str:
 
 
 def packaged_script(name: str, setting: Setting) -> str:
-    """moen4 or moesp."""
+    """The program calls moen4 or moesp."""
     return _script(PACKAGED, setting, name=name)
 
 
 def author_script(setting: Setting, fault_id: Path) -> str:
-    """pi_moesp.m as it stands in the clone."""
+    """The program calls pi_moesp.m as it stands in the clone."""
     return _script(AUTHORS, setting, folder=fault_id.resolve())
 
 
 def octave_command(script: str) -> list[str]:
-    """The command that runs the script."""
+    """This is the command that runs the script."""
     return [PROGRAM, "--no-gui", "--quiet", "--norc", "--eval", script]
 
 
@@ -103,7 +103,7 @@ def octave_missing() -> str | None:
 
 @cache
 def octave_version() -> str:
-    """Octave and its control package."""
+    """It names the versions of Octave and of its control package."""
     asked = 'd = pkg ("describe", "control"); printf ("Octave %s, control %s", version (), d{1}.version)'
-    told = subprocess.run(octave_command(asked), capture_output=True, check=False, stdin=subprocess.DEVNULL, text=True)
-    return told.stdout.strip() or "Octave"
+    run = subprocess.run(octave_command(asked), capture_output=True, check=False, stdin=subprocess.DEVNULL, text=True)
+    return run.stdout.strip() or "Octave"

@@ -12,9 +12,10 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from benchmarks.identification_bounds import Rates, bound, exponent, grown
-from benchmarks.identification_cells import Cell, Limits
+from benchmarks.identification_cells import Cell
 from benchmarks.identification_data import Setting
 from benchmarks.identification_study import SYSTEMS, Comparison
+from faultspace.base.processes import Limits
 
 OURS = ("ours", "ours-moesp", "ours-gram", "ours-qr")
 ROUTES = ("ours-gram", "ours-qr")
@@ -57,11 +58,11 @@ def aims(run: Run, models: set[str]) -> list[Aim]:
     for setting, cells in run.cells.items():
         ours = cells["ours"]
         if setting.block_rows == 20:
-            for words, name, rivals in (
+            for words, name, against in (
                 ("model", "ours", models),
                 ("factor", "ours-gram", set(cells) - models),
             ):
-                peer = fastest_peer(cells, rivals)
+                peer = fastest_peer(cells, against)
                 if peer is not None and cells[name].outcome == "finished":
                     times = peer[1] / cells[name].seconds
                     text = f"{setting}: {words} {FASTER:g} times faster than the fastest peer"
@@ -108,7 +109,7 @@ def to_json(run: Run, models: set[str]) -> dict[str, Any]:
     """Everything measured, and what was derived from it."""
     return {
         "machine": run.machine,
-        "limits": asdict(run.limits),
+        "limits": {"seconds": run.limits.seconds, "megabytes": run.limits.memory >> 20},
         "versions": run.versions,
         "absent": run.absent,
         "rates": asdict(run.rates),

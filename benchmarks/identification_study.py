@@ -49,7 +49,7 @@ class Comparison:
 
 
 def sections(notebook: Path) -> list[str]:
-    """The code cells of a MATLAB live script."""
+    """These are the code cells of a MATLAB live script."""
     with zipfile.ZipFile(notebook) as archive:
         root = ElementTree.fromstring(archive.read("matlab/document.xml"))
     space = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
@@ -65,8 +65,8 @@ def author_study(fault_id: Path) -> str:
     """The program that times sections 1 to 4 and tells the median error."""
     code = [text.replace("close all;", "") for text in sections(fault_id / "montecarlo.mlx")[:SECTIONS]]
     head = f'pkg load control; warning off; addpath ("{fault_id}"); addpath ("{fault_id / "Monte Carlo"}"); addpath (pwd);\nbegun = tic;\n'
-    told = 'printf ("RESULT {\\"seconds\\": %.6g, \\"error\\": %.6g}\\n", toc (begun), 100 * median ([scenario.error]));\n'
-    return head + "\n".join(code) + "\n" + told
+    tail = 'printf ("RESULT {\\"seconds\\": %.6g, \\"error\\": %.6g}\\n", toc (begun), 100 * median ([scenario.error]));\n'
+    return head + "\n".join(code) + "\n" + tail
 
 
 def study_here() -> dict[str, Any]:
@@ -85,8 +85,8 @@ def study_here() -> dict[str, Any]:
 
 
 def compare(fault_id: Path | None) -> Comparison:
-    """Both sides, one after the other."""
-    ours = Comparison(**_told(python_command("study"), Path.cwd()))
+    """Both sides are measured, one after the other."""
+    ours = Comparison(**_answer(python_command("study"), Path.cwd()))
     why = "no clone of ggleizer/fault_id given (--fault-id)" if fault_id is None else octave_missing()
     if fault_id is None or why is not None:
         return replace(ours, why=why or "")
@@ -96,13 +96,13 @@ def compare(fault_id: Path | None) -> Comparison:
             (folder / file).write_text(text, "utf-8")
         (folder / "study.m").write_text(author_study(fault_id.resolve()), "utf-8")
         try:
-            runs = [_told(octave_command("source study.m"), folder) for _ in range(REPEATS)]
+            runs = [_answer(octave_command("source study.m"), folder) for _ in range(REPEATS)]
         except (RuntimeError, subprocess.TimeoutExpired) as error:
             return replace(ours, why=str(error)[:120])
     return replace(ours, author=min(run["seconds"] for run in runs), author_error=runs[0]["error"])
 
 
-def _told(command: list[str], folder: Path) -> dict[str, Any]:
+def _answer(command: list[str], folder: Path) -> dict[str, Any]:
     done = subprocess.run(
         command, cwd=folder, env=environment(), capture_output=True, check=False, text=True, timeout=LIMIT, stdin=subprocess.DEVNULL
     )
@@ -110,5 +110,5 @@ def _told(command: list[str], folder: Path) -> dict[str, Any]:
     if not lines:
         said = [line for line in done.stderr.splitlines() if "error" in line.lower()] or ["no message"]
         raise RuntimeError(f"exit {done.returncode}: {said[0]}")
-    told: dict[str, Any] = json.loads(lines[-1][len(RESULT) :])
-    return told
+    answer: dict[str, Any] = json.loads(lines[-1][len(RESULT) :])
+    return answer

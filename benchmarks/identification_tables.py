@@ -21,19 +21,19 @@ def time_table(run: Run) -> Sheet:
     """One row a method, those not installed too; the bounds below."""
     rows = []
     for method in METHODS:
-        told = (
+        cells = (
             ["left out" if run.absent[method.name] == "left out" else "not installed"] * len(run.cells)
             if method.name in run.absent
             else [_time(by[method.name]) for by in run.cells.values()]
         )
-        rows.append([method.name, method.gives, method.instruments, *told])
+        rows.append([method.name, method.gives, method.instruments, *cells])
     for name, words in (("ours-gram", "displacement"), ("ours-qr", "QR"), ("plain Gram", "plain Gram")):
         rows.append([f"flop bound: {words}", "", "", *(f"{bound(name, setting, run.rates):.2g} s" for setting in run.cells)])
     return Sheet("CPU seconds / extra MB", ["method", "gives", "instruments", *map(str, run.cells)], rows)
 
 
 def error_table(run: Run) -> Sheet:
-    """One row a method that gives a model."""
+    """There is one row for each method that gives a model."""
     rows = [
         [method.name, method.instruments, *(_errors(by[method.name]) for by in run.cells.values())]
         for method in METHODS
@@ -48,20 +48,20 @@ def growth_table(run: Run) -> Sheet:
     for what, by in slopes(run).items():
         for name, slope in by.items():
             pairs = run.growth[what][name]
-            told = ", ".join(f"{cell.seconds:.2g}" if cell.outcome == "finished" else cell.outcome for _, cell in pairs)
+            times = ", ".join(f"{cell.seconds:.2g}" if cell.outcome == "finished" else cell.outcome for _, cell in pairs)
             memory = ", ".join("-" if cell.megabytes is None else f"{cell.megabytes:.1f}" for _, cell in pairs)
-            rows.append([what, f"{pairs[0][0]} to {pairs[-1][0]}", name, "-" if slope is None else f"{slope:.2f}", told, memory])
+            rows.append([what, f"{pairs[0][0]} to {pairs[-1][0]}", name, "-" if slope is None else f"{slope:.2f}", times, memory])
     return Sheet("growth", ["grows", "settings", "method", "exponent", "seconds", "extra MB"], rows)
 
 
 def aim_table(run: Run) -> Sheet:
-    """Aims and what the run says."""
+    """The table has the aims, and what the run says of each."""
     said = {True: "met", False: "missed", None: "open"}
     return Sheet("aims", ["aim", "measured", ""], [[aim.words, aim.measured, said[aim.met]] for aim in aims(run, MODELS)])
 
 
 def sheets(run: Run) -> list[Sheet]:
-    """All tables with rows in them."""
+    """These are all tables that have rows."""
     return [sheet for sheet in (time_table(run), error_table(run), growth_table(run), aim_table(run)) if sheet.rows]
 
 
@@ -71,7 +71,7 @@ def notes(run: Run) -> list[str]:
     lines += [f"{name}: absent, {why}" for name, why in run.absent.items()]
     lines.append("machine: " + ", ".join(f"{name} {value}" for name, value in run.machine.items()))
     lines.append(f"one thread a process: dgemm {run.rates.dgemm / 1e9:.0f}, dsyrk {run.rates.dsyrk / 1e9:.0f} Gflop a second")
-    lines.append(f"limits: {run.limits.seconds:g} s and {run.limits.megabytes} MB of address space a cell")
+    lines.append(f"limits: {run.limits.seconds:g} s and {run.limits.memory >> 20} MB of address space a cell")
     lines.append(f"calls below {BRIEF:g} s are the least of up to {REPEATS}")
     for setting, by in run.cells.items():
         lines += [f"{setting}: {name} {cell.outcome}: {cell.why}" for name, cell in by.items() if cell.why]

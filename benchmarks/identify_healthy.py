@@ -30,7 +30,7 @@ OUTPUTS, INPUTS = ("y1", "y2", "y3"), ("u1", "u2")
 
 
 def plant(random: np.random.Generator) -> StateSpaceModel:
-    """A stable plant."""
+    """This draws a stable plant."""
     A = random.standard_normal((3, 3))
     A *= random.uniform(0.3, 0.95) / np.abs(np.linalg.eigvals(A)).max()
     return StateSpaceModel(A, random.standard_normal((3, 2)), random.standard_normal((3, 3)), np.zeros((3, 2)))
@@ -50,17 +50,17 @@ def trial(random: np.random.Generator, until: int) -> tuple[str, bool | None, bo
     y = plant(random).simulate(u) + noise(random, samples)
     output = int(random.integers(3))
 
-    def told(added: Array | float) -> tuple[int | None, int, tuple[Array | None, Array | None]]:
+    def counted(added: Array | float) -> tuple[int | None, int, tuple[Array | None, Array | None]]:
         faulty = y.copy()
         faulty[until:, output] += added
         answer = identify(recorded(faulty, u, outputs=OUTPUTS, inputs=INPUTS), order=3, healthy=until)
         return answer.n_v, answer.at_least, (answer.mean.visible if answer.mean else None, answer.visible)
 
-    count, at_least, (constant, white) = told(0.0)
+    count, at_least, (constant, white) = counted(0.0)
     verdict = "fault" if at_least else "undecided" if count is None else "zero"
     if verdict != "zero" or constant is None or white is None or not np.isfinite(white[output]):
         return verdict, None, None
-    return verdict, told(constant[output])[1] > 0, told(white[output] * random.standard_normal(samples - until))[1] > 0
+    return verdict, counted(constant[output])[1] > 0, counted(white[output] * random.standard_normal(samples - until))[1] > 0
 
 
 def main() -> None:
@@ -82,8 +82,8 @@ def main() -> None:
         seconds = (time.perf_counter() - start) / (len(found) + 2 * len(asked))
         verdicts = [verdict for verdict, _, _ in found]
         shares = [f"{sum(bool(answers[i]) for answers in asked)} of {len(asked)}" for i in (0, 1)]
-        told = (verdicts.count("zero"), verdicts.count("undecided"), verdicts.count("fault"))
-        print(row.format(until, len(found), *told, *shares, f"{seconds:.2f}"), flush=True)
+        counts = (verdicts.count("zero"), verdicts.count("undecided"), verdicts.count("fault"))
+        print(row.format(until, len(found), *counts, *shares, f"{seconds:.2f}"), flush=True)
 
 
 if __name__ == "__main__":

@@ -18,9 +18,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone
 
 from rich.console import Console
 
-from benchmarks.ladder_cells import Cell, Limits, measure
+from benchmarks.ladder_cells import Budget, Cell, measure
 from benchmarks.ladder_methods import METHODS, Method, System
-from benchmarks.ladder_run import OURS, Record, Run, disagreements, machine, to_json
+from benchmarks.ladder_run import OURS, Run, SystemCells, disagreements, machine, to_json
 from benchmarks.ladder_systems import FAMILIES, Family
 from benchmarks.ladder_tables import notes, sheets
 from benchmarks.sheets import markdown, show
@@ -41,7 +41,7 @@ def main(arguments: list[str] | None = None) -> int:
     if OURS in absent:
         print(f"ladder: {absent[OURS]}", file=sys.stderr)
         return 1
-    limits = Limits(seconds=limit, megabytes=options.memory)
+    limits = Budget(seconds=limit, megabytes=options.memory)
     records = []
     for family in families:
         beaten: dict[str, str] = {}
@@ -60,7 +60,7 @@ def main(arguments: list[str] | None = None) -> int:
     return 1 if wrong else 0
 
 
-def _record(family: Family, n: int, methods: list[Method], limits: Limits, beaten: dict[str, str]) -> Record:
+def _record(family: Family, n: int, methods: list[Method], limits: Budget, beaten: dict[str, str]) -> SystemCells:
     """Every method on the system with n states, but those that a smaller system of the family has beaten: they are told in `beaten`."""
     system: System = family.specimen(n).to_json()
     cells: dict[str, Cell] = {}
@@ -74,14 +74,14 @@ def _record(family: Family, n: int, methods: list[Method], limits: Limits, beate
             beaten[method.name] = f"{cell.outcome} at n = {n}"
         words = f"{cell.outcome}{': ' + cell.why if cell.why else ''}"
         print(f"{family}, n = {n}: {method.name} {words}, {cell.seconds:.3g} s of {time.monotonic() - started:.1f} s", file=sys.stderr)
-    return Record(family, n, *family.sizes(n), cells)
+    return SystemCells(family, n, *family.sizes(n), cells)
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="The ladder of window ranks against the exact rank of every window.")
     parser.add_argument("--quick", action="store_true", help=f"n up to {QUICK_SIZES[-1]}, {QUICK_LIMIT:g} s a cell")
     parser.add_argument("--limit", type=float, metavar="SECONDS", help=f"wall seconds a cell (default {LIMIT:g})")
-    parser.add_argument("--memory", type=int, metavar="MB", default=Limits.megabytes, help="address space a cell (default %(default)s)")
+    parser.add_argument("--memory", type=int, metavar="MB", default=Budget.megabytes, help="address space a cell (default %(default)s)")
     parser.add_argument("--sizes", type=int, nargs="+", metavar="N", help="numbers of states, ascending, at least 4")
     parser.add_argument("--families", nargs="+", choices=[str(f) for f in FAMILIES], metavar="FAMILY", help="such as 'planted tight'")
     parser.add_argument("--markdown", action="store_true", help="tables in Markdown")

@@ -1,6 +1,6 @@
 """One cell of the ladder benchmark: one method on one system, in a process of its own with a limit on time and memory.
 
-    Limits    wall seconds for the timed part and for what precedes it, address space in MB, how often a quick cell is repeated
+    Budget    wall seconds for the timed part and for what precedes it, address space in MB, how often a quick cell is repeated
     Cell      how it ended, its CPU seconds (the least of the repeats), its parts, the ranks it told, its peak memory
     measure   runs it; `read_lines` understands what a method writes
 
@@ -11,9 +11,7 @@ lower bound. CPU time is what is measured, since the machine may be shared; the 
 from __future__ import annotations
 
 import os
-import resource
 import selectors
-import signal
 import subprocess
 import sys
 import tempfile
@@ -22,14 +20,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from benchmarks.ladder_methods import Method, System
+from faultspace.base.processes import kill_session, session
 
 ROOT = Path(__file__).resolve().parents[1]
 BRIEF = 1.0  # CPU seconds below which a cell is repeated
 
 
 @dataclass(frozen=True)
-class Limits:
-    """What a cell may take."""
+class Budget:
+    """These are the limits of a cell."""
 
     seconds: float = 60.0
     setup: float = 120.0
@@ -49,7 +48,7 @@ class Cell:
     why: str = ""
 
 
-def measure(method: Method, system: System, limits: Limits) -> Cell:
+def measure(method: Method, system: System, limits: Budget) -> Cell:
     """The method on the system; a quick one again, keeping the quickest run and the largest memory."""
     best = _once(method, system, limits)
     for _ in range(limits.repeats - 1):
@@ -65,34 +64,33 @@ def measure(method: Method, system: System, limits: Limits) -> Cell:
     return best
 
 
-def _once(method: Method, system: System, limits: Limits) -> Cell:
+def _once(method: Method, system: System, limits: Budget) -> Cell:
     with tempfile.TemporaryDirectory() as name, tempfile.TemporaryFile() as errors:
         folder = Path(name)
-        process = subprocess.Popen(
+        process = session(
             method.command(system, folder),
+            address_space=limits.megabytes << 20,
             cwd=folder,
             env=_environment(),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=errors,
-            start_new_session=True,
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limits.megabytes * 2**20,) * 2),
         )
         in_time = False
         try:
             lines, in_time = _listen(process, limits)
         finally:  # at the limit, and when the reader gives up: the process is in a session of its own and would go on
             if not in_time:
-                os.killpg(process.pid, signal.SIGKILL)
+                kill_session(process.pid)
         _, status, usage = os.wait4(process.pid, 0)  # this child alone, which resource.getrusage could not tell from the others
         process.returncode = os.waitstatus_to_exitcode(status)
         assert process.stdout is not None
         process.stdout.close()
         errors.seek(0)
         complaint = errors.read().decode("utf-8", "replace").strip().splitlines()
-    told = read_lines(lines, system)
+    answer = read_lines(lines, system)
     unit = 1024 if sys.platform == "darwin" else 1
-    cell = replace(told, peak_megabytes=usage.ru_maxrss / unit / 1024)
+    cell = replace(answer, peak_megabytes=usage.ru_maxrss / unit / 1024)
     if not in_time:
         if cell.outcome == "setup":
             return replace(cell, outcome="failed", why=f"not ready after {limits.setup:g} s")
@@ -106,7 +104,7 @@ def _once(method: Method, system: System, limits: Limits) -> Cell:
     return replace(cell, parts={name: value for name, value in cell.parts.items() if name != "ready"})
 
 
-def _listen(process: subprocess.Popen[bytes], limits: Limits) -> tuple[list[str], bool]:
+def _listen(process: subprocess.Popen[bytes], limits: Budget) -> tuple[list[str], bool]:
     """The lines that it writes, and whether it ended in time; the clock starts anew at the line `ready`."""
     assert process.stdout is not None
     received = b""

@@ -46,7 +46,7 @@ class Method:
     arguments: tuple[str, ...] = ()
 
     def missing(self) -> str | None:
-        """Why it cannot run here, or None."""
+        """It says why the method cannot run here; None means that it can."""
         if self.script is not None:
             return None if shutil.which(self.needs) else f"the program {self.needs} is not installed"
         try:
@@ -56,7 +56,7 @@ class Method:
         return None
 
     def version(self) -> str:
-        """Package or program with its version."""
+        """It names the package or program and its version."""
         if self.script is None:
             return f"{self.needs} {version(self.needs)}"
         run = subprocess.run([self.needs, "--version"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
@@ -115,7 +115,7 @@ def run_ours(system: System) -> None:
 
 
 def run_flint(system: System) -> None:
-    """fmpz_mat.rank."""
+    """The rank is that of fmpz_mat.rank."""
     from flint import fmpz_mat
 
     _rank_each([fmpz_mat(window) for window in windows(system)], lambda window: int(window.rank()))
@@ -150,7 +150,7 @@ def run_sympy(system: System) -> None:
 
 
 def run_pari(system: System) -> None:
-    """matrank, on a stack of 2 GB."""
+    """The rank is that of matrank, on a stack of 2 GB."""
     from cypari import pari
 
     pari.allocatemem(2**31, silent=True)
@@ -168,7 +168,7 @@ RUNNERS: dict[str, Callable[[System], None]] = {
 
 
 def largest_window(system: System) -> Rows:
-    """[O_s T_s] for s = n + 1 as integers."""
+    """This is [O_s T_s] for s = n + 1, in integers."""
     from faultspace.exact.system.systems import read_system
     from faultspace.exact.system.windows import window_matrix
 
@@ -177,7 +177,7 @@ def largest_window(system: System) -> Rows:
 
 
 def windows(system: System) -> Windows:
-    """[O_s T_s] for s = 1..n + 1."""
+    """These are [O_s T_s] for s = 1..n + 1."""
     largest = largest_window(system)
     n, p, m = len(system["A"]), len(system["C"]), len(system["F"][0])
     return [[row[: n + m * s] for row in largest[: p * s]] for s in range(1, n + 2)]

@@ -1,6 +1,6 @@
 """What a run of the ladder benchmark has measured, and what follows from it.
 
-Record, Run       the cells of one system; all of them, with machine, limits and what was absent
+SystemCells, Run  the cells of one system; all of them, with machine, limits and what was absent
 ratio             seconds of a method over ours: a number, or a lower bound where it was stopped
 exponent          least-squares slope of log seconds against log n over finished cells with n >= 10
 aims              what was hoped for and what the run says about it
@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass
 from math import log
 from typing import Any
 
-from benchmarks.ladder_cells import Cell, Limits
+from benchmarks.ladder_cells import Budget, Cell
 from benchmarks.ladder_methods import Method
 from benchmarks.ladder_systems import Family
 
@@ -27,7 +27,7 @@ FIRST_OF_SLOPE = 10  # below it starting costs are all there is
 
 
 @dataclass(frozen=True)
-class Record:
+class SystemCells:
     """One system and the cell of every method that is installed."""
 
     family: Family
@@ -39,12 +39,12 @@ class Record:
 
 @dataclass(frozen=True)
 class Run:
-    """A whole run."""
+    """This is a whole run."""
 
     machine: dict[str, str]
-    limits: Limits
+    limits: Budget
     absent: dict[str, str]
-    records: tuple[Record, ...]
+    records: tuple[SystemCells, ...]
 
     @property
     def methods(self) -> list[str]:
@@ -69,7 +69,7 @@ class Aim:
     met: bool | None
 
 
-def ratio(record: Record, method: str) -> Ratio | None:
+def ratio(record: SystemCells, method: str) -> Ratio | None:
     """None where the method did not run or was too quick for its clock, or ours did not finish."""
     ours, cell = record.cells[OURS], record.cells[method]
     if ours.outcome != "finished" or ours.seconds == 0 or cell.seconds == 0 or cell.outcome not in ("finished", "limit"):
@@ -97,13 +97,13 @@ def disagreements(run: Run) -> list[str]:
     found = []
     for record in run.records:
         where = f"{record.family}, n = {record.n}"
-        told = record.cells[OURS].ranks
+        ours = record.cells[OURS].ranks
         for name, cell in record.cells.items():
             if cell.outcome == "failed":
                 found.append(f"{where}: {name} failed: {cell.why}")
             for s, rank in cell.ranks.items():
-                if s in told and told[s] != rank:
-                    found.append(f"{where}: rank [O_{s} T_{s}] is {told[s]} by {OURS}, {rank} by {name}")
+                if s in ours and ours[s] != rank:
+                    found.append(f"{where}: rank [O_{s} T_{s}] is {ours[s]} by {OURS}, {rank} by {name}")
     return found
 
 

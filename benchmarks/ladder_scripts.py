@@ -68,17 +68,17 @@ quit;
 
 
 def macaulay2_ranks(system: dict[str, Rows]) -> str:
-    """The script."""
+    """This writes the script."""
     return _macaulay2_matrices(system) + _MACAULAY2_RANKS
 
 
 def macaulay2_kernel(system: dict[str, Rows]) -> str:
-    """The script."""
+    """This writes the script."""
     return _macaulay2_matrices(system) + _MACAULAY2_KERNEL
 
 
 def singular_ranks(system: dict[str, Rows]) -> str:
-    """The script."""
+    """This writes the script."""
     lines = ["ring r = 0, (q,t), (c,dp);", *(f"int {name} = {value};" for name, value in _sizes(system).items())]
     for name, rows in system.items():
         entries = ",".join(str(x) for row in rows for x in row)

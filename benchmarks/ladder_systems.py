@@ -34,7 +34,7 @@ class Specimen:
     feedback: Rows | None = None
 
     def to_json(self) -> dict[str, Rows]:
-        """The dict of an exact file."""
+        """This is the dict of an exact file."""
         return {"A": self.A, "F": self.F, "C": self.C, "G": self.G}
 
 
@@ -49,7 +49,7 @@ class Family:
         return f"{self.kind} {self.shape}"
 
     def sizes(self, n: int) -> tuple[int, int]:
-        """(p, m)."""
+        """The pair is (p, m)."""
         if self.shape == "tight":
             return (4, 3) if n >= 20 else (3, 2)
         return (8, 3) if n >= 20 else (4, 2)
@@ -60,17 +60,17 @@ class Family:
 
 
 def dense(rng: random.Random, n: int, p: int, m: int) -> Specimen:
-    """Entries -3..3."""
+    """The entries are drawn from -3..3."""
     return Specimen(_entries(rng, n, n), _entries(rng, n, m), _entries(rng, p, n), _entries(rng, p, m))
 
 
 def planted(rng: random.Random, n: int, p: int, m: int) -> Specimen:
-    """dim V* = n // 2, normal rank m."""
+    """The system has dim V* = n // 2 and normal rank m."""
     return _hidden(rng, n, p, m, invisible=0)
 
 
 def invisible(rng: random.Random, n: int, p: int, m: int) -> Specimen:
-    """dim V* = n // 2, normal rank m - 1."""
+    """The system has dim V* = n // 2 and normal rank m - 1."""
     return _hidden(rng, n, p, m, invisible=1)
 
 
@@ -86,13 +86,13 @@ FAMILIES = (
 
 
 def product(left: Rows, right: Rows) -> Rows:
-    """The matrix product."""
+    """This is the matrix product."""
     columns = list(zip(*right, strict=True))
     return [[sum(a * b for a, b in zip(row, column, strict=True)) for column in columns] for row in left]
 
 
 def combined(left: Rows, right: Rows, factor: int) -> Rows:
-    """left + factor right."""
+    """This is left + factor right."""
     return [[a + factor * b for a, b in zip(row, other, strict=True)] for row, other in zip(left, right, strict=True)]
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from benchmarks.ladder_cells import BRIEF, Cell
 from benchmarks.ladder_methods import METHODS
-from benchmarks.ladder_run import OURS, Record, Run, aims, disagreements, exponent, ratio
+from benchmarks.ladder_run import OURS, Run, SystemCells, aims, disagreements, exponent, ratio
 from benchmarks.sheets import Sheet
 
 
@@ -41,7 +41,7 @@ def seconds_table(run: Run) -> Sheet:
 
 
 def exponent_table(run: Run) -> Sheet:
-    """Growth exponents by family."""
+    """The table has the growth exponents by family."""
     families = list(dict.fromkeys(record.family for record in run.records))
     rows = []
     for family in families:
@@ -51,13 +51,13 @@ def exponent_table(run: Run) -> Sheet:
 
 
 def aim_table(run: Run) -> Sheet:
-    """Aims and what the run says."""
+    """The table has the aims, and what the run says of each."""
     said = {True: "met", False: "missed", None: "open"}
     return Sheet("aims", ["aim", "measured", ""], [[aim.words, aim.measured, said[aim.met]] for aim in aims(run)])
 
 
 def sheets(run: Run) -> list[Sheet]:
-    """All tables with rows in them."""
+    """These are all tables that have rows."""
     return [sheet for sheet in (ratio_table(run), seconds_table(run), exponent_table(run), aim_table(run)) if sheet.rows]
 
 
@@ -95,7 +95,7 @@ def _outcome(cell: Cell) -> str:
     return cell.outcome
 
 
-def _ratio(record: Record, method: str) -> str:
+def _ratio(record: SystemCells, method: str) -> str:
     found = ratio(record, method)
     if found is None:
         return _outcome(record.cells[method]) if record.cells[method].outcome != "finished" else "-"

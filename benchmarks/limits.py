@@ -108,7 +108,7 @@ def _dense(process: JointProcess) -> Any:
 
 
 def main() -> None:
-    """Prints both tables."""
+    """This prints both tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--states", default="2,4,6,8,10,12")
     parser.add_argument("--windows", default="6,8,12,16")

@@ -86,10 +86,10 @@ def expected(found: PopulationLimits) -> dict[tuple[str, str], Any]:
     result: dict[tuple[str, str], Any] = {}
     for method, one in zip(METHODS, (found.past_inputs, found.past_outputs), strict=True):
         result[method, "L"] = floats(one.matrix).ravel()
-        told = found.of_limit(one)
+        limits = found.of_limit(one)
         if one.state is not None:
             monic = [float(c) for c in reversed(one.state.characteristic_polynomial)]
-            parts = (told["markov"] or [])[: found.experiment.system.residual.n + 1]
+            parts = (limits["markov"] or [])[: found.experiment.system.residual.n + 1]
             result[method, "model"] = np.array(monic[1:] + [float(Fraction(x)) for part in parts for row in part for x in row])
     return result
 
@@ -135,12 +135,12 @@ def distance(estimates: Any, exact: Any) -> float:
 
 
 def size(exact: Any) -> float:
-    """Its Euclidean norm, 1 for zero."""
+    """The unit is its Euclidean norm, and 1 for zero."""
     return float(np.linalg.norm(exact)) or 1.0
 
 
 def compared(family: str, found: PopulationLimits, lengths: list[int], seeds: int) -> Iterator[Comparison]:
-    """One Comparison for each exact vector."""
+    """There is one Comparison for each exact vector."""
     exact = expected(found)
     tables: dict[tuple[str, str], dict[int, list[Any]]] = {key: {N: [] for N in lengths} for key in exact}
     for seed in range(seeds):
@@ -159,7 +159,7 @@ def compared(family: str, found: PopulationLimits, lengths: list[int], seeds: in
 
 
 def table(rows: list[Comparison]) -> Sheet:
-    """A line for each comparison."""
+    """The table has a line for each comparison."""
     lengths = list(rows[0].errors)
     head = ["family", "method", "rank L", "n", "range of O_s", "compared", *(f"N = {N:.0e}".replace("e+0", "e") for N in lengths)]
     lines = []
@@ -181,14 +181,14 @@ def drawn(rows: list[Comparison], file: Path) -> None:
     figure, panels = pyplot.subplots(1, 2, figsize=(12, 5.5), sharey=True, layout="constrained")
     titles = {"L": "(1/N) Yf Pi Z' against the exact L", "model": "model of order n, where L carries one"}
     for ax, (what, title) in zip(panels, titles.items(), strict=True):
-        shown = [row for row in rows if row.what == what and row.slope is not None]
-        for row in shown:
+        drawn_rows = [row for row in rows if row.what == what and row.slope is not None]
+        for row in drawn_rows:
             dashed = row.method == METHODS[1]
             label = row.family if what == "L" and not dashed else None
             style = "s--" if dashed else "o-"
             ax.loglog(list(row.errors), list(row.errors.values()), style, color=colours[row.family], label=label, markersize=4)
         lengths = np.array(list(rows[0].errors), float)
-        top = 2 * max((max(row.errors.values()) for row in shown), default=1.0)
+        top = 2 * max((max(row.errors.values()) for row in drawn_rows), default=1.0)
         label = "slope -1/2" if what == "L" else None
         ax.loglog(lengths, top * np.sqrt(lengths[0] / lengths), color="0.6", linewidth=4, zorder=0, label=label)
         ax.set_title(title)

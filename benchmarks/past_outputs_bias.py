@@ -32,11 +32,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone
 from rich.console import Console
 from rich.progress import track
 
-from benchmarks.identification_cells import Limits, measure, python_command
+from benchmarks.identification_cells import CELL, measure, python_command
 from benchmarks.identification_data import FAULT_POLE, ORDER, Setting, errors, record, system, write
 from benchmarks.sheets import Sheet, markdown
+from faultspace.base.processes import Limits
 from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, stacked
-from faultspace.exact.algebra.stability import characteristic_polynomial
+from faultspace.exact.algebra.stability import rational_characteristic_polynomial
 from faultspace.exact.limits.column_space import state_part
 from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.inputs import by_output_error
@@ -84,7 +85,7 @@ def benchmark_experiment(setting: Setting) -> Experiment:
 
 
 def _power(experiment: Experiment) -> Fraction:
-    """E|y|^2."""
+    """The power is E|y|^2."""
     known = covariances(experiment)
     now = known.now(known.process.y, known.process.y)
     return sum((Fraction(str(now[i, i])) for i in range(now.nrows)), Fraction(0))
@@ -141,7 +142,7 @@ def free_order(found: PopulationLimits) -> FreeOrder:
     state = state_part(column_basis(limit.matrix), residual.p)
     poles = markov = False
     if state is not None:
-        own, pole = characteristic_polynomial(residual.A), Fraction(FAULT_POLE)
+        own, pole = rational_characteristic_polynomial(residual.A), Fraction(FAULT_POLE)
         longer = [low - pole * high for low, high in zip((Fraction(0), *own), (*own, Fraction(0)), strict=True)]
         poles = tuple(longer) == state.characteristic_polynomial
         inputs = by_output_error(found.known, state.A, state.C)
@@ -153,7 +154,7 @@ def free_order(found: PopulationLimits) -> FreeOrder:
 
 
 def measured(setting: Setting, rank: int, peer_python: str | None) -> Iterator[Row]:
-    """On the benchmark's record."""
+    """The methods are run on the benchmark's record."""
     samples = f"{setting.samples:.0e}".replace("e+0", "e")
     y, u = record(setting)
     for who, method, order in (("PI-MOESP", pi_moesp, ORDER), ("PO-MOESP", po_moesp, ORDER), ("PO-MOESP", po_moesp, rank)):
@@ -162,7 +163,7 @@ def measured(setting: Setting, rank: int, peer_python: str | None) -> Iterator[R
     with tempfile.TemporaryDirectory() as name:
         write(setting, Path(name))
         command = python_command("ctrlsys")
-        cell = measure([peer_python or command[0], *command[1:]], setting, Path(name), Limits(seconds=120))
+        cell = measure([peer_python or command[0], *command[1:]], setting, Path(name), Limits(120.0, CELL.memory))
     if cell.eigenvalue_error is None or cell.markov_error is None:
         yield Row(f"ctrlsys: {cell.outcome}, {cell.why}", samples, float("nan"), float("nan"))
     else:
@@ -170,7 +171,7 @@ def measured(setting: Setting, rank: int, peer_python: str | None) -> Iterator[R
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Prints a section for each shape."""
+    """This prints a section for each shape."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--largest", type=int, default=10**6, help="samples of the longest record (default 1e6)")
     parser.add_argument("--quick", action="store_true", help="the first two of the benchmark's four cells")
@@ -191,25 +192,25 @@ def main(arguments: list[str] | None = None) -> int:
 def examined(setting: Setting, lengths: list[int], peer_python: str | None) -> tuple[Sheet, list[str]]:
     """The exact limits, then what was measured at each N, with notes on the order left free."""
     found = limit(benchmark_experiment(setting))
-    told = free_order(found)
+    free = free_order(found)
     rows, notes = [], []
-    for past_outputs, order in ((False, ORDER), (True, ORDER), (True, told.rank)):
+    for past_outputs, order in ((False, ORDER), (True, ORDER), (True, free.rank)):
         model, singular = predicted(found, order, past_outputs=past_outputs)
         who = "PO-MOESP" if past_outputs else "PI-MOESP"
         rows.append(Row(f"{who}, order {order}", "exact limit", *errors(model, setting.n_u, setting.p)))
         if order == ORDER:
-            leading = ", ".join(f"{x:.3g}" for x in singular[: told.rank + 1])
+            leading = ", ".join(f"{x:.3g}" for x in singular[: free.rank + 1])
             notes.append(f"{who}: leading singular values of L Cov(Z given Uf)^-1/2: {leading}")
     for N in lengths:
-        rows += measured(replace(setting, samples=N), told.rank, peer_python)
+        rows += measured(replace(setting, samples=N), free.rank, peer_python)
     said = {
-        "contains the range of O_s": told.contains,
-        "is shift-invariant": told.shift_invariant,
-        f"has the poles of the system and {FAULT_POLE:g}": told.poles_are_system_and_fault,
-        "has the true Markov parameters": told.markov_exact,
+        "contains the range of O_s": free.contains,
+        "is shift-invariant": free.shift_invariant,
+        f"has the poles of the system and {FAULT_POLE:g}": free.poles_are_system_and_fault,
+        "has the true Markov parameters": free.markov_exact,
     }
     notes.append(
-        f"exact L of PO-MOESP: rank {told.rank}; " + ", ".join(f"{words}: {'yes' if true else 'no'}" for words, true in said.items())
+        f"exact L of PO-MOESP: rank {free.rank}; " + ", ".join(f"{words}: {'yes' if true else 'no'}" for words, true in said.items())
     )
     title = f"{setting.n_u}-in {setting.p}-out, s = past = {setting.block_rows}{', sensor noise' if setting.noise else ''}"
     cells = [[row.who, row.samples, f"{row.eigenvalues:.3g}", f"{row.markov:.3g}"] for row in rows]

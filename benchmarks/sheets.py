@@ -18,7 +18,7 @@ LEFT = ("system", "record", "aim", "")
 
 @dataclass(frozen=True)
 class Sheet:
-    """A table before it is written."""
+    """This is a table before it is written."""
 
     title: str
     head: list[str]
@@ -26,7 +26,7 @@ class Sheet:
 
 
 def markdown(sheets: Sequence[Sheet], notes: Sequence[str]) -> str:
-    """All of it in Markdown."""
+    """This writes all of it in Markdown."""
     parts = []
     for sheet in sheets:
         lines = [" | ".join(cells) for cells in (sheet.head, ["---"] * len(sheet.head), *sheet.rows)]
@@ -36,7 +36,7 @@ def markdown(sheets: Sequence[Sheet], notes: Sequence[str]) -> str:
 
 
 def show(sheets: Sequence[Sheet], notes: Sequence[str], console: Console) -> None:
-    """All of it on a terminal."""
+    """This prints all of it on a terminal."""
     for sheet in sheets:
         table = Table(title=sheet.title, title_justify="left")
         for name in sheet.head:

@@ -17,23 +17,17 @@ from pathlib import Path
 
 from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
 from faultspace.proofs.evidence.attacks import Aim
-from faultspace.proofs.hypotheses import experiments
+from faultspace.proofs.hypotheses import ablations
 from faultspace.proofs.verdict.ledger import Claim, expected_without, load
+from faultspace.proofs.verdict.picture import Line, draw
 from faultspace.proofs.verdict.verdicts import Verdict, of_readings
 
 HERE = Path(__file__).parent
-COLOURS = {
-    Verdict.PROVED: "#1b7837",
-    Verdict.IDENTITY: "#5aae61",
-    Verdict.CERTIFIED: "#a6dba0",
-    Verdict.REFUTED: "#e08214",
-    Verdict.AMENDED: "#9970ab",
-}
 BEGIN, END = "<!-- docs/make.py makes what stands here -->", "<!-- as far as here -->"
 
 
 def claims_table() -> list[str]:
-    """The table of claims.md, a row a reading."""
+    """The table of claims.md has a row for each reading."""
     rows = ["| claim | verdict | read as | verdict on the reading |", "|---|---|---|---|"]
     for claim in load():
         for i, reading in enumerate(claim.readings):
@@ -45,16 +39,16 @@ def claims_table() -> list[str]:
 
 
 def hypotheses_table() -> list[str]:
-    """The table of hypotheses.md, a row an experiment: what the ledger expects, PROVED where the experiment names theorems that say so."""
+    """The table of hypotheses.md, a row an ablation: what the ledger expects, PROVED where it names theorems that say so."""
     heads = "claim", "conclusion", "needed", "not needed: PROVED", "no counterexample found", "follows from the others"
     rows = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     expected = expected_without()
-    for experiment in experiments():
+    for ablation in ablations():
         cells: dict[str, list[str]] = {"REFUTED": [], "PROVED": [], "CERTIFIED": [], "IMPLIED": []}
-        for name, entry in expected[experiment.name].items():
-            proved = entry == "CERTIFIED" and experiment.theorems_without((name,))
+        for name, entry in expected[ablation.name].items():
+            proved = entry == "CERTIFIED" and ablation.theorems_without((name,))
             cells["PROVED" if proved else entry].append(name)
-        rows.append(f"| {experiment.claim} | {experiment.conclusion} | {' | '.join('; '.join(names) for names in cells.values())} |")
+        rows.append(f"| {ablation.claim} | {ablation.conclusion} | {' | '.join('; '.join(names) for names in cells.values())} |")
     return rows
 
 
@@ -64,42 +58,17 @@ def verdict(claim: Claim) -> Verdict:
 
 
 def picture() -> str:
-    """An SVG: a line a claim, first its readings as printed, then ours."""
+    """An SVG of the claims with the verdicts that the ledger expects where there is Rocq."""
     import matplotlib
 
     matplotlib.use("svg")
     matplotlib.rcParams |= {"svg.hashsalt": "faultspace", "svg.fonttype": "none", "font.family": "sans-serif"}
-    from matplotlib.figure import Figure
-    from matplotlib.patches import FancyBboxPatch, Patch
-
-    claims = load()
-    printed = max(sum(not one.repair for one in claim.readings) for claim in claims)
-    ours = max(sum(one.repair for one in claim.readings) for claim in claims)
-    figure = Figure(figsize=(9, 0.27 * len(claims) + 1.1))
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    left, gap = 8.2, 0.6
-    for row, claim in enumerate(claims):
-        axes.text(0.1, row, claim.id, va="center", fontsize=9)
-        axes.text(4.9, row, str(verdict(claim)), va="center", fontsize=8, color="#333333")
-        for repair, start in ((False, left), (True, left + printed + gap)):
-            for column, reading in enumerate(one for one in claim.readings if one.repair == repair):
-                told = Verdict(reading.proved)
-                box = FancyBboxPatch((start + column + 0.08, row - 0.36), 0.84, 0.72, boxstyle="round,pad=0,rounding_size=0.12")
-                box.set(facecolor=COLOURS[told], edgecolor="none")
-                axes.add_patch(box)
-                light = told in (Verdict.PROVED, Verdict.AMENDED)
-                axes.text(start + column + 0.5, row, told[0], ha="center", va="center", fontsize=8, color="white" if light else "black")
-    axes.text(left, -1.0, "readings as printed", fontsize=9, weight="bold")
-    axes.text(left + printed + gap, -1.0, "readings of ours", fontsize=9, weight="bold")
-    axes.text(0.1, -1.0, "claim", fontsize=9, weight="bold")
-    axes.text(4.9, -1.0, "verdict", fontsize=9, weight="bold")
-    used = [Verdict.PROVED, Verdict.IDENTITY, Verdict.CERTIFIED, Verdict.REFUTED]
-    handles = [Patch(facecolor=COLOURS[one], label=f"{one[0]}  {one}") for one in used]
-    axes.legend(handles=handles, loc="lower center", ncol=4, frameon=False, fontsize=8.5, bbox_to_anchor=(0.5, 0.0))
-    axes.set(xlim=(0, left + printed + gap + ours + 0.2), ylim=(len(claims) + 0.8, -1.7))
-    axes.axis("off")
+    lines = []
+    for claim in load():
+        printed, ours = (tuple(one.proved for one in claim.readings if one.repair == repair) for repair in (False, True))
+        lines.append(Line(claim.id, str(verdict(claim)), printed, ours))
     stream = io.StringIO()
-    figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    draw(lines).figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return stream.getvalue()
 
 
@@ -117,7 +86,7 @@ def attacks_table() -> list[str]:
 
 
 def tried(record: AttackRecord) -> str:
-    """How much an attack tried, and when."""
+    """The words say how much an attack tried, and when."""
     spent = f"{record['seconds']:.0f} s, {record['date']}"
     if record["aim"] == SWEPT:
         extent = "all" if record["complete"] else "part of the box:"

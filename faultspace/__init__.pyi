@@ -7,8 +7,8 @@ from .numeric.audit.running import audit as audit
 from .numeric.data.files import read_record as read_record
 from .numeric.pipeline import identify as identify
 from .numeric.study.studies import monte_carlo as monte_carlo
+from .proofs.checking import check as check
 from .proofs.trust.certifying import certify as certify
-from .proofs.trust.certifying import check as check
 from .proofs.verification import verify as verify
 
 __version__: str

@@ -54,7 +54,7 @@ def faulty_record(samples: int = SAMPLES, *, seed: int = SEED) -> FaultyRecord:
 
 
 def csv_text(record: FaultyRecord) -> str:
-    """The measured channels, a line a sample."""
+    """The text has the measured channels, a line for each sample."""
     lines = [",".join(["sample", *INPUTS, *OUTPUTS])]
     rows = np.hstack([record.u, record.y]).tolist()
     lines += [",".join([str(k), *(f"{value:.5g}" for value in row)]) for k, row in enumerate(rows)]

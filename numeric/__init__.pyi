@@ -20,6 +20,9 @@ from .model.residuals import residual as residual
 from .model.uncertainty import Uncertainty as Uncertainty
 from .pipeline import identify as identify
 from .result import Identification as Identification
+from .rows.counting import FaultCount as FaultCount
+from .rows.counting import count_faults as count_faults
+from .rows.space import fault_space_by_rows as fault_space_by_rows
 from .signal.reconstruction import Reconstruction as Reconstruction
 from .signal.reconstruction import reconstruct_fault as reconstruct_fault
 from .space.by_ranks import fault_space as fault_space

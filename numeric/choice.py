@@ -16,7 +16,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData
-from .data.records import Record, Tell
+from .data.records import OnProgress, Record
 from .findings import Findings
 from .signal.explained_share import noise_share
 from .signal.reconstruction import Reconstruction, reconstruct_fault
@@ -24,22 +24,22 @@ from .signal.residual_sizes import loudest
 from .space.by_ranks import FaultSpaceEstimate, fault_space
 
 ROUNDING = 1e-12  # of the outputs: a residual below it is rounding
-MEANS_FROM = 1 << 14  # samples that means and shares are judged on: the regressors of a test are many times as many numbers
+MEANS_FROM = 1 << 14  # samples that means and shares are taken of: the regressors of a test are many times as many numbers
 PAIRS_TRIED = 6
 TRIED_ON = 4000  # samples that a pair is tried on
-JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which it is told
+JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which a note says so
 FROM_IDENTIFIED = (
     "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
     "shows how much on systems of the paper's kind)"
 )
 
 
-def with_space(answer: Findings, tell: Tell) -> Findings:
-    """The space of all fault columns, on the samples that faults were counted on."""
+def with_space(answer: Findings, on_progress: OnProgress) -> Findings:
+    """Return the space of all fault columns, on the samples that faults were counted on."""
     model, rest = answer.model, answer.residual
     if not answer.n_v or model is None or rest is None:
         return answer
-    tell("fault space", 0, 0)
+    on_progress("fault space", 0, 0)
     try:
         space = fault_space(beyond_rounding(answer), model.A, model.C, n_v=answer.n_v)
     except InvalidData as error:
@@ -49,36 +49,36 @@ def with_space(answer: Findings, tell: Tell) -> Findings:
     return replace(answer, fault_space=space if answer.n_v_given else replace(space, reason=counted(space.reason)))
 
 
-def with_signal(answer: Findings, tell: Tell) -> Findings:
-    """The signal of one choice of columns out of the space, over all samples, where there is ground for one."""
+def with_signal(answer: Findings, on_progress: OnProgress) -> Findings:
+    """Return the signal of one choice of columns out of the space, over all samples, where there is ground for one."""
     model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
     if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:
         return answer
     if not space.decided:
         return replace(answer, notes=(*answer.notes, "F, G and the fault signal are withheld: n_z is undecided, see the fault space"))
-    tell("choosing F and G", 0, 0)
+    on_progress("choosing F and G", 0, 0)
     part = rest.store.read(*loudest(sizes.energies, len(answer.record), TRIED_ON))
     F, G = choose_pair(part, model.A, model.C, space, count)
     try:
-        signal = reconstruct_fault(rest.store, model.A, F, model.C, G, judged=answer.held, on_progress=tell)
+        signal = reconstruct_fault(rest.store, model.A, F, model.C, G, within=answer.held, on_progress=on_progress)
     except InvalidData as error:
         return replace(answer, notes=(*answer.notes, f"no fault signal: {error}"))
     notes = answer.notes
     explained, by_noise = _shares(answer, signal, count)
     answer = replace(answer, explained=explained, by_noise=by_noise)
     if explained <= by_noise:
-        told = (
+        note = (
             f"F, G and the fault signal are withheld: they explain {100 * explained:.3g} % of the residual, and {count} "
             f"signal{'' if count == 1 else 's'} could explain up to {100 * by_noise:.3g} % of mere noise of its spectra"
         )
-        return replace(answer, notes=(*notes, told))
+        return replace(answer, notes=(*notes, note))
     if signal.mismatch > JOINED:
         notes += (f"the fault signal was found piece by piece, and neighbouring pieces differ by up to {signal.mismatch:.2g} of its size",)
     return replace(answer, pair=(F, G), signal=signal, notes=notes)
 
 
 def _shares(answer: Findings, signal: Reconstruction, count: int) -> tuple[float, float]:
-    """What the signal explains of the residual that was counted on, and what so many signals could of noise; outputs in units of the
+    """Return what the signal explains of the residual that was counted on, and what so many signals could of noise; outputs in units of the
     healthy residual where there is one, else each in units of its own size."""
     rest, sizes, until = answer.residual, answer.sizes, answer.healthy
     assert rest is not None and sizes is not None
@@ -94,12 +94,12 @@ def _shares(answer: Findings, signal: Reconstruction, count: int) -> tuple[float
 
 
 def counted(reason: str) -> str:
-    """The reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
+    """Return the reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
     return reason.replace("n_v as given", "n_v as counted").replace("was given but", "was counted but")
 
 
 def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: int) -> tuple[Array, Array]:
-    """F (n, n_v), G (p, n_v) out of the space: of a few choices the one whose signal explains the residual r best, then the one with
+    """Return F (n, n_v), G (p, n_v) out of the space: of a few choices the one whose signal explains the residual r best, then the one with
     most samples that no zero disturbs.
 
     Tried are the directions of largest G, which have the least delay, and general mixes: a special choice of columns may be inequivalent.
@@ -124,14 +124,14 @@ def choose_pair(r: Array, A: Array, C: Array, space: FaultSpaceEstimate, n_v: in
 
 
 def largest(record: Record) -> Array:
-    """The largest |y| of each output, as the record is read."""
+    """Return the largest |y| of each output, as the record is read."""
     low, high = record.channels.least - record.offset, record.channels.greatest - record.offset
     return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
 
 
 def beyond_rounding(answer: Findings) -> Array:
-    """The residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their rounding
-    would be scaled up and counted as faults."""
+    """Return the residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their
+    rounding would be scaled up and counted as faults."""
     rest, sizes = answer.residual, answer.sizes
     assert rest is not None and sizes is not None
     return np.asarray(rest.store.read(*answer.held) * (sizes.peak > ROUNDING * largest(answer.record)))

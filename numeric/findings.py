@@ -20,28 +20,14 @@ from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
 
 COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
-"""What an n_v rests on: the user, a model that explains everything, or one of the two ways of counting."""
+"""An n_v rests on one of these: the user, a model that explains everything, or one of the two ways of counting."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Findings:
     """What `identify` has found so far. A field is None where it was not asked for, because of what came before.
 
-    model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
-                     stays open, for which singular_values tell the choices
-    residual         r (N, p) in units of y, with x0 and its covariance; `sizes` of its channels
-    n_v, reason      the number of faults, None where it is undecided, and why; n_v_given: the caller stated it; counted_by: what it rests
-                     on, of COUNTED_BY; `at_least` faults act in any case
-    fault_space      the columns [f; g] that explain the residual: basis (n + p, n_z), orthonormal, and how sure it is
-    pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
-                     the signal explains, by_noise: what it would explain of noise
-    notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
-
-    order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
-    samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
-    ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
-    where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
-    visible (p,): the standard deviation of a white fault at one output that would be seen.
+    The fields are those of `Identification`, which `identify` returns and whose docstring explains them one by one.
     """
 
     record: Record
@@ -70,20 +56,22 @@ class Findings:
     explained: float | None = None
     by_noise: float | None = None
     notes: tuple[str, ...] = ()
+    dt: float | None = None
 
     @property
     def modelled(self) -> int:
-        """How many samples, from the first on, the model is from."""
+        """Return how many samples, from the first on, the model is from."""
         return self.healthy or len(self.record)
 
     @property
     def at_least(self) -> int:
-        """Faults that act in any case: the count where there is one; else one where anything stands out, the mean included."""
+        """Return the number of faults that act in any case: the count where there is one; else one where anything stands out, the mean
+        included."""
         if self.n_v is not None:
             return self.n_v
         return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
 
     @property
     def moved(self) -> bool:
-        """Whether the mean of the residual left that of the healthy samples."""
+        """Say whether the mean of the residual left that of the healthy samples."""
         return self.healthy is not None and self.mean is not None and self.mean.shifted is True

@@ -38,7 +38,7 @@ from .count.healthy_model import healthy_reference
 from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
-from .data.records import Passes, Record, Tell, silent
+from .data.records import OnProgress, Passes, Record, silent
 from .data.sources import Source, record_from
 from .findings import Findings
 from .model.past_inputs import MoespModel, OrderUndecided, pi_moesp
@@ -63,7 +63,8 @@ def identify(
     remove_means: bool = False,
     inputs: Sequence[str] | None = None,
     outputs: Sequence[str] | None = None,
-    on_progress: Tell | None = None,
+    dt: float | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Identification:
     """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults [V93], [G25].
 
@@ -73,8 +74,9 @@ def identify(
 
     `order` is the number n of states, `block_rows` the samples of a window, `n_v` the number of faults, each found from the data where it
     is not stated; `healthy` says how many samples, from the first on, are without fault; `remove_means` takes the means off, of the healthy
-    samples where there are any. `on_progress(stage, done, total)` hears how far it has come. Raises InvalidInput for a file that cannot be
-    read, and InvalidData for data from which no model can be had; what cannot be told after that is a note of the Identification.
+    samples where there are any. `dt` is the time from sample to sample in seconds, which only the exports need. `on_progress(stage, done,
+    total)` hears how far it has come. Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can
+    be had; what cannot be told after that is a note of the Identification.
 
     >>> import numpy as np
     >>> from faultspace.numeric import identify
@@ -85,20 +87,28 @@ def identify(
     >>> found.model.order, found.n_v
     (1, 0)
     """
-    told = on_progress or silent
+    on_progress = on_progress or silent
     record = record_from(y, u, inputs=inputs, outputs=outputs, on_progress=on_progress)
     if n_v is not None and not 0 <= n_v <= record.p:
         raise InvalidData(f"n_v: got {n_v} for {record.p} outputs; at most as many can be told apart: state fewer")
     if healthy is not None and not 0 < healthy < len(record):
         raise InvalidData(f"healthy: got {healthy} for {len(record)} samples; some must follow: state fewer")
-    found = _findings(record, order, block_rows, n_v, healthy, remove_means, told)
-    return Identification(**vars(found))
+    if dt is not None and not (dt > 0 and np.isfinite(dt)):
+        raise InvalidData(f"dt: got {dt}; the seconds from sample to sample are needed, or None where they are not known")
+    found = _findings(record, order, block_rows, n_v, healthy, remove_means, on_progress)
+    return Identification(**vars(found) | {"dt": dt})
 
 
 def _findings(
-    record: Record, order: int | None, block_rows: int | None, n_v: int | None, healthy: int | None, remove_means: bool, told: Tell
+    record: Record,
+    order: int | None,
+    block_rows: int | None,
+    n_v: int | None,
+    healthy: int | None,
+    remove_means: bool,
+    on_progress: OnProgress,
 ) -> Findings:
-    """The chain of the module's docstring."""
+    """Go through the chain of the module's docstring."""
     part = record if healthy is None else record.beginning(healthy)
     rows = block_rows if block_rows is not None else default_block_rows(len(part), record.p, record.n_u, order)
     try:
@@ -109,7 +119,7 @@ def _findings(
     notes = () if remove_means else _far_from_zero(part)
     if remove_means:
         record, part = record.about(part.channels.mean), part.about_means()
-    model, values, refusal = _model(part, order, rows, told)
+    model, values, refusal = _model(part, order, rows, on_progress)
     answer = Findings(record, rows, remove_means, order is not None, values, model, notes=notes)
     answer = replace(answer, n_v_given=n_v is not None, healthy=healthy)
     if model is None:
@@ -117,18 +127,19 @@ def _findings(
     notes += model.warnings
     if order is not None and not model.gap.clean:
         notes += (f"order {order} was given; the singular values have no clean gap there (ratio {model.gap.ratio:.3g})",)
-    rest = _residual(record, model, told)
+    rest = _residual(record, model, on_progress)
     sizes = residual_sizes(rest.store, healthy or len(record))
     answer = replace(answer, residual=rest, sizes=sizes, notes=(*notes, *rest.notes))
     if np.all(sizes.peak <= ROUNDING * largest(record)):
         return replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model")
-    return with_signal(with_space(_with_count(answer, n_v, told), told), told)
+    return with_signal(with_space(_with_count(answer, n_v, on_progress), on_progress), on_progress)
 
 
-def _residual(record: Record, model: MoespModel, tell: Tell) -> ResidualSignal:
-    """From the state that goes with the model's B and D, where output error has found one and the model can be run from it over the whole
-    record, of which it may have seen a part: no sample is then held. Its covariance has taken off all parameters that were fitted."""
-    data = Passes(record, "residual", tell)
+def _residual(record: Record, model: MoespModel, on_progress: OnProgress) -> ResidualSignal:
+    """Take the residual from the state that goes with the model's B and D, where output error has found one and the model can be run from
+    it over the whole record, of which it may have seen a part: no sample is then held. Its covariance has taken off all parameters that
+    were fitted."""
+    data = Passes(record, "residual", on_progress)
     if model.x0 is None or model.residual_covariance is None or growing_modes(model.model, len(record)):
         return residual(data, None, model.model)
     return replace(residual(data, None, model.model, x0=model.x0), covariance=model.residual_covariance)
@@ -147,11 +158,11 @@ def _nothing_left(answer: Findings) -> str:
     return f"the model explains the outputs to rounding: nothing larger than {sizes} acts{hidden}"
 
 
-def _with_count(answer: Findings, faults: int | None, tell: Tell) -> Findings:
-    """How many faults act, from the residual beside the inputs."""
+def _with_count(answer: Findings, faults: int | None, on_progress: OnProgress) -> Findings:
+    """Count the faults, from the residual beside the inputs."""
     record, rest, sizes, notes = answer.record, answer.residual, answer.sizes, answer.notes
     assert rest is not None and sizes is not None
-    tell("counting faults", 0, 0)
+    on_progress("counting faults", 0, 0)
     most = HELD // (record.p + record.n_u)
     first, last = loudest(sizes.energies, len(record), most)
     healthy = answer.healthy or 0
@@ -176,20 +187,20 @@ def _with_count(answer: Findings, faults: int | None, tell: Tell) -> Findings:
     try:
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             # Not those set to zero: rounding is held against rounding.
-            answer = _against_healthy(answer, rest.store.read(first, last), tell) if healthy else _about_zero(answer, r)
+            answer = _against_healthy(answer, rest.store.read(first, last), on_progress) if healthy else _about_zero(answer, r)
     except np.linalg.LinAlgError:
-        told = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
-        answer = replace(answer, n_v=None, counted_by=None, reason=told)
+        reason = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
+        answer = replace(answer, n_v=None, counted_by=None, reason=reason)
     if faults is None:
         return answer
-    said = "undecided" if answer.n_v is None else answer.n_v
-    told = "as the data say" if faults == answer.n_v else f"the data say {said}: {answer.reason}"
-    return replace(answer, n_v=faults, reason=f"{faults} given; {told}", counted_by="given")
+    counted = "undecided" if answer.n_v is None else answer.n_v
+    agreement = "as the data say" if faults == answer.n_v else f"the data say {counted}: {answer.reason}"
+    return replace(answer, n_v=faults, reason=f"{faults} given; {agreement}", counted_by="given")
 
 
 def _about_zero(answer: Findings, r: Array) -> Findings:
-    """Without healthy samples: the mean of the residual against zero, where it was not removed. It decides nothing, since a constant fault
-    over a whole record cannot be told from an operating point."""
+    """Hold the mean of the residual against zero, where there are no healthy samples and it was not removed. It decides nothing, since a
+    constant fault over a whole record cannot be told from an operating point."""
     if answer.n_v == 0:
         answer = replace(answer, reason=f"{answer.reason}; a fault that is constant over the whole record would not be seen")
     if answer.means_removed:
@@ -204,14 +215,14 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
     return replace(answer, mean=mean, notes=notes)
 
 
-def _against_healthy(answer: Findings, r: Array, tell: Tell) -> Findings:
-    """The count of `answer`'s residual r beside that against the samples stated to be without fault, of which the last HELD numbers are
+def _against_healthy(answer: Findings, r: Array, on_progress: OnProgress) -> Findings:
+    """Count the faults in the residual r of `answer` against the samples stated to be without fault, of which the last HELD numbers are
     held, and beside the test of the mean."""
     record, rest, sizes, until = answer.record, answer.residual, answer.sizes, answer.healthy
     assert rest is not None and sizes is not None and until is not None
     if np.all(sizes.early_peak <= ROUNDING * largest(record)):
         return _zero_or_not(replace(answer, unexplained=True))
-    tell("counting faults against the healthy samples", 0, 0)
+    on_progress("counting faults against the healthy samples", 0, 0)
     start = max(until - HELD // (record.p + record.n_u), 0)
     healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
     mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[-MEANS_FROM:], before[-MEANS_FROM:])
@@ -240,7 +251,7 @@ def _against_healthy(answer: Findings, r: Array, tell: Tell) -> Findings:
 
 
 def _zero_or_not(answer: Findings) -> Findings:
-    """0 is said only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
+    """Leave 0 only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
     if answer.n_v != 0 and not (answer.n_v is None and (answer.moved or answer.unexplained)):
         return answer
     mean, against = answer.mean, answer.against
@@ -264,16 +275,17 @@ def _zero_or_not(answer: Findings) -> Findings:
 
 
 def default_block_rows(samples: int, p: int, n_u: int, order: int | None) -> int:
-    """20 block rows, more where a given order needs them, fewer where the record is short."""
+    """Return 20 block rows, more where a given order needs them, fewer where the record is short."""
     wanted = DEFAULT_WINDOW if order is None else max(DEFAULT_WINDOW, -(-order // p) + 2, -(-order // n_u) + 1)
     affordable = samples // (2 + SPARE * (2 * n_u + p))
     return max(min(wanted, affordable), 2)
 
 
-def _model(record: Record, order: int | None, rows: int, tell: Tell) -> tuple[MoespModel | None, Array, str]:
-    """The model with its singular values; without an order to trust None, the values and the reason. Raises InvalidData for bad data."""
+def _model(record: Record, order: int | None, rows: int, on_progress: OnProgress) -> tuple[MoespModel | None, Array, str]:
+    """Return the model with its singular values; without an order to trust None, the values and the reason. Raises InvalidData for bad
+    data."""
     try:
-        found = pi_moesp(Passes(record, "identifying the model", tell), order=order, block_rows=rows)
+        found = pi_moesp(Passes(record, "identifying the model", on_progress), order=order, block_rows=rows)
     except OrderUndecided as error:
         return None, error.singular_values, str(error)
     return found, found.singular_values, ""

@@ -34,7 +34,11 @@ class Identification(Findings):
     samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
     ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
     where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
-    visible (p,): the standard deviation of a white fault at one output that would be seen.
+    visible (p,): the standard deviation of a white fault at one output that would be seen; dt: the sample time in seconds, where it was
+    stated.
+
+    `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
+    `to_scipy()` and `to_mat(path)` hand it to other programs.
     """
 
     def __repr__(self) -> str:
@@ -45,17 +49,18 @@ class Identification(Findings):
         return f"<Identification of {len(self.record)} samples: order {order}, n_v {n_v}, n_z {n_z}, {found}>"
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: the summary."""
+        """Return what a notebook shows: the summary."""
         return f"<pre>{html.escape(self.summary())}</pre>"
 
     def summary(self, title: str = "Identification") -> str:
-        """What was found, for people: lines of Markdown under this title."""
+        """Tell people what was found, in lines of Markdown under this title."""
         from .report.summary import summary
 
         return "\n".join(summary(self, title))
 
     def to_json(self, data: str = "arrays") -> dict[str, Any]:
-        """Everything but the signals as a JSON-ready dict, by the schema identify.schema.json; `data` says where the record is from."""
+        """Return everything but the signals as a JSON-ready dict, by the schema identify.schema.json; `data` says where the record is
+        from."""
         from .report.files import document
 
         return document(self, data)
@@ -66,6 +71,33 @@ class Identification(Findings):
         from .report.pictures import main_picture
 
         return main_picture(self, ax)
+
+    def to_control(self) -> Any:
+        """Return the model as a control.StateSpace of python-control, with the names of inputs and outputs and the sample time.
+
+        A model whose sample time was not stated is of discrete time with a time unstated (dt=True). Raises InvalidData where there is no
+        model, and ImportError without python-control.
+        """
+        from .report.export import to_control
+
+        return to_control(self)
+
+    def to_scipy(self) -> Any:
+        """Return the model as a scipy.signal.dlti with the sample time, 1 where none was stated. Raises InvalidData where there is no
+        model."""
+        from .report.export import to_scipy
+
+        return to_scipy(self)
+
+    def to_mat(self, path: str | os.PathLike[str]) -> None:
+        """Write A, B, C, D, F, G, x0, the names `inputs` and `outputs` and the sample time `dt` into a MAT file, which MATLAB loads.
+
+        F and G have no columns where no pair was found; dt is -1, which is MATLAB's word for unstated, where none was stated. Raises
+        InvalidData where there is no model, and InvalidInput for a path that cannot be written.
+        """
+        from .report.export import to_mat
+
+        to_mat(self, path)
 
     def save(self, folder: str | os.PathLike[str], data: str = "arrays") -> list[str]:
         """Writes model, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their names.

@@ -1,6 +1,8 @@
-from .trust.certifying import Checked as Checked
+from .checking import Checked as Checked
+from .checking import CheckedFile as CheckedFile
+from .checking import check as check
+from .checking import check_file as check_file
 from .trust.certifying import certify as certify
-from .trust.certifying import check as check
 from .trust.checker import Malformed as Malformed
 from .trust.checker import Rejected as Rejected
 from .trust.structure_certificates import Unprovable as Unprovable

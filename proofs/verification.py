@@ -12,10 +12,11 @@ from importlib import import_module
 
 from ..base.errors import InvalidInput
 from .adversary.attacking import attacking, of_reading, of_row
-from .evidence.corpus import Progress
-from .hypotheses import experiments
-from .rocq.build import BrokenTheory, NoRocq, NotProved, sources
+from .evidence.corpus import Progress, describe
+from .hypotheses import ablations
+from .rocq.build import BrokenTheory, NoRocq, NotProved
 from .rocq.locks import held
+from .rocq.sources import sources
 from .rocq.theorems import Theorems
 from .rocq.theorems import check as machine_checked
 from .trust.checker import Malformed, Rejected
@@ -28,21 +29,23 @@ EFFORTS = ("quick", "full")
 TRUSTED = "this trusts Rocq's kernel, MathComp, and files compiled before in your cache, which --recheck compiles anew"
 
 
-def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, progress: Progress | None = None) -> Report:
+def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, on_progress: Progress | None = None) -> Report:
     """Every claim of the ledger, or those with the ids `claims`, decided now: each reading with a verdict and the evidence it rests on.
 
-    `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core), and `progress(stage, done, total)` hears how far
-    the run is. The Report has `claims`, `hypotheses`, `as_expected` (whether every verdict is the one the ledger expects), `certificates()`
-    and `summary()`. A single claim takes tens of seconds, because what the readings rest on is made anew. The claims are those of [G25].
+    `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core), and `on_progress(stage, done, total)` hears how far
+    the run is. The Report has `claims`, `hypotheses`, `as_expected` (whether every verdict is the one that the ledger expects),
+    `certificates()`, `summary()` and `plot()`. Most claims take tens of seconds, because the systems and certificates that their readings
+    rest on are made anew; the one of the example below needs less than a second. The claims are those of [G25].
 
     Raises InvalidInput for an unknown claim or effort.
 
     >>> import faultspace as fs
-    >>> try:
-    ...     fs.verify(["no-such-claim"])
-    ... except fs.errors.InvalidInput as error:
-    ...     print(str(error)[:27])
-    claim: got 'no-such-claim',
+    >>> report = fs.verify(["example-v"], jobs=1)
+    >>> print(report.summary())
+    1 claim decided: every verdict is the expected one
+        example-v                           AMENDED
+    >>> report.claims[0].readings[0].outcome.evidence
+    'window ranks [2, 4, 5, 6, 7, 8] for s = 1..6, left minimal indices [2], normal rank 1'
     """
     if effort not in EFFORTS:
         raise InvalidInput(f"effort: got {effort!r}, expected one of {', '.join(EFFORTS)}")
@@ -51,50 +54,51 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
     if unknown:
         raise InvalidInput(f"claim: got {unknown[0]!r}, expected one of {', '.join(ledger)}")
     chosen = [claim for claim in ledger.values() if claims is None or claim.id in claims]
-    report = progress or (lambda stage, done, total: None)
+    report = on_progress or (lambda stage, done, total: None)
     started = time.perf_counter()
     bench = Workbench(effort, jobs, report)
     total = sum(len(claim.readings) for claim in chosen)
     machine = _theorems(chosen, report)
     attacks = attacking({claim.id for claim in chosen}, effort, jobs, report)
     results: list[ClaimResult] = []
+    decided: dict[str, Outcome] = {}  # by the name of the check: several readings come down to one
     done = 0
     for claim in chosen:
         readings = []
         for reading in claim.readings:
             report(f"{claim.id}: {reading.id}", done, total)
-            readings.append(of_reading(_with_theorems(_check(claim, reading, bench), machine), claim.id, attacks))
+            readings.append(of_reading(_with_theorems(_check(reading, bench, decided), machine), claim.id, attacks))
             done += 1
         results.append(ClaimResult(claim, tuple(readings)))
     rows = tuple(of_row(row, attacks) for row in _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report))
     report("done", total, total)
-    corpus = bench.corpus.words if "corpus" in vars(bench) else ""
-    return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.told)
+    corpus = describe(bench.corpus) if "corpus" in vars(bench) else ""
+    return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.message)
 
 
 def _without_hypotheses(bench: Workbench, claims: set[str], machine: _Machine, report: Progress) -> tuple[Row, ...]:
     expected = expected_without()
-    chosen = [experiment for experiment in experiments() if experiment.claim in claims]
+    chosen = [ablation for ablation in ablations() if ablation.claim in claims]
     rows: list[Row] = []
-    for done, experiment in enumerate(chosen):
-        report(f"{experiment.claim} without its hypotheses", done, len(chosen))
+    for done, ablation in enumerate(chosen):
+        report(f"{ablation.claim} without its hypotheses", done, len(chosen))
         try:
-            rows += [_row_with_theorems(row, machine) for row in ablate(bench, experiment, expected[experiment.name])]
+            rows += [_row_with_theorems(row, machine) for row in ablate(bench, ablation, expected[ablation.name])]
         except Exception as error:  # as for a reading: it did not finish, and the others go on
             words = f"{type(error).__name__}: {error}"
-            rows.append(Row(experiment.name, experiment.claim, experiment.conclusion, (), Verdict.ERROR, words, None, (), 0))
+            rows.append(Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, (), 0))
     return tuple(rows)
 
 
 @dataclass(frozen=True)
 class _Machine:
-    """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), what to tell of it, and the locks of
+    """Rocq's part in a run: the theorems that it checked, or why it failed (None: it is not here), a message about it, and the locks of
     the theorems, which hold without it too.
     """
 
     theorems: Theorems | None
     failure: str | None
-    told: str
+    message: str
     locks: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -102,18 +106,18 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
     """The theorems that these claims name."""
     names = {name for claim in claims for reading in claim.readings for name in reading.theorems}
     ids = {claim.id for claim in claims}
-    names |= {name for e in experiments() if e.claim in ids and e.proof is not None for name in e.proof.theorems}
+    names |= {name for one in ablations() if one.claim in ids and one.proof is not None for name in one.proof.theorems}
     if not names:
         return _Machine(None, None, "no theorem is named by these claims")
     try:
         theorems = machine_checked(names, report)
     except NoRocq as error:
-        told = f"{error}. Without it, readings that have a proof in proofs/theory rest on their certificates"
-        return _Machine(None, None, told, {name: lock.sha256 for name, lock in held(sources()).theorems.items()})
+        message = f"{error}. Without it, readings that have a proof in proofs/theory rest on their certificates"
+        return _Machine(None, None, message, {name: lock.sha256 for name, lock in held(sources()).theorems.items()})
     except (BrokenTheory, NotProved) as error:
         return _Machine(None, f"Rocq: {error}", f"failed: {error}")
-    told = f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all as locked and closed under the global context; {TRUSTED}"
-    return _Machine(theorems, None, told, theorems.locks)
+    message = f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all as locked and closed under the global context; {TRUSTED}"
+    return _Machine(theorems, None, message, theorems.locks)
 
 
 def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
@@ -146,15 +150,22 @@ def _row_with_theorems(row: Row, machine: _Machine) -> Row:
     return replace(row, verdict=Verdict.PROVED, evidence=words, machine_checked=True)
 
 
-def _check(claim: Claim, reading: Reading, bench: Workbench) -> ReadingResult:
+def _check(reading: Reading, bench: Workbench, decided: dict[str, Outcome]) -> ReadingResult:
     started = time.perf_counter()
-    module = import_module(f".claims.{claim.module}", __package__)
+    if reading.check not in decided:
+        decided[reading.check] = _outcome(reading.check, bench)
+    return ReadingResult(reading, decided[reading.check], time.perf_counter() - started)
+
+
+def _outcome(check: str, bench: Workbench) -> Outcome:
+    """What the function of this name in claims/ finds; an ERROR where it raises, or says something that no accepted certificate bears."""
+    file, _, name = check.partition(".")
     try:
-        outcome: Outcome = getattr(module, reading.id.replace("-", "_"))(bench)
+        outcome: Outcome = getattr(import_module(f".claims.{file}", __package__), name)(bench)
     except (Malformed, Rejected) as error:
         outcome = Outcome(Verdict.ERROR, f"the checker refused a certificate: {error}")
     except Exception as error:  # whatever it is, this check did not finish, and the others go on
         outcome = Outcome(Verdict.ERROR, f"{type(error).__name__}: {error}")
     if outcome.verdict in (Verdict.CERTIFIED, Verdict.REFUTED) and not (outcome.certificates and outcome.accepted):
         outcome = Outcome(Verdict.ERROR, f"{outcome.verdict}, and yet no certificate was accepted: {outcome.evidence}")
-    return ReadingResult(reading, outcome, time.perf_counter() - started)
+    return outcome

@@ -3,12 +3,15 @@
 ci          the profile in force: the same examples in every run, nothing remembered between runs
 explore     fresh examples and no clock, for looking further: `pytest --hypothesis-profile=explore`
 
-Where tests run in several processes, the Rocq theory is compiled before they start (once, then it is in the user's cache), so that no test
+Where tests run in several processes, each begins with a stretch of them in the order of the files, so that what the tests of a file share
+is made in one process, and takes half of what another has left when it has done its own. Tests marked `long` come first, so that no
+process is left with one at the end. The Rocq theory is compiled before they start (once, then it is in the user's cache), so that no test
 waits for another's compilation. The linear algebra library gets one thread a process: on small matrices threads mostly wait for each other.
 """
 
 import contextlib
 import os
+from typing import Any
 
 import pytest
 from hypothesis import settings
@@ -19,6 +22,19 @@ for threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
 settings.register_profile("ci", derandomize=True, database=None, deadline=None)
 settings.register_profile("explore", derandomize=False, database=None, deadline=None, max_examples=1000)
 settings.load_profile("ci")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The long tests first, all others in their order."""
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
+@pytest.hookimpl(optionalhook=True, tryfirst=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """The scheduler that steals, where `-n` alone was given; xdist's own otherwise."""
+    from xdist.scheduler import WorkStealingScheduling
+
+    return WorkStealingScheduling(config, log) if config.getvalue("dist") == "load" else None
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:

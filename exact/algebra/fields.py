@@ -20,51 +20,64 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import flint
-import sympy
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod
 
 from ...base.errors import InvalidInput, shorten
 from . import pickling as pickling
+from .sympy_values import is_rational
 from .validation import MAX_FIELD_DEGREE, parse_rational
 from .writing import sum_of_powers
 
 
 def _as_rational(value: object, where: str) -> fmpq:
-    """fmpq of an int, rational string, Fraction, sympy rational, fmpz or fmpq; InvalidInput for the rest, floats included."""
+    """The result is the fmpq of an int, rational string, Fraction, sympy rational, fmpz or fmpq. Raises InvalidInput for the rest, floats
+    included.
+    """
     if isinstance(value, fmpq):
         return value
     if isinstance(value, fmpz):
         return fmpq(value)
-    if isinstance(value, (Fraction, sympy.Rational)):
+    if isinstance(value, Fraction) or is_rational(value):
         return fmpq(int(value.numerator), int(value.denominator))
     return parse_rational(value, where)
 
 
 @dataclass(frozen=True)
 class Rationals:
-    """The field Q."""
+    """This is the field Q of the rational numbers, whose elements are of type flint.fmpq.
+
+    `Rationals()` has no arguments, and all of them are equal. Its `element` takes integers, rational strings such as "-3/4", Fractions and
+    sympy rationals, and `write` gives the reduced string that exact files hold.
+
+    Raises InvalidInput, in `element`, for anything else, floats included.
+
+    >>> from faultspace.exact import Rationals
+    >>> QQ = Rationals()
+    >>> QQ.element("2/4"), QQ.write(QQ.element("2/4")), QQ.degree, QQ.characteristic
+    (1/2, '1/2', 1, 0)
+    """
 
     degree: ClassVar[int] = 1
     characteristic: ClassVar[int] = 0
 
     def element(self, value: object, where: str = "entry") -> Any:
-        """The element that `value` stands for (int, rational string, Fraction, sympy Rational, fmpq). Raises InvalidInput."""
+        """The result is the element that `value` stands for (int, rational string, Fraction, sympy Rational, fmpq). Raises InvalidInput."""
         return _as_rational(value, where)
 
     def write(self, element: Any) -> str:
-        """The reduced rational string."""
+        """The result is the reduced rational string."""
         return str(element)
 
     def block(self, element: Any) -> list[list[Any]]:
-        """[[element]]."""
+        """The result is [[element]], the 1 x 1 matrix of multiplication by the element."""
         return [[element]]
 
     def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
-        """The element with these coordinates: the only one."""
+        """The result is the element with these coordinates, of which there is one."""
         return coordinates[0]
 
     def to_json(self) -> object:
-        """The `field` value of an exact file."""
+        """The result is the `field` value of an exact file."""
         return "Q"
 
     def __str__(self) -> str:
@@ -73,7 +86,18 @@ class Rationals:
 
 @dataclass(frozen=True)
 class PrimeField:
-    """The field with p elements. Raises InvalidInput unless p is a prime below 2^64 (flint aborts on composite moduli)."""
+    """This is the field GF(p) of the integers modulo a prime p below 2^64, whose elements are of type flint.nmod.
+
+    `element` takes integers and integer strings, and no fractions; `write` gives the residue in 0..p-1 as a string.
+
+    Raises InvalidInput unless p is a prime below 2^64 (flint aborts the process on a composite modulus), and, in `element`, for fractions,
+    floats and elements of another field.
+
+    >>> from faultspace.exact import PrimeField
+    >>> field = PrimeField(5)
+    >>> field.element(3) / field.element(2), field.write(field.element(-1)), str(field)
+    (4, '4', 'GF(5)')
+    """
 
     p: int
     degree: ClassVar[int] = 1
@@ -84,11 +108,11 @@ class PrimeField:
 
     @property
     def characteristic(self) -> int:
-        """p."""
+        """The characteristic is p."""
         return self.p
 
     def element(self, value: object, where: str = "entry") -> Any:
-        """The residue of an int or integer string. Raises InvalidInput for anything else, fractions included."""
+        """The result is the residue of an int or integer string. Raises InvalidInput for anything else, fractions included."""
         if isinstance(value, nmod):
             if value.modulus() != self.p:
                 raise InvalidInput(f"{where}: got an element of GF({value.modulus()}), expected one of GF({self.p})")
@@ -99,19 +123,19 @@ class PrimeField:
         return nmod(int(number.p % self.p), self.p)
 
     def write(self, element: Any) -> str:
-        """The residue in 0..p-1 as a string."""
+        """The result is the residue in 0..p-1 as a string."""
         return str(int(element))
 
     def block(self, element: Any) -> list[list[Any]]:
-        """[[element]]."""
+        """The result is [[element]], the 1 x 1 matrix of multiplication by the element."""
         return [[element]]
 
     def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
-        """The element with these coordinates: the only one."""
+        """The result is the element with these coordinates, of which there is one."""
         return coordinates[0]
 
     def to_json(self) -> object:
-        """The `field` value of an exact file."""
+        """The result is the `field` value of an exact file."""
         return {"prime": self.p}
 
     def __str__(self) -> str:
@@ -120,9 +144,19 @@ class PrimeField:
 
 @dataclass(frozen=True, eq=False)
 class NumberField:
-    """Q(a) for a root a of an irreducible polynomial, coefficients ascending, monic or not.
+    """This is the field Q(a) for a root a of an irreducible polynomial over Q, given by its ascending coefficients, monic or not.
 
-    Raises InvalidInput when the degree is not in 1..16 or the polynomial is reducible over Q.
+    An element is a rational polynomial in a of degree below d, the degree of the polynomial, which is at most 16; `element` takes a
+    rational or a list of its d coordinates, ascending in a. No root is chosen: what is true over Q(a) is true for every root. Two
+    polynomials of which one is a multiple of the other name the same field.
+
+    Raises InvalidInput when the degree is not in 1..16 or the polynomial is reducible over Q, and, in `element`, for anything else.
+
+    >>> from faultspace.exact import NumberField
+    >>> field = NumberField((-2, 0, 1))
+    >>> root = field.element([0, 1])
+    >>> str(field), str(root * root), str(field.element(1) / root), field.write(root)
+    ('Q(a) with a^2 - 2 = 0', '2', '1/2 a', ['0', '1'])
     """
 
     minimal_polynomial: tuple[Fraction, ...]
@@ -139,8 +173,8 @@ class NumberField:
         object.__setattr__(self, "minimal_polynomial", tuple(Fraction(int(c.p), int(c.q)) for c in values))
         _, factors = self.integer_polynomial.factor()
         if len(factors) != 1 or factors[0][1] != 1:
-            shown_poly = sum_of_powers([str(c) for c in self.modulus.coeffs()], "a")
-            raise InvalidInput(f"{where}: {shown_poly} is reducible over Q, expected an irreducible polynomial")
+            text = sum_of_powers([str(c) for c in self.modulus.coeffs()], "a")
+            raise InvalidInput(f"{where}: {text} is reducible over Q, expected an irreducible polynomial")
 
     def __eq__(self, other: object) -> bool:
         """A polynomial and its multiples name the same field."""
@@ -155,17 +189,17 @@ class NumberField:
 
     @property
     def degree(self) -> int:
-        """d, the degree of the minimal polynomial."""
+        """The degree d of the field is that of the minimal polynomial."""
         return len(self.minimal_polynomial) - 1
 
     @cached_property
     def modulus(self) -> fmpq_poly:
-        """The minimal polynomial as given."""
+        """This is the minimal polynomial as given."""
         return fmpq_poly([fmpq(c.numerator, c.denominator) for c in self.minimal_polynomial])
 
     @cached_property
     def integer_polynomial(self) -> fmpz_poly:
-        """The minimal polynomial times the common denominator of its coefficients."""
+        """This is the minimal polynomial times the common denominator of its coefficients."""
         scaled = self.modulus * self.modulus.denom()
         return fmpz_poly([c.p for c in scaled.coeffs()])
 
@@ -175,7 +209,7 @@ class NumberField:
         return [x**i for i in range(self.degree)]
 
     def element(self, value: object, where: str = "entry") -> Any:
-        """The element that a rational or a list of d rationals (ascending in a) stands for. Raises InvalidInput."""
+        """The result is the element that a rational or a list of d rationals (ascending in a) stands for. Raises InvalidInput."""
         if isinstance(value, AlgebraicNumber) and value.field == self:
             return value
         if isinstance(value, (list, tuple)):
@@ -189,18 +223,18 @@ class NumberField:
             raise InvalidInput(f"{error}, or a list of its {self.degree} coordinates, ascending in a: a itself is {unit}") from None
 
     def write(self, element: Any) -> object:
-        """A rational string where the element is rational, else the list of its d coordinates."""
+        """The result is a rational string where the element is rational, else the list of its d coordinates."""
         coordinates = self.coordinates(element)
         if all(c == 0 for c in coordinates[1:]):
             return str(coordinates[0])
         return [str(c) for c in coordinates]
 
     def coordinates(self, element: Any) -> list[fmpq]:
-        """The d rational coordinates of an element, ascending in a."""
+        """These are the d rational coordinates of an element, ascending in a."""
         return [element.poly[i] for i in range(self.degree)]
 
     def block(self, element: Any) -> list[list[Any]]:
-        """The d x d matrix of multiplication by the element; row i: coordinates of a^i times it."""
+        """The result is the d x d matrix of multiplication by the element: row i holds the coordinates of a^i times it."""
         if element.poly.degree() <= 0:
             c = element.poly[0]
             return [[c if i == j else fmpq(0) for j in range(self.degree)] for i in range(self.degree)]
@@ -208,11 +242,11 @@ class NumberField:
         return [[row[j] for j in range(self.degree)] for row in rows]
 
     def from_coordinates(self, coordinates: Sequence[Any]) -> Any:
-        """The element with these d coordinates."""
+        """The result is the element with these d coordinates."""
         return AlgebraicNumber(self, fmpq_poly(list(coordinates)))
 
     def to_json(self) -> object:
-        """The `field` value of an exact file."""
+        """The result is the `field` value of an exact file."""
         return {"minimal_polynomial": [str(fmpq(c.numerator, c.denominator)) for c in self.minimal_polynomial]}
 
     def __str__(self) -> str:
@@ -221,7 +255,7 @@ class NumberField:
 
 @dataclass(frozen=True, eq=False)
 class AlgebraicNumber:
-    """An element of a NumberField: a rational polynomial in a of degree below d. Field operations by operators."""
+    """This is an element of a NumberField: a rational polynomial in a of degree below d. The field operations are operators."""
 
     field: NumberField
     poly: fmpq_poly
@@ -273,7 +307,16 @@ QQ = Rationals()
 
 
 def field_from_json(value: object) -> Field:
-    """The field that the `field` value of an exact file names. Raises InvalidInput."""
+    """The result is the field that the `field` value of an exact file names: "Q", a dict with "prime" or one with "minimal_polynomial".
+
+    The minimal polynomial is a list of rational strings or integers by ascending power. Each field's `to_json` writes what this reads.
+
+    Raises InvalidInput for anything else, for a number that is no prime, and for a polynomial that is reducible over Q.
+
+    >>> from faultspace.exact import field_from_json
+    >>> [str(field_from_json(value)) for value in ("Q", {"prime": 3}, {"minimal_polynomial": ["-2", "0", "1"]})]
+    ['Q', 'GF(3)', 'Q(a) with a^2 - 2 = 0']
+    """
     if value == "Q":
         return QQ
     if isinstance(value, dict) and set(value) == {"prime"}:
@@ -284,7 +327,7 @@ def field_from_json(value: object) -> Field:
 
 
 def base_matrix(field: Field, rows: int, cols: int, scalars: list[Any]) -> Any:
-    """The flint matrix of this shape over the base field (Q for number fields)."""
+    """The result is the flint matrix of this shape over the base field (Q for number fields)."""
     if isinstance(field, PrimeField):
         return flint.nmod_mat(rows, cols, scalars, field.p)
     return flint.fmpq_mat(rows, cols, scalars)

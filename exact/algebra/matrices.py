@@ -17,22 +17,40 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import sympy
 from flint import fmpq_mat, fmpz, nmod_mat
-from sympy.polys.domains import AlgebraicField
-from sympy.polys.matrices import DomainMatrix
 
 from ...base.errors import InvalidInput, shorten
 from .fields import QQ, Field, NumberField, PrimeField, base_matrix
+from .sympy_values import is_domain_matrix, is_matrix
+
+if TYPE_CHECKING:
+    import sympy
+    from sympy.polys.domains import AlgebraicField
+    from sympy.polys.matrices import DomainMatrix
 
 PRIME = 2**61 - 1
 
 
 @dataclass(frozen=True, eq=False)
 class Matrix:
-    """An immutable nrows x ncols matrix over `field`. Build it with `Matrix.of`, `Matrix.zero` or `Matrix.identity`."""
+    """This is an immutable matrix of shape nrows x ncols over one of the three kinds of field; a dimension may be zero.
+
+    `Matrix.of` makes one from nested lists, sympy matrices and so on, `Matrix.zero` and `Matrix.identity` make those two. `+`, `-` and `@`
+    stay within one field, `matrix[i, j]` is a field element, `rows` and `columns` choose, `to_json` and `to_sympy` write. Two matrices are
+    equal where field, shape and entries are.
+
+    Raises InvalidInput, in `Matrix.of`, for ragged rows, a shape that does not agree and entries outside the field, and ValueError where
+    matrices over different fields are combined.
+
+    >>> from faultspace.exact import Matrix
+    >>> M = Matrix.of([["1/2", 1], [0, 2]])
+    >>> M @ M
+    [[1/4, 5/2], [0, 4]]
+    >>> M.shape, M[0, 0], M.to_json()
+    ((2, 2), 1/2, [['1/2', '1'], ['0', '2']])
+    """
 
     field: Field
     nrows: int
@@ -61,7 +79,7 @@ class Matrix:
 
     @staticmethod
     def from_elements(field: Field, nrows: int, ncols: int, rows: Sequence[Sequence[Any]]) -> Matrix:
-        """A matrix from rows of field elements, unchecked."""
+        """The result is a matrix from rows of field elements, unchecked."""
         d = field.degree
         if d == 1 and not isinstance(field, NumberField):
             return Matrix(field, nrows, ncols, base_matrix(field, nrows, ncols, [x for row in rows for x in row]))
@@ -75,13 +93,13 @@ class Matrix:
 
     @staticmethod
     def zero(field: Field, nrows: int, ncols: int) -> Matrix:
-        """The zero matrix."""
+        """The result is the zero matrix."""
         d = field.degree
         return Matrix(field, nrows, ncols, base_matrix(field, nrows * d, ncols * d, [0] * (nrows * ncols * d * d)))
 
     @staticmethod
     def identity(field: Field, size: int) -> Matrix:
-        """The identity matrix."""
+        """The result is the identity matrix."""
         k = size * field.degree
         scalars = [0] * (k * k)
         scalars[:: k + 1] = [1] * k
@@ -91,11 +109,11 @@ class Matrix:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """(nrows, ncols)."""
+        """The shape is (nrows, ncols)."""
         return (self.nrows, self.ncols)
 
     def __getitem__(self, index: tuple[int, int]) -> Any:
-        """The field element in row i, column j (non-negative indices)."""
+        """The result is the field element in row i, column j (non-negative indices)."""
         i, j = index
         d = self.field.degree
         if not isinstance(self.field, NumberField):
@@ -103,7 +121,7 @@ class Matrix:
         return self.field.from_coordinates([self.flint[i * d, j * d + c] for c in range(d)])
 
     def elements(self) -> list[list[Any]]:
-        """All entries as rows of field elements."""
+        """The result has all entries as rows of field elements."""
         if not isinstance(self.field, NumberField):
             table: list[list[Any]] = self.flint.tolist()
             return table
@@ -113,11 +131,13 @@ class Matrix:
         return [[take(table[i * d][j * d : j * d + d]) for j in range(self.ncols)] for i in range(self.nrows)]
 
     def to_json(self) -> list[list[object]]:
-        """Rows of entries as the exact file formats write them."""
+        """The result has the rows of entries as the exact file formats write them."""
         return [[self.field.write(x) for x in row] for row in self.elements()]
 
     def to_sympy(self) -> sympy.ImmutableMatrix:
-        """The sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
+        """The result is the sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
+        import sympy  # here, where it is needed
+
         a = sympy.Symbol("a")
 
         def one(x: Any) -> sympy.Expr:
@@ -129,7 +149,7 @@ class Matrix:
         return sympy.ImmutableMatrix(self.nrows, self.ncols, [one(x) for row in self.elements() for x in row])
 
     def is_zero(self) -> bool:
-        """Whether every entry is zero."""
+        """This tells whether every entry is zero."""
         return all(x == 0 for x in self.flint.entries())
 
     def __eq__(self, other: object) -> bool:
@@ -168,14 +188,14 @@ class Matrix:
         return Matrix(self.field, self.nrows, self.ncols, -self.flint)
 
     def transposed(self) -> Matrix:
-        """The transpose, entry by entry (for number fields not the transpose of the block matrix)."""
+        """The result is the transpose, entry by entry (for number fields not the transpose of the block matrix)."""
         if not isinstance(self.field, NumberField):
             return Matrix(self.field, self.ncols, self.nrows, self.flint.transpose())
         rows = self.elements()
         return Matrix.from_elements(self.field, self.ncols, self.nrows, [[row[j] for row in rows] for j in range(self.ncols)])
 
     def rows(self, indices: Iterable[int]) -> Matrix:
-        """The matrix of these rows, in this order."""
+        """The result is the matrix of these rows, in this order."""
         d = self.field.degree
         table = self.flint.tolist()
         chosen = [table[i * d + c] for i in indices for c in range(d)]
@@ -183,7 +203,7 @@ class Matrix:
         return Matrix(self.field, len(chosen) // d, self.ncols, base_matrix(self.field, len(chosen), self.ncols * d, scalars))
 
     def columns(self, indices: Iterable[int]) -> Matrix:
-        """The matrix of these columns, in this order."""
+        """The result is the matrix of these columns, in this order."""
         d = self.field.degree
         wanted = [j * d + c for j in indices for c in range(d)]
         scalars = [row[j] for row in self.flint.tolist() for j in wanted]
@@ -192,14 +212,14 @@ class Matrix:
 
 @dataclass(frozen=True)
 class RowEchelon:
-    """The nonzero rows of a reduced row echelon form, and the column of the leading 1 of each."""
+    """These are the nonzero rows of a reduced row echelon form, and the column of the leading 1 of each."""
 
     matrix: Matrix
     pivots: tuple[int, ...]
 
 
 def beside(*parts: Matrix) -> Matrix:
-    """[X Y ...]: matrices with the same number of rows, side by side."""
+    """The result is [X Y ...]: matrices with the same number of rows, side by side."""
     first = parts[0]
     ncols = sum(part.ncols for part in parts)
     tables = [part.flint.tolist() for part in parts]
@@ -209,7 +229,7 @@ def beside(*parts: Matrix) -> Matrix:
 
 
 def stacked(*parts: Matrix) -> Matrix:
-    """[X; Y; ...]: matrices with the same number of columns, one above the other."""
+    """The result is [X; Y; ...]: matrices with the same number of columns, one above the other."""
     first = parts[0]
     nrows = sum(part.nrows for part in parts)
     scalars = [x for part in parts for x in part.flint.entries()]
@@ -218,7 +238,15 @@ def stacked(*parts: Matrix) -> Matrix:
 
 
 def rank(matrix: Matrix) -> int:
-    """The rank over the matrix's field."""
+    """The result is the rank of an nrows x ncols matrix over its field.
+
+    A large matrix is looked at modulo a prime first: a minor that is not zero there is not zero, so that full rank there is full rank.
+    Raises nothing for a Matrix of any shape; the rank of an empty one is 0.
+
+    >>> from faultspace.exact import Matrix, PrimeField, rank
+    >>> rank(Matrix.of([[1, 2], [2, 4]])), rank(Matrix.of([[1, 2], [2, 1]])), rank(Matrix.of([[1, 2], [2, 1]], PrimeField(3)))
+    (1, 2, 1)
+    """
     if _is_large(matrix):
         reduced = _modulo(matrix.flint)
         if reduced.rank() == min(reduced.nrows(), reduced.ncols()):  # a minor that is not zero modulo a prime is not zero
@@ -228,7 +256,17 @@ def rank(matrix: Matrix) -> int:
 
 
 def row_echelon(matrix: Matrix) -> RowEchelon:
-    """The reduced row echelon form without its zero rows. Over Q(a) it is the one of the block matrix, read in blocks."""
+    """The result is the reduced row echelon form of an nrows x ncols matrix, without its zero rows, and its `pivots`.
+
+    `matrix` holds the form and `pivots` its leading columns. Two matrices have the same row space iff their forms are equal. Over Q a large
+    form comes from p-adic lifting [D82] and is checked exactly; over Q(a) it is the form of the block matrix, read in blocks. Raises
+    nothing for a Matrix of any shape.
+
+    >>> from faultspace.exact import Matrix, row_echelon
+    >>> form = row_echelon(Matrix.of([[0, 2, 4], [1, 1, 1], [1, 3, 5]]))
+    >>> form.matrix, form.pivots
+    ([[1, 0, -1], [0, 1, 2]], (0, 1))
+    """
     d = matrix.field.degree
     echelon = _lifted_echelon(matrix.flint) if _is_large(matrix) else None
     if echelon is None:
@@ -240,7 +278,7 @@ def row_echelon(matrix: Matrix) -> RowEchelon:
 
 
 def pivot_columns(echelon: Any) -> list[int]:
-    """The column of the leading entry of every row of a row echelon form, which may end in zero rows."""
+    """The result is the column of the leading entry of every row of a row echelon form, which may end in zero rows."""
     pivots: list[int] = []
     start = 0
     for row in echelon.tolist():
@@ -252,12 +290,12 @@ def pivot_columns(echelon: Any) -> list[int]:
 
 
 def _is_large(matrix: Matrix) -> bool:
-    """Whether a rational matrix is worth the detour over a prime."""
+    """This tells whether a rational matrix is worth the detour over a prime."""
     return not isinstance(matrix.field, PrimeField) and matrix.flint.nrows() * matrix.flint.ncols() > 150
 
 
 def _modulo(rational: Any) -> Any:
-    """The matrix modulo a prime after clearing denominators row by row: its rank is a lower bound."""
+    """The result is the matrix modulo a prime after clearing denominators row by row: its rank is a lower bound."""
     rows: list[int] = []
     for row in rational.tolist():
         bottom = fmpz(1)
@@ -268,7 +306,7 @@ def _modulo(rational: Any) -> Any:
 
 
 def _lifted_echelon(rational: Any) -> Any:
-    """The reduced row echelon form, by p-adic lifting on the shape found modulo a prime; None where that prime misleads.
+    """The result is the reduced row echelon form, by p-adic lifting on the shape found modulo a prime; None where that prime misleads.
 
     The rows and columns of a nonzero minor of greatest size modulo the prime make a square B; the form is B^-1 times those rows, if the
     other rows are combinations of them: checked exactly.
@@ -290,7 +328,14 @@ def _lifted_echelon(rational: Any) -> Any:
 
 
 def right_null_space(matrix: Matrix) -> Matrix:
-    """Columns (ncols x nullity) that are a basis of {x : M x = 0}."""
+    """The columns of the result, ncols x nullity, are a basis of {x : M x = 0} for an nrows x ncols matrix M.
+
+    Each column has a 1 in the place of its free variable and zeros in the places of the others. Raises nothing for a Matrix of any shape.
+
+    >>> from faultspace.exact import Matrix, right_null_space
+    >>> right_null_space(Matrix.of([[1, 0, 2], [0, 1, 3]]))
+    [[-2], [-3], [1]]
+    """
     echelon = row_echelon(matrix)
     field, d = matrix.field, matrix.field.degree
     pivots = set(echelon.pivots)
@@ -312,22 +357,30 @@ def right_null_space(matrix: Matrix) -> Matrix:
 
 
 def left_null_space(matrix: Matrix) -> Matrix:
-    """Rows (nullity x nrows) that are a basis of {y : y M = 0}."""
+    """The rows of the result, nullity x nrows, are a basis of {y : y M = 0} for an nrows x ncols matrix M.
+
+    Of the matrix [O_s T_s] of a window they are the relations that the outputs satisfy on s samples. Raises nothing for a Matrix of any
+    shape.
+
+    >>> from faultspace.exact import Matrix, left_null_space
+    >>> left_null_space(Matrix.of([[1, 2], [2, 4], [0, 1]]))
+    [[-2, 1, 0]]
+    """
     return right_null_space(matrix.transposed()).transposed()
 
 
 def column_basis(matrix: Matrix) -> Matrix:
-    """A basis of the column space as columns, in reduced column echelon form: equal spaces give equal matrices."""
+    """The result is a basis of the column space as columns, in reduced column echelon form: equal spaces give equal matrices."""
     return row_echelon(matrix.transposed()).matrix.transposed()
 
 
 def row_profile(matrix: Matrix) -> tuple[int, ...]:
-    """The rows that are not combinations of the rows above them (the row rank profile)."""
+    """These are the rows that are not combinations of the rows above them (the row rank profile)."""
     return row_echelon(matrix.transposed()).pivots
 
 
 def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
-    """Some X with X M = R, or None where R has a row outside the row space of M."""
+    """The result is some X with X M = R, or None where R has a row outside the row space of M."""
     profile = row_profile(matrix)
     basis = matrix.rows(profile)
     echelon = row_echelon(basis)
@@ -346,7 +399,7 @@ def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
 
 
 def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:
-    """The rational coordinates, ascending, of an element of sympy's QQ<a>."""
+    """These are the rational coordinates, ascending, of an element of sympy's QQ<a>."""
     descending = [Fraction(int(c.numerator), int(c.denominator)) for c in element.to_list()]
     size = int(domain.mod.degree())
     return descending[::-1] + [Fraction(0)] * (size - len(descending))
@@ -354,10 +407,10 @@ def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:
 
 def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where: str) -> tuple[list[list[object]], tuple[int, int]]:
     """Nested lists of the entries and the shape they have, checked for ragged rows and against `shape`."""
-    if isinstance(entries, DomainMatrix):
+    if is_domain_matrix(entries):
         found = (int(entries.shape[0]), int(entries.shape[1]))
         rows = _rows_of_domain_matrix(entries, field, where)
-    elif isinstance(entries, sympy.MatrixBase):
+    elif is_matrix(entries):
         found = (int(entries.rows), int(entries.cols))
         rows = [list(entries.row(i)) for i in range(entries.rows)]
     elif isinstance(entries, (list, tuple)):
@@ -380,6 +433,8 @@ def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where
 
 
 def _rows_of_domain_matrix(entries: DomainMatrix, field: Field, where: str) -> list[list[object]]:
+    from sympy.polys.domains import AlgebraicField  # loaded before, for there is a DomainMatrix
+
     if not isinstance(entries.domain, AlgebraicField):
         table = entries.to_Matrix()
         return [list(table.row(i)) for i in range(table.rows)]

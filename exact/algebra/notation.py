@@ -4,12 +4,13 @@ entry              one field element; long ones are cut in the middle
 polynomial         coefficients by ascending power as a polynomial in q
 matrix_lines       a matrix as lines of aligned columns; large ones lose their middle
 field_words        the name of a field
+named_matrix       a matrix as lines of a sheet
 several            a list of numbers on one line
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from .fields import QQ, Field, NumberField
@@ -21,26 +22,26 @@ MOST_ROWS, MOST_COLUMNS, MOST_NUMBERS = 24, 12, 24
 
 
 def entry(element: Any, field: Field) -> str:
-    """A field element: p/q, or a polynomial in a over Q(a)."""
+    """The result is a field element: p/q, or a polynomial in a over Q(a)."""
     if isinstance(field, NumberField):
         return _cut(sum_of_powers([str(c) for c in field.coordinates(element)], "a"))
     return _cut(str(field.write(element)))
 
 
 def polynomial(coefficients: Sequence[Any], field: Field, unknown: str = "q") -> str:
-    """The polynomial with these ascending coefficients, highest power first."""
+    """The result is the polynomial with these ascending coefficients, highest power first."""
     return sum_of_powers([entry(c, field) for c in coefficients], unknown)
 
 
 def field_words(field: Field) -> str:
-    """The field as people name it; a number field by the polynomial whose root it adjoins."""
+    """The result is the field as people name it, a number field by the polynomial whose root it adjoins."""
     if isinstance(field, NumberField):
         return f"Q(a), a a root of {polynomial([QQ.element(c) for c in field.minimal_polynomial], QQ, 'a')}"
     return str(field)
 
 
 def matrix_lines(matrix: Matrix) -> list[str]:
-    """The rows of the matrix, one a line; empty for a matrix without entries."""
+    """Each line of the result is a row of the matrix; there is none for a matrix without entries."""
     if 0 in matrix.shape:
         return []
     across = _chosen(matrix.ncols, MOST_COLUMNS)
@@ -50,12 +51,18 @@ def matrix_lines(matrix: Matrix) -> list[str]:
     return ["[ " + "  ".join(x.rjust(w) for x, w in zip(row, widths, strict=True)) + " ]" for row in table]
 
 
+def named_matrix(name: str, matrix: Matrix) -> Iterator[tuple[str, str]]:
+    """The matrix makes lines of a sheet, the first of which has the name."""
+    lines = matrix_lines(matrix) or [f"empty, {matrix.nrows} x {matrix.ncols}"]
+    yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
+
+
 def several(numbers: Sequence[int], *, none: str = "none") -> str:
-    """The numbers with spaces between them; of many only the first."""
+    """The result has the numbers with spaces between them, and of many numbers only the first."""
     if not numbers:
         return none
-    shown = " ".join(map(str, numbers[:MOST_NUMBERS]))
-    return shown if len(numbers) <= MOST_NUMBERS else f"{shown} ... ({len(numbers)} in all)"
+    text = " ".join(map(str, numbers[:MOST_NUMBERS]))
+    return text if len(numbers) <= MOST_NUMBERS else f"{text} ... ({len(numbers)} in all)"
 
 
 def _cut(text: str) -> str:

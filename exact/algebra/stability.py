@@ -1,8 +1,8 @@
 """Schur stability decided exactly: are all eigenvalues inside the unit circle? No eigenvalue is computed.
 
-    characteristic_polynomial   det(qI - A) over Q, coefficients ascending
-    is_schur                    all roots of a rational polynomial inside the unit circle, by the recursion of Schur and Cohn
-    is_stable                   the same for the eigenvalues of A; over Q(a) for every embedding of the field
+    rational_characteristic_polynomial   det(qI - A) over Q, over Q(a) its norm down to Q; coefficients ascending, as Fractions
+    is_schur                             all roots of a rational polynomial inside the unit circle, by the recursion of Schur and Cohn
+    is_stable                            the same for the eigenvalues of A; over Q(a) for every embedding of the field
 
 A polynomial f of degree d has all its roots inside the unit circle iff |f_d| > |f_0| and (f_d f - f_0 f*) / q has, f* being f with its
 coefficients reversed ([S17]; Schur and Cohn). The recursion runs on integers, content removed at each step.
@@ -14,28 +14,26 @@ from collections.abc import Sequence
 from fractions import Fraction
 from math import gcd, lcm
 
-from flint import fmpq_mat
-
 from ...base.errors import InvalidInput
 from .fields import PrimeField
 from .matrices import Matrix
 
 
-def characteristic_polynomial(A: Matrix) -> tuple[Fraction, ...]:
-    """det(qI - A), ascending and monic, for A n x n over Q; over Q(a) its norm, of degree n d. Raises InvalidInput over GF(p)."""
+def rational_characteristic_polynomial(A: Matrix) -> tuple[Fraction, ...]:
+    """The result is det(qI - A), ascending and monic, for A n x n over Q; over Q(a) its norm, of degree n d. Raises InvalidInput over
+    GF(p).
+    """
     if isinstance(A.field, PrimeField):
         raise InvalidInput(f"got a matrix over {A.field}, expected one over Q or a number field: a finite field has no unit circle")
     if A.nrows != A.ncols:
         raise InvalidInput(f"got a matrix {A.nrows} x {A.ncols}, expected a square one")
-    blocks = [[A.field.block(x) for x in row] for row in A.elements()]
-    d = len(blocks[0][0]) if blocks else 1
-    entries = [block[i][j] for row in blocks for i in range(d) for block in row for j in range(d)]
-    size = A.nrows * d
-    return tuple(Fraction(int(c.p), int(c.q)) for c in fmpq_mat(size, size, entries).charpoly().coeffs()) if size else (Fraction(1),)
+    return tuple(Fraction(int(c.p), int(c.q)) for c in A.flint.charpoly().coeffs())  # a Matrix over Q(a) is that of its blocks over Q
 
 
 def is_schur(coefficients: Sequence[Fraction | int]) -> bool:
-    """Whether every complex root of sum coefficients[k] q^k has modulus below 1; so for a constant. Raises InvalidInput for zero."""
+    """This tells whether every complex root of sum coefficients[k] q^k has modulus below 1; a constant has none. Raises InvalidInput for
+    zero.
+    """
     values = [Fraction(c) for c in coefficients]
     while values and values[-1] == 0:
         values.pop()
@@ -53,5 +51,15 @@ def is_schur(coefficients: Sequence[Fraction | int]) -> bool:
 
 
 def is_stable(A: Matrix) -> bool:
-    """Whether all eigenvalues of A, n x n over Q or Q(a), lie inside the unit circle. Raises InvalidInput over GF(p)."""
-    return is_schur(characteristic_polynomial(A))
+    """This tells whether all eigenvalues of A, an n x n Matrix over Q or Q(a), lie inside the unit circle.
+
+    Over Q(a) it is asked for every embedding of the field in C. No eigenvalue is computed: the recursion of Schur and Cohn [S17] decides it
+    on the coefficients of det(qI - A).
+
+    Raises InvalidInput over GF(p), where there is no unit circle, and for a matrix that is not square.
+
+    >>> from faultspace.exact import Matrix, is_stable
+    >>> is_stable(Matrix.of([["1/2", 100], [0, "-1/2"]])), is_stable(Matrix.of([[0, 1], [-1, 0]]))
+    (True, False)
+    """
+    return is_schur(rational_characteristic_polynomial(A))

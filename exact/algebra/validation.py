@@ -23,7 +23,7 @@ _RATIONAL = re.compile(r"-?[0-9]+(/[1-9][0-9]*)?", re.ASCII)
 
 
 def parse_rational(value: object, where: str) -> fmpq:
-    """The rational that a string or integer stands for; its length is bounded before it is parsed.
+    """The result is the rational that a string or integer stands for; its length is bounded before it is parsed.
 
     Raises InvalidInput, naming `where`, for anything else: floats, booleans, exponents, decimal points, a zero denominator.
     """

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.matrices import Matrix, beside, column_basis, left_null_space, rank
-from ..algebra.stability import characteristic_polynomial
+from ..algebra.stability import rational_characteristic_polynomial
 from ..system.modular import LARGEST_PRIME, reduce_matrix
 from ..system.windows import observability_matrix
 from .experiments import Experiment
@@ -34,13 +34,13 @@ class StatePart:
 
     @property
     def characteristic_polynomial(self) -> tuple[Fraction, ...]:
-        """det(qI - A), ascending and monic."""
-        return characteristic_polynomial(self.A)
+        """This is det(qI - A), ascending and monic."""
+        return rational_characteristic_polynomial(self.A)
 
 
 @dataclass(frozen=True)
 class Limit:
-    """The limit L (s p x rows of Z) and its projection X (s nu x rows of Z), with the ranks of L, O_s and [O_s L].
+    """This is the limit L (s p x rows of Z) and its projection X (s nu x rows of Z), with the ranks of L, O_s and [O_s L].
 
     `state` is None where the column space is not shift-invariant of rank n, n the number of states of the system.
     """
@@ -54,27 +54,27 @@ class Limit:
 
     @property
     def within_observability_range(self) -> bool:
-        """Whether every column of L is one of O_s."""
+        """This tells whether every column of L is one of O_s."""
         return self.joint_rank == self.observability_rank
 
     @property
     def contains_observability_range(self) -> bool:
-        """Whether every column of O_s is one of L."""
+        """This tells whether every column of O_s is one of L."""
         return self.joint_rank == self.rank
 
     @property
     def equals_observability_range(self) -> bool:
-        """Whether the column spaces are the same."""
+        """This tells whether the column spaces are the same."""
         return self.within_observability_range and self.contains_observability_range
 
 
 def past_input_limit(experiment: Experiment, blocks: WindowCovariances) -> Limit:
-    """The limit of PI-MOESP."""
+    """The result is what PI-MOESP's projected outputs converge to."""
     return _limit(experiment, blocks, blocks.yf_up, blocks.uf_up)
 
 
 def past_input_and_output_limit(experiment: Experiment, blocks: WindowCovariances) -> Limit:
-    """The limit of PO-MOESP."""
+    """The result is what PO-MOESP's projected outputs converge to."""
     return _limit(experiment, blocks, beside(blocks.yf_up, blocks.yf_yp), beside(blocks.uf_up, blocks.uf_yp))
 
 
@@ -94,15 +94,15 @@ def _limit(experiment: Experiment, blocks: WindowCovariances, outputs: Matrix, i
 
 
 def _modular_rank(matrix: Matrix) -> int:
-    """The rank modulo a prime, 0 where that divides a denominator: a lower bound."""
+    """The result is the rank modulo a prime, 0 where that divides a denominator: a lower bound."""
     reduced = reduce_matrix(matrix, LARGEST_PRIME, None)
     return 0 if reduced is None else rank(reduced)
 
 
 def state_part(basis: Matrix, p: int) -> StatePart | None:
-    """A, C from independent columns in block rows of p, or None where their space is not shift-invariant.
+    """The result is A, C from independent columns in block rows of p, or None where their space is not shift-invariant.
 
-    Shift-invariant: dropping the last block row loses no column, and the rows below the first are combinations W+ = W- A of them.
+    A space is shift-invariant where dropping the last block row loses no column, and the rows below the first are combinations W+ = W- A.
     """
     upper, lower = basis.rows(range(basis.nrows - p)), basis.rows(range(p, basis.nrows))
     if rank(upper) < basis.ncols:

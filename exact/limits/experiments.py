@@ -10,14 +10,15 @@ leads the input, v(k) = K u(k+1), is written by delaying u. Only Q: covariances 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra.fields import QQ
 from ..algebra.stability import is_stable
-from ..system.systems import FaultySystem, read_system
+from ..system.systems import FaultySystem, counted, read_system
 from .filters import Filter, read_filter
 
 MAX_WINDOW_ROWS = 2048
@@ -26,13 +27,22 @@ _SYSTEM_KEYS = (*"AFCGBD", "field", "n", "m", "p", "nu")
 _OWN_KEYS = ("s", "past", "u_filter", "v_filter", "w_filter")
 
 
-@dataclass(frozen=True)
-class Experiment:
-    """A system over Q with a stable A, and the stationary signals that drive it.
+@dataclass(frozen=True, repr=False)
+class Experiment(Shown):
+    """This is a system over Q with a stable A and the stationary signals that drive it: what `limit` answers for.
 
-    u_filter has nu rows, v_filter m, w_filter p; u and v share their noise. s >= 1 and past >= 1 are block rows of the future and
-    past windows, (s + past)(nu + p) <= MAX_WINDOW_ROWS, n and the filters' states together at most MAX_STATES. Raises InvalidInput
-    for anything else, and for u identically zero.
+    `system` is a FaultySystem with n states, m faults, p outputs and nu inputs. `u_filter` (matrices nu x noise over lag), `v_filter` (m x
+    noise) and `w_filter` (p x noise, or None) make input, fault and output noise out of white noise; u and v share theirs. `s` >= 1 and
+    `past` >= 1 are the numbers of block rows of the future and the past window, with (s + past)(nu + p) at most 2048, and n and the
+    filters' states are at most 2048 together.
+
+    Raises InvalidInput for anything else, for a field other than Q, an A that is not stable and an input that is identically zero.
+
+    >>> from faultspace.exact import Experiment, Filter, System
+    >>> system = System(A=[["1/2"]], B=[[1]], C=[[1]], D=[[0]], F=[[1]], G=[[0]])
+    >>> experiment = Experiment(system, s=2, past=2, u_filter=Filter.of([[[1, 0]]]), v_filter=Filter.of([[[0, 1]]]))
+    >>> experiment.sizes
+    '1 state, 1 fault, 1 output, 1 input; s = 2, past = 2'
     """
 
     system: FaultySystem
@@ -82,18 +92,42 @@ class Experiment:
 
     @property
     def sizes(self) -> str:
-        """How many states, faults, outputs and inputs, and the block rows of both windows, in words."""
+        """This says in words how many states, faults, outputs and inputs there are, and how many block rows both windows have."""
         return f"{self.system.sizes.rpartition(', over ')[0]}; s = {self.s}, past = {self.past}"
 
     def to_json(self) -> dict[str, Any]:
-        """The dict that exact files hold."""
+        """The result is the dict that exact files hold."""
         result = self.system.to_json() | {"s": self.s, "past": self.past}
         result |= {"u_filter": self.u_filter.to_json(), "v_filter": self.v_filter.to_json()}
         return result if self.w_filter is None else result | {"w_filter": self.w_filter.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This is the same as `sizes`."""
+        return self.sizes
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the matrices of the system, and the sizes of the filters."""
+        yield from self.system.sheet()
+        for name, one in (("u_filter", self.u_filter), ("v_filter", self.v_filter), ("w_filter", self.w_filter)):
+            if one is not None:
+                yield name, f"{counted(one.channels, 'channel')} from {counted(one.noise, 'white noise')}, memory {one.memory}"
+
 
 def read_experiment(data: object, *, where: str = "experiment") -> Experiment:
-    """The experiment that the dict of an exact file holds. Raises InvalidInput with one line naming the place."""
+    """The result is the Experiment that the dict of an exact file holds; `where` is how messages call it.
+
+    The dict has "A", "B", "C", "D", "F", "G" and the sizes as in a system's file, the block rows "s" and "past", "u_filter" and "v_filter",
+    and "w_filter" where there is output noise; the shapes are those of Experiment.
+
+    Raises InvalidInput with one line that names the place, for what is missing, unknown or outside what an Experiment can be.
+
+    >>> from faultspace.exact import read_experiment
+    >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[0]]}
+    >>> experiment = read_experiment({**system, "s": 2, "past": 2, "u_filter": [[[1, 0]]], "v_filter": [[[0, 1]]]})
+    >>> experiment.s, experiment.u_filter.noise, experiment.w_filter
+    (2, 2, None)
+    """
     if not isinstance(data, Mapping):
         raise InvalidInput(f"{where}: got {shorten(data)}, expected an object with A, B, C, D, F, G, s, past, u_filter, v_filter")
     unknown = sorted(set(map(str, data)) - set(_SYSTEM_KEYS) - set(_OWN_KEYS))

@@ -25,9 +25,21 @@ _STABLE = "all roots of z^k + d_1 z^(k-1) + ... + d_k inside the unit circle"
 
 @dataclass(frozen=True)
 class Filter:
-    """sum_j numerator[j] q^-j / sum_j denominator[j] q^-j, from `noise` channels of white noise to `channels` of signal.
+    """This rational filter makes a signal out of white noise: it is sum_j numerator[j] q^-j / sum_j denominator[j] q^-j.
 
-    The denominator begins with 1, ends with a nonzero coefficient and is Schur-stable; `Filter.of` checks.
+    The white noise has unit covariance. `numerator` is a tuple of matrices over lag, each of shape channels x noise, with `noise` the
+    number of white noises that come in and `channels` that of signals that come out; `denominator` is a tuple of rationals over lag that
+    begins with 1, ends with a nonzero coefficient and is stable. `Filter.of` takes lists and checks all this; at most 256 lags are
+    supported.
+
+    Raises InvalidInput, in `Filter.of`, for anything else.
+
+    >>> from faultspace.exact import Filter
+    >>> colored = Filter.of([[["1"]]], ["1", "-1/2"])  # u(k) = u(k-1) / 2 + e(k)
+    >>> colored.channels, colored.noise, colored.memory
+    (1, 1, 1)
+    >>> colored.to_json()
+    {'num': [[['1']]], 'den': ['1', '-1/2']}
     """
 
     numerator: tuple[Matrix, ...]
@@ -35,7 +47,7 @@ class Filter:
 
     @staticmethod
     def of(numerator: object, denominator: object = (1,), *, channels: int | None = None, where: str = "filter") -> Filter:
-        """The filter with these matrices over lag (lists, sympy matrices) and scalars over lag. Raises InvalidInput."""
+        """The result is the filter with these matrices over lag (lists, sympy matrices) and scalars over lag. Raises InvalidInput."""
         if not isinstance(numerator, (list, tuple)) or not numerator:
             raise InvalidInput(f"{where}: got {shorten(numerator)}, expected a list of matrices over lag 0, 1, ..., one at least")
         if not isinstance(denominator, (list, tuple)) or not denominator:
@@ -67,31 +79,41 @@ class Filter:
 
     @property
     def channels(self) -> int:
-        """Rows of each matrix."""
+        """This is the number of rows of each matrix."""
         return self.numerator[0].nrows
 
     @property
     def noise(self) -> int:
-        """Columns of each matrix: the dimension of the white noise."""
+        """This is the number of columns of each matrix: the dimension of the white noise."""
         return self.numerator[0].ncols
 
     @property
     def memory(self) -> int:
-        """How many past values of z are needed."""
+        """This says how many past values of z are needed."""
         return max(len(self.numerator), len(self.denominator)) - 1
 
     def is_zero(self) -> bool:
-        """Whether the signal is identically zero."""
+        """This tells whether the signal is identically zero."""
         return all(matrix.is_zero() for matrix in self.numerator)
 
     def to_json(self) -> object:
-        """A list of matrices where the denominator is 1, else {"num", "den"}."""
+        """The result is a list of matrices where the denominator is 1, else {"num", "den"}."""
         matrices = [matrix.to_json() for matrix in self.numerator]
         return matrices if len(self.denominator) == 1 else {"num": matrices, "den": [QQ.write(x) for x in self.denominator]}
 
 
 def read_filter(data: object, *, channels: int, where: str) -> Filter:
-    """The filter of an experiment's JSON for a signal of so many channels. Raises InvalidInput with one line naming the place."""
+    """The result is the Filter of an experiment's file, for a signal of so many channels; `where` is how messages call it.
+
+    `data` is a list of matrices over lag, each of shape channels x noise, or a dict with "num", such a list, and "den", a list of rationals
+    that begins with "1".
+
+    Raises InvalidInput with one line that names the place.
+
+    >>> from faultspace.exact import read_filter
+    >>> read_filter([[["1"]], [["1/2"]]], channels=1, where="u_filter").memory
+    1
+    """
     if not isinstance(data, Mapping):
         return Filter.of(data, channels=channels, where=where)
     if set(data) != {"num", "den"}:

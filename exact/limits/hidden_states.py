@@ -26,7 +26,7 @@ from .moments import Covariances
 
 
 def hides_a_state(experiment: Experiment, known: Covariances) -> bool:
-    """By the formula above. `known` are the covariances of the experiment. Raises ValueError unless n = past = 2 and nu = 1."""
+    """This decides by the formula above; `known` are the experiment's covariances. Raises ValueError unless n = past = 2 and nu = 1."""
     A, s = experiment.system.residual.A, experiment.s
     if (A.nrows, experiment.past, experiment.system.nu) != (2, 2, 1):
         raise ValueError("the formula is for two states, one input and a past of two samples")
@@ -45,7 +45,9 @@ def hides_a_state(experiment: Experiment, known: Covariances) -> bool:
 
 
 def reflections(r: list[Any]) -> list[Any]:
-    """gamma_0, ..., gamma_(d-1) from the covariances r(0), ..., r(d) of a scalar signal, whose Toeplitz matrix is positive definite."""
+    """The result is gamma_0, ..., gamma_(d-1) from the covariances r(0), ..., r(d) of a scalar signal, whose Toeplitz matrix is positive
+    definite.
+    """
     past, error, found = [r[0] / r[0]], r[0], []  # past: 1, -a_1, ..., of the best one-step prediction
     for order in range(1, len(r)):
         gamma = sum(weight * r[order - lag] for lag, weight in enumerate(past)) / error
@@ -61,5 +63,5 @@ def _times(matrix: Matrix, factor: Any) -> Matrix:
 
 
 def _quotient(one: Matrix, other: Matrix) -> Matrix:
-    """one other^-1, of two rational functions of the same matrix."""
+    """The result is one other^-1, of two rational functions of the same matrix."""
     return solve(other, one)

@@ -22,21 +22,23 @@ from flint import fmpq
 
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, beside, column_basis, rank, row_profile, stacked
-from ..algebra.stability import characteristic_polynomial, is_stable
+from ..algebra.stability import is_stable, rational_characteristic_polynomial
 from .lyapunov import solve, stein
 from .moments import Covariances, WindowCovariances
 
 
 @dataclass(frozen=True)
 class InputLimit:
-    """B (n x nu) and D (p x nu), in the basis of the A and C that were given."""
+    """B (n x nu) and D (p x nu) are in the basis of the A and C that were given."""
 
     B: Matrix
     D: Matrix
 
 
 def by_output_error(known: Covariances, A: Matrix, C: Matrix) -> InputLimit | None:
-    """The minimiser of E|y - G(q)u|^2 for these A (n x n, any order) and C (p x n); None where A is unstable or it is not unique."""
+    """The result is the minimiser of E|y - G(q)u|^2 for these A (n x n, any order) and C (p x n), or None where A is unstable or it is not
+    unique.
+    """
     process = known.process
     if not is_stable(A):
         return None
@@ -67,7 +69,7 @@ def by_output_error(known: Covariances, A: Matrix, C: Matrix) -> InputLimit | No
 
 
 def by_moesp(blocks: WindowCovariances, observability: Matrix, p: int) -> InputLimit | None:
-    """MOESP's regression for O_s (s p x n); None where B and D are not unique, as for s p <= n.
+    """The result is that of MOESP's regression for O_s (s p x n); it is None where B and D are not unique, as for s p <= n.
 
     Block column k of T_s(B, D) is S_k [D; B] with S_k of p + n columns: identity and nothing in block row k, nothing and O below.
     """
@@ -96,10 +98,10 @@ def by_moesp(blocks: WindowCovariances, observability: Matrix, p: int) -> InputL
 
 
 def powers_along_lags(known: Covariances, A: Matrix) -> list[list[Matrix]]:
-    """M_ij = sum_(l>=1) r_ij(l) A^(l-1), n x n.
+    """The result is M_ij = sum_(l>=1) r_ij(l) A^(l-1), n x n.
 
-    From l = 1 on, r(l) follows the recurrence of d, the polynomial that annihilates the state of u; so, with d of degree t,
-    (sum_k d_k A^(t-k)) M = sum_k d_k A^(t-k) sum_(l=1..k) r(l) A^(l-1).
+    From l = 1 on, r(l) follows the recurrence of d, the polynomial that annihilates the state of u; so, with d of degree t, (sum_k d_k
+    A^(t-k)) M = sum_k d_k A^(t-k) sum_(l=1..k) r(l) A^(l-1).
     """
     u, line = known.process.u, known.process.lines[0]
     nu, n = u.H.nrows, A.nrows
@@ -122,7 +124,7 @@ def powers_along_lags(known: Covariances, A: Matrix) -> list[list[Matrix]]:
 
 
 def _observed_through(known: Covariances, A: Matrix, C: Matrix) -> Matrix:
-    """X (n x N) with X = A' X Phi + C' H_y, column blocks in the order x, lines."""
+    """The result is X (n x N) with X = A' X Phi + C' H_y, column blocks in the order x, lines."""
     process = known.process
     n_x, size = process.n, process.Phi.nrows
     head = range(n_x)
@@ -142,7 +144,7 @@ def _observed_through(known: Covariances, A: Matrix, C: Matrix) -> Matrix:
 
 
 def _characteristic(A: Matrix) -> list[Any]:
-    return [fmpq(c.numerator, c.denominator) for c in characteristic_polynomial(A)]
+    return [fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)]
 
 
 def _scaled(matrix: Matrix, factor: Any) -> Matrix:

@@ -23,10 +23,10 @@ MOST_BITS = 1 << 16
 
 
 def leading_vectors_span(L: Matrix, Gamma: Matrix, observability: Matrix) -> bool:
-    """Whether the first rank(O_s) left singular vectors of L Gamma^(-1/2) are determined and span the column space of O_s.
+    """This tells whether the first rank(O_s) left singular vectors of L Gamma^(-1/2) are determined and span the column space of O_s.
 
-    L is s p x z, `Gamma` z x z and positive semidefinite with the rows of L among its row space, `observability` s p x n, all over Q.
-    Where the rank of L is below that of O_s they do not. Raises ArithmeticError if MOST_BITS bits do not tell two eigenvalues apart.
+    L is s p x z, `Gamma` z x z and positive semidefinite with the rows of L among its row space, `observability` s p x n, all over Q. Where
+    the rank of L is below that of O_s they do not. Raises ArithmeticError if MOST_BITS bits do not tell two eigenvalues apart.
     """
     inside, outside = column_basis(observability), left_null_space(observability).transposed()
     if inside.ncols == 0:
@@ -44,7 +44,9 @@ def leading_vectors_span(L: Matrix, Gamma: Matrix, observability: Matrix) -> boo
 
 
 def _certainly_not_invariant(L: Matrix, Gamma: Matrix, inside: Matrix, outside: Matrix) -> bool:
-    """A first look modulo a prime, which settles most cases: whether outside' L Gamma^-1 L' inside is not zero there, Gamma regular."""
+    """A first look modulo a prime settles most cases: it tells whether outside' L Gamma^-1 L' inside is not zero there, Gamma being
+    regular.
+    """
     limit, gamma, within, beyond = (reduce_matrix(matrix, LARGEST_PRIME, None) for matrix in (L, Gamma, inside, outside))
     if limit is None or gamma is None or within is None or beyond is None or rank(gamma) < gamma.nrows:
         return False
@@ -53,7 +55,7 @@ def _certainly_not_invariant(L: Matrix, Gamma: Matrix, inside: Matrix, outside: 
 
 
 def _eigenvalue_polynomials(basis: Matrix, W: Matrix) -> list[fmpz_poly]:
-    """The irreducible polynomials whose roots are the eigenvalues of W, symmetric, on the span of `basis`, which is invariant."""
+    """These are the irreducible polynomials whose roots are the eigenvalues of W, symmetric, on the span of `basis`, which is invariant."""
     if basis.ncols == 0:
         return []
     turned = basis.transposed()
@@ -62,7 +64,9 @@ def _eigenvalue_polynomials(basis: Matrix, W: Matrix) -> list[fmpz_poly]:
 
 
 def _smallest_exceeds_largest(above: list[fmpz_poly], below: list[fmpz_poly]) -> bool:
-    """Whether every root of `above` exceeds every root of `below`. All are real; equal ones have the same irreducible polynomial."""
+    """This tells whether every root of `above` exceeds every root of `below`. All are real; equal ones have the same irreducible
+    polynomial.
+    """
     if any(one == other for one in above for other in below):
         return False
     bits = ctx.prec
@@ -80,7 +84,7 @@ def _smallest_exceeds_largest(above: list[fmpz_poly], below: list[fmpz_poly]) ->
 
 
 def _extreme(polynomials: list[fmpz_poly], choose: Callable[[arb, arb], arb]) -> arb:
-    """A ball around the least or the largest of all roots."""
+    """The result is a ball around the least or the largest of all roots."""
     found: list[Any] = [pair for polynomial in polynomials for pair in polynomial.complex_roots()]
     roots = [root.real for root, _ in found]
     extreme: arb = roots[0]

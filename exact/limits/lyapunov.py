@@ -22,19 +22,21 @@ from flint import fmpq
 
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, beside, stacked
-from ..algebra.stability import characteristic_polynomial
+from ..algebra.stability import rational_characteristic_polynomial
 from .process import DelayLine, JointProcess
 
 
 def solve(matrix: Matrix, right_side: Matrix) -> Matrix:
-    """X with M X = R for M square and nonsingular over Q. Raises ZeroDivisionError where M is singular."""
+    """The result is X with M X = R for M square and nonsingular over Q. Raises ZeroDivisionError where M is singular."""
     if 0 in (matrix.nrows, right_side.ncols):
         return Matrix.zero(QQ, matrix.nrows, right_side.ncols)
     return Matrix(QQ, matrix.nrows, right_side.ncols, matrix.flint.solve(right_side.flint, "dixon"))
 
 
 def stein(S: Matrix, T: Matrix, R: Matrix, annihilator: Sequence[Any]) -> Matrix:
-    """X (a x b) with X = S X T' + R; S a x a and T b x b Schur-stable, `annihilator` ascending with c(T) = 0 and stable roots."""
+    """The result is X (a x b) with X = S X T' + R; S a x a and T b x b Schur-stable, `annihilator` ascending with c(T) = 0 and stable
+    roots.
+    """
     turned = T.transposed()
     size = S.nrows
     left = Matrix(QQ, size, size, Matrix.identity(QQ, size).flint * annihilator[0])
@@ -51,7 +53,7 @@ def stein(S: Matrix, T: Matrix, R: Matrix, annihilator: Sequence[Any]) -> Matrix
 
 
 def state_covariance(process: JointProcess) -> Matrix:
-    """The only P = P' with P = Phi P Phi' + Gamma Gamma', N x N. Raises ArithmeticError if the check by substitution fails."""
+    """The result is the only P = P' with P = Phi P Phi' + Gamma Gamma', N x N. Raises ArithmeticError if substitution fails."""
     n, lines = process.n, process.lines
     size = process.Phi.nrows
     head, tail = range(n), range(n, size)
@@ -71,7 +73,7 @@ def state_covariance(process: JointProcess) -> Matrix:
     P_xz = beside(*pieces)
     crossed = A @ P_xz @ M.transposed()
     inner = crossed + crossed.transposed() + M @ P_zz @ M.transposed() + Gamma_x @ Gamma_x.transposed()
-    monic = [fmpq(c.numerator, c.denominator) for c in characteristic_polynomial(A)]
+    monic = [fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)]
     P_xx = stein(A, A, inner, monic)
     P = stacked(beside(P_xx, P_xz), beside(P_xz.transposed(), P_zz))
     moved = process.Phi @ P @ process.Phi.transposed() + process.Gamma @ process.Gamma.transposed()
@@ -81,7 +83,7 @@ def state_covariance(process: JointProcess) -> Matrix:
 
 
 def _between(one: DelayLine, other: DelayLine) -> Matrix:
-    """The covariance of two lines: one channel of it, Kronecker an identity; zero where their noises are independent."""
+    """The result is the covariance of two lines: one channel of it, Kronecker an identity; zero where their noises are independent."""
     if one.noise_start != other.noise_start:
         return Matrix.zero(QQ, one.size, other.size)
     table = [[fmpq(int(i == 0 and j == 0)) for j in range(other.length)] for i in range(one.length)]

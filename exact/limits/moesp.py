@@ -17,7 +17,7 @@ from ...base.sheets import Shown
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, beside, stacked
 from ..algebra.notation import matrix_lines, polynomial
-from ..algebra.stability import characteristic_polynomial
+from ..algebra.stability import rational_characteristic_polynomial
 from ..system.windows import observability_matrix
 from .column_space import Limit, past_input_and_output_limit, past_input_limit
 from .experiments import Experiment, read_experiment
@@ -30,7 +30,21 @@ LONGEST_ENTRY = 24
 
 @dataclass(frozen=True, repr=False)
 class PopulationLimits(Shown):
-    """past_inputs (PI-MOESP), past_outputs (PO-MOESP), and the limits of B, D in the basis of the given A and C (None: not unique)."""
+    """This is what subspace identification converges to for one Experiment: both limits, and B and D of the regressions; `limit` makes it.
+
+    `past_inputs` (PI-MOESP) and `past_outputs` (PO-MOESP) are limits of shape s p x (rows of the instruments), with their ranks beside that
+    of O_s. `true_AC` and `moesp` are the limits of B (n x nu) and D (p x nu) in the basis of the true A and C, by output error and by
+    MOESP's own regression, and None where they are not unique; `bias` subtracts the true ones. Source: [G25] Proposition 1; [V93] and
+    [VV07] for the methods. Raises nothing by itself.
+
+    >>> import faultspace as fs
+    >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[0]]}
+    >>> found = fs.limit({**system, "s": 2, "past": 2, "u_filter": [[[1, 0]]], "v_filter": [[[0, 1]]]})
+    >>> found
+    <PopulationLimits: 1 state, 1 fault, 1 output, 1 input; s = 2, past = 2>
+    >>> found.true_AC.B, found.bias(found.true_AC).B
+    ([[1]], [[0]])
+    """
 
     experiment: Experiment
     known: Covariances
@@ -42,18 +56,18 @@ class PopulationLimits(Shown):
 
     @property
     def title(self) -> str:
-        """How many states, faults, outputs and inputs, and the windows' block rows s and past."""
+        """This says how many states, faults, outputs and inputs there are, and how many block rows, s and past, the windows have."""
         return self.experiment.sizes
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """What `faultspace limit` prints, as (name, value) pairs."""
+        """The result is what `faultspace limit` prints, as (name, value) pairs."""
         system = self.experiment.system.residual
         yield "past inputs as instruments (PI-MOESP)", ""
         yield from _of_limit(self, self.past_inputs)
         yield "past inputs and outputs as instruments (PO-MOESP)", ""
         yield from _of_limit(self, self.past_outputs)
         yield "the system itself", ""
-        yield "characteristic polynomial of A", _polynomial(characteristic_polynomial(system.A))
+        yield "characteristic polynomial of A", _polynomial(rational_characteristic_polynomial(system.A))
         for title, regression in (("with the true A and C, by output error", self.true_AC), ("by MOESP's regression", self.moesp)):
             yield f"B and D {title}", ""
             if regression is None:
@@ -63,7 +77,7 @@ class PopulationLimits(Shown):
             yield from _of_regression(regression, bias)
 
     def to_json(self) -> dict[str, Any]:
-        """What `faultspace limit EXPERIMENT --json` prints."""
+        """The result is what `faultspace limit EXPERIMENT --json` prints."""
         result = {
             "n": self.experiment.system.residual.n,
             "s": self.experiment.s,
@@ -91,7 +105,9 @@ class PopulationLimits(Shown):
         }
 
     def leading_vectors_right(self, found: Limit) -> bool:
-        """Whether the leading left singular vectors of `found`, one of the two limits, span the range of O_s: see `leading_vectors`."""
+        """This tells whether the leading left singular vectors of `found`, one of the two limits, span the range of O_s: see
+        `leading_vectors`.
+        """
         if found.equals_observability_range or not found.contains_observability_range:
             return found.equals_observability_range
         u, y, blocks, known = self.known.process.u, self.known.process.y, self.blocks, self.known
@@ -105,7 +121,7 @@ class PopulationLimits(Shown):
         return leading_vectors_span(found.matrix, projected, observability_matrix(self.experiment.system.residual, self.experiment.s))
 
     def bias(self, found: InputLimit) -> InputLimit:
-        """The limit minus the true B and D."""
+        """The result is the limit minus the true B and D."""
         return InputLimit(found.B - self.experiment.system.B, found.D - self.experiment.system.D)
 
     def _bias(self, found: InputLimit) -> dict[str, Any]:
@@ -123,7 +139,7 @@ class PopulationLimits(Shown):
 
 
 def markov_parameters(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) -> list[Matrix]:
-    """D, CB, CAB, ...: `count` matrices p x nu."""
+    """The result is D, CB, CAB, ...: `count` matrices p x nu."""
     result, state = [D], B
     for _ in range(count - 1):
         result.append(C @ state)
@@ -132,7 +148,7 @@ def markov_parameters(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) ->
 
 
 def limit(experiment: Experiment | Mapping[str, Any]) -> PopulationLimits:
-    """What PI-MOESP and PO-MOESP converge to for an experiment, as the number of samples goes to infinity: exact in every number.
+    """This computes what PI-MOESP and PO-MOESP converge to as the number of samples goes to infinity, exact in every number.
 
     `experiment` is an Experiment, or the dict that an experiment's file holds: "A", "B", "C", "D", "F", "G" with rational entries, the
     block rows "s" and "past", and the filters "u_filter" and "v_filter" (and "w_filter" of the noise) that make the stationary input, fault
@@ -188,7 +204,7 @@ def _columns(limit: Limit, n: int) -> str:
 
 
 def _leading(count: int, right: bool) -> str:
-    """What becomes of O_s where the limit has more columns than it, and the largest singular values choose among them."""
+    """This says what becomes of O_s where the limit has more columns than it, and the largest singular values choose among them."""
     vectors = "its leading left singular vector" if count == 1 else f"its {count} leading left singular vectors"
     if right:
         return f"{vectors} {'spans' if count == 1 else 'span'} that of O_s all the same, with the outputs as they are scaled here"
@@ -205,7 +221,7 @@ def _of_regression(found: InputLimit, bias: InputLimit) -> Iterator[tuple[str, s
 
 
 def _lines(name: str, matrix: Matrix) -> Iterator[tuple[str, str]]:
-    """The matrix in full, or, where an entry is too long to be read, about it in decimals: --json has the fractions."""
+    """The lines show the matrix in full, or in decimals where an entry is too long to be read; --json has the fractions."""
     lines = matrix_lines(matrix) or [f"empty, {matrix.nrows} x {matrix.ncols}"]
     entries = [entry for row in matrix.elements() for entry in row]
     if any(len(str(entry)) > LONGEST_ENTRY for entry in entries):

@@ -21,21 +21,21 @@ from .process import JointProcess, Signal, joint_process
 
 @dataclass(frozen=True)
 class Covariances:
-    """A joint process with the covariance P of its state, N x N."""
+    """This is a joint process with the covariance P of its state, N x N."""
 
     process: JointProcess
     P: Matrix
 
     def now(self, a: Signal, b: Signal) -> Matrix:
-        """Cov(a(k), b(k))."""
+        """The result is Cov(a(k), b(k))."""
         return a.H @ self.P @ b.H.transposed() + a.J @ b.J.transposed()
 
     def with_next_state(self, b: Signal) -> Matrix:
-        """Cov(xi(k+1), b(k)), N x rows of b."""
+        """The result is Cov(xi(k+1), b(k)), N x rows of b."""
         return self.process.Phi @ (self.P @ b.H.transposed()) + self.process.Gamma @ b.J.transposed()
 
     def forward(self, a: Signal, b: Signal, most: int) -> list[Matrix]:
-        """Cov(a(k+l), b(k)) for l = 0..most."""
+        """The result is Cov(a(k+l), b(k)) for l = 0..most."""
         result = [self.now(a, b)]
         reached = self.with_next_state(b)
         for lag in range(1, most + 1):
@@ -45,7 +45,7 @@ class Covariances:
         return result
 
     def sequence(self, a: Signal, b: Signal, least: int, most: int) -> dict[int, Matrix]:
-        """Cov(a(k+l), b(k)) for l = least..most, either sign."""
+        """The result is Cov(a(k+l), b(k)) for l = least..most, either sign."""
         result = {}
         if most >= 0:
             result = {lag: block for lag, block in enumerate(self.forward(a, b, most)) if lag >= least}
@@ -55,14 +55,14 @@ class Covariances:
         return result
 
     def windows(self, a: Signal, b: Signal, rows: range, columns: range) -> Matrix:
-        """The block matrix Cov(a(k+i), b(k+j)), i in `rows` and j in `columns`, both consecutive."""
+        """The result is the block matrix Cov(a(k+i), b(k+j)), i in `rows` and j in `columns`, both consecutive."""
         blocks = self.sequence(a, b, rows[0] - columns[-1], rows[-1] - columns[0])
         return stacked(*(beside(*(blocks[i - j] for j in columns)) for i in rows))
 
 
 @dataclass(frozen=True)
 class WindowCovariances:
-    """Sizes: f = s, q = past block rows. uf_uf (f nu)^2, uf_up f nu x q nu, uf_yp f nu x q p, yf_uf, yf_up, yf_yp with f p rows."""
+    """With f = s and q = past block rows, uf_uf is (f nu)^2, uf_up f nu x q nu, uf_yp f nu x q p; yf_uf, yf_up and yf_yp have f p rows."""
 
     uf_uf: Matrix
     uf_up: Matrix
@@ -73,13 +73,13 @@ class WindowCovariances:
 
 
 def covariances(experiment: Experiment) -> Covariances:
-    """The joint process with its exact state covariance."""
+    """The result is the joint process with its exact state covariance."""
     process = joint_process(experiment)
     return Covariances(process, state_covariance(process))
 
 
 def window_covariances(experiment: Experiment, known: Covariances) -> WindowCovariances:
-    """The blocks for the windows of the experiment.
+    """These are the blocks for the windows of the experiment.
 
     Raises InvalidInput where the covariance of s + past block rows of u is singular: u is then a combination of its own past.
     """

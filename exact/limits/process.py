@@ -27,7 +27,7 @@ from .filters import Filter
 
 @dataclass(frozen=True)
 class Signal:
-    """A signal H xi(k) + J e(k)."""
+    """This is a signal H xi(k) + J e(k)."""
 
     H: Matrix
     J: Matrix
@@ -35,7 +35,9 @@ class Signal:
 
 @dataclass(frozen=True)
 class DelayLine:
-    """`length` past values of z, each `width` wide, z driven by the columns `noise_start`.. of e; denominator 1, d_1, ..., d_k by lag."""
+    """This holds `length` past values of z, `width` entries each, z driven by the columns of e from `noise_start` on; `denominator` is by
+    lag.
+    """
 
     denominator: tuple[Any, ...]
     length: int
@@ -44,11 +46,11 @@ class DelayLine:
 
     @property
     def size(self) -> int:
-        """How many entries of xi it takes."""
+        """This says how many entries of xi it takes."""
         return self.length * self.width
 
     def companion(self) -> Matrix:
-        """The length x length matrix that moves one channel of the line on."""
+        """The result is the length x length matrix that moves one channel of the line on."""
         rows = [[fmpq(0)] * self.length for _ in range(self.length)]
         for j, d in enumerate(self.denominator[1:]):
             rows[0][j] = -d
@@ -57,14 +59,14 @@ class DelayLine:
         return Matrix.from_elements(QQ, self.length, self.length, rows)
 
     def annihilator(self) -> tuple[Any, ...]:
-        """q^length + d_1 q^(length-1) + ..., ascending: the characteristic polynomial of the companion matrix."""
+        """The result is q^length + d_1 q^(length-1) + ..., ascending: the characteristic polynomial of the companion matrix."""
         padded = [*self.denominator, *[fmpq(0)] * (self.length + 1 - len(self.denominator))]
         return tuple(reversed(padded))
 
 
 @dataclass(frozen=True)
 class JointProcess:
-    """See the module. `lines` tile xi after the first n entries."""
+    """The dictionary of the module explains the fields; `lines` tile xi after the first n entries."""
 
     n: int
     Phi: Matrix
@@ -130,7 +132,7 @@ def _filtered(one: Filter, line: DelayLine, start: int, size: int, noise: int) -
 
 
 def _moved(line: DelayLine, start: int, size: int, noise: int) -> Signal:
-    """The line one step later."""
+    """The result is the line one step later."""
     rows = [[fmpq(0)] * size for _ in range(line.size)]
     drive = [[fmpq(0)] * noise for _ in range(line.size)]
     step = line.companion().elements()

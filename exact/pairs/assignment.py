@@ -20,15 +20,17 @@ where the exponents leave no power up to zeta unreached. Source: [F75] for minim
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import sympy
 
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra import polynomials
 from ..algebra.matrices import Matrix, solve_left, stacked
+from ..algebra.notation import named_matrix, polynomial
 from ..algebra.polynomials import Poly, written
 from ..algebra.writing import sum_of_powers
 from ..structure.inversion import delay_unknown_state, left_inverse
@@ -37,8 +39,8 @@ from ..system.systems import ResidualSystem
 from .polynomial import Exceptional, PairVerdict, judge
 
 
-@dataclass(frozen=True)
-class ZeroAssignment:
+@dataclass(frozen=True, repr=False)
+class ZeroAssignment(Shown):
     """`verdict.polynomial` = unit * `desired`; `free` = desired / fixed is what det(L(q) P) was made to be."""
 
     desired: Poly
@@ -48,37 +50,68 @@ class ZeroAssignment:
 
     @property
     def P(self) -> Matrix:
-        """n_z x r."""
+        """P is n_z x r."""
         return self.verdict.P
 
     @property
     def system(self) -> ResidualSystem:
-        """(A, Fhat P, C, Ghat P): its invariant zero polynomial is `desired`, made monic."""
+        """This is (A, Fhat P, C, Ghat P), whose invariant zero polynomial is `desired`, made monic."""
         return self.verdict.system
 
     def to_json(self) -> dict[str, Any]:
-        """The desired polynomial, the unit and the verdict."""
+        """The result is the desired polynomial, the unit and the verdict."""
         field = self.P.field
         return {"desired": written(self.desired, field), "unit": field.write(self.unit), **self.verdict.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This says which zeros the pair has."""
+        return f"a pair with the zeros of {polynomial(self.desired, self.P.field)}"
 
-@dataclass(frozen=True)
-class Recovery:
-    """A pair from whose outputs r(0..delay) `left_inverse` (m x p(delay + 1)) recovers v(0), whatever the initial state is."""
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are those of the verdict, and the fault matrices."""
+        yield from self.verdict.sheet()
+        yield from named_matrix("F", self.system.F)
+        yield from named_matrix("G", self.system.G)
+
+
+@dataclass(frozen=True, repr=False)
+class Recovery(Shown):
+    """This is a pair from whose outputs r(0..delay) `left_inverse` (m x p(delay + 1)) recovers v(0), whatever the initial state is."""
 
     assignment: ZeroAssignment
     delay: int
     left_inverse: Matrix
 
     def to_json(self) -> dict[str, Any]:
-        """The delay, the left inverse and the assignment."""
+        """The result is the delay, the left inverse and the assignment."""
         return {"delay": self.delay, "left_inverse": self.left_inverse.to_json(), **self.assignment.to_json()}
+
+    @property
+    def title(self) -> str:
+        """This says from how many samples the fault is recovered."""
+        return f"r(0), ..., r({self.delay}) give v(0), whatever the initial state is"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are those of the assignment, and the left inverse."""
+        yield from self.assignment.sheet()
+        yield from named_matrix("left inverse", self.left_inverse)
 
 
 def assign_zeros(pencil: Exceptional, desired: object) -> ZeroAssignment:
-    """P with D(q; P) = unit * desired. `desired`: ascending coefficients, or over Q a sympy polynomial in one symbol.
+    """The result is a pair (Fhat P, Ghat P) of fault matrices, equivalent to the given ones, whose invariant zeros are the wanted ones.
 
-    Raises InvalidInput for the zero polynomial, a degree above zeta, and a polynomial that the unobservable modes do not divide.
+    `pencil` is that of `exceptional`; `desired` is a list of ascending coefficients in the field, or over Q a sympy polynomial in one
+    symbol, of degree at most zeta. The ZeroAssignment has `P` (n_z x r), `system`, and `unit` with D(q; P) = unit * desired; the zeta - deg
+    desired other zeros are infinite. Source: [F75] for minimal bases, [G25] Theorem 3.
+
+    Raises InvalidInput for the zero polynomial, a degree above zeta, and a polynomial that the unobservable modes of (A, C) do not divide.
+
+    >>> from faultspace.exact import ResidualSystem, assign_zeros, exceptional, kernel_representation
+    >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
+    >>> found = assign_zeros(pencil, [-2, 1])  # a zero at 2
+    >>> print(found.system)
+    A=[[1/2]], F=[[-3/4]], C=[[1]], G=[[1/2]]
     """
     polynomial = _polynomial(pencil, desired)
     field, zeta, fixed = pencil.system.field, pencil.zeta, pencil.fixed
@@ -105,9 +138,18 @@ def assign_zeros(pencil: Exceptional, desired: object) -> ZeroAssignment:
 
 
 def recoverable_pair(pencil: Exceptional) -> Recovery:
-    """A pair whose only finite zeros are the unobservable modes: r(0..delay) determines v(0) without the initial state.
+    """The result is an equivalent pair whose fault the outputs give without the initial state: it has no zeros that can be avoided.
 
-    Such a pair exists for every system, observable or not; recovery is verified by solving for the left inverse.
+    `pencil` is that of `exceptional`; the only finite zeros of the pair are the unobservable modes. The Recovery has `delay`, a number of
+    samples, and `left_inverse`, m x p(delay + 1), which takes r(0), ..., r(delay) to v(0). Such a pair exists for every system, observable
+    or not; the left inverse is computed, so that it is verified. Source: [HP98] for recovery, [G25] Theorem 3.
+
+    Raises ArithmeticError if the construction failed, which would be an error of ours.
+
+    >>> from faultspace.exact import ResidualSystem, exceptional, kernel_representation, recoverable_pair
+    >>> found = recoverable_pair(exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]))))
+    >>> found.delay, found.left_inverse
+    (1, [[-1, 2]])
     """
     assignment = assign_zeros(pencil, pencil.fixed)
     delay = delay_unknown_state(kernel_representation(assignment.system))
@@ -118,7 +160,7 @@ def recoverable_pair(pencil: Exceptional) -> Recovery:
 
 
 def _realising(pencil: Exceptional, free: Poly) -> Matrix:
-    """P with det(L(q) P) = +- free: solves stacked(L_j) P = coefficients of Q."""
+    """The result is P with det(L(q) P) = +- free: it solves stacked(L_j) P = coefficients of Q."""
     field, degrees = pencil.system.field, pencil.left_degrees
     zero, one = field.element(0), field.element(1)
     r, largest = len(degrees), degrees[-1]

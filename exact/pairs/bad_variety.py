@@ -2,10 +2,9 @@
 
     BadSet              dimension and codimension in the n_z r entries of P, and the strata that give them
     bad_set             by counting parameters
-    Stratum             the bad P whose L(q) P, of rank r - 1, has rows in a module with minimal indices `indices`
+    BadStratum          the bad P whose L(q) P, of rank r - 1, has rows in a module with minimal indices `indices`
     BadEquations        the zeta + 1 coefficients of D(q; P), expanded in the entries of P, as sympy expressions, with factors
     bad_equations       over Q and prime fields, up to MAX_ENTRIES entries
-    dimension_of        the dimension of the zeros of some polynomials over Q, by a Groebner basis: the oracle for `bad_set`
 
 P is bad iff det(L(q) P) = 0, and L(q) P is any r x r matrix Q(q) with row j of degree at most k_j (the map to Q is onto and linear, so
 that codimensions stay). The singular Q of rank r - 1 are sorted by the minimal indices e_1 <= ... <= e_(r-1) of the module that their
@@ -27,7 +26,9 @@ import sympy
 from flint import Ordering, nmod_mpoly_ctx
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.fields import NumberField, PrimeField, Rationals
+from ..algebra.notation import several
 from .pluecker import coefficient_forms, forms_of_determinant
 from .polynomial import Exceptional
 
@@ -36,16 +37,16 @@ MAX_STRATA = 100_000
 
 
 @dataclass(frozen=True)
-class Stratum:
-    """Minimal indices e of the row module of L(q) P, ascending, and the codimension of the bad P of that type."""
+class BadStratum:
+    """`indices` are the minimal indices e of the row module of L(q) P, ascending, and `codimension` is that of the bad P of that type."""
 
     indices: tuple[int, ...]
     codimension: int
 
 
-@dataclass(frozen=True)
-class BadSet:
-    """Over an algebraically closed field: `dimension` + `codimension` = n_z r. r = 0: empty, both None.
+@dataclass(frozen=True, repr=False)
+class BadSet(Shown):
+    """Over an algebraically closed field `dimension` + `codimension` = n_z r; for r = 0 there is no bad P, and both are None.
 
     `strata` are ordered by codimension; those of the least one make components of largest dimension.
     """
@@ -53,15 +54,15 @@ class BadSet:
     exceptional: Exceptional
     dimension: int | None
     codimension: int | None
-    strata: tuple[Stratum, ...]
+    strata: tuple[BadStratum, ...]
 
     @property
     def rank_deficient_codimension(self) -> int | None:
-        """The codimension of the P that are not of full column rank: n_z - r + 1 = zeta + 1; None for r = 0."""
+        """This is the codimension of the P that are not of full column rank: n_z - r + 1 = zeta + 1; None for r = 0."""
         return None if self.exceptional.columns == 0 else self.exceptional.zeta + 1
 
     def to_json(self) -> dict[str, Any]:
-        """Dimensions, degrees k_j and the strata."""
+        """The result holds the dimensions, the degrees k_j and the strata."""
         return {
             "entries": self.exceptional.n_z * self.exceptional.columns,
             "left_degrees": list(self.exceptional.left_degrees),
@@ -71,12 +72,26 @@ class BadSet:
             "strata": [{"indices": list(s.indices), "codimension": s.codimension} for s in self.strata],
         }
 
+    @property
+    def title(self) -> str:
+        """This says how large the bad set is."""
+        if self.codimension is None:
+            return "no P is bad: the normal rank is 0"
+        return f"dimension {self.dimension}, codimension {self.codimension}"
 
-@dataclass(frozen=True)
-class BadEquations:
-    """`equations[k]`: the coefficient of q^k in D(q; P), in the `entries` p11, p12, ... of P by rows; `factors[k]` its (factor, exponent).
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the strata, by codimension, and the codimension of the P of deficient rank."""
+        yield "codimension of rank-deficient P", str(self.rank_deficient_codimension)
+        for stratum in self.strata:
+            yield f"indices {several(stratum.indices)}", f"codimension {stratum.codimension}"
 
-    `degree` is that of D in the entries, r, linear in each single one. All vanish exactly at the bad P.
+
+@dataclass(frozen=True, repr=False)
+class BadEquations(Shown):
+    """`equations[k]` is the coefficient of q^k in D(q; P), in the `entries` p11, p12, ... of P by rows.
+
+    `factors[k]` holds its (factor, exponent) pairs, and `degree` is that of D in the entries, r; D is linear in each single one. All
+    equations vanish exactly at the bad P.
     """
 
     exceptional: Exceptional
@@ -86,21 +101,40 @@ class BadEquations:
 
     @property
     def degree(self) -> int:
-        """r."""
+        """The degree is r."""
         return self.exceptional.columns
 
     def to_json(self) -> dict[str, Any]:
-        """The equations and their factors as texts."""
+        """These are the equations and their factors as texts."""
         return {
             "equations": [str(f) for f in self.equations],
             "factors": [[[str(g), e] for g, e in factors] for factors in self.factors],
         }
 
+    @property
+    def title(self) -> str:
+        """This says how many equations there are in how many entries."""
+        return f"{len(self.equations)} equations of degree {self.degree} in {len(self.entries)} entries of P"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the equations, by power of q."""
+        for power, equation in enumerate(self.equations):
+            yield f"coefficient of q^{power}", str(equation)
+
 
 def bad_set(pencil: Exceptional) -> BadSet:
-    """Dimension and codimension of the bad P, any system over any field (as a variety, over the closure).
+    """The result is the dimension and the codimension of the bad P, the n_z x r matrices whose pair is not equivalent to the system.
 
-    Raises InvalidInput where there are more than MAX_STRATA strata to compare.
+    `pencil` is that of `exceptional`, of any system over any field; dimensions are those over the algebraic closure. The BadSet also lists
+    the `strata`, by the minimal indices of what L(q) P spans. Source: [F75], [G25] Theorem 3.
+
+    Raises InvalidInput where there are more than 100000 strata to compare.
+
+    >>> from faultspace.exact import ResidualSystem, bad_set, exceptional, kernel_representation
+    >>> system = ResidualSystem.of([[0, 1], [0, 0]], [[1, 0], [0, 1]], [[1, 0], [0, 1]], [[0, 0], [0, 0]])
+    >>> found = bad_set(exceptional(kernel_representation(system)))
+    >>> found.dimension, found.codimension, [stratum.indices for stratum in found.strata]
+    (5, 3, [(0,), (1,)])
     """
     degrees, r = pencil.left_degrees, pencil.columns
     if r == 0:
@@ -109,14 +143,25 @@ def bad_set(pencil: Exceptional) -> BadSet:
     for count, indices in enumerate(_index_lists(degrees[1:])):
         if count == MAX_STRATA:
             raise InvalidInput(f"bad set: the degrees {degrees} have more than {MAX_STRATA} strata; fewer faults have fewer")
-        strata.append(Stratum(indices, _codimension(degrees, indices)))
+        strata.append(BadStratum(indices, _codimension(degrees, indices)))
     strata.sort(key=lambda s: (s.codimension, s.indices))
     least = strata[0].codimension
     return BadSet(pencil, pencil.n_z * r - least, least, tuple(strata))
 
 
 def bad_equations(pencil: Exceptional) -> BadEquations:
-    """The coefficients of D(q; P) expanded in P and factored over the field. Raises InvalidInput beyond MAX_ENTRIES, or over Q(a)."""
+    """The result is the equations of the bad P: the zeta + 1 coefficients of D(q; P), expanded in the entries of P and factored.
+
+    `pencil` is that of `exceptional`, over Q or a prime field, with at most 16 entries in P, which is n_z x r and bad iff all coefficients
+    are 0. The BadEquations has `entries`, the sympy symbols p11, p12, ..., `equations` and `factors`. Source: [G25] Theorem 3.
+
+    Raises InvalidInput for more entries, and over Q(a).
+
+    >>> from faultspace.exact import ResidualSystem, bad_equations, exceptional, kernel_representation
+    >>> found = bad_equations(exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]))))
+    >>> found.entries, found.equations
+    ((p11, p21), (-p11 + p21/2, -p21))
+    """
     field, n_z, r = pencil.system.field, pencil.n_z, pencil.columns
     if isinstance(field, NumberField):
         raise InvalidInput(f"bad set: equations are expanded over Q and prime fields, got {field}; coefficient_forms has no such limit")
@@ -141,28 +186,8 @@ def bad_equations(pencil: Exceptional) -> BadEquations:
     return BadEquations(pencil, tuple(symbols), tuple(equations), tuple(factors))
 
 
-def dimension_of(equations: Sequence[Any], unknowns: Sequence[Any]) -> int:
-    """The dimension over the closure of Q of the common zeros, -1 if there are none; by the leading monomials of a Groebner basis.
-
-    Doubly exponential: meant for a handful of equations of degree up to 3 in up to ten unknowns.
-    """
-    nonzero = [f for f in equations if f != 0]
-    if not nonzero:
-        return len(unknowns)
-    basis = sympy.groebner(nonzero, *unknowns, order="grevlex")
-    leading = [sympy.Poly(sympy.LM(f, *unknowns, order="grevlex"), *unknowns).monoms()[0] for f in basis.exprs]
-    supports = [frozenset(i for i, e in enumerate(exponents) if e) for exponents in leading]
-    if frozenset() in supports:
-        return -1
-    for size in range(len(unknowns), -1, -1):
-        for free in combinations(range(len(unknowns)), size):
-            if not any(support <= set(free) for support in supports):
-                return size
-    raise ArithmeticError("the empty set of unknowns is always free")
-
-
 def _index_lists(bounds: Sequence[int], least: int = 0) -> Iterator[tuple[int, ...]]:
-    """Ascending e with e_i <= bounds_i."""
+    """These are all ascending e with e_i <= bounds_i."""
     if not bounds:
         yield ()
         return
@@ -172,7 +197,7 @@ def _index_lists(bounds: Sequence[int], least: int = 0) -> Iterator[tuple[int, .
 
 
 def _codimension(degrees: Sequence[int], indices: Sequence[int]) -> int:
-    """Codimension of the Q with this type among all with row degrees at most `degrees`."""
+    """The result is the codimension of the Q with this type among all with row degrees at most `degrees`."""
     r = len(degrees)
     modules = r * (sum(indices) + 1) - 1 - sum(max(0, y - x - 1) for x, y in combinations(indices, 2))
     rows = sum(max(0, k - e + 1) for k in degrees for e in indices)
@@ -185,7 +210,7 @@ def _factors(constant: Any, powers: Sequence[tuple[Any, int]]) -> tuple[tuple[An
 
 
 def _reduced_and_factored(f: Any, symbols: Any, prime: int) -> tuple[Any, tuple[tuple[Any, int], ...]]:
-    """f modulo the prime with residues in 0..p-1, and its factors, by FLINT: sympy factors in one unknown only."""
+    """The result is f modulo the prime with residues in 0..p-1, and its factors, by FLINT: sympy factors in one unknown only."""
     if not len(symbols):
         return f % prime, _factors(f % prime, [])
     context = nmod_mpoly_ctx.get([str(x) for x in symbols], modulus=prime, ordering=Ordering.lex)

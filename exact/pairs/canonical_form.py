@@ -22,19 +22,24 @@ classes have equal behaviours; for the converse ask `BehaviorName`. Source: [F75
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from ...base.sheets import Shown
 from ..algebra.fields import Field
 from ..algebra.matrices import Matrix, row_echelon, stacked
+from ..algebra.notation import named_matrix, polynomial, several
 from ..structure.fault_columns import fault_space
 from ..structure.kernel_rows import KernelRepresentation
 from ..system.systems import ResidualSystem
 
 
-@dataclass(frozen=True)
-class BehaviorName:
-    """The rows N_j(q), (mu_j + 1) x p coefficients each, ascending by degree, then by pivot output; monic at the pivot. Hashable."""
+@dataclass(frozen=True, repr=False)
+class BehaviorName(Shown):
+    """`rows` holds N_j(q), (mu_j + 1) x p coefficients each, ascending by degree, then by pivot output, where they are monic. It can be
+    hashed.
+    """
 
     field: Field
     p: int
@@ -42,41 +47,85 @@ class BehaviorName:
 
     @property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """The degrees of the rows, ascending."""
+        """These are the degrees of the rows, ascending."""
         return tuple(row.nrows - 1 for row in self.rows)
 
     def to_json(self) -> dict[str, Any]:
-        """Field, p and the rows."""
+        """The result holds the field, p and the rows."""
         return {"field": self.field.to_json(), "p": self.p, "rows": [row.to_json() for row in self.rows]}
 
+    @property
+    def title(self) -> str:
+        """This says how many outputs and laws the behaviour has."""
+        return f"{len(self.rows)} laws of {self.p} outputs, of degrees {several(self.left_minimal_indices)}"
 
-@dataclass(frozen=True)
-class FaultClass:
-    """`A`, `C` and `basis` = rows [f' g'] of Z in reduced row echelon form. Hashable."""
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the rows N_j(q)."""
+        for row in self.rows:
+            entries = [polynomial(column, self.field) for column in zip(*row.elements(), strict=True)]
+            yield "N(q) r = 0 with N(q)", f"[ {',  '.join(entries)} ]"
+
+
+@dataclass(frozen=True, repr=False)
+class FaultClass(Shown):
+    """`basis` holds the rows [f' g'] of Z in reduced row echelon form, beside `A` and `C`. It can be hashed."""
 
     A: Matrix
     C: Matrix
     basis: Matrix
 
     def to_json(self) -> dict[str, Any]:
-        """Field, A, C and the basis."""
+        """The result holds the field, A, C and the basis."""
         return {"field": self.A.field.to_json(), "A": self.A.to_json(), "C": self.C.to_json(), "fault_space": self.basis.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This says how large the fault space is."""
+        return f"a fault space of dimension {self.basis.nrows} for these A and C"
 
-@dataclass(frozen=True)
-class FeedbackClass:
-    """`basis` of Z in reduced row echelon form and `residue`, [A; C] with zeros at its pivot rows, (n + p) x n. Hashable."""
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are A, C and the basis."""
+        yield from named_matrix("A", self.A)
+        yield from named_matrix("C", self.C)
+        yield from named_matrix("rows [f' g'] of the fault space", self.basis)
+
+
+@dataclass(frozen=True, repr=False)
+class FeedbackClass(Shown):
+    """`basis` is that of Z in reduced row echelon form, `residue` is [A; C] with zeros at its pivot rows, (n + p) x n. It can be hashed."""
 
     basis: Matrix
     residue: Matrix
 
     def to_json(self) -> dict[str, Any]:
-        """Field, the basis and the residue."""
+        """The result holds the field, the basis and the residue."""
         return {"field": self.basis.field.to_json(), "fault_space": self.basis.to_json(), "residue": self.residue.to_json()}
+
+    @property
+    def title(self) -> str:
+        """This says how large the fault space is."""
+        return f"a fault space of dimension {self.basis.nrows} and [A; C] modulo it"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the basis and the residue."""
+        yield from named_matrix("rows [f' g'] of the fault space", self.basis)
+        yield from named_matrix("[A; C] modulo it", self.residue)
 
 
 def behavior_name(kernel: KernelRepresentation) -> BehaviorName:
-    """The name of the output behaviour of any system: equal names iff `behavior.compare` finds the behaviours equal."""
+    """The result names the output behaviour of any system: two names are equal iff `compare` finds the behaviours equal.
+
+    The name is the reduced basis, in Popov form, of all laws N(q) r = 0 that the p outputs obey: rows of shape (mu + 1) x p, monic at their
+    pivots. A BehaviorName can be hashed, so that systems can be sorted by behaviour. Source: [F75], [W91], [K80] 6.7 for the Popov form.
+
+    Raises nothing for a KernelRepresentation.
+
+    >>> from faultspace.exact import ResidualSystem, behavior_name, kernel_representation
+    >>> one = kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[1]], [[]], m=0))
+    >>> other = kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[3]], [[]], m=0))
+    >>> behavior_name(one).rows, behavior_name(one) == behavior_name(other)
+    (([[-1/2], [1]],), True)
+    """
     field = kernel.system.field
     rows = []
     for row in kernel.rows:
@@ -87,13 +136,39 @@ def behavior_name(kernel: KernelRepresentation) -> BehaviorName:
 
 
 def fault_class(kernel: KernelRepresentation) -> FaultClass:
-    """The name of the behaviour among the systems with these A, C: equal iff the behaviours are."""
+    """The result names the output behaviour among the systems with the same A (n x n) and C (p x n).
+
+    Two such names are equal iff the behaviours are. The FaultClass holds A, C and the reduced row echelon form of the fault space Z, n_z x
+    (n + p) with rows [f' g']: the behaviour determines Z and Z the behaviour. Source: [G25] problem (11), Theorem 3.
+
+    Raises nothing for a KernelRepresentation.
+
+    >>> from faultspace.exact import ResidualSystem, fault_class, kernel_representation
+    >>> systems = [ResidualSystem.of([[0]], F, [[1]], G) for F, G in (([[1]], [[0]]), ([[0]], [[1]]), ([[0]], [[0]]))]
+    >>> first, second, third = (fault_class(kernel_representation(system)) for system in systems)
+    >>> first == second, first == third, first.basis
+    (True, False, [[1, 0], [0, 1]])
+    """
     system = kernel.system
     return FaultClass(system.A, system.C, fault_space(kernel).basis)
 
 
 def feedback_class(kernel: KernelRepresentation) -> FeedbackClass:
-    """What (A + Fhat K, C + Ghat K) have in common for all K, with the fault space, which they share."""
+    """The result is what the systems (A + Fhat K, C + Ghat K) have in common for all K, with the fault space, which they share.
+
+    A change v = K x + v' of the fault signal leaves the outputs what they are; two systems with n states and p outputs have the same
+    FeedbackClass iff their fault space is the same and the columns of [A' - A; C' - C] lie in it. Equal classes have equal behaviours, and
+    not conversely: a change of basis of the state changes the class. `residue`, of shape (n + p) x n, is [A; C] modulo the space. Source:
+    [G25] problem (11), [TSH01] for feedback.
+
+    Raises nothing for a KernelRepresentation.
+
+    >>> from faultspace.exact import ResidualSystem, feedback_class, kernel_representation
+    >>> one = ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 1]], [[0], [0]])
+    >>> two = ResidualSystem.of([[0, 1], [5, 7]], [[0], [1]], [[1, 0], [0, 1]], [[0], [0]])  # A + F [5 7]
+    >>> feedback_class(kernel_representation(one)) == feedback_class(kernel_representation(two))
+    True
+    """
     system = kernel.system
     basis = fault_space(kernel).basis
     echelon = row_echelon(basis)
@@ -102,7 +177,7 @@ def feedback_class(kernel: KernelRepresentation) -> FeedbackClass:
 
 
 def with_feedback(system: ResidualSystem, K: object) -> ResidualSystem:
-    """(A + F K, F, C + G K, G): v = K x + v', a change of the fault signal, leaves the outputs what they are. K is m x n.
+    """The result is (A + F K, F, C + G K, G): v = K x + v', a change of the fault signal, leaves the outputs what they are. K is m x n.
 
     Raises InvalidInput for another shape or field.
     """

@@ -3,7 +3,6 @@
     ZeroFeedthrough      U = {u : [u; 0] in Z}, what G = 0 leaves free, and whether that is im F alone
     zero_feedthrough     of a left-invertible system with G = 0
     Alternative          F' of another column space with the same behaviour and no feedthrough, where there is one
-    members_by_formula   im F + U + A (U inter ker C), U = V* + S*: the same space, by subspaces
 
 The members of Z with zero feedthrough are the columns [u; 0] with u in U = V* + S*, zeta dimensions of them: with G = 0, im F lies in S*
 and A (U inter ker C) in U, so that the formula im F + U + A (U inter ker C) is U itself. An equivalent pair without feedthrough is F' = U
@@ -21,23 +20,26 @@ unknown one iff all finite zeros are unobservable modes. Source: [G25] section V
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput
-from ..algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, stacked
+from ...base.sheets import Shown
+from ..algebra.matrices import Matrix, beside, rank, stacked
+from ..algebra.notation import named_matrix
 from ..structure.inversion import delay_known_state, delay_unknown_state, largest_output_nulling
 from ..structure.kernel_rows import KernelRepresentation
-from ..structure.zero_output import chain_from_rest
 from ..system.systems import ResidualSystem
 from .polynomial import Exceptional, PairVerdict, exceptional, judge
 
 
 @dataclass(frozen=True)
 class Alternative:
-    """`F` with another column space and G = 0 that makes the same outputs; `replaced` is the column put in the place of the first.
+    """This is an `F` with another column space and G = 0 that makes the same outputs.
 
-    Where v is not pinned either, `replaced` is outside im F + N, N the unobservable subspace.
+    The column `replaced` is put in the place of the first. Where v is not pinned either, it is outside im F + N, N the unobservable
+    subspace.
     """
 
     F: Matrix
@@ -46,19 +48,20 @@ class Alternative:
 
     @property
     def system(self) -> ResidualSystem:
-        """(A, F', C, 0)."""
+        """This is (A, F', C, 0)."""
         return self.verdict.system
 
     def to_json(self) -> dict[str, Any]:
-        """F', the column and the verdict on the pair."""
+        """The result is F', the column and the verdict on the pair."""
         return {"F": self.F.to_json(), "replaced": self.replaced.to_json(), **self.verdict.to_json()}
 
 
-@dataclass(frozen=True)
-class ZeroFeedthrough:
-    """How far G = 0 pins F. `members` is U, n x zeta in reduced column echelon form; `own` the verdict on the system's own pair.
+@dataclass(frozen=True, repr=False)
+class ZeroFeedthrough(Shown):
+    """This says how far G = 0 pins F: `zero_feedthrough` makes it.
 
-    `delay_known_state`, `delay_unknown_state`: samples after which v(0) is determined for the given F; the latter None where it never is.
+    `members` is U, n x zeta in reduced column echelon form; `own` is the verdict on the system's own pair. `delay_known_state` and
+    `delay_unknown_state` are the samples after which v(0) is determined for the given F; the latter is None where it never is.
     """
 
     exceptional: Exceptional
@@ -71,26 +74,28 @@ class ZeroFeedthrough:
 
     @property
     def ambiguity(self) -> int:
-        """zeta - m: the dimension that the members have beyond im F."""
+        """This is zeta - m, the dimension that the members have beyond im F."""
         return self.members.ncols - self.exceptional.columns
 
     @property
     def pins_F(self) -> bool:
-        """Whether every equivalent F' with zero feedthrough is F T with an invertible T."""
+        """This tells whether every equivalent F' with zero feedthrough is F T with an invertible T."""
         return self.alternative is None
 
     @property
     def pins_v(self) -> bool:
-        """Whether all equivalent pairs (F', 0) explain an output by v' = T^-1 v, one T a pair; the initial state known or not."""
+        """This tells whether all equivalent pairs (F', 0) explain an output by v' = T^-1 v, one T a pair, be the initial state known or
+        not.
+        """
         return self.exceptional.columns == 0 or self.ambiguity == len(self.exceptional.fixed) - 1
 
     @property
     def finite_zeros(self) -> int:
-        """n_f of the system."""
+        """This is n_f of the system."""
         return len(self.own.polynomial) - 1
 
     def to_json(self) -> dict[str, Any]:
-        """What a certificate needs: members, condition, and the alternative where there is one."""
+        """The result is what a certificate needs: members, condition, and the alternative where there is one."""
         return {
             "members": self.members.to_json(),
             "zeta": self.members.ncols,
@@ -105,9 +110,36 @@ class ZeroFeedthrough:
             "alternative": None if self.alternative is None else self.alternative.to_json(),
         }
 
+    @property
+    def title(self) -> str:
+        """This says what the knowledge that G = 0 pins."""
+        return f"F is {'' if self.pins_F else 'not '}pinned up to a basis, v is {'pinned' if self.pins_v else 'not'}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the conditions, and another F where there is one."""
+        yield "zeta - m", str(self.ambiguity)
+        yield "rank C F", str(self.rank_CF)
+        yield "finite zeros", str(self.finite_zeros)
+        yield "inversion delay, x(0) known", str(self.delay_known_state)
+        yield "inversion delay, x(0) unknown", "none" if self.delay_unknown_state is None else str(self.delay_unknown_state)
+        if self.alternative is not None:
+            yield from named_matrix("another F", self.alternative.F)
+
 
 def zero_feedthrough(kernel: KernelRepresentation) -> ZeroFeedthrough:
-    """How far G = 0 pins F and v. Raises InvalidInput unless G = 0 and the system is left-invertible."""
+    """The result says how far the knowledge that G = 0 pins the fault matrix F (n x m), and with it the fault signal.
+
+    `kernel` is the KernelRepresentation of a left-invertible system with G = 0. The ZeroFeedthrough has `pins_F` (whether F is known up to
+    a basis), `pins_v`, `ambiguity`, a number of dimensions, an `alternative` F' of another column space where there is one, and both delays
+    in samples. Source: [G25] section V, [M73] and [TSH01] for the subspaces, [HP98] for recovery.
+
+    Raises InvalidInput unless G = 0 and the system is left-invertible.
+
+    >>> from faultspace.exact import ResidualSystem, kernel_representation, zero_feedthrough
+    >>> found = zero_feedthrough(kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])))
+    >>> found.pins_F, found.ambiguity, found.alternative.F  # C F = 0: the fault is seen one sample late
+    (False, 1, [[1], [0]])
+    """
     system = kernel.system
     if not system.G.is_zero():
         raise InvalidInput("G: got a nonzero feedthrough, expected G = 0; problem (11) itself is answered by fault_space")
@@ -130,27 +162,15 @@ def zero_feedthrough(kernel: KernelRepresentation) -> ZeroFeedthrough:
     )
 
 
-def members_by_formula(system: ResidualSystem) -> Matrix:
-    """im F + U + A (U inter ker C) with U = V* + S*, as a reduced column basis: the slow way to `ZeroFeedthrough.members`.
-
-    Raises InvalidInput unless G = 0.
-    """
-    if not system.G.is_zero():
-        raise InvalidInput("G: got a nonzero feedthrough, expected G = 0")
-    U = column_basis(beside(largest_output_nulling(system), chain_from_rest(system).last_subspace))
-    silent = U @ right_null_space(system.C @ U)
-    return column_basis(beside(system.F, U, system.A @ silent))
-
-
 def _coordinates(pencil: Exceptional, F: Matrix) -> Matrix:
-    """P with [Fhat; Ghat] P = [F; 0]."""
+    """The result is P with [Fhat; Ghat] P = [F; 0]."""
     from_basis = stacked(F, Matrix.zero(F.field, pencil.system.p, F.ncols))
     pivots = [next(j for j, x in enumerate(row) if x != 0) for row in pencil.space.basis.elements()]
     return from_basis.rows(pivots)
 
 
 def _alternative(pencil: Exceptional, system: ResidualSystem) -> Alternative | None:
-    """Another F' with zero feedthrough, by exchanging one column; None where im F = U or there is no fault."""
+    """The result is another F' with zero feedthrough, by exchanging one column; None where im F = U or there is no fault."""
     if system.m == 0 or pencil.zeta == system.m:
         return None
     hidden = pencil.states @ largest_output_nulling(pencil.reduced)

@@ -26,12 +26,15 @@ sum k_j = zeta - deg fixed. Source: [G25] Theorem 3, [M73] and [TSH01] for V* an
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, beside, left_null_space, rank, row_echelon, row_profile, solve_left, stacked
+from ..algebra.notation import named_matrix, polynomial, several
 from ..algebra.polynomials import Poly, written
 from ..structure.fault_columns import FaultSpace, fault_space, with_pair
 from ..structure.kernel_rows import KernelRepresentation, column_conditions, kernel_representation
@@ -40,9 +43,9 @@ from ..system.systems import ResidualSystem
 from .linear_determinants import linear_determinant
 
 
-@dataclass(frozen=True)
-class Exceptional:
-    """The pencil q b - a of a system's fault space Z.
+@dataclass(frozen=True, repr=False)
+class Exceptional(Shown):
+    """This is the pencil q b - a of a system's fault space Z.
 
     `kernel` and `space` are those of the system; `states` is U (n x zeta, reduced column echelon form); `b` and `a` (n_z x zeta) satisfy
     [Fhat; Ghat] b = [U; 0] and [Fhat; Ghat] a = [A U; C U].
@@ -56,27 +59,27 @@ class Exceptional:
 
     @property
     def system(self) -> ResidualSystem:
-        """The system."""
+        """This is the system whose fault space it is."""
         return self.space.system
 
     @property
     def columns(self) -> int:
-        """r, the number of columns of every P: the normal rank, m where the system is left-invertible."""
+        """This is r, the number of columns of every P: the normal rank, which is m where the system is left-invertible."""
         return self.kernel.normal_rank
 
     @property
     def n_z(self) -> int:
-        """n_z = r + zeta, the number of rows of every P."""
+        """This is n_z = r + zeta, the number of rows of every P."""
         return self.space.dimension
 
     @property
     def zeta(self) -> int:
-        """dim U: the number of zeros, finite and infinite, of every good pair; the bound on the degree of D."""
+        """This is dim U, the number of zeros, finite and infinite, of every good pair, and the bound on the degree of D."""
         return self.states.ncols
 
     @cached_property
     def reduced(self) -> ResidualSystem:
-        """(A_U, C_U), zeta states and r outputs, no fault: q b - a in coordinates of Z that begin with b."""
+        """This is (A_U, C_U), zeta states and r outputs, no fault: q b - a in coordinates of Z that begin with b."""
         zeta, field = self.zeta, self.system.field
         inverse = _inverse(self.basis_change)
         both = inverse @ self.a
@@ -85,13 +88,15 @@ class Exceptional:
 
     @cached_property
     def basis_change(self) -> Matrix:
-        """[b | unit columns], invertible, n_z x n_z."""
+        """This is [b | unit columns], invertible, n_z x n_z."""
         free = sorted(set(range(self.n_z)) - set(row_profile(self.b)))
         return beside(self.b, Matrix.identity(self.system.field, self.n_z).columns(free))
 
     @cached_property
     def left_kernel(self) -> tuple[Matrix, ...]:
-        """The rows L_j(q) of a minimal basis of {l(q) : l(q) (q b - a) = 0}: (k_j + 1) x n_z coefficients each, ascending by degree."""
+        """These are the rows L_j(q) of a minimal basis of {l(q) : l(q) (q b - a) = 0}, (k_j + 1) x n_z coefficients each, ascending by
+        degree.
+        """
         inverse = _inverse(self.basis_change)
         reduced = self.reduced
         rows = kernel_representation(reduced).rows
@@ -99,23 +104,48 @@ class Exceptional:
 
     @property
     def left_degrees(self) -> tuple[int, ...]:
-        """k_1 <= ... <= k_r."""
+        """These are k_1 <= ... <= k_r."""
         return tuple(row.nrows - 1 for row in self.left_kernel)
 
     @cached_property
     def fixed(self) -> Poly:
-        """The zeros that no P moves: the characteristic polynomial, monic, of A on the unobservable subspace of (A, C)."""
+        """These are the zeros that no P moves: the characteristic polynomial, monic, of A on the unobservable subspace of (A, C)."""
         return zero_dynamics_polynomial(self.reduced)
 
     @property
     def observable(self) -> bool:
-        """Whether (A, C) is observable: then no zero is fixed."""
+        """This tells whether (A, C) is observable: then no zero is fixed."""
         return len(self.fixed) == 1
 
+    @property
+    def title(self) -> str:
+        """This says of what shape P is, and how many zeros a good pair has."""
+        return f"P is {self.n_z} x {self.columns}, zeta = {self.zeta}"
 
-@dataclass(frozen=True)
-class PairVerdict:
-    """P with its `rank` and `polynomial` = det [P | q b - a], ascending coefficients, () where P is bad."""
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the pencil and what it says about every P."""
+        yield "D(q; P) = det [ P | q b - a ]", f"of degree at most zeta = {self.zeta}"
+        yield from named_matrix("b", self.b)
+        yield from named_matrix("a", self.a)
+        yield "zeros that no P moves", polynomial(self.fixed, self.system.field)
+        yield "degrees of the rows L_j(q)", several(self.left_degrees)
+
+    def to_json(self) -> dict[str, Any]:
+        """The dict has the sizes, b and a, the fixed zeros and the degrees k_j."""
+        return {
+            "n_z": self.n_z,
+            "columns": self.columns,
+            "zeta": self.zeta,
+            "b": self.b.to_json(),
+            "a": self.a.to_json(),
+            "fixed": written(self.fixed, self.system.field),
+            "left_degrees": list(self.left_degrees),
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class PairVerdict(Shown):
+    """This is P with its `rank` and `polynomial` = det [P | q b - a], ascending coefficients, which is () where P is bad."""
 
     exceptional: Exceptional
     P: Matrix
@@ -124,32 +154,32 @@ class PairVerdict:
 
     @property
     def good(self) -> bool:
-        """Whether (A, Fhat P, C, Ghat P) has the output behaviour of the system."""
+        """This tells whether (A, Fhat P, C, Ghat P) has the output behaviour of the system."""
         return bool(self.polynomial)
 
     @property
     def system(self) -> ResidualSystem:
-        """(A, Fhat P, C, Ghat P)."""
+        """This is (A, Fhat P, C, Ghat P)."""
         return with_pair(self.exceptional.space, self.P)
 
     @property
     def finite_zeros(self) -> int | None:
-        """Number of finite zeros of the pair, those of the unobservable part included; None for a bad P."""
+        """This is the number of finite zeros of the pair, those of the unobservable part included; None for a bad P."""
         return len(self.polynomial) - 1 if self.good else None
 
     @property
     def infinite_zeros(self) -> int | None:
-        """Number of infinite zeros of the pair; None for a bad P."""
+        """This is the number of infinite zeros of the pair; None for a bad P."""
         return self.exceptional.zeta - len(self.polynomial) + 1 if self.good else None
 
     @cached_property
     def null_vector(self) -> NullPolynomial | None:
-        """For a bad P, (x(q), v(q)) != 0 in the right kernel of the pair's pencil; None for a good one."""
+        """For a bad P this is some (x(q), v(q)) != 0 in the right kernel of the pair's pencil; it is None for a good one."""
         return None if self.good else right_null_polynomial(self.system)
 
     @property
     def reason(self) -> str:
-        """One line for people."""
+        """This says in one line for people why P is good or bad."""
         if self.good:
             return f"D(q; P) is not zero: {self.finite_zeros} finite and {self.infinite_zeros} infinite zeros"
         if self.rank < self.P.ncols:
@@ -157,7 +187,7 @@ class PairVerdict:
         return f"P has full column rank, but D(q; P) = 0: the pair has normal rank below {self.P.ncols}"
 
     def to_json(self) -> dict[str, Any]:
-        """What a certificate needs: P, the coefficients of D, b and a, and the null vector of a bad P."""
+        """The result is what a certificate needs: P, the coefficients of D, b and a, and the null vector of a bad P."""
         field = self.P.field
         null = self.null_vector
         return {
@@ -170,9 +200,32 @@ class PairVerdict:
             "null_vector": None if null is None else {"x": null.state.to_json(), "v": null.fault.to_json()},
         }
 
+    @property
+    def title(self) -> str:
+        """This says whether P is good, and why."""
+        return f"{'good' if self.good else 'bad'}: {self.reason}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are P and D(q; P)."""
+        yield from named_matrix("P", self.P)
+        yield "rank P", str(self.rank)
+        yield "D(q; P)", polynomial(self.polynomial, self.P.field)
+
 
 def exceptional(kernel: KernelRepresentation) -> Exceptional:
-    """The pencil of the fault space of a system, given by its kernel representation; any system over any field."""
+    """The result is the pencil q b - a of the fault space of a system: D(q; P) = det [P | q b - a] says which P are bad.
+
+    `kernel` is the KernelRepresentation of any system over any field. The Exceptional has `n_z` and `columns` (r, the normal rank), the
+    shape of every P, `zeta`, the number of zeros of every good pair, `b` and `a` (n_z x zeta), and the `fixed` zeros that no P moves.
+    Source: [G25] Theorem 3, [M73] and [TSH01] for the subspaces, [F75] for the rows of the left kernel.
+
+    Raises ArithmeticError if the space does not have the dimension r + zeta, which would be an error of ours.
+
+    >>> from faultspace.exact import ResidualSystem, exceptional, kernel_representation
+    >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
+    >>> pencil.n_z, pencil.columns, pencil.zeta, pencil.b, pencil.a
+    (2, 1, 1, [[1], [0]], [[1/2], [1]])
+    """
     space = fault_space(kernel)
     system = space.system
     echelon = row_echelon(space.basis)
@@ -189,19 +242,33 @@ def exceptional(kernel: KernelRepresentation) -> Exceptional:
 
 
 def judge(pencil: Exceptional, P: object) -> PairVerdict:
-    """The verdict on P, what `Matrix.of` takes, n_z x r over the system's field. Raises InvalidInput for another shape."""
+    """The verdict on a choice P of fault matrices (Fhat P, Ghat P) says whether it keeps the behaviour, and which zeros it has.
+
+    `pencil` is that of `exceptional`; P is n_z x r over the system's field, a Matrix, nested lists or a sympy matrix. The PairVerdict has
+    `good`, `polynomial` = D(q; P) (ascending, () where P is bad), `rank`, `system`, `finite_zeros` and a `reason` in words. Source: [G25]
+    Theorem 3 (ii), repaired: P of full column rank is not enough.
+
+    Raises InvalidInput for another shape or field.
+
+    >>> from faultspace.exact import ResidualSystem, exceptional, judge, kernel_representation
+    >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
+    >>> judge(pencil, [[0], [1]]).reason
+    'D(q; P) is not zero: 1 finite and 0 infinite zeros'
+    >>> judge(pencil, [[0], [0]]).good
+    False
+    """
     matrix = pair_matrix(pencil, P)
     return PairVerdict(pencil, matrix, rank(matrix), polynomial_at(pencil, matrix))
 
 
 def polynomial_at(pencil: Exceptional, P: Matrix) -> Poly:
-    """D(q; P) = det [P | q b - a] for P of shape n_z x r."""
+    """The result is D(q; P) = det [P | q b - a] for P of shape n_z x r."""
     nothing = Matrix.zero(pencil.system.field, pencil.n_z, pencil.columns)
     return linear_determinant(beside(P, -pencil.a), beside(nothing, pencil.b))
 
 
 def pair_matrix(pencil: Exceptional, P: object) -> Matrix:
-    """P as a Matrix of shape n_z x r. Raises InvalidInput for another shape or field."""
+    """The result is P as a Matrix of shape n_z x r. Raises InvalidInput for another shape or field."""
     shape = (pencil.n_z, pencil.columns)
     matrix = P if isinstance(P, Matrix) else Matrix.of(P, pencil.system.field, shape=shape if 0 in shape else None, where="P")
     if matrix.field != pencil.system.field:

@@ -4,7 +4,6 @@
     GoodColumns          the columns, the point, the verdict
     bad_pair             a bad P of full column rank, with the row L_j(q) or the unobservable direction that makes it bad
     BadPair, NoBadPair   the construction, or why every P of full column rank is good
-    bad_share            an upper bound on the share of bad P among those with entries from a finite set (Schwartz-Zippel)
 
 Why 0 and 1 are enough: every coefficient of D is linear in each single entry of P, and a polynomial that is not zero and of degree at
 most one in each unknown is not zero somewhere on {0, 1}^N, over every field. More is true: D(q; P) = sum of det(P_J) h_J(q), so some h_J
@@ -15,33 +14,43 @@ Theorem 3.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
-from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, beside, right_null_space, row_echelon, stacked
+from ..algebra.notation import named_matrix
 from .polynomial import Exceptional, PairVerdict, judge
 
 
-@dataclass(frozen=True)
-class GoodColumns:
-    """P = the unit columns `chosen` (0-based, ascending): the basis columns `chosen` of Z are a good pair by themselves."""
+@dataclass(frozen=True, repr=False)
+class GoodColumns(Shown):
+    """P has the unit columns `chosen` (0-based, ascending): the basis columns `chosen` of Z are a good pair by themselves."""
 
     chosen: tuple[int, ...]
     verdict: PairVerdict
 
     def to_json(self) -> dict[str, Any]:
-        """P, the coefficients of D and the columns chosen."""
+        """The result is P, the coefficients of D and the columns chosen."""
         return {"chosen": list(self.chosen), **self.verdict.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This says which basis columns are a good pair by themselves."""
+        return f"the basis columns {list(self.chosen)}, counted from 0, are a good pair"
 
-@dataclass(frozen=True)
-class BadPair:
-    """A bad P of full column rank. Every column of P is in the kernel of `conditions` (rows x n_z), or its first one is, as `kind` says.
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are those of the verdict."""
+        yield from self.verdict.sheet()
 
-    `kind` "row": the coefficients of one row L_j(q), so that L_j(q) P = 0. `kind` "unobservable": the coefficients of all rows, which are
-    not independent of the unobservable part: L(q) P has a zero column.
+
+@dataclass(frozen=True, repr=False)
+class BadPair(Shown):
+    """This is a bad P of full column rank, with the `conditions` (rows x n_z) that make it bad.
+
+    Where `kind` is "row", they are the coefficients of one row L_j(q), and L_j(q) P = 0. Where it is "unobservable", they are those of all
+    rows, which are not independent of the unobservable part, and the first column of L(q) P is zero.
     """
 
     kind: str
@@ -49,27 +58,54 @@ class BadPair:
     verdict: PairVerdict
 
     def to_json(self) -> dict[str, Any]:
-        """P, its null vector and the conditions."""
+        """The result is P, its null vector and the conditions."""
         return {"kind": self.kind, "conditions": self.conditions.to_json(), **self.verdict.to_json()}
 
+    @property
+    def title(self) -> str:
+        """This says of which kind the bad pair is."""
+        return f"a bad P of full column rank, of kind {self.kind}"
 
-@dataclass(frozen=True)
-class NoBadPair:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are those of the verdict, and the conditions."""
+        yield from self.verdict.sheet()
+        yield from named_matrix("conditions", self.conditions)
+
+
+@dataclass(frozen=True, repr=False)
+class NoBadPair(Shown):
     """Every P of full column rank is good; `reason` says why."""
 
     exceptional: Exceptional
     reason: str
 
     def to_json(self) -> dict[str, Any]:
-        """The reason with zeta, r and the degrees k_j."""
+        """The result is the reason with zeta, r and the degrees k_j."""
         left = self.exceptional
         return {"reason": self.reason, "zeta": left.zeta, "columns": left.columns, "left_degrees": list(left.left_degrees)}
 
+    @property
+    def title(self) -> str:
+        """This says that there is no bad pair."""
+        return "every P of full column rank is good"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pair is the reason."""
+        yield "reason", self.reason
+
 
 def good_columns(pencil: Exceptional) -> GoodColumns:
-    """A good P with entries 0 and 1, one 1 a column, found without a search and decided exactly.
+    """The result is a good P (n_z x r) with entries 0 and 1, a single 1 in each column, found without a search and decided exactly.
 
-    The columns are the first independent ones of L(0), so that D(0; P) is not 0 either unless 0 is a fixed zero.
+    `pencil` is that of `exceptional`. `chosen` lists the r columns of [Fhat; Ghat] that are an equivalent pair by themselves: the first
+    independent columns of L(0), L(q) being a minimal basis, whose rank drops nowhere. Source: [F75], [G25] Theorem 3.
+
+    Raises ArithmeticError if the construction failed, which would be an error of ours.
+
+    >>> from faultspace.exact import ResidualSystem, exceptional, good_columns, kernel_representation
+    >>> found = good_columns(exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]))))
+    >>> found.chosen, found.verdict.good
+    ((0,), True)
     """
     field = pencil.system.field
     at_zero = stacked(Matrix.zero(field, 0, pencil.n_z), *(row.rows([0]) for row in pencil.left_kernel))
@@ -81,9 +117,19 @@ def good_columns(pencil: Exceptional) -> GoodColumns:
 
 
 def bad_pair(pencil: Exceptional) -> BadPair | NoBadPair:
-    """A bad P of full column rank by construction, or why there is none.
+    """The result is a bad P (n_z x r) of full column rank by construction, or the reason why there is none.
 
-    There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1.
+    `pencil` is that of `exceptional`. There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1. A BadPair has
+    `verdict` with P and a null vector, and `conditions`, the rows that make it bad; a NoBadPair has the `reason`. Source: [F75], [G25]
+    Theorem 3.
+
+    Raises ArithmeticError if the construction failed, which would be an error of ours.
+
+    >>> from faultspace.exact import ResidualSystem, bad_pair, exceptional, kernel_representation
+    >>> system = ResidualSystem.of([[0, 1], [0, 0]], [[1, 0], [0, 1]], [[1, 0], [0, 1]], [[0, 0], [0, 0]])
+    >>> found = bad_pair(exceptional(kernel_representation(system)))
+    >>> found.verdict.rank, found.verdict.reason
+    (2, 'P has full column rank, but D(q; P) = 0: the pair has normal rank below 2')
     """
     field, r = pencil.system.field, pencil.columns
     if r == 0:
@@ -104,16 +150,6 @@ def bad_pair(pencil: Exceptional) -> BadPair | NoBadPair:
     conditions = rows[0]
     P = right_null_space(conditions).columns(range(r))
     return BadPair("row", conditions, _certainly_bad(pencil, P))
-
-
-def bad_share(columns: int, size: int) -> Fraction:
-    """At most this share of the P with independent uniform entries from a set of `size` field elements is bad: r / size, at most 1.
-
-    D has degree r in the entries of P. Raises InvalidInput unless columns >= 0 and size >= 1 are integers.
-    """
-    if type(columns) is not int or type(size) is not int or columns < 0 or size < 1:
-        raise InvalidInput(f"columns, size: got {columns!r} and {size!r}, expected integers, columns >= 0 and size >= 1")
-    return min(Fraction(1), Fraction(columns, size))
 
 
 def _certainly_bad(pencil: Exceptional, P: Matrix) -> PairVerdict:

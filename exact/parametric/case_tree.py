@@ -84,7 +84,7 @@ class Equation:
 
 @dataclass(frozen=True)
 class Congruence:
-    """multiplier * f = sum of cofactors[j] * equations[j] + remainder, with a remainder free of the solved parameters."""
+    """It states that multiplier * f = sum of cofactors[j] * equations[j] + remainder, with a remainder free of the solved parameters."""
 
     multiplier: UnitProduct
     cofactors: tuple[Polynomial, ...]
@@ -93,10 +93,10 @@ class Congruence:
 
 @dataclass(frozen=True)
 class Unit:
-    """A polynomial without zeros on the branch.
+    """This is a polynomial without zeros on the branch.
 
-    A split decided it when `source` is None. Otherwise it divides the remainder of the earlier unit number `source`:
-    polynomial * complement = congruence.remainder, the congruence being that of the earlier unit.
+    A split decided it when `source` is None. Otherwise it divides the remainder of the earlier unit number `source`: polynomial *
+    complement = congruence.remainder, the congruence being that of the earlier unit.
     """
 
     polynomial: Polynomial
@@ -107,10 +107,10 @@ class Unit:
 
 @dataclass(frozen=True)
 class Branch:
-    """The parameter values at which every decision holds.
+    """These are the parameter values at which every decision holds.
 
-    `parameters` is the number of leading generators of the ring that are parameters; the others are indeterminates that
-    no question may contain. `decisions` are pairs (polynomial, whether it vanishes) from the root down.
+    `parameters` is the number of leading generators of the ring that are parameters; the others are indeterminates that no question may
+    contain. `decisions` are pairs (polynomial, whether it vanishes) from the root down.
     """
 
     ring: Ring
@@ -122,7 +122,7 @@ class Branch:
 
     @property
     def vanishing(self) -> tuple[Any, ...]:
-        """The polynomials set to zero, as sympy expressions."""
+        """These are the polynomials set to zero, as sympy expressions."""
         return tuple(polynomial.as_expr() for polynomial, vanishes in self.decisions if vanishes)
 
     @property
@@ -132,15 +132,15 @@ class Branch:
 
     @property
     def dimension(self) -> int:
-        """Number of parameters left free."""
+        """This is the number of parameters left free."""
         return self.parameters - len(self.equations)
 
     def contains(self, values: Sequence[Any]) -> bool:
-        """Whether the parameter values (Fractions or ints, in the order of the ring's generators) lie on the branch."""
+        """This tells whether the parameter values (Fractions or ints, in the order of the ring's generators) lie on the branch."""
         return all((evaluate(polynomial, values) == 0) == vanishes for polynomial, vanishes in self.decisions)
 
     def point(self, values: Sequence[Any]) -> tuple[Any, ...]:
-        """The point of the branch whose free parameters are those of `values` (Fractions); the others are solved for.
+        """The result is the point of the branch whose free parameters are those of `values` (Fractions); the others are solved for.
 
         Raises ValueError where a unit vanishes, so that there is no such point.
         """
@@ -156,13 +156,13 @@ class Branch:
         return tuple(point)
 
     def reduce(self, f: Polynomial) -> Polynomial:
-        """The remainder of `congruence(f)`, without the cofactors."""
+        """The result is the remainder of `congruence(f)`, without the cofactors."""
         for equation in self.equations:
             f = _divide(f, equation)[2]
         return f
 
     def congruence(self, f: Polynomial) -> Congruence:
-        """Divide f by the equations in turn."""
+        """The result comes from dividing f by the equations in turn."""
         multiplier = UnitProduct()
         cofactors: list[Polynomial] = []
         for equation in self.equations:
@@ -175,7 +175,7 @@ class Branch:
         return Congruence(multiplier, tuple(cofactors), f)
 
     def joint_reduce(self, polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-        """Remainders of several polynomials, all multiplied by one product of units."""
+        """These are remainders of several polynomials, all multiplied by one product of units."""
         rest = list(polynomials)
         for equation in self.equations:
             times = max((_degree(f, equation.variable) for f in rest), default=0)
@@ -185,7 +185,7 @@ class Branch:
         return rest
 
     def joint_congruence(self, polynomials: Sequence[Polynomial]) -> tuple[UnitProduct, list[Congruence]]:
-        """Congruences of several polynomials with one multiplier."""
+        """These are congruences of several polynomials with one multiplier."""
         multiplier = UnitProduct()
         columns: list[list[Polynomial]] = [[] for _ in polynomials]
         rest = list(polynomials)
@@ -202,7 +202,7 @@ class Branch:
         return multiplier, [Congruence(multiplier, tuple(column), remainder) for column, remainder in pairs]
 
     def is_zero(self, f: Polynomial) -> bool:
-        """Whether f vanishes at every value (True) or at none (False) on the branch; raises Undecided otherwise."""
+        """This tells whether f vanishes at every value (True) or at none (False) on the branch; raises Undecided otherwise."""
         remainder = self.reduce(f)
         if not remainder:
             return True
@@ -212,7 +212,9 @@ class Branch:
         return False
 
     def unit_product(self, f: Polynomial) -> UnitProduct:
-        """f, free of solved parameters and never zero on the branch, as a product of units; raises Undecided if it may vanish."""
+        """The result is f, free of solved parameters and never zero on the branch, as a product of units; raises Undecided if it may
+        vanish.
+        """
         constant, powers = factors(f)
         found: dict[int, int] = {}
         for factor, exponent in powers:
@@ -222,7 +224,7 @@ class Branch:
         return UnitProduct(constant, tuple(sorted(found.items())))
 
     def without_units(self, polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-        """The polynomials divided by the integers and units that divide all of them."""
+        """These are the polynomials divided by the integers and units that divide all of them."""
         rest = list(polynomials)
         filled = [f for f in rest if f]
         if not filled:
@@ -242,7 +244,8 @@ class Branch:
         return [f.quo_ground(content) for f in rest] if content > 1 else rest
 
     def split(self, g: Polynomial) -> list[Branch]:
-        """The branches g != 0 and g = 0 (or, when no unit multiplies a parameter linearly in g, those of a simpler polynomial).
+        """The result is the branches g != 0 and g = 0, or, when no unit multiplies a parameter linearly in g, those of a simpler
+        polynomial.
 
         g is irreducible, free of solved parameters, and no unit. Raises NonlinearCondition.
         """
@@ -266,10 +269,10 @@ class Branch:
         return replace(self, decisions=decisions, units=(*self.units, unit), _unit_index=index)
 
     def _with_equation(self, equation: Equation) -> Branch:
-        """The branch on which the equation holds; its units are looked at again, as they may have got new factors.
+        """The result is the branch on which the equation holds; its units are looked at again, as they may have got new factors.
 
-        None of them becomes 0: before, the remainder of a unit was a product of irreducible units in the free parameters,
-        and the equation is irreducible and no unit, so it does not divide this product.
+        None of them becomes 0: before, the remainder of a unit was a product of irreducible units in the free parameters, and the equation
+        is irreducible and no unit, so it does not divide this product.
         """
         decisions = (*self.decisions, (equation.polynomial, True))
         branch = replace(self, decisions=decisions, equations=(*self.equations, equation))
@@ -351,7 +354,7 @@ def factors(f: Polynomial) -> tuple[int, list[tuple[Polynomial, int]]]:
 
 
 def _divide(f: Polynomial, equation: Equation) -> tuple[int, Polynomial, Polynomial]:
-    """(k, q, r) with initial**k f = q * equation + r and r free of the equation's parameter."""
+    """The result is (k, q, r) with initial**k f = q * equation + r and r free of the equation's parameter."""
     x, ring = equation.variable, f.ring
     quotient = ring.zero
     degree = _degree(f, x)
@@ -365,12 +368,12 @@ def _divide(f: Polynomial, equation: Equation) -> tuple[int, Polynomial, Polynom
 
 
 def _degree(f: Polynomial, x: int) -> int:
-    """Degree in generator x, 0 for the zero polynomial."""
+    """The result is the degree in generator x, 0 for the zero polynomial."""
     return max((exponents[x] for exponents in f), default=0)
 
 
 def _coefficient(f: Polynomial, x: int, power: int) -> Polynomial:
-    """The coefficient of generator x to the power, a polynomial free of x."""
+    """The result is the coefficient of generator x to the power, a polynomial free of x."""
     terms = {}
     for exponents, coefficient in f.items():
         if exponents[x] == power:
@@ -379,18 +382,18 @@ def _coefficient(f: Polynomial, x: int, power: int) -> Polynomial:
 
 
 def coefficients(f: Polynomial, x: int) -> list[Polynomial]:
-    """The coefficients of f by ascending powers of generator x; [] for the zero polynomial."""
+    """These are the coefficients of f by ascending powers of generator x; [] for the zero polynomial."""
     return [_coefficient(f, x, power) for power in range(_degree(f, x) + 1)] if f else []
 
 
 def _exact_quotient(f: Polynomial, divisor: Polynomial) -> Polynomial | None:
-    """f / divisor, or None where the division leaves a remainder."""
+    """The result is f / divisor, or None where the division leaves a remainder."""
     quotient, remainder = f.div(divisor)
     return None if remainder else quotient
 
 
 def _gcd(content: int, f: Polynomial) -> int:
-    """gcd of an integer and the coefficients of f."""
+    """The result is the gcd of an integer and the coefficients of f."""
     for coefficient in f.values():
         content = int(flint.fmpz(content).gcd(flint.fmpz(int(coefficient))))
         if content == 1:

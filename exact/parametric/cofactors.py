@@ -34,7 +34,7 @@ from ..structure.kernel_rows import kernel_representation
 from ..system.systems import ResidualSystem
 from .case_tree import Polynomial, coefficients, evaluate
 from .identities import IdentityFailure, SecondRoute, flint_determinant
-from .pencil import determinant
+from .pencil import determinant, indeterminate_pencil
 from .stratification import Indeterminates, indeterminates, times
 
 LARGEST = (2, 3, 2)
@@ -73,16 +73,16 @@ class GenericExceptional:
 
     @property
     def dimensions(self) -> tuple[int, int, int]:
-        """(n, p, m)."""
+        """The dimensions are (n, p, m)."""
         return self.entries.n, self.entries.p, self.entries.m
 
     @property
     def n_z(self) -> int:
-        """r + zeta."""
+        """n_z is r + zeta."""
         return self.normal_rank + self.zeta
 
     def to_json(self) -> dict[str, Any]:
-        """Dimensions, D and the cofactors as texts."""
+        """The result holds the dimensions, D and the cofactors as texts."""
         return {
             "dimensions": dict(zip("npm", self.dimensions, strict=True)),
             "zero_feedthrough": self.zero_feedthrough,
@@ -97,12 +97,12 @@ class GenericExceptional:
 
 
 def generic_exceptional(n: int, p: int, m: int) -> GenericExceptional:
-    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) indeterminate. Raises ValueError beyond n = 2, p = 3, m = 2."""
+    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) are indeterminate. Raises ValueError beyond n = 2, p = 3, m = 2."""
     return _generic(n, p, m, zero_feedthrough=False)
 
 
 def generic_exceptional_without_feedthrough(n: int, p: int, m: int) -> GenericExceptional:
-    """The same with G = 0. Raises ValueError unless m < p and m <= n, and beyond n = 2, p = 3, m = 2."""
+    """G is 0, all other entries are indeterminate. Raises ValueError unless m < p and m <= n, and beyond n = 2, p = 3, m = 2."""
     if not (m < p and m <= n):
         raise ValueError(f"without feedthrough m must be below p and at most n (got n = {n}, p = {p}, m = {m})")
     return _generic(n, p, m, zero_feedthrough=True)
@@ -120,7 +120,7 @@ def _generic(n: int, p: int, m: int, *, zero_feedthrough: bool) -> GenericExcept
     P = _table(list(ring.gens[entries.parameters + 1 :]), r + zeta, r)
     basis, b, a = _space(entries, zero_feedthrough)
     columns = [times(row, P, r, ring) for row in basis]
-    matrix = _pencil(entries, columns[:n], columns[n:])
+    matrix = indeterminate_pencil(entries, columns[:n], columns[n:])
     inner = [[*line, *(entries.q * x - y for x, y in zip(left, right, strict=True))] for line, left, right in zip(P, b, a, strict=True)]
     D = determinant(entries, inner, _full(r + zeta))
     route = SecondRoute(ring)
@@ -139,7 +139,7 @@ def _generic(n: int, p: int, m: int, *, zero_feedthrough: bool) -> GenericExcept
 
 
 def _space(entries: Indeterminates, zero_feedthrough: bool) -> tuple[Rows, Rows, Rows]:
-    """A basis of Z as (n + p) x n_z, with b and a."""
+    """The result is a basis of Z as (n + p) x n_z, with b and a."""
     n, p, m, ring = entries.n, entries.p, entries.m, entries.ring
 
     def unit(size: int) -> list[list[Polynomial]]:
@@ -155,16 +155,10 @@ def _space(entries: Indeterminates, zero_feedthrough: bool) -> tuple[Rows, Rows,
     return _frozen([*states, *outputs]), _frozen([*unit(m), *nothing]), _frozen([*nothing, *unit(m)])
 
 
-def _pencil(entries: Indeterminates, F: Sequence[Sequence[Polynomial]], G: Sequence[Sequence[Polynomial]]) -> list[list[Polynomial]]:
-    upper = [
-        [(entries.q if i == j else 0) - f for j, f in enumerate(row)] + [-f for f in line]
-        for i, (row, line) in enumerate(zip(entries.A, F, strict=True))
-    ]
-    return upper + [[*row, *line] for row, line in zip(entries.C, G, strict=True)]
-
-
 def _point(entries: Indeterminates, zero_feedthrough: bool, zeta: int, cofactors: Sequence[Polynomial]) -> tuple[int, ...]:
-    """Integer values where the ranks are the largest possible and the cofactors have no common factor, one of them of full degree."""
+    """These are integer values where the ranks are the largest possible and the cofactors have no common factor, one of them of full
+    degree.
+    """
     n, p, m = entries.n, entries.p, entries.m
     silent = p * m if zero_feedthrough else 0
     rng = random.Random(0)

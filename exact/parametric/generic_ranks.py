@@ -3,33 +3,33 @@
 The maximal minors of the indeterminate window are multiplied out by FLINT, without any elimination. They are reduced to a
 short list with the same common zeros: their common factor is pulled out, and of what is left
 the square-free parts are kept, each reduced modulo the ones before it. `stratification` finds the same places by
-elimination and cases; `drops_agree` lets the two meet.
+elimination and cases; the tests let the two meet.
 
     generic_window_ranks    GenericRanks for the windows asked for
     GenericWindow           rank, common factors and drop conditions of one window
     GenericRanks            the windows of one triple of dimensions
-    drops_agree             compares the drop conditions with a Stratification, stratum by stratum
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from .case_tree import Branch, Polynomial, explore
-from .identities import FlintPolynomial, FlintWindow, IdentityFailure, SecondRoute
-from .stratification import Indeterminates, Stratification, indeterminates
+from ...base.sheets import Shown
+from .case_tree import Polynomial
+from .identities import FlintPolynomial, FlintWindow, SecondRoute
+from .stratification import Indeterminates, indeterminates
 
 
 @dataclass(frozen=True)
 class GenericWindow:
-    """The window of `samples` samples: a rows x columns matrix of rank `rank` over Q(entries).
+    """This is the window of `samples` samples: a rows x columns matrix of rank `rank` over Q(entries).
 
-    At parameter values its rank is smaller if and only if one of the `factors` vanishes or all of the `remaining` do. The
-    rank drops nowhere if there is no factor and the one remaining condition is 1. Both are polynomials of sympy's ring over
-    ZZ; `common_factors` and `conditions` give expressions. `minors` is how many nonzero maximal minors they come from.
+    At parameter values its rank is smaller if and only if one of the `factors` vanishes or all of the `remaining` do. The rank drops
+    nowhere if there is no factor and the one remaining condition is 1. Both are polynomials of sympy's ring over ZZ; `common_factors` and
+    `conditions` give expressions. `minors` is how many nonzero maximal minors they come from.
     """
 
     samples: int
@@ -42,37 +42,78 @@ class GenericWindow:
 
     @property
     def common_factors(self) -> tuple[Any, ...]:
-        """Irreducible polynomials that divide every maximal minor, as sympy expressions."""
+        """These are irreducible polynomials that divide every maximal minor, as sympy expressions."""
         return tuple(f.as_expr() for f in self.factors)
 
     @property
     def conditions(self) -> tuple[Any, ...]:
-        """What the maximal minors have besides the common factors, as sympy expressions."""
+        """This is what the maximal minors have besides the common factors, as sympy expressions."""
         return tuple(f.as_expr() for f in self.remaining)
 
     @property
     def never_drops(self) -> bool:
-        """Whether the rank is the same for all parameter values."""
+        """This tells whether the rank is the same for all parameter values."""
         return not self.factors and any(f.is_ground for f in self.remaining)
 
 
-@dataclass(frozen=True)
-class GenericRanks:
-    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) indeterminate; windows in the order asked for."""
+@dataclass(frozen=True, repr=False)
+class GenericRanks(Shown):
+    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) are indeterminate; the windows are in the order asked for."""
 
     entries: Indeterminates
     windows: tuple[GenericWindow, ...]
 
     @property
     def dimensions(self) -> tuple[int, int, int]:
-        """(n, p, m)."""
+        """The dimensions are (n, p, m)."""
         return self.entries.n, self.entries.p, self.entries.m
+
+    @property
+    def title(self) -> str:
+        """This says of which dimensions the systems are."""
+        return "n = {}, p = {}, m = {}, all entries indeterminate".format(*self.dimensions)
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the windows."""
+        for window in self.windows:
+            where = "nowhere less" if window.never_drops else "less where one of the factors vanishes or all conditions do"
+            yield f"rank [O_s T_s], s = {window.samples}", f"{window.rank}, {where}"
+            yield from (("", f"factor {factor}") for factor in window.common_factors)
+            yield from (("", f"condition {condition}") for condition in window.conditions if not window.never_drops)
+
+    def to_json(self) -> dict[str, Any]:
+        """The polynomials are texts."""
+        return {
+            "dimensions": dict(zip("npm", self.dimensions, strict=True)),
+            "windows": [
+                {
+                    "samples": window.samples,
+                    "rank": window.rank,
+                    "common_factors": [str(f) for f in window.common_factors],
+                    "conditions": [str(f) for f in window.conditions],
+                }
+                for window in self.windows
+            ],
+        }
 
 
 def generic_window_ranks(n: int, p: int, m: int, windows: Iterable[int]) -> GenericRanks:
-    """Generic ranks and drop conditions; `windows` are numbers of samples s >= 1. Raises ValueError for anything else.
+    """The result is the rank of [O_s T_s] for almost all A (n x n), C (p x n), F (n x m), G (p x m), and where it is smaller.
 
-    The number of minors grows as a binomial coefficient in s p and n + s m: meant for matrices up to about 10 x 8.
+    `windows` are numbers of samples s >= 1. Each GenericWindow has the `rank` over the field Q(entries) and the polynomials in the entries
+    that say where it drops: where one of the `common_factors` vanishes or all `conditions` do. They are the maximal minors, multiplied out;
+    their number grows as a binomial coefficient in s p and n + s m, so that this is meant for matrices up to about 10 x 8. Source: [G25]
+    Theorem 2 after [SB21] for the ranks themselves.
+
+    Raises ValueError for a dimension outside 0..9 and for a window that is no positive integer.
+
+    >>> from faultspace.exact import generic_window_ranks
+    >>> (window,) = generic_window_ranks(1, 2, 1, [2]).windows
+    >>> window.rank, window.common_factors
+    (3, (c11*g21 - c21*g11,))
+    >>> (square,) = generic_window_ranks(1, 1, 1, [1]).windows
+    >>> square.rank, square.conditions  # [c11 g11] has rank 0 where both vanish
+    (1, (c11, g11))
     """
     entries = indeterminates(n, p, m)
     found = []
@@ -104,7 +145,7 @@ def _generic_window(entries: Indeterminates, samples: int) -> GenericWindow:
 
 
 def _maximal_minors(route: SecondRoute, lines: list[list[FlintPolynomial]], width: int) -> list[FlintPolynomial]:
-    """The nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
+    """These are the nonzero minors of size `width` of a matrix with so many columns, column by column, smaller minors shared."""
     minors: dict[tuple[int, ...], FlintPolynomial] = {(): route.context.constant(1)}
     for column in range(width):
         larger: dict[tuple[int, ...], FlintPolynomial] = {}
@@ -123,7 +164,7 @@ def _maximal_minors(route: SecondRoute, lines: list[list[FlintPolynomial]], widt
 def _reduced(
     route: SecondRoute, entries: Indeterminates, minors: list[FlintPolynomial]
 ) -> tuple[tuple[Polynomial, ...], tuple[Polynomial, ...]]:
-    """The irreducible common factors, and conditions with the same common zeros as the minors without their gcd."""
+    """These are the irreducible common factors, and conditions with the same common zeros as the minors without their gcd."""
     common = minors[0]
     for minor in minors[1:]:
         common = common.gcd(minor)
@@ -152,29 +193,3 @@ def _size(f: FlintPolynomial) -> tuple[int, int, str]:
 def _back(entries: Indeterminates, f: FlintPolynomial) -> Polynomial:
     ring = entries.ring
     return ring.from_dict({tuple(map(int, e)): ring.domain(int(c)) for e, c in f.to_dict().items()})
-
-
-def drops_agree(generic: GenericRanks, stratification: Stratification) -> int:
-    """Whether, on every stratum, the drop conditions hold exactly where the window rank is below the generic one.
-
-    Strata are split further where a condition is neither zero nor a unit. Returns the number of cases compared; raises
-    ValueError for different dimensions, IdentityFailure where elimination and minors disagree.
-    """
-    if generic.dimensions != stratification.dimensions:
-        raise ValueError(f"dimensions {generic.dimensions} are compared with {stratification.dimensions}")
-    ring = stratification.entries.ring
-    compared = 0
-    for window in generic.windows:
-        factors = [ring.from_dict(dict(f)) for f in window.factors]
-        remaining = [ring.from_dict(dict(f)) for f in window.remaining]
-
-        def drops(branch: Branch, factors: list[Any] = factors, remaining: list[Any] = remaining) -> bool:
-            return any(branch.is_zero(f) for f in factors) or all(branch.is_zero(f) for f in remaining)
-
-        for stratum in stratification.strata:
-            expected = stratum.window_rank(window.samples) < window.rank
-            for branch, found in explore(stratum.branch, drops):
-                compared += 1
-                if found is not expected:
-                    raise IdentityFailure(f"window {window.samples}: minors and elimination disagree on {branch.decisions}")
-    return compared

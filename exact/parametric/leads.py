@@ -52,7 +52,7 @@ class LeadIdentities:
 
 
 def lead_identities(n: int, nu: int, m: int, p: int, J: int) -> LeadIdentities:
-    """All identities of the module's docstring at n, m, J from 0 to 2 and nu, p from 1 to 2.
+    """This expands all identities of the module's docstring at n, m, J from 0 to 2 and nu, p from 1 to 2.
 
     Raises ValueError for other dimensions, IdentityFailure at the first identity that does not hold.
     """
@@ -108,7 +108,7 @@ def _pulse_response(entries: dict[str, Table], ring: Ring, J: int, end: int) -> 
 
 
 def _closed_form(entries: dict[str, Table], powers: Sequence[Table], J: int, zero: Any) -> tuple[list[Table], Table, Table]:
-    """y(-J), ..., y(-1), then B~ and D~, from powers of A."""
+    """The result is y(-J), ..., y(-1), then B~ and D~, from powers of A."""
     C, D, G = entries["c"], entries["d"], entries["g"]
     n, nu = len(entries["a"]), len(D[0])
     driven = [_product(entries["f"], entries[f"phi{j}_"], nu, zero) for j in range(J + 1)]
@@ -122,13 +122,13 @@ def _closed_form(entries: dict[str, Table], powers: Sequence[Table], J: int, zer
 
 
 def _covariance(response: dict[int, Table], rows: int) -> Table:
-    """Cov(Yf, Up) of s = past = rows: block (i, l) is Cov(y(k+i), u(k-past+l)) = y(i + past - l)."""
+    """The result is Cov(Yf, Up) of s = past = rows: block (i, l) is Cov(y(k+i), u(k-past+l)) = y(i + past - l)."""
     p = len(response[0])
     return [[x for lag in range(rows, 0, -1) for x in response[i + lag][line]] for i in range(rows) for line in range(p)]
 
 
 def _compare(route: SecondRoute, found: Table, expanded: Table, what: str) -> None:
-    """Entry by entry: sympy's polynomial and FLINT's."""
+    """Entry by entry, sympy's polynomial must be FLINT's."""
     for left, right in zip(found, expanded, strict=True):
         for f, g in zip(left, right, strict=True):
             route.equal(route(f), g, what)
@@ -140,7 +140,7 @@ def _entries(generators: Sequence[Any], shapes: dict[str, tuple[int, int]]) -> d
 
 
 def _product(left: Table, right: Table, width: int, zero: Any) -> list[list[Any]]:
-    """Matrix product; `width` columns, also where the inner dimension is 0."""
+    """The result is the matrix product; `width` columns, also where the inner dimension is 0."""
     return [[sum((x * line[k] for x, line in zip(row, right, strict=True)), zero) for k in range(width)] for row in left]
 
 
@@ -152,5 +152,5 @@ def _sum(tables: Sequence[Table]) -> list[list[Any]]:
 
 
 def _read_back(ring: Ring, f: Any) -> Polynomial:
-    """sympy's polynomial of FLINT's."""
+    """The result is sympy's polynomial of FLINT's."""
     return ring.from_dict({tuple(map(int, exponents)): ZZ(int(c)) for exponents, c in f.to_dict().items()})

@@ -5,7 +5,7 @@ the greatest common divisor of its maximal minors, the infinite ones from an ord
 an independent measure of what the elimination in `stratification` found. All functions ask a `Branch`, so `refine` runs
 them on every stratum. What they return carries congruences, which `pencil_expansion` multiplies out by FLINT.
 
-    pencil, determinant
+    indeterminate_pencil, determinant
     NormalRank, normal_rank     minors that vanish, and one that does not
     FiniteZeros, finite_zeros   gcd of the maximal minors, for full column rank, with cofactors both ways
     Echelon, toeplitz_echelon   rank profile of T_s by rows in the order of time
@@ -23,6 +23,7 @@ from .case_tree import Branch, Congruence, Polynomial, UnitProduct, coefficients
 from .stratification import Indeterminates, Row
 
 Minor = tuple[tuple[int, ...], tuple[int, ...]]
+Table = Sequence[Sequence[Polynomial]]
 
 
 @dataclass(frozen=True)
@@ -43,10 +44,10 @@ class NormalRank:
 
 @dataclass(frozen=True)
 class FiniteZeros:
-    """divisor: the greatest common divisor of the minors of size n + m, a polynomial in q whose leading coefficient is a unit.
+    """`divisor` is the greatest common divisor of the minors of size n + m, a polynomial in q whose leading coefficient is a unit.
 
-    combination: sum of bezout[k] * minors[k] = divisor; multiples: scales[k] * minors[k] = quotients[k] * divisor with a
-    product of units scales[k]; all modulo the equations, as the congruences (of left side minus right side) prove.
+    `combination` proves that the sum of bezout[k] * minors[k] is the divisor, `multiples` that scales[k] * minors[k] = quotients[k] *
+    divisor with a product of units scales[k]; all are modulo the equations, and the congruences are of left side minus right side.
     """
 
     divisor: Polynomial
@@ -75,7 +76,7 @@ class EchelonRow:
 
 @dataclass(frozen=True)
 class Echelon:
-    """The rows of T_s in the order of time, each reduced by the independent ones before it."""
+    """These are the rows of T_s in the order of time, each reduced by the independent ones before it."""
 
     samples: int
     rows: tuple[EchelonRow, ...]
@@ -87,17 +88,17 @@ class Echelon:
         return sum(row.pivot is not None for row in self.rows if row.row[0] < s)
 
 
-def pencil(entries: Indeterminates) -> list[list[Polynomial]]:
-    """P(q), (n + p) x (n + m)."""
+def indeterminate_pencil(entries: Indeterminates, F: Table, G: Table) -> list[list[Polynomial]]:
+    """The result is [[q I - A, -F], [C, G]] for the A and C of the entries, (n + p) x (n + columns of F and G)."""
     upper = [
-        [(entries.q if i == j else 0) - entry for j, entry in enumerate(row)] + [-entry for entry in entries.F[i]]
-        for i, row in enumerate(entries.A)
+        [(entries.q if i == j else 0) - f for j, f in enumerate(row)] + [-f for f in line]
+        for i, (row, line) in enumerate(zip(entries.A, F, strict=True))
     ]
-    return upper + [[*c, *g] for c, g in zip(entries.C, entries.G, strict=True)]
+    return upper + [[*row, *line] for row, line in zip(entries.C, G, strict=True)]
 
 
 def determinant(entries: Indeterminates, matrix: Sequence[Sequence[Polynomial]], minor: Minor) -> Polynomial:
-    """The minor, by sympy's division-free characteristic polynomial."""
+    """The result is the minor, by sympy's division-free characteristic polynomial."""
     rows, columns = minor
     size = len(rows)
     if size == 0:
@@ -108,13 +109,13 @@ def determinant(entries: Indeterminates, matrix: Sequence[Sequence[Polynomial]],
 
 
 def minors_of_size(height: int, width: int, size: int) -> list[Minor]:
-    """All choices of rows and columns; the empty minor, which is 1, for size 0."""
+    """These are all choices of rows and columns; for size 0 there is the empty minor, which is 1."""
     return [(rows, columns) for rows in combinations(range(height), size) for columns in combinations(range(width), size)]
 
 
 def normal_rank(entries: Indeterminates, branch: Branch) -> NormalRank:
     """Normal rank of P, by its minors from the largest down; raises Undecided when the branch must be split."""
-    matrix = pencil(entries)
+    matrix = indeterminate_pencil(entries, entries.F, entries.G)
     height, width = entries.n + entries.p, entries.n + entries.m
     vanishing: list[tuple[Minor, Congruence]] = []
     for size in range(min(height, width), -1, -1):
@@ -133,11 +134,11 @@ def normal_rank(entries: Indeterminates, branch: Branch) -> NormalRank:
 
 
 def finite_zeros(entries: Indeterminates, branch: Branch) -> FiniteZeros:
-    """The gcd of the minors of size n + m, which are not all 0, by Euclid's algorithm; raises Undecided.
+    """The result is the gcd of the minors of size n + m, which are not all 0, by Euclid's algorithm; raises Undecided.
 
     Raises ArithmeticError when the pencil has not full column rank on the branch.
     """
-    matrix = pencil(entries)
+    matrix = indeterminate_pencil(entries, entries.F, entries.G)
     minors = minors_of_size(entries.n + entries.p, entries.n + entries.m, entries.n + entries.m)
     values = [determinant(entries, matrix, minor) for minor in minors]
     zero, one = entries.ring.zero, entries.ring.one
@@ -236,7 +237,7 @@ def _tidy_row(
 
 
 def _tidy(entries: Indeterminates, branch: Branch, f: Polynomial, bezout: list[Polynomial]) -> tuple[Polynomial, list[Polynomial]]:
-    """f modulo the equations with its leading zeros in q dropped, so that the leading coefficient is a unit."""
+    """The result is f modulo the equations with its leading zeros in q dropped, so that the leading coefficient is a unit."""
     f, *bezout = branch.without_units(branch.joint_reduce([f, *bezout]))
     if f:
         branch.is_zero(_leading(entries, f))
@@ -248,7 +249,7 @@ def _leading(entries: Indeterminates, f: Polynomial) -> Polynomial:
 
 
 def _divided(entries: Indeterminates, f: Polynomial, divisor: Polynomial) -> tuple[int, Polynomial, Polynomial]:
-    """(k, Q, R) with leading**k f = Q divisor + R and R of lower degree in q than the divisor."""
+    """The result is (k, Q, R) with leading**k f = Q divisor + R and R of lower degree in q than the divisor."""
     leading, degree = _leading(entries, divisor), len(coefficients(divisor, entries.parameters)) - 1
     quotient, power = entries.ring.zero, 0
     while f and (excess := len(coefficients(f, entries.parameters)) - 1 - degree) >= 0:

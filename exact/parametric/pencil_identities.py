@@ -17,7 +17,7 @@ from .stratification import Indeterminates
 
 
 def flint_pencil(window: FlintWindow, q: FlintPolynomial) -> list[list[FlintPolynomial]]:
-    """[[q I - A, -F], [C, G]]."""
+    """The result is [[q I - A, -F], [C, G]]."""
     upper = [[q - f if i == j else -f for j, f in enumerate(row)] + [-f for f in window.F[i]] for i, row in enumerate(window.A)]
     return upper + [[*c, *g] for c, g in zip(window.C, window.G, strict=True)]
 
@@ -67,7 +67,7 @@ def verify_finite_zeros(window: FlintWindow, entries: Indeterminates, branch: Br
 
 
 def verify_echelon_rows(window: FlintWindow, entries: Indeterminates, branch: Branch, found: Echelon) -> None:
-    """The ranks that found.rank tells are those of T_s at every value on the branch."""
+    """This checks that the ranks of found.rank are those of T_s at every value on the branch."""
     route, n = window.route, entries.n
     if [row.row for row in found.rows] != [(k, i) for k in range(found.samples) for i in range(entries.p)]:
         raise IdentityFailure("the rows are not those of T_s in the order of time")
@@ -107,7 +107,7 @@ def _place(route: SecondRoute) -> int:
 
 
 def _coefficient(route: SecondRoute, f: FlintPolynomial, power: int) -> FlintPolynomial:
-    """The coefficient of q**power."""
+    """The result is the coefficient of q**power."""
     q = _place(route)
     terms = {
         tuple(0 if place == q else exponent for place, exponent in enumerate(exponents)): coefficient

@@ -22,7 +22,7 @@ fault pivot count the normal rank.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -30,6 +30,7 @@ from typing import Any, Literal
 from sympy import ZZ
 from sympy.polys.rings import ring as polynomial_ring
 
+from ...base.sheets import Shown
 from .case_tree import Branch, Cases, Congruence, Polynomial, Ring, UnitProduct, explore
 
 LARGEST_DIMENSION = 9
@@ -39,7 +40,7 @@ Row = tuple[int, int]
 
 @dataclass(frozen=True)
 class Indeterminates:
-    """ZZ[entries of A, C, F, G][q, ...] and the matrices, as tuples of rows; entry (i, j) of A is named a<i><j>, from 1."""
+    """This is ZZ[entries of A, C, F, G][q, ...] and the matrices, as tuples of rows; entry (i, j) of A is named a<i><j>, from 1."""
 
     n: int
     p: int
@@ -57,11 +58,11 @@ class Indeterminates:
 
     @property
     def q(self) -> Polynomial:
-        """The indeterminate of the pencil [[q I - A, -F], [C, G]]."""
+        """This is the indeterminate of the pencil [[q I - A, -F], [C, G]]."""
         return self.ring.gens[self.parameters]
 
     def window_row(self, row: Row, samples: int) -> list[Polynomial]:
-        """Row (k, i) of [O_s T_s], s = samples: n entries for x(0), then m for each of v(0), ..., v(s - 1)."""
+        """Row (k, i) of [O_s T_s], s = samples, has n entries for x(0), then m for each of v(0), ..., v(s - 1)."""
         k, i = row
         zero = [self.ring.zero] * self.m
         state = list(self.C[i])
@@ -88,12 +89,13 @@ def indeterminates(n: int, p: int, m: int, more: Sequence[str] = ()) -> Indeterm
 
 @dataclass(frozen=True)
 class ReducedRow:
-    """sum of coefficients[k, i] * row (k, i) of the window = (state | fault, 0, ..., 0) modulo the equations of the stratum.
+    """It states what a sum of coefficients[k, i] * row (k, i) of the window is modulo the equations of the stratum: (state | fault, 0, ...,
+    0).
 
-    The last of the rows combined is row (degree, output); its coefficient `leading` is a product of units. A fault row
-    has a unit at fault[pivot] and zeros at the pivots of the fault rows before it, a state row has no fault part, a unit
-    at state[pivot] and zeros at the pivots of the state rows before it; a relation is zero. `congruences` prove the
-    equality, one a column of the window of degree + 1 samples, all with one multiplier.
+    The last of the rows combined is row (degree, output); its coefficient `leading` is a product of units. A fault row has a unit at
+    fault[pivot] and zeros at the pivots of the fault rows before it, a state row has no fault part, a unit at state[pivot] and zeros at the
+    pivots of the state rows before it; a relation is zero. `congruences` prove the equality, one a column of the window of degree + 1
+    samples, all with one multiplier.
     """
 
     output: int
@@ -109,7 +111,7 @@ class ReducedRow:
 
     @property
     def relation(self) -> tuple[Any, dict[Row, Any]]:
-        """(pivot, coefficients) as sympy expressions: pivot * row (degree, output) = sum of coefficients * earlier rows.
+        """This is (pivot, coefficients) as sympy expressions: pivot * row (degree, output) = sum of coefficients * earlier rows.
 
         Raises ValueError for a row that is independent of the earlier ones.
         """
@@ -122,61 +124,61 @@ class ReducedRow:
 
 @dataclass(frozen=True)
 class Stratum:
-    """Parameter values with one rank profile: where all of `equations` vanish and none of `inequations` does."""
+    """Its parameter values have one rank profile: all of `equations` vanish there and none of `inequations` does."""
 
     branch: Branch
     rows: tuple[ReducedRow, ...]
 
     @property
     def equations(self) -> tuple[Any, ...]:
-        """sympy expressions."""
+        """These vanish on the stratum; they are sympy expressions."""
         return self.branch.vanishing
 
     @property
     def inequations(self) -> tuple[Any, ...]:
-        """sympy expressions."""
+        """None of these vanishes on the stratum; they are sympy expressions."""
         return self.branch.nonvanishing
 
     @cached_property
     def ends(self) -> dict[int, ReducedRow]:
-        """For each output the fault row or the relation with which its elimination ended."""
+        """For each output this has the fault row or the relation with which its elimination ended."""
         return {row.output: row for row in self.rows if row.kind != "state"}
 
     @property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """Ascending."""
+        """These are the degrees of the relations, ascending."""
         return tuple(sorted(row.degree for row in self.ends.values() if row.kind == "relation"))
 
     @property
     def normal_rank(self) -> int:
-        """Number of outputs whose rows are independent for ever."""
+        """This is the number of outputs whose rows are independent for ever."""
         return sum(row.kind == "fault" for row in self.ends.values())
 
     def is_independent(self, row: Row) -> bool:
-        """Whether row (k, i) is independent of the earlier rows."""
+        """This tells whether row (k, i) is independent of the earlier rows."""
         end = self.ends[row[1]]
         return end.kind == "fault" or row[0] < end.degree
 
     def independent_rows(self, s: int) -> tuple[Row, ...]:
-        """The rows (k, i) of [O_s T_s] that are independent of earlier ones, in the order of time."""
+        """These are the rows (k, i) of [O_s T_s] that are independent of earlier ones, in the order of time."""
         return tuple((k, i) for k in range(s) for i in sorted(self.ends) if self.is_independent((k, i)))
 
     def window_rank(self, s: int) -> int:
-        """rank [O_s T_s]."""
+        """The result is rank [O_s T_s]."""
         return len(self.independent_rows(s))
 
     def gap(self, s: int) -> int:
-        """rank [O_(s+1) T_(s+1)] - rank [O_s T_s]."""
+        """The result is rank [O_(s+1) T_(s+1)] - rank [O_s T_s]."""
         return self.window_rank(s + 1) - self.window_rank(s)
 
     def contains(self, values: Sequence[Any]) -> bool:
-        """Whether exact parameter values, in the order of `Stratification.parameters`, lie here."""
+        """This tells whether exact parameter values, in the order of `Stratification.parameters`, lie here."""
         return self.branch.contains(values)
 
 
-@dataclass(frozen=True)
-class Stratification:
-    """Strata that do not overlap and cover all parameter values over every field of characteristic 0.
+@dataclass(frozen=True, repr=False)
+class Stratification(Shown):
+    """Its strata do not overlap and cover all parameter values over every field of characteristic 0.
 
     `windows` is the number of samples up to which `verify_identities` expands every row; the strata do not depend on it.
     """
@@ -187,12 +189,12 @@ class Stratification:
 
     @property
     def dimensions(self) -> tuple[int, int, int]:
-        """(n, p, m)."""
+        """The dimensions are (n, p, m)."""
         return self.entries.n, self.entries.p, self.entries.m
 
     @property
     def parameters(self) -> tuple[Any, ...]:
-        """The entries of A, C, F, G, row by row, as sympy symbols."""
+        """These are the entries of A, C, F, G, row by row, as sympy symbols."""
         return tuple(self.entries.ring.symbols[: self.entries.parameters])
 
     def locate(self, values: Sequence[Any]) -> Stratum:
@@ -205,15 +207,52 @@ class Stratification:
         return found[0]
 
     def cases(self) -> Cases[Stratum]:
-        """The strata as cases, for `faultspace.exact.parametric.case_tree.refine`."""
+        """The result has the strata as cases, for `faultspace.exact.parametric.case_tree.refine`."""
         return tuple((stratum.branch, stratum) for stratum in self.strata)
+
+    @property
+    def title(self) -> str:
+        """This says of which dimensions the systems are, and how many strata they have."""
+        return "n = {}, p = {}, m = {}: {} strata".format(*self.dimensions, len(self.strata))
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the strata, each by its conditions, with its left minimal indices and normal rank."""
+        for stratum in self.strata:
+            conditions = [f"{f} = 0" for f in stratum.equations] + [f"{f} != 0" for f in stratum.inequations]
+            yield ", ".join(conditions) or "everywhere", ""
+            yield "left minimal indices", " ".join(map(str, stratum.left_minimal_indices)) or "none"
+            yield "normal rank r", str(stratum.normal_rank)
+
+    def to_json(self) -> dict[str, Any]:
+        """The polynomials are texts."""
+        return {
+            "dimensions": dict(zip("npm", self.dimensions, strict=True)),
+            "strata": [
+                {
+                    "equations": [str(f) for f in stratum.equations],
+                    "inequations": [str(f) for f in stratum.inequations],
+                    "left_minimal_indices": list(stratum.left_minimal_indices),
+                    "normal_rank": stratum.normal_rank,
+                }
+                for stratum in self.strata
+            ],
+        }
 
 
 def stratify(n: int, p: int, m: int, windows: int | None = None) -> Stratification:
-    """The strata of all A (n x n), C (p x n), F (n x m), G (p x m).
+    """The result divides all A (n x n), C (p x n), F (n x m), G (p x m) into strata on which the ranks of all windows are constant.
 
-    `windows` (default n + 3) is at least 1. Raises ValueError for other dimensions and windows, and NonlinearCondition
-    where a condition met is linear in no entry (not seen up to n = 2).
+    The strata do not overlap and cover all values over every field of characteristic 0; each is given by equations and inequations in the
+    entries and comes with the rows that prove its ranks. `windows`, n + 3 by default, is the number of samples up to which identities are
+    expanded later. Source: [Si69], whose algorithm is run on indeterminates; [F75] for the indices.
+
+    Raises ValueError for a dimension outside 0..9 and for windows below 1, and NonlinearCondition where a condition is linear in no entry,
+    which was not seen up to n = 2.
+
+    >>> from faultspace.exact import stratify
+    >>> found = stratify(1, 1, 0)
+    >>> [(stratum.equations, stratum.inequations, stratum.left_minimal_indices) for stratum in found.strata]
+    [((), (c11,), (1,)), ((c11,), (), (0,))]
     """
     windows = n + 3 if windows is None else windows
     entries = indeterminates(n, p, m)
@@ -227,7 +266,7 @@ def stratify(n: int, p: int, m: int, windows: int | None = None) -> Stratificati
 
 @dataclass(frozen=True)
 class _Working:
-    """A row during the elimination: `parts` are its state part, its fault part and its coefficients."""
+    """This is a row during the elimination: `parts` are its state part, its fault part and its coefficients."""
 
     row: Row
     state: list[Polynomial]
@@ -280,7 +319,7 @@ def _one_sample_later(entries: Indeterminates, work: _Working) -> _Working:
 
 
 def _cleared(work: _Working, earlier: _Working) -> _Working:
-    """A combination of the row and an earlier one that has nothing at the pivot of the latter."""
+    """The result is a combination of the row and an earlier one that has nothing at the pivot of the latter."""
     assert earlier.pivot is not None
     entry = _part(work, earlier.kind)[earlier.pivot]
     if not entry:
@@ -296,7 +335,7 @@ def _cleared(work: _Working, earlier: _Working) -> _Working:
 
 
 def _tidy(branch: Branch, work: _Working) -> _Working:
-    """The row modulo the equations, divided by what units divide all of it."""
+    """The result is the row modulo the equations, divided by what units divide all of it."""
     rows = sorted(work.coefficients)
     vector = [*work.state, *work.fault, *(work.coefficients[row] for row in rows)]
     vector = branch.without_units(branch.joint_reduce(vector))
@@ -306,7 +345,7 @@ def _tidy(branch: Branch, work: _Working) -> _Working:
 
 
 def certified(entries: Indeterminates, branch: Branch, work: _Working) -> ReducedRow:
-    """The row with the congruences that prove it, found by dividing the whole combination by the equations."""
+    """The result is the row with the congruences that prove it, found by dividing the whole combination by the equations."""
     degree, output = work.row
     difference = combined(entries, work.coefficients.items(), degree + 1)
     for column, f in enumerate([*work.state, *work.fault]):
@@ -330,7 +369,7 @@ def certified(entries: Indeterminates, branch: Branch, work: _Working) -> Reduce
 
 
 def combined(entries: Indeterminates, coefficients: Iterable[tuple[Row, Polynomial]], samples: int) -> list[Polynomial]:
-    """sum of coefficients * rows of the window of so many samples."""
+    """The result is sum of coefficients * rows of the window of so many samples."""
     total = [entries.ring.zero] * (entries.n + samples * entries.m)
     for row, coefficient in coefficients:
         total = [x + coefficient * y for x, y in zip(total, entries.window_row(row, samples), strict=True)]
@@ -338,5 +377,5 @@ def combined(entries: Indeterminates, coefficients: Iterable[tuple[Row, Polynomi
 
 
 def times(row: Sequence[Polynomial], matrix: Sequence[Sequence[Polynomial]], width: int, ring: Ring) -> list[Polynomial]:
-    """Row vector times matrix."""
+    """The result is the row vector times the matrix."""
     return [sum((x * line[j] for x, line in zip(row, matrix, strict=True)), ring.zero) for j in range(width)]

@@ -21,7 +21,7 @@ from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
 from ..algebra.notation import entry, polynomial
-from ..system.systems import FaultySystem, ResidualSystem, counted
+from ..system.systems import ResidualSystem, System, counted
 from .kernel_rows import KernelRepresentation, KernelRow, horner, kernel_representation
 from .signals import simulate
 
@@ -30,7 +30,7 @@ MOST_SAMPLES = 24
 
 @dataclass(frozen=True)
 class Separation:
-    """A word of the maker that the other system cannot make: `x0` n x 1, `v` window x m, `row` a kernel row of the other."""
+    """This is a word of the maker that the other system cannot make: `x0` n x 1, `v` window x m, `row` a kernel row of the other."""
 
     window: int
     x0: Matrix
@@ -40,7 +40,7 @@ class Separation:
 
 @dataclass(frozen=True)
 class Word:
-    """What the system `of`, "first" or "second", makes and the other cannot: `separation` with the outputs, window x p."""
+    """This is what the system `of`, "first" or "second", makes and the other cannot: `separation` with the outputs, window x p."""
 
     of: str
     maker: ResidualSystem
@@ -60,7 +60,24 @@ class Word:
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Shown):
-    """`first_not_in_second` and `second_not_in_first`: shortest separations, None where there is inclusion."""
+    """This tells how the output behaviours of two systems with p outputs differ, if they do; `compare` makes it.
+
+    `equivalent` says whether they are equal, `first_difference` is the least number of samples on which they differ (None where they do
+    not), and `word` the shortest word of one system that the other cannot make. `first_not_in_second` and `second_not_in_first` are the
+    words of each direction, None where there is inclusion; `first` and `second` are the kernel representations. Source: [G25] Theorem 1,
+    [W91]. Raises nothing by itself.
+
+    >>> import faultspace as fs
+    >>> found = fs.compare(fs.System(A=[[0]], F=[[1]], C=[[1]], G=[[0]]), fs.System(A=[["1/2"]], F=[[0]], C=[[1]], G=[[0]]))
+    >>> print(found.summary())
+    different: first on 2 samples, the same on fewer
+    the first system makes this word of 2 samples, which the second system cannot:
+      x(0) = (1)
+      k    v(k)    r(k)
+      0    0       1
+      1    0       0
+    every word r of the second system satisfies N(q) r = 0 with N(q) = [ 2 q - 1 ]
+    """
 
     first: KernelRepresentation
     second: KernelRepresentation
@@ -69,18 +86,18 @@ class Comparison(Shown):
 
     @property
     def equivalent(self) -> bool:
-        """Whether the output behaviours are equal."""
+        """This tells whether the output behaviours are equal."""
         return self.first_difference is None
 
     @property
     def first_difference(self) -> int | None:
-        """The least number of samples on which the restricted behaviours differ, None where they are equal."""
+        """This is the least number of samples on which the restricted behaviours differ, None where they are equal."""
         found = [s.window for s in (self.first_not_in_second, self.second_not_in_first) if s is not None]
         return min(found, default=None)
 
     @property
     def word(self) -> Word | None:
-        """The shortest word of one system that the other cannot make; None where they are equivalent."""
+        """This is the shortest word of one system that the other cannot make; None where they are equivalent."""
         candidates = [("first", self.first.system, self.first_not_in_second), ("second", self.second.system, self.second_not_in_first)]
         words = [(of, maker, found) for of, maker, found in candidates if found is not None]
         shortest = min(words, key=lambda candidate: candidate[2].window, default=None)
@@ -91,21 +108,21 @@ class Comparison(Shown):
 
     @property
     def title(self) -> str:
-        """Whether the two are equivalent, and where not, on how many samples they first differ."""
+        """This tells whether the two are equivalent, and where not, on how many samples they first differ."""
         if self.first_difference is None:
             return "equivalent: both make the same outputs, on every window"
         return f"different: first on {counted(self.first_difference, 'sample')}, the same on fewer"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """The verdict, and the word that separates the two, as (name, value) pairs."""
+        """The result is the verdict, and the word that separates the two, as (name, value) pairs."""
         yield from (("", text) for text in self.lines()[1:])
 
     def summary(self) -> str:
-        """The verdict, and the word that separates the two; of a long one the first samples."""
+        """The result is the verdict, and the word that separates the two; of a long one the first samples."""
         return "\n".join(self.lines())
 
     def lines(self, first: str = "the first system", second: str = "the second system", *, samples: int = MOST_SAMPLES) -> list[str]:
-        """What `faultspace compare` prints, with these names of the two systems, and at most so many samples of the word."""
+        """The result is what `faultspace compare` prints, with these names of the two systems, and at most so many samples of the word."""
         word = self.word
         if word is None:
             return [self.title]
@@ -117,24 +134,24 @@ class Comparison(Shown):
 
         result = [self.title, f"{own} makes this word of {counted(found.window, 'sample')}, which {other} cannot:"]
         result.append(f"  x(0) = ({', '.join(entry(found.x0[i, 0], field) for i in range(word.maker.n))})")
-        shown = min(found.window, samples)
-        table = [("k", "v(k)", "r(k)"), *((str(k), row_of(found.v, k), row_of(word.outputs, k)) for k in range(shown))]
+        listed = min(found.window, samples)
+        table = [("k", "v(k)", "r(k)"), *((str(k), row_of(found.v, k), row_of(word.outputs, k)) for k in range(listed))]
         widths = [max(map(len, column)) for column in zip(*table, strict=True)]
-        result += ["".join(f"  {text:<{width}}  " for text, width in zip(row, widths, strict=True)) for row in table]
-        if shown < found.window:
-            result.append(f"  ... and {found.window - shown} samples more; --word prints them all")
+        result += ["".join(f"  {text:<{width}}  " for text, width in zip(row, widths, strict=True)).rstrip() for row in table]
+        if listed < found.window:
+            result.append(f"  ... and {found.window - listed} samples more; --word prints them all")
         row = found.row.coefficients
         polynomials = [polynomial([row[k, j] for k in range(row.nrows)], field) for j in range(row.ncols)]
         return [*result, f"every word r of {other} satisfies N(q) r = 0 with N(q) = [ {',  '.join(polynomials)} ]"]
 
     def to_json(self) -> dict[str, Any]:
-        """The verdict and the separating word: what `faultspace compare --json --word` prints."""
+        """The result is the verdict and the separating word: what `faultspace compare --json --word` prints."""
         word = self.word
         return {"equivalent": self.equivalent, "first_difference": self.first_difference, "word": None if word is None else word.to_json()}
 
 
 def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation | None:
-    """The shortest word of `inner` that is not a word of `outer`, or None where B(inner) is contained in B(outer)."""
+    """The result is the shortest word of `inner` that is not a word of `outer`, or None where B(inner) is contained in B(outer)."""
     _comparable(inner, outer.system)
     for row in outer.rows:
         left = horner(row.coefficients, inner)
@@ -143,22 +160,20 @@ def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation
         one = inner.field.element(1)
         state = [[inner.field.element(0)] for _ in range(inner.n)]
         fault = [[inner.field.element(0)] * inner.m for _ in range(row.degree + 1)]
-        place = _first_nonzero(left.at_state)
-        if place is not None:
-            state[place][0] = one
+        if left.at_state.is_zero():
+            k, j = _first_nonzero(left.at_fault)
+            fault[k][j] = one
         else:
-            k, place = next((k, j) for k, part in enumerate(left.at_fault) if (j := _first_nonzero(part)) is not None)
-            fault[k][place] = one
+            _, j = _first_nonzero(left.at_state)
+            state[j][0] = one
         x0 = Matrix.from_elements(inner.field, inner.n, 1, state)
         v = Matrix.from_elements(inner.field, row.degree + 1, inner.m, fault)
         return Separation(row.degree + 1, x0, v, row)
     return None
 
 
-def compare(
-    first: ResidualSystem | FaultySystem | KernelRepresentation, second: ResidualSystem | FaultySystem | KernelRepresentation
-) -> Comparison:
-    """Whether two systems make the same outputs from any initial state and fault, and where not, a word that only one of them makes.
+def compare(first: System | KernelRepresentation, second: System | KernelRepresentation) -> Comparison:
+    """This tells whether two systems make the same outputs from any initial state and fault, and finds a word that only one makes.
 
     The systems have p outputs each over the same field; their numbers of states and faults may differ, and inputs play no part. Where its
     kernel representation is at hand, it stands for a system. The Comparison has `equivalent`, `first_difference` (a number of samples, or
@@ -178,22 +193,16 @@ def compare(
     return Comparison(one, other, separation(one.system, other), separation(other.system, one))
 
 
-def _kernel(system: ResidualSystem | FaultySystem | KernelRepresentation) -> KernelRepresentation:
+def _kernel(system: System | KernelRepresentation) -> KernelRepresentation:
     if isinstance(system, KernelRepresentation):
         return system
-    if not isinstance(system, (ResidualSystem, FaultySystem)):
+    if not isinstance(system, System):
         raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
     return kernel_representation(system.residual)
 
 
-def included_on(inner: ResidualSystem, outer: KernelRepresentation, window: int) -> bool:
-    """Whether every word of `inner` of that many samples is a word of `outer`."""
-    found = separation(inner, outer)
-    return found is None or found.window > window
-
-
-def _first_nonzero(row: Matrix) -> int | None:
-    return next((j for j, x in enumerate(row.elements()[0]) if x != 0), None) if row.ncols else None
+def _first_nonzero(matrix: Matrix) -> tuple[int, int]:
+    return next((i, j) for i, row in enumerate(matrix.elements()) for j, x in enumerate(row) if x != 0)
 
 
 def _comparable(first: ResidualSystem, second: ResidualSystem) -> None:

@@ -11,20 +11,32 @@ Equal spaces have equal bases. Source: [G25] problem (11), Theorem 3.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, right_null_space, row_echelon, stacked
-from ..system.systems import ResidualSystem
+from ..algebra.notation import named_matrix
+from ..system.systems import ResidualSystem, counted
 from .kernel_rows import KernelRepresentation, column_conditions
 
 
-@dataclass(frozen=True)
-class FaultSpace:
-    """The solution space of problem (11) for `system` on `window` samples (None: the limit), as basis rows [f' g'].
+@dataclass(frozen=True, repr=False)
+class FaultSpace(Shown):
+    """This is the space of all fault columns [f; g] that explain no more than the system does, on a window or in the limit.
 
-    `exact_from` is the least window at which the limit is reached: lag + 1, or 1 where there is no kernel row.
+    `basis` is n_z x (n + p) in reduced row echelon form, with rows [f' g'], so that equal spaces have equal bases; `F` (n x n_z) and `G` (p
+    x n_z) are the columns. `window` is a number of samples, None for the limit; `exact_from`, which is lag + 1, or 1 where there is no
+    kernel row, is the least window at which the limit is reached, and `warning` says so where the window is shorter. Source: [G25] problem
+    (11), Theorem 3. Raises nothing by itself; `fault_space` makes it.
+
+    >>> from faultspace.exact import ResidualSystem, fault_space, kernel_representation
+    >>> kernel = kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 0]], [[0], [1]]))
+    >>> limit, short = fault_space(kernel), fault_space(kernel, window=1)
+    >>> limit.basis, limit.exact_from, short.dimension, short.is_limit
+    ([[0, 1, 0, 1]], 3, 4, False)
     """
 
     system: ResidualSystem
@@ -34,17 +46,17 @@ class FaultSpace:
 
     @property
     def dimension(self) -> int:
-        """n_z at this window."""
+        """This is n_z at this window."""
         return self.basis.nrows
 
     @property
     def is_limit(self) -> bool:
-        """Whether the window is long enough for the space to be the limit Z."""
+        """This tells whether the window is long enough for the space to be the limit Z."""
         return self.window is None or self.window >= self.exact_from
 
     @property
     def warning(self) -> str | None:
-        """Why the solutions on a short window are not yet the limit Z, naming the lag and what to ask for; None where they are."""
+        """This says why the solutions on a short window are not yet the limit Z, and what to ask for; it is None where they are."""
         if self.is_limit:
             return None
         lag, samples = self.exact_from - 1, "1 sample is" if self.window == 1 else f"{self.window} samples are"
@@ -55,24 +67,59 @@ class FaultSpace:
 
     @property
     def F(self) -> Matrix:
-        """Fhat, n x n_z."""
+        """This is Fhat, n x n_z."""
         return self.basis.columns(range(self.system.n)).transposed()
 
     @property
     def G(self) -> Matrix:
-        """Ghat, p x n_z."""
+        """This is Ghat, p x n_z."""
         return self.basis.columns(range(self.system.n, self.system.n + self.system.p)).transposed()
+
+    @property
+    def title(self) -> str:
+        """This says how many fault columns there are, and on what window."""
+        where = "in the limit" if self.window is None else f"on a window of {counted(self.window, 'sample')}"
+        return f"{counted(self.dimension, 'fault column')} {where}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the fault columns, and what is to be known of the window."""
+        yield "the limit is reached from", counted(self.exact_from, "sample")
+        yield from named_matrix("Fhat", self.F)
+        yield from named_matrix("Ghat", self.G)
+        if self.warning is not None:
+            yield "but", self.warning
+
+    def to_json(self) -> dict[str, Any]:
+        """The rows of "fault_space" are [f' g']."""
+        return {
+            "window": self.window,
+            "exact_from": self.exact_from,
+            "dimension": self.dimension,
+            "fault_space": self.basis.to_json(),
+        }
 
 
 def from_kernel_rows(rows: Iterable[Matrix], A: Matrix, C: Matrix) -> Matrix:
-    """Basis rows [f' g'] of the columns that all rows ((mu + 1) x p coefficients each) annihilate, in echelon form."""
+    """The result is the basis rows [f' g'] of the columns that all rows ((mu + 1) x p coefficients each) annihilate, in echelon form."""
     nothing = Matrix.zero(A.field, 0, A.nrows + C.nrows)
     conditions = stacked(nothing, *(column_conditions(row, A, C) for row in rows))
     return row_echelon(right_null_space(conditions).transposed()).matrix
 
 
 def fault_space(kernel: KernelRepresentation, window: int | None = None) -> FaultSpace:
-    """The solution space of problem (11) on `window` >= 0 samples, or the limit Z. Raises InvalidInput for a negative window."""
+    """The result is the solution space of problem (11) on `window` samples, or its limit Z, of which every equivalent F and G is made.
+
+    `kernel` is a KernelRepresentation of a system with n states and p outputs; `window` is a number of samples >= 0, or None for the limit,
+    which is reached from lag + 1 samples on. A column z = [f; g] is in the space iff every kernel row of degree below the window
+    annihilates the system (A, f, C, g). Source: [G25] problem (11), Theorem 3.
+
+    Raises InvalidInput for a window that is no integer >= 0.
+
+    >>> from faultspace.exact import ResidualSystem, fault_space, kernel_representation
+    >>> space = fault_space(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1], [0]], [[0], [0]])))
+    >>> space.F, space.G  # the second output is no fault's
+    ([[1, 0]], [[0, 1], [0, 0]])
+    """
     if window is not None and (type(window) is not int or window < 0):
         raise InvalidInput(f"window: got {window!r}, expected an integer >= 0 or None")
     system = kernel.system
@@ -81,13 +128,32 @@ def fault_space(kernel: KernelRepresentation, window: int | None = None) -> Faul
 
 
 def fault_space_dimension(kernel: KernelRepresentation, window: int | None = None) -> int:
-    """n + p - sum over rows of degree below the window of (mu + 1): the dimension without the space."""
+    """The result is the dimension of the space of problem (11), found without the space.
+
+    It is n + p less the sum of mu + 1 over the kernel rows of degree mu below the window. `kernel` is a KernelRepresentation; `window` is a
+    number of samples, None for the limit. Source: [G25] problem (11), [F75] for the indices. Raises nothing for a KernelRepresentation.
+
+    >>> from faultspace.exact import ResidualSystem, fault_space_dimension, kernel_representation
+    >>> kernel = kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 0]], [[0], [1]]))
+    >>> [fault_space_dimension(kernel, s) for s in (1, 2, 3, None)]
+    [4, 4, 1, 1]
+    """
     system = kernel.system
     return system.n + system.p - sum(row.degree + 1 for row in kernel.rows_within(window))
 
 
 def with_pair(space: FaultSpace, P: object) -> ResidualSystem:
-    """(A, Fhat P, C, Ghat P) for P of shape n_z x k, what `Matrix.of` takes, over the same field. Raises InvalidInput for another shape."""
+    """The result is the system (A, Fhat P, C, Ghat P) whose fault matrices are the columns of a fault space combined by P.
+
+    P is n_z x k, what `Matrix.of` takes, over the same field; `judge` says whether the result is equivalent. Source: [G25] Theorem 3.
+
+    Raises InvalidInput for another shape.
+
+    >>> from faultspace.exact import ResidualSystem, fault_space, kernel_representation, with_pair
+    >>> space = fault_space(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
+    >>> print(with_pair(space, [[3], [2]]))
+    A=[[1/2]], F=[[3]], C=[[1]], G=[[2]]
+    """
     P = Matrix.of(P, space.system.field, where="P")
     if P.nrows != space.dimension:
         raise InvalidInput(f"P: got {P.nrows} x {P.ncols}, expected {space.dimension} rows, one a basis column")

@@ -21,14 +21,25 @@ from .kernel_rows import KernelRepresentation
 
 @dataclass(frozen=True)
 class AmbiguousWord:
-    """x0 (n x 1) and v (samples x m) with v(0) != 0 and zero output throughout."""
+    """The word has x0 (n x 1) and v (samples x m) with v(0) != 0, and its output is zero throughout."""
 
     x0: Matrix
     v: Matrix
 
 
 def delay_known_state(kernel: KernelRepresentation) -> int | None:
-    """Least l with rank T_(l+1) - rank T_l = m; None unless left-invertible; 0 without faults."""
+    """The result is the least l with which r(0), ..., r(l) determine v(0) when x(0) is known, a number of samples; None where none do.
+
+    It is the least l with rank T_(l+1) - rank T_l = m, and exists iff the system is left-invertible; it is 0 where there is no fault.
+    `kernel` is a KernelRepresentation. Source: [SM69].
+
+    Raises nothing for a KernelRepresentation.
+
+    >>> from faultspace.exact import ResidualSystem, delay_known_state, kernel_representation
+    >>> late = ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])
+    >>> delay_known_state(kernel_representation(late))
+    2
+    """
     system = kernel.system
     if kernel.normal_rank < system.m:
         return None
@@ -41,9 +52,18 @@ def delay_known_state(kernel: KernelRepresentation) -> int | None:
 
 
 def delay_unknown_state(kernel: KernelRepresentation) -> int | None:
-    """Least l in 0..n such that r(0..l) determines v(0) whatever x(0) is; None where there is none; 0 without faults.
+    """The result is the least number l with which r(0), ..., r(l) determine v(0) whatever x(0) is; None where none do.
 
-    The chain modulo a prime finds it, and shows that fewer samples do not do; that l samples do is decided exactly.
+    It is a number of samples, at most n, and 0 where there is no fault. A recursion modulo a prime finds it and shows that fewer samples do
+    not do; that l samples do is decided exactly. `kernel` is a KernelRepresentation. Source: [HP98], [MZ10], [K11].
+
+    Raises nothing for a KernelRepresentation.
+
+    >>> from faultspace.exact import ResidualSystem, delay_unknown_state, kernel_representation
+    >>> zero_at_2 = ResidualSystem.of([["1/2"]], [["-3/2"]], [[1]], [[1]])
+    >>> no_zero = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
+    >>> [delay_unknown_state(kernel_representation(system)) for system in (zero_at_2, no_zero)]
+    [None, 1]
     """
     system = kernel.system
     for delay in range(_first_determined(kernel.image.system), system.n + 1):
@@ -54,7 +74,9 @@ def delay_unknown_state(kernel: KernelRepresentation) -> int | None:
 
 
 def largest_output_nulling(system: ResidualSystem) -> Matrix:
-    """V* as a column basis (n x dim): the limit of the chain V_0 = K^n, V_(j+1) = {x : some v has C x + G v = 0, A x + F v in V_j}."""
+    """The result is V* as a column basis (n x dim): the limit of the chain V_0 = K^n, V_(j+1) = {x : some v has C x + G v = 0, A x + F v in
+    V_j}.
+    """
     subspace = Matrix.identity(system.field, system.n)
     while True:
         successor = column_basis(_zero_output_pairs(system, subspace).rows(range(system.n)))
@@ -64,7 +86,18 @@ def largest_output_nulling(system: ResidualSystem) -> Matrix:
 
 
 def left_inverse(system: ResidualSystem, delay: int, *, known_state: bool) -> Matrix | None:
-    """m x p(delay + 1): what recovers v(0) from r(0..delay), or None where nothing does."""
+    """The result is a matrix of shape m x p(delay + 1) that takes r(0), ..., r(delay) to v(0), or None where there is none.
+
+    With `known_state` the outputs are those from x(0) = 0, else they come from any initial state; `delay` is a number of samples >= 0.
+    Source: [SM69] for a known state, [K11] for an unknown one.
+
+    Raises nothing for a ResidualSystem.
+
+    >>> from faultspace.exact import ResidualSystem, left_inverse
+    >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
+    >>> left_inverse(system, 1, known_state=False), left_inverse(system, 0, known_state=False)  # v(0) = r(1) - r(0) / 2
+    ([[-1/2, 1]], None)
+    """
     built = toeplitz_matrix(system, delay + 1) if known_state else window_matrix(system, delay + 1)
     skipped = Matrix.zero(system.field, system.m, 0 if known_state else system.n)
     wanted = beside(skipped, Matrix.identity(system.field, system.m), Matrix.zero(system.field, system.m, system.m * delay))
@@ -72,7 +105,9 @@ def left_inverse(system: ResidualSystem, delay: int, *, known_state: bool) -> Ma
 
 
 def ambiguous_word(system: ResidualSystem, samples: int, *, known_state: bool) -> AmbiguousWord | None:
-    """A word of that many samples with v(0) != 0 and zero output, from x0 = 0 when the state is known; None where there is none."""
+    """The result is a word of that many samples with v(0) != 0 and zero output, from x0 = 0 when the state is known; None where there is
+    none.
+    """
     if samples == 0:
         return None
     built = toeplitz_matrix(system, samples) if known_state else window_matrix(system, samples)
@@ -88,14 +123,14 @@ def ambiguous_word(system: ResidualSystem, samples: int, *, known_state: bool) -
 
 
 def _zero_output_pairs(system: ResidualSystem, target: Matrix) -> Matrix:
-    """Columns [x; v] spanning {C x + G v = 0, A x + F v in the column space of `target`}."""
+    """The columns [x; v] of the result span {C x + G v = 0, A x + F v in the column space of `target`}."""
     moves = beside(system.A, system.F, -target)
     outputs = beside(system.C, system.G, Matrix.zero(system.field, system.p, target.ncols))
     return right_null_space(stacked(moves, outputs)).rows(range(system.n + system.m))
 
 
 def _first_determined(system: ResidualSystem) -> int:
-    """Least l such that v(0) is determined by r(0..l), or n + 1; by the recursion V_j, meant for prime fields."""
+    """The result is the least l such that v(0) is determined by r(0..l), or n + 1; by the recursion V_j, meant for prime fields."""
     subspace = Matrix.identity(system.field, system.n)
     for delay in range(system.n + 1):
         pairs = _zero_output_pairs(system, subspace)

@@ -3,7 +3,8 @@
     KernelRow              one row N(q) = sum c_k q^k of degree mu, with its pivot output
     KernelRepresentation   the rows, ascending by degree; the image (prime, root) that proves them complete
     left minimal indices   the degrees mu of the rows; lag = the largest; normal rank r = p - number of rows
-    horner                 X_k = N_k C + X_(k+1) A and N_k G + X_(k+1) F: all zero iff the row annihilates a system
+    horner_states          X_k = N_k C + X_(k+1) A, the one recursion behind the next two
+    horner                 X_0 and N_k G + X_(k+1) F: all zero iff the row annihilates a system
     column_conditions      the rows [X_(k+1), N_k]: what the row asks of a fault column [f; g]
 
 Rows whose leading coefficients are triangular by their pivots, and which annihilate the system, bound every gap from above: gap(k) <= p
@@ -15,6 +16,7 @@ Over Q and Q(a): the shape of the rows comes from the recursion modulo one prime
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import gcd, lcm
@@ -22,30 +24,45 @@ from typing import Any
 
 from flint import fmpq
 
+from ...base.sheets import Shown
 from ..algebra.fields import NumberField, PrimeField
 from ..algebra.matrices import Matrix, beside, stacked
+from ..algebra.notation import polynomial, several
 from ..system.modular import Image, image
-from ..system.systems import FaultySystem, ResidualSystem
+from ..system.systems import ResidualSystem, System
 from .relations import integer_relations, relations_over_prime_field
 from .zero_output import ZeroOutputChain, zero_output_chain
 
 
 @dataclass(frozen=True)
 class KernelRow:
-    """N(q) = c_0 + c_1 q + ... + c_mu q^mu: `coefficients` is (mu + 1) x p, row k holding c_k; integers over Q, coprime."""
+    """This is N(q) = c_0 + c_1 q + ... + c_mu q^mu: `coefficients` is (mu + 1) x p, row k holding c_k, coprime integers over Q."""
 
     pivot: int
     coefficients: Matrix
 
     @property
     def degree(self) -> int:
-        """mu."""
+        """The degree is mu."""
         return self.coefficients.nrows - 1
 
 
-@dataclass(frozen=True)
-class KernelRepresentation:
-    """A minimal kernel representation of the output behaviour of `system`, with the modular image that shows it complete."""
+@dataclass(frozen=True, repr=False)
+class KernelRepresentation(Shown):
+    """This is a minimal kernel representation N(q) r = 0 of the output behaviour of a system: all that its windows can tell.
+
+    The system has p outputs. `rows` ascend by degree; each has `coefficients` of shape (mu + 1) x p and the output of its `pivot`. Their
+    degrees are the left minimal indices, the largest is the `lag`, a number of samples, and p less their number is the normal rank;
+    `rank(s)` is rank [O_s T_s] for every s. `image` and `chain` are the system modulo a prime, with which the rows were shown to be all.
+    `kernel_representation` makes it. Source: [F75], [W91]; [G25] Theorem 2 after [SB21] for the ranks. Raises nothing by itself.
+
+    >>> from faultspace.exact import ResidualSystem, kernel_representation
+    >>> kernel = kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 0]], [[0], [1]]))
+    >>> kernel.left_minimal_indices, kernel.lag, kernel.normal_rank, [kernel.rank(s) for s in (1, 2, 3)]
+    ((2,), 2, 1, [2, 4, 5])
+    >>> kernel.rows[0].coefficients  # r_1(k+2) = r_2(k)
+    [[0, -1], [0, 0], [1, 0]]
+    """
 
     system: ResidualSystem
     rows: tuple[KernelRow, ...]
@@ -54,87 +71,119 @@ class KernelRepresentation:
 
     @cached_property
     def left_minimal_indices(self) -> tuple[int, ...]:
-        """The degrees of the rows, ascending."""
+        """These are the degrees of the rows, ascending."""
         return tuple(row.degree for row in self.rows)
 
     @property
     def normal_rank(self) -> int:
-        """r, the normal rank of C (qI - A)^-1 F + G."""
+        """This is r, the normal rank of C (qI - A)^-1 F + G."""
         return self.system.p - len(self.rows)
 
     @property
     def lag(self) -> int:
-        """The largest left minimal index, 0 where there is none."""
+        """The lag is the largest left minimal index, and 0 where there is none."""
         return max(self.left_minimal_indices, default=0)
 
     def gap(self, k: int) -> int:
-        """rank [O_(k+1) T_(k+1)] - rank [O_k T_k] = p - #{mu <= k}."""
+        """The result is rank [O_(k+1) T_(k+1)] - rank [O_k T_k] = p - #{mu <= k}."""
         return self.system.p - sum(1 for mu in self.left_minimal_indices if mu <= k)
 
     def rank(self, s: int) -> int:
-        """rank [O_s T_s] = s r + sum min(s, mu)."""
+        """The result is rank [O_s T_s] = s r + sum min(s, mu)."""
         return s * self.normal_rank + sum(min(s, mu) for mu in self.left_minimal_indices)
 
     def rows_within(self, window: int | None) -> tuple[KernelRow, ...]:
-        """The rows of degree below `window`: they and their shifts span the left null space of [O_s T_s]. None: all rows."""
+        """The rows of degree below `window` and their shifts span the left null space of [O_s T_s]; for None these are all rows."""
         return tuple(row for row in self.rows if window is None or row.degree < window)
+
+    @property
+    def title(self) -> str:
+        """This says of which sizes the system is, and how large its lag is."""
+        return f"{self.system.sizes}; lag {self.lag}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the integers that the rows give, and the rows."""
+        yield "normal rank r", str(self.normal_rank)
+        yield "left minimal indices", several(self.left_minimal_indices)
+        yield "lag", str(self.lag)
+        for row in self.rows:
+            entries = [polynomial(column, self.system.field) for column in zip(*row.coefficients.elements(), strict=True)]
+            yield "a row N(q) with N(q) r = 0", f"[ {',  '.join(entries)} ]"
+
+    def to_json(self) -> dict[str, Any]:
+        """Each row is the list [c_0, ..., c_mu] of its coefficients."""
+        return {
+            "normal_rank": self.normal_rank,
+            "lag": self.lag,
+            "left_minimal_indices": list(self.left_minimal_indices),
+            "rows": [row.coefficients.to_json() for row in self.rows],
+        }
 
 
 @dataclass(frozen=True)
 class Horner:
-    """What is left of a row at a system: `at_state` (1 x n) for x(0) and `at_fault[k]` (1 x m) for v(k); zero iff it annihilates."""
+    """What is left of a row at a system is `at_state`, 1 x n for x(0), and `at_fault`, (mu + 1) x m, row k for v(k)."""
 
     at_state: Matrix
-    at_fault: tuple[Matrix, ...]
+    at_fault: Matrix
 
     def vanishes(self) -> bool:
-        """Whether the row annihilates the system."""
-        return self.at_state.is_zero() and all(part.is_zero() for part in self.at_fault)
+        """This tells whether the row annihilates the system."""
+        return self.at_state.is_zero() and self.at_fault.is_zero()
+
+
+def horner_states(coefficients: Matrix, A: Matrix, C: Matrix) -> tuple[Matrix, ...]:
+    """These are X_0, ..., X_(mu+1), each 1 x n, with X_k = N_k C + X_(k+1) A and X_(mu+1) = 0."""
+    states = [Matrix.zero(A.field, 1, A.nrows)]
+    for k in reversed(range(coefficients.nrows)):
+        states.append(coefficients.rows([k]) @ C + states[-1] @ A)
+    return tuple(reversed(states))
 
 
 def horner(coefficients: Matrix, system: ResidualSystem) -> Horner:
-    """The row with these (mu + 1) x p coefficients applied to [O_(mu+1) T_(mu+1)] of a system, without building it."""
-    carried = Matrix.zero(system.field, 1, system.n)
-    at_fault: list[Matrix] = []
-    for k in reversed(range(coefficients.nrows)):
-        coefficient = coefficients.rows([k])
-        at_fault.append(coefficient @ system.G + carried @ system.F)
-        carried = coefficient @ system.C + carried @ system.A
-    return Horner(carried, tuple(reversed(at_fault)))
+    """The result is the row with these (mu + 1) x p coefficients times [O_(mu+1) T_(mu+1)] of a system, which is not built."""
+    first, *later = horner_states(coefficients, system.A, system.C)
+    return Horner(first, coefficients @ system.G + stacked(*later) @ system.F)
 
 
 def column_conditions(coefficients: Matrix, A: Matrix, C: Matrix) -> Matrix:
-    """(mu + 1) x (n + p), row k = [X_(k+1), N_k]: a fault column z = [f; g] is annihilated iff every row kills it."""
-    carried = Matrix.zero(A.field, 1, A.nrows)
-    conditions: list[Matrix] = []
-    for k in reversed(range(coefficients.nrows)):
-        coefficient = coefficients.rows([k])
-        conditions.append(beside(carried, coefficient))
-        carried = coefficient @ C + carried @ A
-    return stacked(Matrix.zero(A.field, 0, A.nrows + C.nrows), *reversed(conditions))
+    """The result is (mu + 1) x (n + p), row k = [X_(k+1), N_k]: a fault column z = [f; g] is annihilated iff every row kills it."""
+    return beside(stacked(*horner_states(coefficients, A, C)[1:]), coefficients)
 
 
 def annihilates(row: KernelRow, system: ResidualSystem) -> bool:
-    """Whether every output of the system satisfies N(q) r = 0."""
+    """This tells whether every output of the system satisfies N(q) r = 0."""
     return horner(row.coefficients, system).vanishes()
 
 
-def kernel_representation(system: ResidualSystem | FaultySystem) -> KernelRepresentation:
-    """The minimal kernel representation of the output behaviour (B and D play no part); exact for every system over every field."""
-    system = system.residual
-    picture = image(system)
-    most = _misleading_primes(system) + 1
+def kernel_representation(system: System) -> KernelRepresentation:
+    """The result is the minimal kernel representation of the output behaviour of a system, for every system over every field.
+
+    `system` is a System of either kind with p outputs; B and D play no part. Over Q and Q(a) the shape of the rows comes from a prime,
+    their coefficients from one exact solve by p-adic lifting [D82], and an exact check has the last word. Source: [F75], [W91].
+
+    Raises ArithmeticError if no prime fits, which the bound on misleading primes excludes.
+
+    >>> from faultspace.exact import ResidualSystem, kernel_representation
+    >>> kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[1]], [[]], m=0)).rows[0].coefficients  # 2 r(k+1) = r(k)
+    [[-1], [2]]
+    """
+    residual = system.residual
+    picture = image(residual)
+    most = _misleading_primes(residual) + 1
     for _ in range(most):
         chain = zero_output_chain(picture.system)
-        rows = _rows(system, picture, chain)
+        rows = _rows(residual, picture, chain)
         if rows is not None:
-            return KernelRepresentation(system, rows, picture, chain)
-        picture = image(system, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
+            return KernelRepresentation(residual, rows, picture, chain)
+        picture = image(residual, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
     raise ArithmeticError(f"no kernel rows fit at any of {most} primes")
 
 
 def _misleading_primes(system: ResidualSystem) -> int:
-    """How many primes of 29 bits or more can mislead: each divides one of n + 1 minors of windows, whose bits are bounded generously."""
+    """This says how many primes of 29 bits or more can mislead: each divides one of n + 1 minors of windows, whose bits are bounded
+    generously.
+    """
     scalars = [x for name in "AFCG" for x in getattr(system, name).flint.entries()]
     if isinstance(system.field, PrimeField):
         return 0
@@ -144,7 +193,7 @@ def _misleading_primes(system: ResidualSystem) -> int:
 
 
 def _rows(system: ResidualSystem, picture: Image, chain: ZeroOutputChain) -> tuple[KernelRow, ...] | None:
-    """The rows whose shape the chain shows, or None when the exact check refutes that shape."""
+    """These are the rows whose shape the chain shows, or None when the exact check refutes that shape."""
     leads = _leads(chain, system.p)
     if isinstance(system.field, PrimeField):
         tables = relations_over_prime_field(system, leads)
@@ -160,7 +209,7 @@ def _rows(system: ResidualSystem, picture: Image, chain: ZeroOutputChain) -> tup
 
 
 def _leads(chain: ZeroOutputChain, p: int) -> list[tuple[int, int]]:
-    """(mu, output) for every output that depends, from sample mu on, on earlier ones; ascending."""
+    """The result is (mu, output) for every output that depends, from sample mu on, on earlier ones; ascending."""
     leads: list[tuple[int, int]] = []
     seen: set[int] = set()
     for k, profile in enumerate(chain.profiles):
@@ -171,7 +220,7 @@ def _leads(chain: ZeroOutputChain, p: int) -> list[tuple[int, int]]:
 
 
 def _primitive(relation: list[list[list[Any]]], field: Any) -> list[list[Any]]:
-    """The relation scaled to coprime integers, as field elements."""
+    """The result is the relation scaled to coprime integers, as field elements."""
     scalars = [x for row in relation for entry in row for x in entry]
     bottom = lcm(*(int(x.q) for x in scalars)) if scalars else 1
     top = gcd(*(int((x * bottom).p) for x in scalars)) or 1

@@ -6,6 +6,7 @@
                                  are the eigenvalues of A that C does not show, though the transfer function is zero
     zero_dynamics_polynomial     the same from the motion inside V*/R*, where no output sees it: another route
     right_null_polynomial        (x(q), v(q)) with P(q) [x; v] = 0, the proof of not being left-invertible
+    PencilParts, pencil_parts    P(q) as constant + q slope
     finite_diagonal, infinite_diagonal   diagonal forms with multipliers, of P(q) and of the reversed pencil, for certificates
 
 n = sum eta + sum eps + n_f + n_inf, so the degree n_f is known before the polynomial is. Source: [K80] 6.3, [VD79], [TSH01] ch. 7.
@@ -25,25 +26,35 @@ from ..algebra.polynomials import Poly, PolyMatrix, SmithDiagonal
 from ..system.systems import ResidualSystem
 from ..system.windows import toeplitz_matrix
 from .inversion import largest_output_nulling
-from .kernel_rows import KernelRepresentation, kernel_representation
+from .kernel_rows import KernelRepresentation, horner_states, kernel_representation
 from .zero_output import chain_from_rest
 
 
 @dataclass(frozen=True)
 class NullPolynomial:
-    """(x(q), v(q)) != 0 with (qI - A) x = F v and C x + G v = 0: `state` (e+1) x n, `fault` (e+1) x m, row j = coefficient of q^j."""
+    """(x(q), v(q)) != 0 satisfies (qI - A) x = F v and C x + G v = 0: `state` is (e+1) x n, `fault` (e+1) x m, row j the coefficient of
+    q^j.
+    """
 
     state: Matrix
     fault: Matrix
 
 
+@dataclass(frozen=True)
+class PencilParts:
+    """P(q) = constant + q slope, both (n + p) x (n + m)."""
+
+    constant: Matrix
+    slope: Matrix
+
+
 def right_minimal_indices(system: ResidualSystem) -> tuple[int, ...]:
-    """The right minimal indices of the pencil, ascending; as many as m - r."""
+    """The right minimal indices of the pencil are ascending; there are m - r of them."""
     return kernel_representation(system.transposed()).left_minimal_indices
 
 
 def infinite_zero_orders(kernel: KernelRepresentation) -> tuple[int, ...]:
-    """The orders of the infinite zeros, ascending, one per unit of normal rank, zeros included."""
+    """These are the orders of the infinite zeros, ascending, one per unit of normal rank, zeros included."""
     orders: list[int] = []
     k, previous = 0, 0
     while len(orders) < kernel.normal_rank:
@@ -67,7 +78,7 @@ def invariant_zero_polynomial(kernel: KernelRepresentation, degree: int) -> Poly
 
 
 def zero_dynamics_polynomial(system: ResidualSystem) -> Poly:
-    """The characteristic polynomial, monic, of the motion on V*/(V* inter S*) under zero output."""
+    """The result is the characteristic polynomial, monic, of the motion on V*/(V* inter S*) under zero output."""
     nulling = largest_output_nulling(system)
     reachable = chain_from_rest(system).last_subspace
     common = right_null_space(beside(nulling, -reachable)).rows(range(nulling.ncols))
@@ -87,7 +98,7 @@ def zero_dynamics_polynomial(system: ResidualSystem) -> Poly:
 
 
 def characteristic_polynomial(matrix: Matrix) -> Poly:
-    """det(qI - M), monic."""
+    """The result is det(qI - M), monic."""
     field, size = matrix.field, matrix.nrows
     if isinstance(field, (Rationals, PrimeField)):
         poly = matrix.flint.charpoly()
@@ -106,44 +117,44 @@ def characteristic_polynomial(matrix: Matrix) -> Poly:
 
 
 def right_null_polynomial(system: ResidualSystem) -> NullPolynomial | None:
-    """A polynomial vector in the right kernel of the pencil, of least degree, or None for a left-invertible system."""
+    """The result is a polynomial vector in the right kernel of the pencil, of least degree, or None for a left-invertible system."""
     rows = kernel_representation(system.transposed()).rows
     if not rows:
         return None
     # the transposed row annihilates (A', C', F', G'): its Horner states are the x(q) belonging to v(q)
     coefficients = rows[0].coefficients
-    states = []
-    carried = Matrix.zero(system.field, 1, system.n)
-    for k in reversed(range(coefficients.nrows)):
-        states.append(carried)
-        carried = coefficients.rows([k]) @ system.F.transposed() + carried @ system.A.transposed()
-    return NullPolynomial(stacked(*reversed(states)), coefficients)
+    _, *states = horner_states(coefficients, system.A.transposed(), system.F.transposed())
+    return NullPolynomial(stacked(*states), coefficients)
+
+
+def pencil_parts(system: ResidualSystem) -> PencilParts:
+    """The pencil is assembled here and nowhere else: [[qI - A, -F], [C, G]]."""
+    field, n = system.field, system.n
+    top = beside(Matrix.identity(field, n), Matrix.zero(field, n, system.m))
+    constant = stacked(beside(-system.A, -system.F), beside(system.C, system.G))
+    return PencilParts(constant, stacked(top, Matrix.zero(field, system.p, top.ncols)))
 
 
 def pencil(system: ResidualSystem) -> PolyMatrix:
-    """P(q) as a matrix of Poly, (n + p) x (n + m)."""
-    return _linear(stacked(beside(-system.A, -system.F), beside(system.C, system.G)), _state_part(system))
+    """The result is P(q) as a matrix of Poly, (n + p) x (n + m)."""
+    parts = pencil_parts(system)
+    return _linear(parts.constant, parts.slope)
 
 
 def reversed_pencil(system: ResidualSystem) -> PolyMatrix:
-    """t P(1/t) = [[I - tA, -tF], [tC, tG]]: its zeros at t = 0 are those of P at infinity."""
-    return _linear(_state_part(system), stacked(beside(-system.A, -system.F), beside(system.C, system.G)))
+    """The result is t P(1/t) = [[I - tA, -tF], [tC, tG]]: its zeros at t = 0 are those of P at infinity."""
+    parts = pencil_parts(system)
+    return _linear(parts.slope, parts.constant)
 
 
 def finite_diagonal(system: ResidualSystem) -> SmithDiagonal:
-    """A diagonal form of P(q) with unimodular multipliers."""
+    """The result is a diagonal form of P(q) with unimodular multipliers."""
     return polynomials.smith_diagonal(pencil(system), system.n + system.p, system.n + system.m, system.field.element(1))
 
 
 def infinite_diagonal(system: ResidualSystem) -> SmithDiagonal:
-    """A diagonal form of the reversed pencil with unimodular multipliers."""
+    """The result is a diagonal form of the reversed pencil with unimodular multipliers."""
     return polynomials.smith_diagonal(reversed_pencil(system), system.n + system.p, system.n + system.m, system.field.element(1))
-
-
-def _state_part(system: ResidualSystem) -> Matrix:
-    """diag(I, 0), (n + p) x (n + m): the coefficient of q in the pencil."""
-    top = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.m))
-    return stacked(top, Matrix.zero(system.field, system.p, system.n + system.m))
 
 
 def _linear(constant: Matrix, slope: Matrix) -> PolyMatrix:
@@ -155,14 +166,13 @@ def _gcd_of_minors(kernel: KernelRepresentation, degree: int) -> Poly:
     """gcd of det(R P(q) S) over integer R, S, taken until its degree is n_f; each is a multiple of the invariant polynomials."""
     system = kernel.system
     size = system.n + kernel.normal_rank
-    constant = stacked(beside(-system.A, -system.F), beside(system.C, system.G))
-    slope = _state_part(system)
+    parts = pencil_parts(system)
     rng = random.Random(system.n)
     result: Poly = ()
     while len(result) != degree + 1:
         left = _small_integers(rng, size, system.n + system.p)
         right = _small_integers(rng, system.n + system.m, size)
-        h, e = (left @ constant @ right).flint, (left @ slope @ right).flint
+        h, e = (left @ parts.constant @ right).flint, (left @ parts.slope @ right).flint
         (top, bottom), (slope_top, slope_bottom) = h.numer_denom(), e.numer_denom()
         a, b = fmpz_mat(top * slope_bottom), fmpz_mat(slope_top * bottom)
         points = [fmpq(k) for k in range(system.n + 1)]

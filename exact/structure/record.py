@@ -13,9 +13,9 @@ from typing import Any
 from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
-from ..algebra.notation import matrix_lines, polynomial, several
+from ..algebra.notation import named_matrix, polynomial, several
 from ..algebra.polynomials import Poly, written
-from ..system.systems import FaultySystem, ResidualSystem
+from ..system.systems import ResidualSystem, System
 from .fault_columns import FaultSpace, fault_space, fault_space_dimension
 from .inversion import delay_known_state, delay_unknown_state
 from .kernel_rows import KernelRepresentation, kernel_representation
@@ -24,7 +24,18 @@ from .pencil import infinite_zero_orders, invariant_zero_polynomial, right_minim
 
 @dataclass(frozen=True, repr=False)
 class Structure(Shown):
-    """The structural invariants of a residual system; names as in the module `pencil` and `kernel_representation`."""
+    """This is everything that is known exactly about a system with n states, m faults and p outputs; `analyze` makes it.
+
+    `kernel` has the lag (a number of samples), the left minimal indices and the window ranks; `right_minimal_indices`,
+    `infinite_zero_orders` and `invariant_zero_polynomial` (ascending coefficients) are those of the pencil [[qI - A, -F], [C, G]]; `zeta`
+    is the number of zeros, finite and infinite; the delays are numbers of samples, or None; `fault_space` is the limit of problem (11).
+    Source: [G25], [K80] 6.3 and [VD79] for the pencil. Raises nothing by itself.
+
+    >>> import faultspace as fs
+    >>> found = fs.analyze(fs.System(A=[["1/2"]], F=[["-3/2"]], C=[[1]], G=[[1]]))
+    >>> found.invariant_zero_polynomial, found.zeta, found.delay_known_state, found.delay_unknown_state  # a zero at 2
+    ((-2, 1), 1, 0, None)
+    """
 
     kernel: KernelRepresentation
     right_minimal_indices: tuple[int, ...]
@@ -38,31 +49,31 @@ class Structure(Shown):
 
     @property
     def system(self) -> ResidualSystem:
-        """The system."""
+        """This is the system that the structure is of."""
         return self.kernel.system
 
     @property
     def finite_zeros(self) -> int:
-        """n_f, the number of finite invariant zeros with multiplicity."""
+        """This is n_f, the number of finite invariant zeros with multiplicity."""
         return len(self.invariant_zero_polynomial) - 1
 
     @property
     def zeta(self) -> int:
-        """Finite and infinite zeros of the pencil together."""
+        """zeta is the number of zeros of the pencil, finite and infinite together."""
         return self.finite_zeros + sum(self.infinite_zero_orders)
 
     @property
     def left_invertible(self) -> bool:
-        """Whether the normal rank is m."""
+        """This tells whether the normal rank is m."""
         return self.kernel.normal_rank == self.system.m
 
     @property
     def title(self) -> str:
-        """How many states, faults and outputs, and the field."""
+        """This says how many states, faults and outputs there are, and over which field."""
         return self.system.sizes
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """What `faultspace inspect` prints, as (name, value) pairs."""
+        """The result is what `faultspace inspect` prints, as (name, value) pairs."""
         kernel, n = self.kernel, self.system.n
         yield "pencil P(q) = [[qI - A, -F], [C, G]]", ""
         yield "normal rank r", f"{kernel.normal_rank} of at most {min(self.system.m, self.system.p)}"
@@ -84,12 +95,11 @@ class Structure(Shown):
         yield "dimension of problem (11)", several(document["fault_space_dimensions"])
         space = self.fault_space
         yield f"fault space: n_z = {space.dimension}, reached from s = {space.exact_from} on", ""
-        for name, matrix in (("Fhat", space.F), ("Ghat", space.G)):
-            lines = matrix_lines(matrix) or [f"empty, {matrix.nrows} x {matrix.ncols}"]
-            yield from ((name if i == 0 else "", line) for i, line in enumerate(lines))
+        yield from named_matrix("Fhat", space.F)
+        yield from named_matrix("Ghat", space.G)
 
     def to_json(self) -> dict[str, Any]:
-        """The object that `faultspace inspect --json` prints."""
+        """The result is the object that `faultspace inspect --json` prints."""
         system, kernel = self.system, self.kernel
         windows = range(1, system.n + 4)
         return {
@@ -116,8 +126,8 @@ class Structure(Shown):
         }
 
 
-def analyze(system: ResidualSystem | FaultySystem) -> Structure:
-    """Everything that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
+def analyze(system: System) -> Structure:
+    """This computes all that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
 
     `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
     left-invertible or not; B and D play no part. The Structure has `kernel.lag` (a number of samples), `kernel.left_minimal_indices`,
@@ -133,7 +143,7 @@ def analyze(system: ResidualSystem | FaultySystem) -> Structure:
     >>> found.kernel.lag, found.delay_known_state
     (2, 0)
     """
-    if not isinstance(system, (ResidualSystem, FaultySystem)):
+    if not isinstance(system, System):
         raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
     system = system.residual
     kernel = kernel_representation(system)

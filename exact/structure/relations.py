@@ -26,13 +26,13 @@ Lead = tuple[int, int]
 
 
 def basis_rows(leads: Sequence[Lead], p: int, windows: int) -> list[tuple[int, int]]:
-    """(k, i) of the rows of [O_s T_s], s = windows, that are independent of the rows above them."""
+    """The result is (k, i) of the rows of [O_s T_s], s = windows, that are independent of the rows above them."""
     starts = {output: mu for mu, output in leads}
     return [(k, i) for k in range(windows) for i in range(p) if k < starts.get(i, windows)]
 
 
 def relations_over_prime_field(system: ResidualSystem, leads: Sequence[Lead]) -> list[list[list[Any]]]:
-    """For each lead the (mu + 1) x p coefficients of its row, over a prime field."""
+    """For each lead the result has the (mu + 1) x p coefficients of its row, over a prime field."""
     relations = []
     for mu, output in leads:
         earlier = [(k, i) for k, i in basis_rows(leads, system.p, mu + 1) if (k, i) < (mu, output)]
@@ -50,7 +50,9 @@ def relations_over_prime_field(system: ResidualSystem, leads: Sequence[Lead]) ->
 
 
 def integer_relations(system: ResidualSystem, leads: Sequence[Lead], prime: int) -> list[list[list[list[fmpq]]]] | None:
-    """For each lead the (mu + 1) x p x d rational coordinates of its row, or None where the shape or the prime proves wrong."""
+    """For each lead the result has the (mu + 1) x p x d rational coordinates of its row; it is None where the shape or the prime proves
+    wrong.
+    """
     if not leads:
         return []
     d, p = system.field.degree, system.p
@@ -80,7 +82,7 @@ def integer_relations(system: ResidualSystem, leads: Sequence[Lead], prime: int)
 
 
 def _over_the_rationals(system: ResidualSystem) -> ResidualSystem:
-    """The system of the blocks: n d states, m d faults, p d outputs over Q."""
+    """The result is the system of the blocks: n d states, m d faults, p d outputs over Q."""
     d = system.field.degree
     rational = Rationals()
     parts = [getattr(system, name) for name in "AFCG"]
@@ -88,7 +90,7 @@ def _over_the_rationals(system: ResidualSystem) -> ResidualSystem:
 
 
 def _integer_window(system: ResidualSystem, windows: int) -> tuple[Matrix, fmpz]:
-    """[O_s T_s] of (dA, dF, cC, cG), which is integral, and d.
+    """The result is [O_s T_s] of (dA, dF, cC, cG), which is integral, and d.
 
     Its row of sample k is c d^k times that of the system, with v(j) rescaled: kernel coefficients come back as N_k d^k.
     """
@@ -109,13 +111,13 @@ def _times(part: Matrix, factor: fmpz) -> Matrix:
 
 
 def _pivots_modulo(matrix: Matrix, prime: int) -> list[int]:
-    """Columns that make a square invertible matrix of a full-row-rank integer one, found modulo the prime."""
+    """These columns make a square invertible matrix of an integer one of full row rank; they are found modulo the prime."""
     numerators = matrix.flint.numer_denom()[0]
     return pivot_columns(nmod_mat(numerators, prime).rref()[0])
 
 
 def _solve(square: Matrix, target: Matrix) -> Any:
-    """The transposed solution of X square = target, by Dixon's p-adic lifting [D82]."""
+    """The result is the transposed solution of X square = target, by Dixon's p-adic lifting [D82]."""
     if square.nrows == 0:
         return flint.fmpq_mat(0, target.nrows)
     return square.flint.transpose().solve(target.flint.transpose(), "dixon")

@@ -12,25 +12,63 @@ R_s = [O_s T_s] [X; V_s], so where [X; V_s] has full row rank the data say all t
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, left_null_space, rank, stacked
+from ..algebra.notation import named_matrix
 from ..system.systems import ResidualSystem
 from .fault_columns import from_kernel_rows
 
 
-@dataclass(frozen=True)
-class Trajectory:
-    """States x(0..N) as (N+1) x n, faults v(0..N-1) as N x m, residuals r(0..N-1) as N x p."""
+@dataclass(frozen=True, repr=False)
+class Trajectory(Shown):
+    """This is a trajectory of N steps: `states` x(0..N), (N+1) x n, `faults` v(0..N-1), N x m, and `residuals` r(0..N-1), N x p.
+
+    `simulate` makes it; time runs down the rows, and all three are over the field of the system. Source: [G25] section IV for what data it
+    stands for. Raises nothing by itself.
+
+    >>> from faultspace.exact import Matrix, ResidualSystem, simulate
+    >>> found = simulate(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), x0=Matrix.of([[4]]), v=Matrix.of([[0], [0]]))
+    >>> found.states, found.residuals
+    ([[4], [2], [1]], [[4], [2]])
+    """
 
     states: Matrix
     faults: Matrix
     residuals: Matrix
 
+    @property
+    def title(self) -> str:
+        """This says how long the trajectory is, and how many states, faults and residuals it has."""
+        return f"{self.faults.nrows} steps, {self.states.ncols} states, {self.faults.ncols} faults, {self.residuals.ncols} residuals"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the three signals, a line a sample; of long ones the middle is left out."""
+        yield from named_matrix("x(k)", self.states)
+        yield from named_matrix("v(k)", self.faults)
+        yield from named_matrix("r(k)", self.residuals)
+
+    def to_json(self) -> dict[str, Any]:
+        """Each signal is a list with one row a sample."""
+        return {"x": self.states.to_json(), "v": self.faults.to_json(), "r": self.residuals.to_json()}
+
 
 def simulate(system: ResidualSystem, x0: Matrix, v: Matrix) -> Trajectory:
-    """The trajectory from x0 (n x 1) under v (N x m). Raises InvalidInput when a shape does not fit."""
+    """The result is the exact trajectory of a residual system from x0 (n x 1) under the fault v (N x m, time down the rows).
+
+    x0 and v are of type Matrix over the field of the system. Source: [G25] section IV.
+
+    Raises InvalidInput when a shape does not fit.
+
+    >>> from faultspace.exact import Matrix, ResidualSystem, simulate
+    >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
+    >>> simulate(system, x0=Matrix.of([[0]]), v=Matrix.of([[1], [0], [0]])).residuals
+    [[0], [1], [1/2]]
+    """
     if x0.shape != (system.n, 1) or v.ncols != system.m:
         raise InvalidInput(f"x0, v: got {x0.shape} and {v.shape}, expected ({system.n}, 1) and (N, {system.m})")
     x = x0
@@ -44,7 +82,9 @@ def simulate(system: ResidualSystem, x0: Matrix, v: Matrix) -> Trajectory:
 
 
 def hankel(signal: Matrix, s: int) -> Matrix:
-    """The block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N < s."""
+    """The result is the block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N <
+    s.
+    """
     if not 0 <= s <= signal.nrows:
         raise InvalidInput(f"window: got {s} with {signal.nrows} samples, expected 0 <= window <= samples")
     columns = signal.nrows - s + 1
@@ -53,13 +93,13 @@ def hankel(signal: Matrix, s: int) -> Matrix:
 
 
 def excitation_matrix(trajectory: Trajectory, s: int) -> Matrix:
-    """[X; V_s], (n + ms) x (N - s + 1). Raises InvalidInput if there are fewer than s samples."""
+    """The result is [X; V_s], (n + ms) x (N - s + 1). Raises InvalidInput if there are fewer than s samples."""
     faults = hankel(trajectory.faults, s)
     return stacked(trajectory.states.rows(range(faults.ncols)).transposed(), faults)
 
 
 def persistency(signal: Matrix) -> int:
-    """The largest order s with a block Hankel matrix of full row rank (0 where there is none)."""
+    """The result is the largest order s with a block Hankel matrix of full row rank, which is 0 where there is none."""
     order = 0
     while order < signal.nrows and rank(hankel(signal, order + 1)) == signal.ncols * (order + 1):
         order += 1
@@ -69,7 +109,21 @@ def persistency(signal: Matrix) -> int:
 
 
 def data_fault_space(residuals: Matrix, A: Matrix, C: Matrix, s: int) -> Matrix:
-    """Basis rows [f' g'] of problem (11) with N_s the left null space of R_s; residuals N x p. Raises InvalidInput if N < s."""
+    """The result is the fault space as data tell it: problem (11) with the left null space of their Hankel matrix for kernel rows.
+
+    `residuals` is N x p (time down the rows), A is n x n, C is p x n, all of one field, and s is a number of samples. The rows [f' g'] of
+    the result, n_z x (n + p), are in reduced row echelon form. Where [X; V_s] has full row rank they are those of `fault_space` at window
+    s; a fault that excites less leaves more null rows, and then a smaller space. Source: [G25] problem (11) and section IV, [WRMM05] for
+    excitation.
+
+    Raises InvalidInput if there are fewer than s samples.
+
+    >>> from faultspace.exact import Matrix, ResidualSystem, data_fault_space, simulate
+    >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1], [0]], [[0], [0]])
+    >>> data = simulate(system, x0=Matrix.of([[1]]), v=Matrix.of([[1], [0], [0], [1], [1], [0], [1]]))
+    >>> data_fault_space(data.residuals, system.A, system.C, s=2)
+    [[1, 0, 0], [0, 1, 0]]
+    """
     null = left_null_space(hankel(residuals, s))
     p = residuals.ncols
     rows = [

@@ -29,26 +29,26 @@ class ZeroOutputChain:
     last_subspace: Matrix
 
     def gap(self, k: int) -> int:
-        """rank [O_(k+1) T_(k+1)] - rank [O_k T_k]."""
+        """The result is rank [O_(k+1) T_(k+1)] - rank [O_k T_k]."""
         return len(self.profiles[min(k, len(self.profiles) - 1)])
 
     def rank(self, s: int) -> int:
-        """rank [O_s T_s] (from rest: rank T_s)."""
+        """The result is rank [O_s T_s], from rest rank T_s."""
         return sum(self.gap(k) for k in range(s))
 
     @property
     def final_gap(self) -> int:
-        """The gap of all large windows: the normal rank."""
+        """This is the gap of all large windows: the normal rank."""
         return len(self.profiles[-1])
 
 
 def zero_output_chain(system: ResidualSystem) -> ZeroOutputChain:
-    """The chain from W_0 = K^n. `last_subspace` is W_n, a column basis."""
+    """The chain starts from W_0 = K^n; `last_subspace` is W_n, a column basis."""
     return _chain(system, Matrix.identity(system.field, system.n))
 
 
 def chain_from_rest(system: ResidualSystem) -> ZeroOutputChain:
-    """The chain from W_0 = 0, whose ranks are those of T_s. `last_subspace` is the smallest strongly reachable subspace S*."""
+    """The chain starts from W_0 = 0, and its ranks are those of T_s; `last_subspace` is the smallest strongly reachable subspace S*."""
     return _chain(system, Matrix.zero(system.field, system.n, 0))
 
 

@@ -40,7 +40,7 @@ def primes_below(start: int) -> Iterator[int]:
 
 
 def image(system: ResidualSystem, *, largest: int = LARGEST_PRIME) -> Image:
-    """The image at the largest good prime up to `largest`: no denominator vanishes, and f has a simple root."""
+    """The result is the image at the largest good prime up to `largest`: no denominator vanishes, and f has a simple root."""
     if isinstance(system.field, PrimeField):
         return Image(system, system.field.p, None)
     for prime in primes_below(largest):
@@ -54,7 +54,7 @@ def image(system: ResidualSystem, *, largest: int = LARGEST_PRIME) -> Image:
 
 
 def simple_root(field: NumberField, prime: int) -> int | None:
-    """A simple root of the minimal polynomial modulo the prime, or None where it has none."""
+    """The result is a simple root of the minimal polynomial modulo the prime, or None where it has none."""
     coefficients = [int(c) for c in field.integer_polynomial.coeffs()]
     if coefficients[-1] % prime == 0 or any(c.denominator % prime == 0 for c in field.minimal_polynomial):
         return None
@@ -64,7 +64,7 @@ def simple_root(field: NumberField, prime: int) -> int | None:
 
 
 def reduce_matrix(matrix: Matrix, prime: int, root: int | None) -> Matrix | None:
-    """The matrix modulo the prime, a going to the root; None when a denominator vanishes."""
+    """The result is the matrix modulo the prime, a going to the root; None when a denominator vanishes."""
     target = PrimeField(prime)
     rows: list[list[Any]] = []
     for row in matrix.elements():
@@ -79,7 +79,7 @@ def reduce_matrix(matrix: Matrix, prime: int, root: int | None) -> Matrix | None
 
 
 def reduce_element(x: Any, field: Any, prime: int, root: int | None) -> int | None:
-    """One element modulo the prime as an integer in 0..prime-1; None when a denominator vanishes."""
+    """The result is one element modulo the prime as an integer in 0..prime-1; None when a denominator vanishes."""
     coordinates = field.coordinates(x) if isinstance(field, NumberField) else [x]
     value = 0
     for c in reversed(coordinates):

@@ -2,8 +2,8 @@
 
     ResidualSystem     x(k+1) = A x + F v,        r = C x + G v        n states, m faults, p outputs
     FaultySystem       x(k+1) = A x + B u + F v,  y = C x + D u + G v  the same with nu inputs; `.residual` forgets them
-    System             either, from matrices
-    read_system        either, from the dict of an exact file
+    System             either; called with matrices, it makes one of the two
+    read_system        one of the two, from the dict of an exact file
     from_float_exactly a float as the dyadic rational that it is (the only way in for floats)
 
 In JSON the matrices are "A", "F", "C", "G" ("B", "D"), the field "field", and with a zero dimension "n", "m", "p" ("nu") are required.
@@ -11,26 +11,129 @@ In JSON the matrices are "A", "F", "C", "G" ("B", "D"), the field "field", and w
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any
 
-import sympy
-
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown
 from ..algebra.fields import QQ, Field, field_from_json
 from ..algebra.matrices import Matrix
-from ..algebra.notation import field_words
+from ..algebra.notation import field_words, named_matrix
 from ..algebra.validation import MAX_DIMENSION
 
 
-@dataclass(frozen=True)
-class ResidualSystem:
-    """x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k), exact over one field.
+class System(Shown):
+    """This is the exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs, n_u inputs u.
 
-    A is n x n, F n x m, C p x n, G p x m, of type Matrix over the same field. `ResidualSystem.of` takes nested lists,
-    sympy matrices and so on. Raises InvalidInput when shapes or fields do not agree, or n + m + p > 512.
+    A is n x n, F n x m, C p x n, G p x m, B n x n_u, D p x n_u: nested lists of integers, strings such as "1/2" and Fractions, or sympy
+    matrices. Floats are refused, because a measured float has no exact zeros; `faultspace.exact.from_float_exactly` takes one as it is.
+    `field` is "Q", {"prime": 3}, {"minimal_polynomial": ["-2", "0", "1"]} for Q(sqrt 2), or a field of `faultspace.exact`. The sizes n, m
+    and p are needed where a dimension is zero. There are two kinds of System: the call gives a FaultySystem where B and D are given, else
+    a ResidualSystem, which has no inputs.
+
+    Raises InvalidInput when shapes or fields do not agree, for entries that are not exact, and for one of B and D without the other.
+
+    >>> import faultspace as fs
+    >>> system = fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]])
+    >>> isinstance(system, fs.System), type(system).__name__, system.sizes
+    (True, 'ResidualSystem', '1 state, 1 fault, 1 output, over Q')
+    >>> try:
+    ...     fs.System(A=[[0.5]], F=[[1]], C=[[1]], G=[[0]])
+    ... except fs.errors.InvalidInput as error:
+    ...     print(error)
+    A[0][0]: got 0.5, expected a rational string such as "-3/4" (floats are not exact; see from_float_exactly)
+    """
+
+    residual: ResidualSystem
+
+    # Both kinds have a `__new__` and no `__init__`, as the paths of pathlib do: Python runs `__init__` again on what this one returns.
+    def __new__(
+        cls,
+        A: object,
+        F: object,
+        C: object,
+        G: object,
+        *,
+        B: object = None,
+        D: object = None,
+        field: Field | str | Mapping[str, Any] = QQ,
+        n: int | None = None,
+        m: int | None = None,
+        p: int | None = None,
+    ) -> System:
+        if isinstance(field, (str, Mapping)):
+            field = field_from_json(field)
+        if (B is None) != (D is None):
+            raise InvalidInput("got only one of B and D, expected both or neither")
+        system = ResidualSystem.of(A, F, C, G, field=field, n=n, m=m, p=p)
+        if B is None:
+            return system
+        return _with_inputs(system, B, D, _dimension("n_u", None, (B, 1), (D, 1)), "n_u")
+
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        return tuple(getattr(self, one.name) for one in fields(self))  # type: ignore[arg-type]
+
+    @property
+    def field(self) -> Field:
+        """This is the field of the entries."""
+        return self.residual.A.field
+
+    @property
+    def n(self) -> int:
+        """n is the number of states."""
+        return self.residual.A.nrows
+
+    @property
+    def m(self) -> int:
+        """m is the number of faults."""
+        return self.residual.F.ncols
+
+    @property
+    def p(self) -> int:
+        """p is the number of outputs."""
+        return self.residual.C.nrows
+
+    @property
+    def sizes(self) -> str:
+        """This says how many states, faults and outputs there are, and over which field."""
+        return f"{counted(self.n, 'state')}, {counted(self.m, 'fault')}, {counted(self.p, 'output')}, over {field_words(self.field)}"
+
+    @property
+    def title(self) -> str:
+        """This is the same as `sizes`."""
+        return self.sizes
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the matrices."""
+        for name in "AFCG":
+            yield from named_matrix(name, getattr(self.residual, name))
+
+    def to_json(self) -> dict[str, Any]:
+        """The result is the dict that exact files hold."""
+        result: dict[str, Any] = {} if self.field == QQ else {"field": self.field.to_json()}
+        if 0 in (self.n, self.m, self.p):
+            result |= {"n": self.n, "m": self.m, "p": self.p}
+        return result | {name: getattr(self.residual, name).to_json() for name in "AFCG"}
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class ResidualSystem(System):
+    """This is the system x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k) without inputs, exact over one field.
+
+    A is n x n, F n x m, C p x n, G p x m, of type Matrix over the same field; `ResidualSystem.of` takes nested lists, sympy matrices and
+    so on. Two systems are equal where their matrices are, and they can be pickled and used as keys.
+
+    Raises InvalidInput when shapes or fields do not agree, or n + m + p > 512.
+
+    >>> from faultspace.exact import Matrix, ResidualSystem
+    >>> half, one = Matrix.of([["1/2"]]), Matrix.of([[1]])
+    >>> system = ResidualSystem(A=half, F=one, C=one, G=Matrix.of([[0]]))
+    >>> print(system)
+    A=[[1/2]], F=[[1]], C=[[1]], G=[[0]]
+    >>> system == ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
+    True
     """
 
     A: Matrix
@@ -38,12 +141,14 @@ class ResidualSystem:
     C: Matrix
     G: Matrix
 
-    def __post_init__(self) -> None:
-        n, m, p = self.A.nrows, self.F.ncols, self.C.nrows
-        for name, matrix, shape in (("A", self.A, (n, n)), ("F", self.F, (n, m)), ("C", self.C, (p, n)), ("G", self.G, (p, m))):
-            _agree(name, matrix, shape, self.A.field)
-        if n + m + p > MAX_DIMENSION:
-            raise InvalidInput(f"n + m + p: got {n + m + p}, at most {MAX_DIMENSION} is supported")
+    def __new__(cls, A: Matrix, F: Matrix, C: Matrix, G: Matrix) -> ResidualSystem:
+        n, m, p = A.nrows, F.ncols, C.nrows
+        self = object.__new__(cls)
+        for name, matrix, shape in (("A", A, (n, n)), ("F", F, (n, m)), ("C", C, (p, n)), ("G", G, (p, m))):
+            _agree(name, matrix, shape, A.field)
+            object.__setattr__(self, name, matrix)
+        _supported("n + m + p", n + m + p)
+        return self
 
     @staticmethod
     def of(
@@ -57,7 +162,7 @@ class ResidualSystem:
         m: int | None = None,
         p: int | None = None,
     ) -> ResidualSystem:
-        """The system with these matrices (nested lists of integers, rational strings, Fractions; sympy matrices).
+        """This makes the system with these matrices (nested lists of integers, rational strings, Fractions; sympy matrices).
 
         n, m, p are needed where a dimension is zero. Raises InvalidInput.
         """
@@ -65,149 +170,104 @@ class ResidualSystem:
         n = _dimension("n", n, (A, 0), (A, 1), (F, 0), (C, 1))
         m = _dimension("m", m, (F, 1), (G, 1))
         p = _dimension("p", p, (C, 0), (G, 0))
-        if n + m + p > MAX_DIMENSION:
-            raise InvalidInput(f"n + m + p: got {n + m + p}, at most {MAX_DIMENSION} is supported")
+        _supported("n + m + p", n + m + p)
         shapes = {"A": (n, n), "F": (n, m), "C": (p, n), "G": (p, m)}
         return ResidualSystem(**{k: Matrix.of(given[k], field, shape=shapes[k], where=k) for k in shapes})
 
     @property
-    def field(self) -> Field:
-        """The field of the entries."""
-        return self.A.field
-
-    @property
-    def n(self) -> int:
-        """Number of states."""
-        return self.A.nrows
-
-    @property
-    def m(self) -> int:
-        """Number of faults."""
-        return self.F.ncols
-
-    @property
-    def p(self) -> int:
-        """Number of outputs."""
-        return self.C.nrows
-
-    @property
-    def residual(self) -> ResidualSystem:
-        """The system itself: what FaultySystem.residual is for a system with inputs."""
+    def residual(self) -> ResidualSystem:  # type: ignore[override]
+        """This is the system itself: what FaultySystem.residual is for a system with inputs."""
         return self
 
-    @property
-    def sizes(self) -> str:
-        """How many states, faults and outputs, over which field, in words."""
-        return f"{counted(self.n, 'state')}, {counted(self.m, 'fault')}, {counted(self.p, 'output')}, over {field_words(self.field)}"
-
     def transposed(self) -> ResidualSystem:
-        """(A', C', F', G'): its pencil is the transpose, its left minimal indices are the right ones of this system."""
+        """The result is (A', C', F', G'): its pencil is the transpose, and its left minimal indices are the right ones of this system."""
         return ResidualSystem(self.A.transposed(), self.C.transposed(), self.F.transposed(), self.G.transposed())
 
     def with_faults(self, F: Matrix, G: Matrix) -> ResidualSystem:
-        """The system with the same A, C and other fault matrices (n x m', p x m')."""
+        """The result has the same A, C and other fault matrices (n x m', p x m')."""
         return ResidualSystem(self.A, F, self.C, G)
-
-    def to_json(self) -> dict[str, Any]:
-        """The dict that exact files hold."""
-        result: dict[str, Any] = {} if self.field == QQ else {"field": self.field.to_json()}
-        if 0 in (self.n, self.m, self.p):
-            result |= {"n": self.n, "m": self.m, "p": self.p}
-        return result | {name: getattr(self, name).to_json() for name in "AFCG"}
 
     def __str__(self) -> str:
         where = "" if self.field == QQ else f" over {self.field}"
         return f"A={self.A}, F={self.F}, C={self.C}, G={self.G}{where}"
 
 
-@dataclass(frozen=True)
-class FaultySystem:
-    """A ResidualSystem with inputs: B is n x nu, D is p x nu. Raises InvalidInput when shapes or fields do not agree."""
+@dataclass(frozen=True, init=False, repr=False)
+class FaultySystem(System):
+    """This is the system x(k+1) = A x + B u + F v, y = C x + D u + G v: a ResidualSystem `residual` with n_u inputs u.
+
+    B is n x n_u and D p x n_u, of type Matrix over the field of the residual system; `System` takes nested lists. The inputs are known, so
+    that everything about faults is a matter of `residual`, and all functions that take a system take either kind.
+
+    Raises InvalidInput when shapes or fields do not agree.
+
+    >>> from faultspace.exact import FaultySystem, Matrix, ResidualSystem
+    >>> one = Matrix.of([[1]])
+    >>> system = FaultySystem(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), B=one, D=one)
+    >>> system.sizes
+    '1 state, 1 fault, 1 output, 1 input, over Q'
+    >>> system.to_json()["B"], system.nu
+    ([['1']], 1)
+    """
 
     residual: ResidualSystem
     B: Matrix
     D: Matrix
 
-    def __post_init__(self) -> None:
-        nu = self.B.ncols
-        _agree("B", self.B, (self.residual.n, nu), self.residual.field)
-        _agree("D", self.D, (self.residual.p, nu), self.residual.field)
-
-    @property
-    def field(self) -> Field:
-        """The field of the entries."""
-        return self.residual.field
+    def __new__(cls, residual: ResidualSystem, B: Matrix, D: Matrix) -> FaultySystem:
+        _agree("B", B, (residual.n, B.ncols), residual.field)
+        _agree("D", D, (residual.p, B.ncols), residual.field)
+        self = object.__new__(cls)
+        for name, part in (("residual", residual), ("B", B), ("D", D)):
+            object.__setattr__(self, name, part)
+        return self
 
     @property
     def nu(self) -> int:
-        """Number of inputs."""
+        """nu is the number of inputs."""
         return self.B.ncols
 
     @property
     def sizes(self) -> str:
-        """How many states, faults, outputs and inputs, over which field, in words."""
-        one, _, over = self.residual.sizes.rpartition(", over ")
+        """This says how many states, faults, outputs and inputs there are, and over which field."""
+        one, _, over = super().sizes.rpartition(", over ")
         return f"{one}, {counted(self.nu, 'input')}, over {over}"
 
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The pairs are the matrices, those of the inputs last."""
+        yield from super().sheet()
+        yield from named_matrix("B", self.B)
+        yield from named_matrix("D", self.D)
+
     def to_json(self) -> dict[str, Any]:
-        """The dict that exact files hold."""
-        result = self.residual.to_json()
+        """The result is the dict that exact files hold."""
+        result = super().to_json()
         if self.nu == 0 or "n" in result:
-            result |= {"n": self.residual.n, "m": self.residual.m, "p": self.residual.p, "nu": self.nu}
+            result |= {"n": self.n, "m": self.m, "p": self.p, "nu": self.nu}
         return result | {"B": self.B.to_json(), "D": self.D.to_json()}
 
 
-def System(
-    A: object,
-    F: object,
-    C: object,
-    G: object,
-    *,
-    B: object = None,
-    D: object = None,
-    field: Field | str | Mapping[str, Any] = QQ,
-    n: int | None = None,
-    m: int | None = None,
-    p: int | None = None,
-) -> ResidualSystem | FaultySystem:
-    """The exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs and n_u inputs u.
-
-    A is n x n, F n x m, C p x n, G p x m, B n x n_u, D p x n_u: nested lists of integers, strings such as "1/2" and Fractions, or sympy
-    matrices. Floats are refused, because a measured float has no exact zeros; `faultspace.exact.from_float_exactly` takes one as it is.
-    `field` is "Q", {"prime": 3}, {"minimal_polynomial": ["-2", "0", "1"]} for Q(sqrt 2), or a field of `faultspace.exact`. The sizes n, m
-    and p are needed where a dimension is zero. The result is a FaultySystem where B and D are given, else a ResidualSystem without inputs.
-
-    Raises InvalidInput when shapes or fields do not agree, for entries that are not exact, and for one of B and D without the other.
-
-    >>> import faultspace as fs
-    >>> print(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]).sizes)
-    1 state, 1 fault, 1 output, over Q
-    >>> try:
-    ...     fs.System(A=[[0.5]], F=[[1]], C=[[1]], G=[[0]])
-    ... except fs.errors.InvalidInput as error:
-    ...     print(error)
-    A[0][0]: got 0.5, expected a rational string such as "-3/4" (floats are not exact; see from_float_exactly)
-    """
-    if isinstance(field, (str, Mapping)):
-        field = field_from_json(field)
-    if (B is None) != (D is None):
-        raise InvalidInput("got only one of B and D, expected both or neither")
-    system = ResidualSystem.of(A, F, C, G, field=field, n=n, m=m, p=p)
-    if B is None:
-        return system
-    nu = _dimension("n_u", None, (B, 1), (D, 1))
-    if nu > MAX_DIMENSION:
-        raise InvalidInput(f"n_u: got {nu}, at most {MAX_DIMENSION} is supported")
-    return FaultySystem(system, Matrix.of(B, field, shape=(system.n, nu), where="B"), Matrix.of(D, field, shape=(system.p, nu), where="D"))
-
-
 def counted(count: int, word: str) -> str:
-    """The number with the word in its singular or plural: "1 state", "2 states"."""
+    """The result is the number with the word in its singular or plural: "1 state", "2 states"."""
     return f"{count} {word}{'' if count == 1 else 's'}"
 
 
-def read_system(data: object, *, where: str = "system") -> ResidualSystem | FaultySystem:
-    """The system that the dict of an exact file holds. Raises InvalidInput with one line naming the place."""
+def read_system(data: object, *, where: str = "system") -> System:
+    """The result is the System that the dict of an exact file holds; `where` is how messages call it.
+
+    The dict has "A" (n x n), "F" (n x m), "C" (p x n), "G" (p x m), each a list of rows, and may have "B" and "D" together, "field", and
+    the sizes "n", "m", "p" and "nu", which are required where one of them is zero. Entries are integers and rational strings, over Q(a)
+    also lists of such. n + m + p is at most 512.
+
+    Raises InvalidInput with one line that names the place and says what was got and what is needed.
+
+    >>> from faultspace.exact import read_system
+    >>> print(read_system({"A": [["1/2"]], "F": [[1]], "C": [[1]], "G": [[0]]}))
+    A=[[1/2]], F=[[1]], C=[[1]], G=[[0]]
+    >>> read_system({"A": [["1/2"]], "F": [[1]], "C": [[1]]})
+    Traceback (most recent call last):
+    faultspace.base.errors.InvalidInput: system: key "G" is missing
+    """
     if not isinstance(data, Mapping):
         raise InvalidInput(f"{where}: got {shorten(data)}, expected an object with A, F, C, G")
     unknown = sorted(set(map(str, data)) - {"A", "F", "C", "G", "B", "D", "field", "n", "m", "p", "nu"})
@@ -225,11 +285,7 @@ def read_system(data: object, *, where: str = "system") -> ResidualSystem | Faul
         system = _read_residual(data, field)
         if "B" not in data:
             return system
-        nu = _dimension("nu", data.get("nu"), (data["B"], 1), (data["D"], 1))
-        if nu > MAX_DIMENSION:
-            raise InvalidInput(f"nu: got {nu}, at most {MAX_DIMENSION} is supported")
-        B = Matrix.of(data["B"], field, shape=(system.n, nu), where="B")
-        return FaultySystem(system, B, Matrix.of(data["D"], field, shape=(system.p, nu), where="D"))
+        return _with_inputs(system, data["B"], data["D"], _dimension("nu", data.get("nu"), (data["B"], 1), (data["D"], 1)), "nu")
     except InvalidInput as error:
         raise InvalidInput(f"{where}.{error}") from None
 
@@ -250,10 +306,31 @@ def _read_residual(data: Mapping[str, Any], field: Field) -> ResidualSystem:
 
 
 def from_float_exactly(value: float, *, where: str = "entry") -> Fraction:
-    """The dyadic rational that a finite float is. Raises InvalidInput for NaN and infinities."""
+    """The result is the dyadic rational that a finite float is, of type Fraction: the only way in for floats.
+
+    A float that was measured or rounded has no exact zeros, so that an answer about the result is one about those digits; `where` is how
+    messages call the number.
+
+    Raises InvalidInput for NaN, infinities and anything that is no number.
+
+    >>> from faultspace.exact import from_float_exactly
+    >>> from_float_exactly(0.5), from_float_exactly(0.1)
+    (Fraction(1, 2), Fraction(3602879701896397, 36028797018963968))
+    """
     if not isinstance(value, (int, float)) or isinstance(value, bool) or value != value or value in (float("inf"), float("-inf")):
         raise InvalidInput(f"{where}: got {shorten(value)}, expected a finite float")
     return Fraction(value)
+
+
+def _with_inputs(system: ResidualSystem, B: object, D: object, nu: int, name: str) -> FaultySystem:
+    _supported(name, nu)
+    B = Matrix.of(B, system.field, shape=(system.n, nu), where="B")
+    return FaultySystem(system, B, Matrix.of(D, system.field, shape=(system.p, nu), where="D"))
+
+
+def _supported(name: str, size: int) -> None:
+    if size > MAX_DIMENSION:
+        raise InvalidInput(f"{name}: got {size}, at most {MAX_DIMENSION} is supported")
 
 
 def _agree(name: str, matrix: Matrix, shape: tuple[int, int], field: Field) -> None:
@@ -264,7 +341,7 @@ def _agree(name: str, matrix: Matrix, shape: tuple[int, int], field: Field) -> N
 
 
 def _dimension(name: str, given: object, *places: tuple[object, int]) -> int:
-    """The stated dimension, or the one that the first matrix with entries shows."""
+    """The result is the stated dimension, or the one that the first matrix with entries shows."""
     if given is not None:
         if type(given) is not int or given < 0:
             raise InvalidInput(f"{name}: got {shorten(given)}, expected an integer >= 0")
@@ -277,10 +354,12 @@ def _dimension(name: str, given: object, *places: tuple[object, int]) -> int:
 
 
 def _extent(entries: object, axis: int) -> int | None:
-    """Rows (axis 0) or columns (axis 1) of nested lists or a matrix; None where an empty list does not tell."""
+    """The result is the number of rows (axis 0) or columns (axis 1) of nested lists or a matrix; it is None where an empty list does not
+    tell.
+    """
     if isinstance(entries, (Matrix,)):
         return entries.shape[axis]
-    if isinstance(entries, sympy.MatrixBase) or hasattr(entries, "shape"):
+    if hasattr(entries, "shape"):
         return int(entries.shape[axis])
     if isinstance(entries, (list, tuple)) and entries:
         if axis == 0:

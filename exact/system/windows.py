@@ -1,20 +1,28 @@
-"""The matrices of a window of s samples, built in full: definitions, and the slow obvious oracle for every fast rank.
+"""The matrices of a window of s samples, built in full as they are defined.
 
 observability_matrix   O_s, s block rows C, CA, ..., CA^(s-1)                        ps x n
 toeplitz_matrix        T_s, G on the diagonal, C A^(i-j-1) F below                    ps x ms
 window_matrix          [O_s T_s], from (x(0), v(0), ..., v(s-1)) to the samples        ps x (n + ms)
 reachability_matrix    [F, AF, ..., A^(n-1) F]                                         n x nm
-rank_of_every_window   ranks for s = 1..windows from the built matrices: compare with zero_output, never use at size
 """
 
 from __future__ import annotations
 
-from ..algebra.matrices import Matrix, beside, rank, stacked
+from ..algebra.matrices import Matrix, beside, stacked
 from .systems import ResidualSystem
 
 
 def observability_matrix(system: ResidualSystem, s: int) -> Matrix:
-    """O_s, ps x n."""
+    """The result is O_s, of shape p s x n: the s block rows C, C A, ..., C A^(s-1), which take x(0) to the outputs of s samples.
+
+    `system` is a ResidualSystem with n states and p outputs. Source: [G25] Theorem 2 after [SB21]; [K80].
+
+    Raises nothing for s >= 0; O_0 has no rows.
+
+    >>> from faultspace.exact import ResidualSystem, observability_matrix
+    >>> observability_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 3)
+    [[1], [1/2], [1/4]]
+    """
     blocks = [Matrix.zero(system.field, 0, system.n)]
     row = system.C
     for _ in range(s):
@@ -24,7 +32,16 @@ def observability_matrix(system: ResidualSystem, s: int) -> Matrix:
 
 
 def toeplitz_matrix(system: ResidualSystem, s: int) -> Matrix:
-    """T_s, ps x ms: the response to the fault from rest."""
+    """The result is T_s, of shape p s x m s: G on the diagonal and C A^(i-j-1) F below, the response to the fault from rest.
+
+    `system` is a ResidualSystem with m faults and p outputs. Source: [G25] Theorem 2 after [SB21].
+
+    Raises nothing for s >= 0; T_0 is empty.
+
+    >>> from faultspace.exact import ResidualSystem, toeplitz_matrix
+    >>> toeplitz_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 3)
+    [[0, 0, 0], [1, 0, 0], [1/2, 1, 0]]
+    """
     markov = [system.G]
     state = system.F
     for _ in range(1, s):
@@ -36,20 +53,35 @@ def toeplitz_matrix(system: ResidualSystem, s: int) -> Matrix:
 
 
 def window_matrix(system: ResidualSystem, s: int) -> Matrix:
-    """[O_s T_s], ps x (n + ms): its column space is the restricted behaviour on s samples."""
+    """The result is [O_s T_s], of shape p s x (n + m s): its column space is the set of outputs that s samples can show.
+
+    It takes (x(0), v(0), ..., v(s-1)) to (r(0), ..., r(s-1)). `system` is a ResidualSystem; for ranks at many s ask
+    `kernel_representation(system).rank`, which builds no such matrix. Source: [G25] Theorem 2 after [SB21].
+
+    Raises nothing for s >= 0.
+
+    >>> from faultspace.exact import ResidualSystem, rank, window_matrix
+    >>> built = window_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 2)
+    >>> built, rank(built)
+    ([[1, 0, 0], [1/2, 1, 0]], 2)
+    """
     return beside(observability_matrix(system, s), toeplitz_matrix(system, s))
 
 
 def reachability_matrix(system: ResidualSystem) -> Matrix:
-    """[F, AF, ..., A^(n-1) F], n x nm."""
+    """The result is [F, A F, ..., A^(n-1) F], of shape n x n m: its column space is what the fault can reach from rest.
+
+    `system` is a ResidualSystem with n states and m faults; (A, F) is controllable iff the rank is n. Source: [K80].
+
+    Raises nothing for a ResidualSystem.
+
+    >>> from faultspace.exact import ResidualSystem, reachability_matrix
+    >>> reachability_matrix(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]]))
+    [[0, 1], [1, 0]]
+    """
     blocks = [Matrix.zero(system.field, system.n, 0)]
     column = system.F
     for _ in range(system.n):
         blocks.append(column)
         column = system.A @ column
     return beside(*blocks)
-
-
-def rank_of_every_window(system: ResidualSystem, windows: int) -> tuple[int, ...]:
-    """rank [O_s T_s] for s = 1..windows by elimination of each built matrix."""
-    return tuple(rank(window_matrix(system, s)) for s in range(1, windows + 1))

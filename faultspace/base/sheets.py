@@ -22,7 +22,7 @@ def line(name: str, value: str) -> str:
 
 
 class Shown(ABC):
-    """A record that can be read by people."""
+    """People can read the record: as text, as a line, as a table."""
 
     @property
     @abstractmethod
@@ -31,7 +31,7 @@ class Shown(ABC):
 
     @abstractmethod
     def sheet(self) -> Sheet:
-        """What there is to say of it."""
+        """These pairs are what there is to say of the record."""
 
     def summary(self) -> str:
         """The record in words: the title, then a line for each pair of the sheet. It is what the command of the same name prints."""
@@ -41,7 +41,7 @@ class Shown(ABC):
         return f"<{type(self).__name__}: {self.title}>"
 
     def _repr_html_(self) -> str:
-        """The sheet as a table, for notebooks."""
+        """Notebooks show the sheet as this table."""
         rows = "".join(
             f"<tr><td>{escape(name)}</td><td style='white-space: pre; text-align: left'>{escape(value)}</td></tr>"
             if value

@@ -1,4 +1,4 @@
-"""`faultspace check`: certificates through the checker, which decides alone; here they are only opened and told about.
+"""`faultspace check`: certificates through the checker, which decides alone; here they are only opened, and the answers shown.
 
 run          the command's body
 --rocq       besides, what Rocq's kernel makes of the certificates that the checker has verified
@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from typing import Any
 
 from rich.console import Console
 from rich.text import Text
 
 from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path
+from ..proofs.checking import CheckedFile, ask_rocq, check_file
 from ..proofs.trust import checker
 from .consoles import answers, print_json
 from .failures import NOT_AS_EXPECTED, say
@@ -32,76 +32,46 @@ def run(names: Sequence[str], *, systems: Sequence[str], rocq: bool = False, as_
     """
     insisted = [_system(name) for name in systems]
     console = answers()
-    results: list[dict[str, Any]] = []
+    files: list[CheckedFile] = []
     for name in names:
         with working(f"checking {quote_path(name)}"):
-            result = checker.judged(name, insisted)
-        results.append(result)
+            files.append(check_file(name, insisted))
         if not rocq:
-            _tell(console, result, as_json=as_json)
+            _show(console, files[-1], as_json=as_json)
     if rocq:
-        _add_rocq(results)
-        for result in results:
-            _tell(console, result, as_json=as_json)
+        files = _with_rocq(files)
+        for file in files:
+            _show(console, file, as_json=as_json)
     if as_json:
-        print_json(results)
-    code = checker.worst(result["result"] for result in results)
-    doubted = any(result["rocq"]["result"] != "accepted" for result in results if "rocq" in result)
+        print_json([file.to_json() for file in files])
+    code = checker.worst(file.result for file in files)
+    doubted = any(file.rocq is not None and file.rocq["result"] != "accepted" for file in files)
     return NOT_AS_EXPECTED if doubted and code != checker.CODES["malformed"] else code
 
 
-def _tell(console: Console, result: dict[str, Any], *, as_json: bool) -> None:
-    name = quote_path(result["file"])
-    if result["result"] == "malformed":
-        say(f"{name}: {result['reason']}")
-    elif not as_json:
-        heading = Text.assemble((result["result"], STYLES[result["result"]]), f"  {name}")
-        if "sha256" in result:
-            heading.append(f"  {result['kind']}, SHA-256 {result['sha256'][:12]}")
-        console.print(heading, soft_wrap=True)
-        console.print(Text("    " + (result.get("statement") or result["reason"])), soft_wrap=True)
-        for assumption in result.get("assumes", []):
-            console.print(Text(f"    assumed, not verified: {assumption}"), soft_wrap=True)
-        if "rocq" in result:
-            verdict = result["rocq"]["result"]
-            console.print(Text.assemble("    Rocq: ", (verdict, STYLES[verdict]), f", {result['rocq']['reason']}"), soft_wrap=True)
-
-
-def _add_rocq(results: list[dict[str, Any]]) -> None:
-    """What Rocq says of each certificate that parses, under the key "rocq"; it is asked about verified ones alone."""
-    from ..proofs.rocq.build import BrokenTheory, NoRocq
-    from ..proofs.rocq.recompute import recomputed
-
-    certificates, asked = [], []
-    for result in results:
-        if result["result"] == "rejected":
-            result["rocq"] = {"result": "not asked", "reason": "only what the checker has verified is handed to Rocq"}
-        elif result["result"] != "malformed":
-            certificate = _again(result)
-            if certificate is not None:
-                certificates.append(certificate)
-                asked.append(result)
+def _with_rocq(files: Sequence[CheckedFile]) -> list[CheckedFile]:
     try:
         with working("asking Rocq") as tell:
-            said = recomputed(certificates, tell)
-    except NoRocq as error:
-        raise InvalidInput(f"--rocq: {error}") from None
-    except BrokenTheory as error:
-        raise InvalidInput(f"--rocq: this version of Rocq does not compile the theory ({error})") from None
-    for result, one in zip(asked, said, strict=True):
-        result["rocq"] = {"result": one.result, "reason": one.reason}
+            return ask_rocq(files, tell)
+    except InvalidInput as error:
+        raise InvalidInput(f"--{error}") from None
 
 
-def _again(result: dict[str, Any]) -> Any:
-    """The certificate, which is not kept meanwhile; None, and "not asked", where the file holds another one now."""
-    try:
-        certificate = checker.load(result["file"])
-        if checker.sha256(certificate) == result["sha256"]:
-            return certificate
-    except (checker.Malformed, ValueError, TypeError, MemoryError):
-        pass
-    result["rocq"] = {"result": "not asked", "reason": "the file has changed since the checker has read it"}
-    return None
+def _show(console: Console, file: CheckedFile, *, as_json: bool) -> None:
+    answer, name = file.answer, quote_path(file.answer["file"])
+    if file.result == "malformed":
+        say(f"{name}: {answer['reason']}")
+    elif not as_json:
+        heading = Text.assemble((file.result, STYLES[file.result]), f"  {name}")
+        if "sha256" in answer:
+            heading.append(f"  {answer['kind']}, SHA-256 {answer['sha256'][:12]}")
+        console.print(heading, soft_wrap=True)
+        console.print(Text("    " + (answer.get("statement") or answer["reason"])), soft_wrap=True)
+        for assumption in answer.get("assumes", []):
+            console.print(Text(f"    assumed, not verified: {assumption}"), soft_wrap=True)
+        if file.rocq is not None:
+            verdict = file.rocq["result"]
+            console.print(Text.assemble("    Rocq: ", (verdict, STYLES[verdict]), f", {file.rocq['reason']}"), soft_wrap=True)
 
 
 def _system(name: str) -> checker.System:

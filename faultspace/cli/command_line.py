@@ -17,7 +17,7 @@ from typing import Annotated, Any, ParamSpec
 import typer
 
 from .. import __version__
-from .failures import BAD_INPUT, INTERRUPTED, guarded, say
+from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded, say
 
 Given = ParamSpec("Given")
 
@@ -25,7 +25,7 @@ app = typer.Typer(
     name="faultspace",
     help="Exact verdicts on the claims of a paper about systems with additive faults, and exact answers about your own system.",
     epilog="A SYSTEM is a JSON file, - for standard input, or example:NAME (see: faultspace examples). "
-    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input.",
+    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 70 an error of ours.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -36,14 +36,14 @@ _UsageError: type[Any] = typer.BadParameter.__bases__[0]
 
 
 class Effort(StrEnum):
-    """How long `verify` looks."""
+    """It says how long `verify` looks."""
 
     quick = "quick"
     full = "full"
 
 
 class Expected(StrEnum):
-    """What `compare` can be told to expect."""
+    """These are the answers that `compare` can be made to expect."""
 
     equivalent = "equivalent"
     different = "different"
@@ -66,6 +66,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         given = list(sys.argv[1:] if arguments is None else arguments)
         code = app(args=given, prog_name="faultspace", standalone_mode=False)
+        if code == INTERRUPTED:
+            say("interrupted")
         return code if isinstance(code, int) else 0
     except _UsageError as error:
         context = getattr(error, "ctx", None)
@@ -74,6 +76,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         say("interrupted")
         return INTERRUPTED
+    except Exception as error:  # before a command's body was reached
+        return asks_report(error)
 
 
 @app.callback(invoke_without_command=True)
@@ -119,9 +123,9 @@ def verify(
     verbose: Verbose = False,
     json: Json = False,
 ) -> int:
-    """Decide every claim: a line each, the long tables with -v, a page with --claim.
+    """Decide every claim of the paper.
 
-    Exit 0 if every verdict is the expected one, else 1.
+    A claim gets a line; -v adds the long tables, --claim prints a page of one. Exit 0 if every verdict is the expected one, else 1.
     """
     from . import verifying
 
@@ -139,7 +143,9 @@ def check(
     rocq: Annotated[bool, typer.Option("--rocq", help="Have Rocq's kernel recompute them, too; needs coqc with MathComp.")] = False,
     json: Json = False,
 ) -> int:
-    """Run the checker on certificates. Exit 0: all verified; 3: all verified, one or more under an assumption that is told; 1: one is
+    """Run the checker on certificates.
+
+    Exit 0: all verified; 3: all verified, one or more under an assumption that is told; 1: one is
     rejected, or not accepted by Rocq; 2: one does not parse.
     """
     from . import checking
@@ -153,9 +159,10 @@ def inspect(
     json: Json = False,
     floats_exactly: Floats = False,
 ) -> int:
-    """Everything about a system, exactly: indices, zeros, delays, window ranks, fault space.
+    """Tell everything about a system, exactly.
 
-    With --json one system gives an object, several an array of objects that also name their "file".
+    That is: indices, zeros, delays, window ranks, fault space. With --json one system gives an object, several an array of objects that
+    also name their "file".
     """
     from . import inspecting
 
@@ -171,9 +178,10 @@ def compare(
     json: Json = False,
     floats_exactly: Floats = False,
 ) -> int:
-    """Whether two systems make the same outputs.
+    """Tell whether two systems are equivalent.
 
-    If not: on how many samples they first differ, and a word that one makes and the other cannot. B and D play no part.
+    They are if they make the same outputs. If not, it tells on how many samples they first differ, and a word that one makes and the other
+    cannot. B and D play no part.
     """
     from . import comparing
 
@@ -189,9 +197,10 @@ def limit(
     json: Json = False,
     floats_exactly: Floats = False,
 ) -> int:
-    """What subspace identification converges to, exactly: PI-MOESP and PO-MOESP, for filtered white noise as input and fault.
+    """Tell what identification converges to.
 
-    An experiment is a system with B and D, the block rows "s" and "past", and "u_filter", "v_filter", "w_filter": matrices over lag.
+    The limits of PI-MOESP and PO-MOESP are exact, for filtered white noise as input and fault. An experiment is a system with B and D, the
+    block rows "s" and "past", and "u_filter", "v_filter", "w_filter": matrices over lag.
     """
     from . import limiting
 
@@ -213,9 +222,10 @@ def identify(
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
     json: Json = False,
 ) -> int:
-    """Model, fault dimension, fault space and fault signal from measured data; "undecided" where the data cannot tell.
+    """Find model and faults in measured data.
 
-    A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
+    That is: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell. A channel is a column's name; of
+    a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
     the matrix is called data.
     """
     from . import identifying
@@ -234,7 +244,10 @@ def monte_carlo(
     seed: Annotated[int, typer.Option(min=0, help="Equal seeds give equal results, whoever does the work.")] = 1907,
     json: Json = False,
 ) -> int:
-    """The paper's Monte Carlo study: as published with its vacuous cases marked, as corrected, each with true and identified model."""
+    """Repeat the paper's Monte Carlo study.
+
+    It is run as published, with its vacuous cases marked, and as corrected, each with the true and with an identified model.
+    """
     from . import studying
 
     return studying.run(systems=systems, samples=samples, jobs=jobs, cluster=dask, seed=seed, out=out, as_json=json)
@@ -259,9 +272,10 @@ def audit(
     verbose: Verbose = False,
     json: Json = False,
 ) -> int:
-    """Put a numeric implementation through checks whose answers are known exactly. Exit 1 if a must is not met.
+    """Put an implementation through checks.
 
-    The adapter has some of: identify, residual, window_ranks, fault_dimension, fault_space, reconstruct, structure. It runs in a process of
+    The answers are known exactly; exit 1 if a must is not met. The adapter has some of: identify, residual, window_ranks, fault_dimension,
+    fault_space, reconstruct, structure. It runs in a process of
     its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
     """
     from . import auditing
@@ -277,7 +291,10 @@ def examples(
     folder: Annotated[Path | None, typer.Argument(metavar="[DIR]", show_default=False, help="Copy them there.")] = None,
     json: Json = False,
 ) -> int:
-    """List the systems and experiments that come with the package, or copy them into a folder, with a small record of faulty data."""
+    """List or copy the packaged examples.
+
+    They are systems and experiments; into a folder goes a small record of faulty data, too.
+    """
     from . import example_listing
 
     return example_listing.run(folder, as_json=json)

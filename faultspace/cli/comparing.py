@@ -11,7 +11,7 @@ from rich.text import Text
 
 from ..base.errors import in_file, quote_path
 from ..exact.structure.behavior import MOST_SAMPLES, compare
-from .consoles import answers, print_json
+from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, NOT_AS_EXPECTED, say
 from .progress import working
 from .reading_files import read_system
@@ -29,9 +29,9 @@ def run(names: tuple[str, str], *, as_json: bool, expected: str | None, word: bo
         first, second = map(quote_path, names)
         title, *rest = found.lines(first, second, samples=sys.maxsize if word else MOST_SAMPLES)
         console = answers()
-        console.print(Text(title, style="green" if found.equivalent else "yellow"), soft_wrap=True)
+        paragraph(console, Text(title, style="green" if found.equivalent else "yellow"))
         for line in rest:
-            console.print(Text(line), soft_wrap=True)
+            paragraph(console, line)
     verdict = "equivalent" if found.equivalent else "different"
     if expected not in (None, verdict):
         say(f"{both}: got {verdict}, expected {expected}")

@@ -3,7 +3,7 @@
 answers        the console for tables: colours and the window's width on a terminal, plain and 140 wide or more elsewhere
 print_json     one document on one line
 print_table    a table, or its rows as paragraphs where it is too wide
-paragraph      a text under a label: between words on a terminal, the lines below in line with the first; one line elsewhere
+paragraph      a text after a label: broken between words on a terminal, the lines below in line with the first; one line elsewhere
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import json
 import os
 import sys
 
+from rich.cells import cell_len
 from rich.console import Console
 from rich.measure import Measurement
 from rich.table import Table
@@ -30,25 +31,48 @@ class _Answers(Console):
 
 
 def answers() -> Console:
-    """The console that tables are printed on."""
+    """Answers are printed on this console."""
     plain = not sys.stdout.isatty()
     width = max(PIPED_WIDTH, _columns()) if plain else None
     return _Answers(file=sys.stdout, width=width, markup=False, highlight=False, emoji=False)
 
 
 def paragraph(console: Console, text: Text | str, label: Text | str = "") -> None:
-    """The text after its label. Nothing is cut: a word that is longer than the line goes on in the next."""
+    """The text after its label, on a terminal broken between words; elsewhere each line of it is one line, however long.
+
+    The lines below begin below the first word, or a little right of the label where that leaves too little room. Nothing is cut: a word
+    that is longer than a line goes on in the next.
+    """
+    whole = Text.assemble(label, text)
     if not console.is_terminal:
-        console.print(Text.assemble(label, text), soft_wrap=True)
+        console.print(whole, soft_wrap=True)
         return
-    if not label:
-        console.print(text, overflow="fold")
-        return
-    lines = Table.grid()
-    lines.add_column(no_wrap=True)
-    lines.add_column(overflow="fold")
-    lines.add_row(label, text)
-    console.print(lines)
+    head = Text.assemble(label).plain
+    for line in whole.split("\n", allow_blank=True) or [whole]:
+        console.print(Text("\n").join(_broken(console, line, head)))
+        head = ""
+
+
+def _broken(console: Console, line: Text, head: str) -> list[Text]:
+    """The line in pieces that fit, all but the first behind the same indentation."""
+    width = max(console.width, 1)
+    if line.cell_len <= width:
+        return [line]
+    plain = line.plain
+    margin = len(plain) - len(plain.lstrip())
+    longest = max((cell_len(word) for word in plain.removeprefix(head).split()), default=0)
+    if head.strip() and 2 * cell_len(head) <= width and longest <= width - cell_len(head):
+        indent = cell_len(head)
+    else:
+        indent = margin + (4 if head.strip() else 2 if plain.lstrip().startswith("- ") else 0)
+    indent = min(indent, width // 2)
+    first = line.wrap(console, width, overflow="fold")[0]
+    rest = line[len(first) :]
+    rest = rest[len(rest.plain) - len(rest.plain.lstrip()) :]
+    pieces = [first, *(Text(" " * indent) + piece for piece in rest.wrap(console, width - indent, overflow="fold"))]
+    for piece in pieces:
+        piece.rstrip()
+    return pieces
 
 
 def print_table(console: Console, table: Table) -> None:

@@ -13,7 +13,7 @@ from rich.text import Text
 from ..base.errors import quote_path
 from ..example_data import FILE_NAME, INPUTS, OUTPUTS, csv_text, faulty_record
 from ..packaged_examples import DESCRIPTIONS, EXPERIMENTS, PREFIX, content
-from .consoles import answers, print_json
+from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, say
 from .reading_files import prepare_folder, write_json, write_text
 
@@ -33,5 +33,5 @@ def run(folder: Path | None, *, as_json: bool) -> int:
     console = answers()
     width = max(len(PREFIX + name) for name in DESCRIPTIONS | EXPERIMENTS) + 2
     for name, description in (DESCRIPTIONS | EXPERIMENTS).items():
-        console.print(Text.assemble((f"{PREFIX + name:<{width}}", "bold"), description), soft_wrap=True)
+        paragraph(console, description, Text(f"{PREFIX + name:<{width}}", style="bold"))
     return ANSWERED

@@ -1,54 +1,94 @@
 """What becomes of everything that can go wrong at the command line: one line on standard error and an exit code, never a traceback.
 
 guarded       runs a command's body and returns its exit code
+asks_report   tells of an error that is ours, with what to send; the code OUR_ERROR
 say           one line on standard error
-ANSWERED 0, NOT_AS_EXPECTED 1, BAD_INPUT 2; INTERRUPTED 130 and BROKEN_PIPE 141 as shells count signals
+TRACEBACK     the environment variable that has the traceback of an error of ours printed, too
+ANSWERED 0, NOT_AS_EXPECTED 1, BAD_INPUT 2; OUR_ERROR 70 as in sysexits.h; INTERRUPTED 130 and BROKEN_PIPE 141 as shells count signals
 """
 
 from __future__ import annotations
 
 import os
+import platform
 import sys
+import textwrap
+import traceback
 from collections.abc import Callable
 from contextlib import suppress
 
+from .. import __version__
 from ..base.errors import InvalidInput
+from .argument_names import as_options
 
-ANSWERED, NOT_AS_EXPECTED, BAD_INPUT, INTERRUPTED, BROKEN_PIPE = 0, 1, 2, 130, 141
+ANSWERED, NOT_AS_EXPECTED, BAD_INPUT, OUR_ERROR, INTERRUPTED, BROKEN_PIPE = 0, 1, 2, 70, 130, 141
+TRACEBACK = "FAULTSPACE_TRACEBACK"
 LONGEST_LINE = 1200
 
 
 def guarded(body: Callable[[], int]) -> int:
-    """The exit code of `body`, or the one that belongs to what it raised. Errors of the program itself pass through."""
+    """The exit code of `body`, or the one that belongs to what it raised."""
     try:
         code = body()
         sys.stdout.flush()
         return code
     except InvalidInput as error:
-        say(str(error))
+        say(as_options(str(error)))
         return BAD_INPUT
     except MemoryError:
         say("got a task that does not fit into memory, expected a smaller one")
         return BAD_INPUT
-    except KeyboardInterrupt:
-        say("interrupted")
+    except KeyboardInterrupt:  # the command line says so, as of an interrupt that comes before the body
         return INTERRUPTED
     except BrokenPipeError:
         forget_output()
         return BROKEN_PIPE
-    except OSError as error:  # files are opened with errors of their own: what is left is the output itself
+    except OSError as error:  # files of the user's are opened with errors of their own: what names no file is the output itself
+        if error.filename is not None:
+            return asks_report(error)
         say(f"standard output: cannot be written ({error.strerror or error})")
         forget_output()
         return BAD_INPUT
+    except Exception as error:
+        return asks_report(error)
+
+
+def asks_report(error: Exception) -> int:
+    """One line says what broke and where, that it is no fault of the input, and what a report needs; the traceback comes where TRACEBACK is
+    set.
+    """
+    if os.environ.get(TRACEBACK):
+        traceback.print_exception(error)
+    frames = traceback.extract_tb(error.__traceback__)
+    place = f" in {frames[-1].name}, line {frames[-1].lineno} of {os.path.basename(frames[-1].filename)}" if frames else ""
+    what = " ".join(f"{type(error).__name__}: {error}".split())
+    what = what if len(what) <= LONGEST_LINE // 3 else what[: LONGEST_LINE // 3] + "..."
+    say(
+        f"got an error of faultspace itself ({what}{place}), expected an answer or a complaint about the input; please report it, with "
+        f"this line, the command line, the files that it read, and the traceback, which the environment variable {TRACEBACK}=1 has printed "
+        f"(faultspace {__version__}, Python {platform.python_version()}, {platform.platform()})"
+    )
+    return OUR_ERROR
 
 
 def say(message: str) -> None:
-    """One line on standard error, whatever the message holds; of a very long one the middle is left out."""
+    """One line on standard error, whatever the message holds, on a terminal broken between words; a very long one lacks its middle."""
     line = " ".join(message.split())
     if len(line) > LONGEST_LINE:
         line = f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
+    line = f"faultspace: {line}"
     with suppress(OSError):
-        print(f"faultspace: {line}", file=sys.stderr, flush=True)
+        if sys.stderr.isatty() and (columns := _columns()):
+            line = textwrap.fill(line, max(columns, 20), subsequent_indent="    ", break_on_hyphens=False)
+        print(line, file=sys.stderr, flush=True)
+
+
+def _columns() -> int:
+    """How wide the terminal of standard error is; 0 where nobody knows."""
+    try:
+        return int(os.environ.get("COLUMNS") or 0) or os.get_terminal_size(sys.stderr.fileno()).columns
+    except (OSError, ValueError):
+        return 0
 
 
 def forget_output() -> None:

@@ -1,6 +1,6 @@
 """Commands that answer about one file after the other: a bad one is told and the rest is still done.
 
-Answer        what is known about a file: a heading, and the record with its `sheet` and `to_json`
+FileAnswer        what is known about a file: a heading, and the record with its `sheet` and `to_json`
 answer_each   the command's body: answers, printed or as JSON; the largest exit code
 """
 
@@ -15,11 +15,11 @@ from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.sheets import Sheet, line
-from .consoles import answers, print_json
+from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, BAD_INPUT, say
 
 
-class Found(Protocol):
+class Readable(Protocol):
     """A record that people and programs can read."""
 
     def sheet(self) -> Sheet: ...
@@ -28,14 +28,14 @@ class Found(Protocol):
 
 
 @dataclass(frozen=True)
-class Answer:
+class FileAnswer:
     """The heading follows the file's name on its line."""
 
     heading: str
-    found: Found
+    found: Readable
 
 
-def answer_each(names: Sequence[str], answer: Callable[[str], Answer], *, as_json: bool) -> int:
+def answer_each(names: Sequence[str], answer: Callable[[str], FileAnswer], *, as_json: bool) -> int:
     """As JSON one file gives an object, several an array of objects that also say which "file" they are about."""
     code = ANSWERED
     console = answers()
@@ -58,9 +58,9 @@ def answer_each(names: Sequence[str], answer: Callable[[str], Answer], *, as_jso
     return code
 
 
-def _print(console: Console, name: str, given: Answer) -> None:
-    """Lines without a frame: a terminal may wrap them, a pipe gets them whole."""
-    console.print(Text.assemble((quote_path(name), "bold"), f"   {given.heading}"), soft_wrap=True)
+def _print(console: Console, name: str, given: FileAnswer) -> None:
+    """The lines have no frame."""
+    paragraph(console, Text.assemble((quote_path(name), "bold"), f"   {given.heading}"))
     for label, value in given.found.sheet():
-        console.print(Text(line(label, value), style="" if value else "bold cyan"), soft_wrap=True)
+        paragraph(console, *((value, line(label, " ")[:-1]) if value else (Text(line(label, ""), style="bold cyan"),)))
     console.print()

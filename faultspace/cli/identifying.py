@@ -11,13 +11,13 @@ from pathlib import Path
 
 from rich.text import Text
 
-from ..base.errors import InvalidData, InvalidInput, in_file, quote_path
+from ..base.errors import InvalidInput, in_file, quote_path
 from ..numeric.data.files import read_record
 from ..numeric.pipeline import identify
 from ..numeric.report import files as report
 from ..numeric.report.summary import summary
 from .argument_names import as_options
-from .consoles import answers, print_json
+from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, say
 from .progress import evenly, working
 from .reading_files import prepare_folder
@@ -48,20 +48,17 @@ def run(
         prepare_folder(out)
         with working(f"reading {quote_path(data)}") as telling:
             tell = evenly(telling)
-            record = read_record(data, inputs=inputs, outputs=outputs, tell=lambda *read: tell(f"reading {quote_path(data)}", *read))
+            record = read_record(data, inputs=inputs, outputs=outputs, on_progress=tell)
             with in_file(data):
-                try:
-                    answer = identify(
-                        record,
-                        order=order,
-                        block_rows=block_rows,
-                        n_v=faults,
-                        healthy=healthy_until,
-                        remove_means=remove_means,
-                        on_progress=tell,
-                    )
-                except InvalidData as error:
-                    raise InvalidInput(as_options(str(error))) from None
+                answer = identify(
+                    record,
+                    order=order,
+                    block_rows=block_rows,
+                    n_v=faults,
+                    healthy=healthy_until,
+                    remove_means=remove_means,
+                    on_progress=tell,
+                )
             tell("writing", 0, 0)
             written, remarks = report.write(answer, out, data, tell, worded=as_options)
     except BaseException:
@@ -76,8 +73,9 @@ def run(
         return ANSWERED
     console = answers()
     for line in summary(answer, data, worded=as_options):
-        console.print(Text(line, style="bold cyan" if line.startswith("#") else ""), soft_wrap=True)
-    console.print(Text(f"\nwritten into {quote_path(str(out))}: {', '.join(written)}"), soft_wrap=True)
+        paragraph(console, Text(line, style="bold cyan" if line.startswith("#") else ""))
+    console.print()
+    paragraph(console, f"written into {quote_path(str(out))}: {', '.join(written)}")
     return ANSWERED
 
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from ..base.errors import in_file, quote_path
 from ..exact.structure.record import analyze
 from .failures import say
-from .file_by_file import Answer, answer_each
+from .file_by_file import FileAnswer, answer_each
 from .progress import working
 from .reading_files import read_system
 
@@ -24,12 +24,12 @@ FLOATS = (
 def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
     """Inspects one file after the other. The largest exit code."""
 
-    def answer(name: str) -> Answer:
+    def answer(name: str) -> FileAnswer:
         system = read_system(name, floats_exactly=floats_exactly)
         with in_file(name), working(f"inspecting {quote_path(name)}"):
             found = analyze(system.residual)
         if floats_exactly:
             say(FLOATS)
-        return Answer(system.sizes, found)
+        return FileAnswer(system.sizes, found)
 
     return answer_each(names, answer, as_json=as_json)

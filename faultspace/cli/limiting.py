@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from ..base.errors import in_file, quote_path
 from ..exact.limits.moesp import limit
-from .file_by_file import Answer, answer_each
+from .file_by_file import FileAnswer, answer_each
 from .progress import working
 from .reading_files import read_experiment
 
@@ -17,10 +17,10 @@ from .reading_files import read_experiment
 def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
     """Answers one file after the other. The largest exit code."""
 
-    def answer(name: str) -> Answer:
+    def answer(name: str) -> FileAnswer:
         experiment = read_experiment(name, floats_exactly=floats_exactly)
         with in_file(name), working(f"taking {quote_path(name)} to the limit"):
             found = limit(experiment)
-        return Answer(experiment.sizes, found)
+        return FileAnswer(experiment.sizes, found)
 
     return answer_each(names, answer, as_json=as_json)

@@ -51,7 +51,7 @@ class State:
 
     @property
     def line(self) -> str:
-        """The plain line."""
+        """This is the plain line."""
         return f"{self.stage} ({self.amount})" if self.amount else f"{self.stage} ..."
 
 
@@ -79,7 +79,7 @@ def evenly(tell: Tell) -> Callable[[str, int, int], None]:
     """`tell` with the seconds that are left of the stage, as long as its parts take what those before them took."""
     stage, begun, first = "", 0.0, 0
 
-    def told(current: str, done: int, total: int) -> None:
+    def tell_of(current: str, done: int, total: int) -> None:
         nonlocal stage, begun, first
         if current != stage:
             stage, begun, first = current, time.monotonic(), done
@@ -87,7 +87,7 @@ def evenly(tell: Tell) -> Callable[[str, int, int], None]:
         known = done > first and total > 0 and passed > PATIENCE
         tell(current, done, total, passed * (total - done) / (done - first) if known else None)
 
-    return told
+    return tell_of
 
 
 def _plain(now: Callable[[], State], stopped: Event) -> None:

@@ -25,7 +25,7 @@ from ..base.errors import InvalidInput, in_file, quote_path, shorten
 from ..exact.algebra.validation import MAX_FILE_BYTES
 from ..exact.limits.experiments import Experiment
 from ..exact.limits.experiments import read_experiment as experiment_of
-from ..exact.system.systems import FaultySystem, ResidualSystem, from_float_exactly
+from ..exact.system.systems import System, from_float_exactly
 from ..exact.system.systems import read_system as system_of
 
 _HINT = "see from_float_exactly"
@@ -35,7 +35,7 @@ MODEL_FORMAT = "faultspace-model/1"
 _MODEL_KEYS = ("format", "n", "n_u", "p", "n_v", "A", "B", "C", "D", "F", "G", "inputs", "outputs")
 
 
-def read_system(name: str, *, floats_exactly: bool = False) -> ResidualSystem | FaultySystem:
+def read_system(name: str, *, floats_exactly: bool = False) -> System:
     """The system in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
     document = read_json(name, number=_dyadic if floats_exactly else float)
     with in_file(name):

@@ -50,49 +50,49 @@ EXPLANATION = (
 
 
 def document(studies: Sequence[Study]) -> dict[str, Any]:
-    """What studies.json and --json hold."""
+    """This is what studies.json and --json hold."""
     return {"format": FORMAT, "remarks": remarks(studies), "studies": [study.to_json() for study in studies]}
 
 
 def remarks(studies: Sequence[Study]) -> list[str]:
     """What a reader of the published figures should know, with the counts of this run."""
-    told = []
+    found = []
     for study in studies:
         name = study.plan.name
         vacuous = [case for case in study.cases if case.vacuous]
         if vacuous:
             first = vacuous[0]
-            told.append(
+            found.append(
                 f"{name}: {len(vacuous)} of {len(study.cases)} cases are vacuous: rank R_{first.block_rows} = {first.rank} of "
                 f"{first.rows} rows leaves no null row, so the answer is all of R^{first.n_z} and the error zero by construction"
             )
         level = sum(case.decibels for case in study.cases) / len(study.cases)
-        told.append(f"{name}: the noise lies {level:.1f} dB below the outputs' standard deviation (40 dB are stated)")
+        found.append(f"{name}: the noise lies {level:.1f} dB below the outputs' standard deviation (40 dB are stated)")
         if LIKELIHOOD in study.plan.estimators:
             right = sum(case.estimates[LIKELIHOOD].n_z == case.n_z for case in study.cases)
-            told.append(f"{name}: likelihood counts the zeros itself and is right in {right} of {len(study.cases)} cases")
+            found.append(f"{name}: likelihood counts the zeros itself and is right in {right} of {len(study.cases)} cases")
         failures = [found.failure for case in study.cases for found in case.estimates.values() if found.failure is not None]
         if failures:
-            told.append(f"{name}: {len(failures)} estimates were refused, the first because: {failures[0]}")
-    told.append("the published normaliser n_v pi/2 is sqrt(n_v) times too large: by it no error can exceed 71 %")
-    return told
+            found.append(f"{name}: {len(failures)} estimates were refused, the first because: {failures[0]}")
+    found.append("the published normaliser n_v pi/2 is sqrt(n_v) times too large: by it no error can exceed 71 %")
+    return found
 
 
 def table(study: Study) -> Table:
-    """The groups by zeros and by phase."""
+    """The table shows the groups by zeros and by phase."""
     title = f"{study.plan.title}\nerror in percent: {study.plan.metric_text}"
-    shown = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left", pad_edge=False, padding=(0, 1, 0, 0))
+    rows = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left", pad_edge=False, padding=(0, 1, 0, 0))
     for heading in ("cases", *HEADER):
-        shown.add_column(heading, justify="left" if heading in ("cases", *LEFT) else "right", no_wrap=True)
+        rows.add_column(heading, justify="left" if heading in ("cases", *LEFT) else "right", no_wrap=True)
     for groups in (by_zeros(study), by_phase(study)):
         for group in groups:
-            shown.add_row(group.label, *_cells(group))
-        shown.add_section()
-    return shown
+            rows.add_row(group.label, *_cells(group))
+        rows.add_section()
+    return rows
 
 
 def lines(studies: Sequence[Study]) -> Iterator[str]:
-    """The summary, line by line."""
+    """The summary comes line by line."""
     first = studies[0]
     yield "# The Monte Carlo study"
     yield ""
@@ -133,7 +133,7 @@ def write(studies: Sequence[Study], out: Path) -> list[str]:
 
 
 def _cells(group: Group) -> list[str]:
-    """The row of a group under HEADER."""
+    """These cells are the row of a group under HEADER."""
     quantiles = dict(zip(QUANTILES, group.quantiles, strict=True)) if group.quantiles else {}
     interval = " .. ".join(_percent(end, digits=2) for end in group.interval) if group.interval else ""
     remark = [f"{group.vacuous} vacuous" if group.vacuous else "", f"{group.failed} refused" if group.failed else ""]
@@ -151,7 +151,7 @@ def _cells(group: Group) -> list[str]:
 
 
 def _percent(value: float | None, digits: int = 3) -> str:
-    """Angles at rounding level are zero."""
+    """Angles at the level of rounding are shown as zero."""
     return "" if value is None else f"{100 * value:.{digits}g}" if value > ROUNDING else "0"
 
 

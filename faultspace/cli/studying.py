@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from ..base.errors import InvalidData, InvalidInput, quote_path
+from ..base.errors import quote_path
 from ..numeric.study.studies import STUDIES, monte_carlo
 from .consoles import answers, paragraph, print_json, print_table
 from .failures import ANSWERED, say
@@ -22,13 +22,10 @@ def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, se
     a cluster that cannot be used."""
     prepare_folder(out)
     studies = []
-    try:
-        with working("starting") as tell:
-            for name, plan in STUDIES.items():
-                watch = _of_study(tell, name)
-                studies.append(monte_carlo(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, progress=watch))
-    except InvalidData as error:
-        raise InvalidInput(str(error)) from None
+    with working("starting") as tell:
+        for name, plan in STUDIES.items():
+            watch = _of_study(tell, name)
+            studies.append(monte_carlo(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, on_progress=watch))
     written = write(studies, out)
     if as_json:
         print_json(document(studies))

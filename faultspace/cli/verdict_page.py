@@ -13,7 +13,7 @@ from rich.text import Text
 from ..proofs.trust.structure_certificates import sha256
 from ..proofs.verdict.verdicts import ClaimResult, ReadingResult, Row
 from .consoles import paragraph
-from .verdict_tables import attack_lines, hashes, told_rows, verdict_text
+from .verdict_tables import attack_lines, hashes, rows_worth_reading, verdict_text
 
 
 def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> None:
@@ -27,10 +27,10 @@ def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> Non
         paragraph(console, name, f"  {kind} ")
         for label, text in _reading(result):
             paragraph(console, text, f"    {label:<14}")
-    experiment = None
-    for row in told_rows(rows):
-        if row.experiment != experiment:
-            experiment = row.experiment
+    ablation = None
+    for row in rows_worth_reading(rows):
+        if row.ablation != ablation:
+            ablation = row.ablation
             paragraph(console, row.conclusion, "  which hypotheses are needed for: ")
         meaning = f", {row.meaning}" if row.meaning else ""
         verdict = Text.assemble(verdict_text(row.verdict, row.expected or row.verdict), meaning)

@@ -16,7 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..proofs.verdict.verdicts import ClaimResult, Report, Row, Verdict
-from .consoles import paragraph
+from .consoles import paragraph, print_table
 from .verdict_tables import STYLES
 
 MEANINGS = {
@@ -33,7 +33,7 @@ HELP = "--claim ID prints a page of a claim, -v the long tables, --out DIR write
 def print_lines(console: Console, report: Report) -> None:
     """A line for each claim, then a sentence on each of what they rest on."""
     claims = sorted(report.claims, key=lambda claim: claim.as_expected)  # stable: else in the order of the ledger
-    console.print(claims_table(claims))
+    print_table(console, claims_table(claims))
     for line in differences(report):
         paragraph(console, Text(line, style="bold red"), "! ")
     occurring = [verdict for verdict in Verdict if any(claim.verdict == verdict for claim in claims)]
@@ -63,12 +63,12 @@ def resting_on(claim: ClaimResult, *, ours: bool) -> str:
     """How many of the readings as printed, or of ours, have which verdict: "1 proved, 2 refuted"."""
     verdicts = [result.outcome.verdict for result in claim.readings if result.reading.repair == ours]
     counts = Counter(verdicts)
-    told = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])
-    return f"parts: {told}" if claim.claim.in_parts and not ours else told or "-"
+    parts = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])
+    return f"parts: {parts}" if claim.claim.in_parts and not ours else parts or "-"
 
 
 def differences(report: Report) -> Iterator[str]:
-    """What is not as expected, a line each."""
+    """There is a line for whatever is not as expected."""
     for claim in report.claims:
         if claim.verdict != claim.expected:
             yield f"{claim.claim.id}: {claim.verdict} (expected {claim.expected})"
@@ -93,10 +93,10 @@ def hypothesis_words(rows: Sequence[Row]) -> str:
         "not seen to be needed": "without which no counterexample was found",
     }
     order = [*words, *(meaning for meaning in meanings if meaning not in words)]
-    told = ", ".join(f"{meanings[meaning]} {words.get(meaning, meaning)}" for meaning in order if meanings[meaning])
+    parts = ", ".join(f"{meanings[meaning]} {words.get(meaning, meaning)}" for meaning in order if meanings[meaning])
     together = [row for row in rows if len(row.dropped) == 2]
     pairs = sum(row.verdict == Verdict.REFUTED and row.already is None for row in together)
-    return f"{len(single)} dropped alone: {told or 'none'}; {len(together)} pairs: {pairs} needed only together."
+    return f"{len(single)} dropped alone: {parts or 'none'}; {len(together)} pairs: {pairs} needed only together."
 
 
 def attack_words(report: Report) -> str:

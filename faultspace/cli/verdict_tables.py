@@ -2,7 +2,7 @@
 
 verdict_table      a row for each reading, with its statement, hypotheses, evidence and certificates
 hypotheses_table   a row for each hypothesis dropped
-told_rows          the rows that are worth telling; all are in the JSON
+rows_worth_reading          the rows that are worth telling; all are in the JSON
 attack_lines       what the adversary tried on a statement
 hashes             certificates by the start of their SHA-256
 verdict_text       a verdict, and in words the one that was expected where it is another
@@ -45,7 +45,7 @@ def verdict_table(report: Report) -> Table:
         table.add_row(Text(claim.claim.id, style="bold"), verdict_text(claim.verdict, claim.expected, "\n"), printed, "", "")
         for result in claim.readings:
             reading, outcome = result.reading, result.outcome
-            told = Text.assemble(
+            words = Text.assemble(
                 reading.statement,
                 (f"\nhypotheses: {'; '.join(reading.hypotheses) or 'none'}", "dim"),
                 (f"\n{outcome.evidence}", "dim italic"),
@@ -54,7 +54,7 @@ def verdict_table(report: Report) -> Table:
             )
             name = f"  {reading.id}{' (repair)' if reading.repair else ''}"
             verdict = verdict_text(outcome.verdict, result.expected, "\n")
-            table.add_row(name, verdict, told, hashes(outcome.certificates, outcome.accepted), f"{result.seconds:.1f}")
+            table.add_row(name, verdict, words, hashes(outcome.certificates, outcome.accepted), f"{result.seconds:.1f}")
         table.add_section()
     return table
 
@@ -66,20 +66,20 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
     table.add_column("verdict", no_wrap=True)
     table.add_column("counterexample or evidence", overflow="fold")
     table.add_column("certificates", no_wrap=True)
-    experiment = None
-    for row in told_rows(rows):
-        if row.experiment != experiment:
-            experiment = row.experiment
+    ablation = None
+    for row in rows_worth_reading(rows):
+        if row.ablation != ablation:
+            ablation = row.ablation
             table.add_section()
             table.add_row(Text(row.claim, style="bold"), "", Text(row.conclusion, style="bold"), "")
         name = f"  {' and '.join(row.dropped) or 'nothing dropped'}"
         verdict = Text.assemble(verdict_text(row.verdict, row.expected or row.verdict, "\n"), ("\n" + row.meaning, "dim"))
-        told = Text("\n".join([row.evidence, *(f"attacked by {line}" for line in attack_lines(row.attacks))]), style="dim italic")
-        table.add_row(name, verdict, told, hashes(row.certificates, row.accepted))
+        words = Text("\n".join([row.evidence, *(f"attacked by {line}" for line in attack_lines(row.attacks))]), style="dim italic")
+        table.add_row(name, verdict, words, hashes(row.certificates, row.accepted))
     return table
 
 
-def told_rows(rows: Sequence[Row]) -> list[Row]:
+def rows_worth_reading(rows: Sequence[Row]) -> list[Row]:
     """Those of one hypothesis, and of two where they are needed only together or the check did not finish: the others follow."""
     follows = (Verdict.CERTIFIED, Verdict.PROVED)
     return [row for row in rows if len(row.dropped) < 2 or (row.verdict not in follows and row.already is None)]

@@ -42,7 +42,7 @@ def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, rech
     if recheck and not _rechecked():
         return NOT_AS_EXPECTED
     with working("deciding the claims") as tell:
-        report = verify(claims or None, effort=effort, jobs=jobs, progress=tell)
+        report = verify(claims or None, effort=effort, jobs=jobs, on_progress=tell)
     if out is not None:
         count = write_out(report, out, () if claims else specimens())
         say(f"{count} certificates and verdicts.json are in {quote_path(str(out))}")

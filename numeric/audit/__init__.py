@@ -1,10 +1,11 @@
 """The audit: any numeric implementation against exact ground truth. The one room where the exact and the numeric branch meet.
 
-    running.audit                     records of all checks on what an implementation offers
+    running.audit                     what all checks say of an implementation: an Audit (`outcome`)
     running.parametrize_with_checks   the same as pytest cases
+    catalogue, subjects               every check that there is; who is put through them, and where it runs
     adapter, subprocess_adapter       what an implementation is: a few optional functions, in Python or behind JSON lines
     reference                         our own numeric branch as an implementation
-    records                           Check, Measurement, Record, and `perform`
+    records                           Check, Measurement, CheckResult, and `perform`
     vectors, fault_vectors, recipe_vectors
                                       exact systems, data, answers and derived bounds as JSON; `python -m faultspace.numeric.audit.vectors`
     making_vectors, making_fault_vectors

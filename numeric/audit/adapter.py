@@ -6,7 +6,7 @@
     fault_dimension(r) -> n_v                             the number of independent faults
     fault_space(r, A, C, n_v, block_rows) -> Z            all columns [f; g] that explain r, (n + p, n_z); any basis
     reconstruct(r, A, F, C, G, x0) -> v                   the fault signal (N, m) from the known initial state
-    structure(A, F, C, G) -> Structure                    zeros and ranks of the system from v to r
+    structure(A, F, C, G) -> ZeroStructure                    zeros and ranks of the system from v to r
 
 Arrays are time-major float64. The `block_rows` of `identify` are those of past and future, and bind: where that window is too short, to
 refuse is right. The `block_rows` of `fault_space` is a window that suffices, longer than the lag (in `fault-space-at-the-lag`
@@ -39,7 +39,7 @@ FUNCTIONS = ("identify", "residual", "window_ranks", "fault_dimension", "fault_s
 
 
 @dataclass(frozen=True)
-class Structure:
+class ZeroStructure:
     """Of x(k+1) = A x + F v, r = C x + G v: normal rank of the transfer function, finite invariant zeros, orders of the infinite zeros
     (ascending, one per unit of normal rank, zeros included), left-invertibility. The finite zeros are the roots of the invariant
     polynomials of the pencil [[qI - A, -F], [C, G]], with their multiplicities, also where the system is not left-invertible: where
@@ -53,13 +53,13 @@ class Structure:
 
 
 class Identifies(Protocol):
-    """An implementation that identifies."""
+    """This is an implementation that identifies."""
 
     def identify(self, y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]: ...
 
 
 class Simulates(Protocol):
-    """An implementation that makes residuals."""
+    """This is an implementation that makes residuals."""
 
     def residual(self, y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Any: ...
 
@@ -71,7 +71,7 @@ class RanksWindows(Protocol):
 
 
 class CountsFaults(Protocol):
-    """An implementation that counts faults."""
+    """This is an implementation that counts faults."""
 
     def fault_dimension(self, r: Array) -> int | None: ...
 
@@ -89,9 +89,9 @@ class Reconstructs(Protocol):
 
 
 class KnowsStructure(Protocol):
-    """An implementation that finds zeros. A mapping with some names of `Structure` will do."""
+    """An implementation that finds zeros. A mapping with some names of `ZeroStructure` will do."""
 
-    def structure(self, A: Array, F: Array, C: Array, G: Array) -> Structure | Mapping[str, Any]: ...
+    def structure(self, A: Array, F: Array, C: Array, G: Array) -> ZeroStructure | Mapping[str, Any]: ...
 
 
 def offered(implementation: object) -> dict[str, Function]:

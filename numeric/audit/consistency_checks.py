@@ -22,7 +22,7 @@ from .vectors import shipped
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for vector in shipped("consistency"):
         yield _coloured(vector)
     for vector in shipped("noisy"):

@@ -2,7 +2,7 @@
 
 lifted                     a float matrix over Q
 markov                     D, CB, CAB, ... over Q
-characteristic_polynomial  of z^n, ..., z, 1 over Q
+polynomial_from_the_top    the coefficients of det(zI - A), of z^n, ..., z, 1, over Q
 transfer                   D + C (zI - A)^-1 B at a rational z
 poles                      eigenvalues of a rational matrix, from certified enclosures
 roots                      the same for a polynomial
@@ -18,8 +18,8 @@ from math import inf
 from typing import Any
 
 import numpy as np
+import scipy  # its folders are loaded when they are first used
 from flint import fmpq, fmpq_poly
-from scipy.optimize import linear_sum_assignment
 
 from faultspace.exact.algebra import stability
 from faultspace.exact.algebra.fields import QQ
@@ -48,13 +48,13 @@ def lifted(values: Any, name: str, shape: tuple[int, int]) -> Matrix:
 
 
 def markov(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) -> list[Matrix]:
-    """D, CB, CAB, ...: `count` of them."""
+    """These are the first `count` of D, CB, CAB, ...."""
     return markov_parameters(A, B, C, D, count)
 
 
-def characteristic_polynomial(A: Matrix) -> list[Fraction]:
-    """det(zI - A) from z^n = 1 down."""
-    return list(reversed(stability.characteristic_polynomial(A)))
+def polynomial_from_the_top(A: Matrix) -> list[Fraction]:
+    """These are the coefficients of det(zI - A), from that of z^n, which is 1, down."""
+    return list(reversed(stability.rational_characteristic_polynomial(A)))
 
 
 def transfer(A: Matrix, B: Matrix, C: Matrix, D: Matrix, z: int) -> Matrix:
@@ -75,8 +75,8 @@ def roots(ascending: Sequence[Any]) -> tuple[complex, ...]:
 
 
 def poles(A: Matrix) -> tuple[complex, ...]:
-    """The eigenvalues."""
-    return roots(stability.characteristic_polynomial(A)) if A.nrows else ()
+    """The poles are the eigenvalues of A."""
+    return roots(stability.rational_characteristic_polynomial(A)) if A.nrows else ()
 
 
 def distances(got: Sequence[Matrix], exact: Sequence[Matrix]) -> Array:
@@ -89,7 +89,7 @@ def distances(got: Sequence[Matrix], exact: Sequence[Matrix]) -> Array:
 def matched(got: Sequence[complex], exact: Sequence[complex]) -> tuple[list[int], Array]:
     """For each exact number, in order, the index of the one that it is paired with, and their distance."""
     gaps = np.array([[abs(theirs - mine) for mine in got] for theirs in exact], dtype=float).reshape(len(exact), len(got))
-    rows, columns = linear_sum_assignment(gaps)
+    rows, columns = scipy.optimize.linear_sum_assignment(gaps)
     return [int(j) for j in columns], np.asarray(gaps[rows, columns])
 
 

@@ -20,12 +20,12 @@ from faultspace.exact.system.systems import ResidualSystem
 from .fault_checks import as_number, ranks_off
 from .fault_vectors import UnexcitingVector
 from .rationals import floats, matrix
-from .records import Check, Function, Kind, Measurement, Severity
+from .records import Check, Demand, Function, Measurement, Severity
 from .vectors import IdentificationVector, shipped
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for vector in shipped("unexciting"):
         yield _ranks(vector)
         yield _count(vector)
@@ -36,7 +36,7 @@ def checks() -> Iterator[Check]:
 
 
 def sine_samples(count: int) -> list[Fraction]:
-    """cos(k a) for k = 0 .. count - 1."""
+    """The samples are cos(k a) for k = 0 .. count - 1."""
     c, s, result = Fraction(1), Fraction(0), []
     for _ in range(count):
         result.append(c)
@@ -66,11 +66,11 @@ def _count(vector: UnexcitingVector) -> Check:
     """Free: the data show fewer than there are."""
 
     def measure(function: Function) -> Iterator[Measurement]:
-        yield Measurement("n_v, as many as the data show", abs(as_number(function(floats(vector.r))) - vector.shown), 0.0)
+        yield Measurement("n_v, as many as the data show", abs(as_number(function(floats(vector.r))) - vector.visible), 0.0)
 
     effect = "faults that do not excite are counted, or not: the data cannot tell"
     slug = "fault-dimension-unexciting"
-    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SOMETIMES, measure, Kind.FREE)
+    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SOMETIMES, measure, Demand.FREE)
 
 
 def _space(vector: UnexcitingVector) -> Check:
@@ -81,7 +81,7 @@ def _space(vector: UnexcitingVector) -> Check:
 
     effect = "fault matrices from a fault signal that fits many others"
     slug = "refuses-unexciting-fault"
-    return Check(slug, "fault_space", vector.slug, "problem-11", effect, Severity.SILENT, measure, Kind.MUST_REFUSE)
+    return Check(slug, "fault_space", vector.slug, "problem-11", effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
 
 
 def _model(name: str, model: IdentificationVector, u: Matrix) -> Check:
@@ -91,4 +91,4 @@ def _model(name: str, model: IdentificationVector, u: Matrix) -> Check:
 
     effect = "one of many models that fit, without a word"
     slug = "refuses-unexciting-input"
-    return Check(slug, "identify", f"{model.slug}-{name}", None, effect, Severity.SILENT, measure, Kind.MUST_REFUSE)
+    return Check(slug, "identify", f"{model.slug}-{name}", None, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)

@@ -25,7 +25,7 @@ from ..space.distances import compare_subspaces
 from .exact_comparison import lifted
 from .fault_vectors import FaultVector, channel_units
 from .rationals import floats, matrix, scaled
-from .records import Broken, Check, Function, Kind, Measurement, Severity
+from .records import Broken, Check, Demand, Function, Measurement, Severity
 from .vectors import shipped
 
 LONG_WINDOW = 10
@@ -45,7 +45,7 @@ Measure = Callable[[FaultVector, Function], Iterator[Measurement]]
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for vector in shipped("faults"):
         effect = "the residual still holds the response to the input: input and fault cannot be told apart"
         yield from _in_views("residual-free-of-input", "residual", vector, "proposition-1", effect, _residual_off)
@@ -103,17 +103,17 @@ def _residual_off(vector: FaultVector, function: Function) -> Iterator[Measureme
 
 
 def _no_columns(rows: int) -> Matrix:
-    """A matrix without columns."""
+    """The matrix has so many rows and no columns."""
     return matrix([[] for _ in range(rows)], 0)
 
 
 def _ranks_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
-    """rank R_s for s = 1, 2, ...."""
+    """The ranks R_s are asked for s = 1, 2, ...."""
     yield from ranks_off(function(floats(vector.r), len(vector.ranks)), vector.ranks)
 
 
 def ranks_off(answer: Any, due: tuple[int, ...]) -> Iterator[Measurement]:
-    """One measurement for each window."""
+    """There is one measurement for each window."""
     ranks = list(answer)
     if len(ranks) != len(due):
         raise Broken(f"{len(ranks)} ranks for {len(due)} windows")
@@ -134,7 +134,7 @@ def _as_many_as_outputs(vector: FaultVector) -> Check:
 
     effect = "noise is taken for faults, or faults for noise"
     slug, severity = "as-many-faults-as-outputs", Severity.SOMETIMES
-    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, severity, measure, Kind.FREE)
+    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, severity, measure, Demand.FREE)
 
 
 def as_number(value: Any) -> float:

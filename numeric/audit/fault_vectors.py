@@ -45,17 +45,17 @@ class FaultView:
     other_basis: bool = False
 
     def basis(self, n: int) -> tuple[Matrix, Matrix]:
-        """T and its inverse."""
+        """The pair is T and its inverse."""
         T = [[int(j == i or (self.other_basis and j > i)) for j in range(n)] for i in range(n)]
         inverse = [[int(j == i) - int(self.other_basis and j == i + 1) for j in range(n)] for i in range(n)]
         return matrix(T, n), matrix(inverse, n)
 
     def outputs(self, p: int) -> list[int]:
-        """Output i is that of this number."""
+        """Output i of the view is the output of this number."""
         return list(range(p))[::-1] if self.reversed_outputs else list(range(p))
 
     def units(self, p: int) -> list[Fraction]:
-        """Factor of each output, in the new order."""
+        """There is a factor for each output, in the new order."""
         return [Fraction(1) if self.largest_unit is None else Fraction(10) ** (self.largest_unit - 4 * i) for i in range(p)]
 
     def system(self, given: ResidualSystem) -> ResidualSystem:
@@ -66,7 +66,7 @@ class FaultView:
         return ResidualSystem(T @ given.A @ inverse, T @ given.F, C @ inverse, G)
 
     def record(self, given: ResidualSystem, x0: Matrix, v: Matrix) -> tuple[Matrix, Matrix]:
-        """x0 and v of the view."""
+        """The pair is x0 and v of the view."""
         T, _ = self.basis(given.n)
         start = simulate(given, x0, v).states.rows([self.first]).transposed()
         part = v.rows(range(self.first, self.last))
@@ -114,7 +114,7 @@ class FaultVector:
 
     @cached_property
     def r(self) -> Matrix:
-        """The exact residual (N, p)."""
+        """This is the exact residual (N, p)."""
         return simulate(self.system, self.x0, self.v).residuals
 
     @property
@@ -186,7 +186,7 @@ class FaultVector:
 
 @dataclass(frozen=True, eq=False)
 class UnexcitingVector:
-    """A residual of m faults whose signals show `shown` < m independent ones. ranks, gaps: as of FaultVector."""
+    """A residual of m faults whose signals show `visible` < m independent ones. ranks, gaps: as of FaultVector."""
 
     slug: str
     system: ResidualSystem
@@ -194,20 +194,20 @@ class UnexcitingVector:
     v: Matrix
     ranks: tuple[int, ...]
     gaps: tuple[tuple[float, float], ...]
-    shown: int
+    visible: int
 
     @cached_property
     def r(self) -> Matrix:
-        """The exact residual (N, p)."""
+        """This is the exact residual (N, p)."""
         return simulate(self.system, self.x0, self.v).residuals
 
     def to_json(self) -> dict[str, Any]:
-        """With the exact residual spelt out."""
+        """The document has the exact residual spelt out."""
         return {
             "slug": self.slug,
             "system": self.system.to_json(),
             **{name: getattr(self, name).to_json() for name in ("x0", "v", "r")},
-            "expected": {"window_ranks": list(self.ranks), "shown": self.shown},
+            "expected": {"window_ranks": list(self.ranks), "shown": self.visible},
             **gaps_to_json(self.r, self.gaps),
         }
 
@@ -229,7 +229,7 @@ def channel_units(r: Matrix) -> list[Fraction]:
 
 
 def in_channel_units(r: Matrix) -> Matrix:
-    """r with each channel divided by its unit."""
+    """Each channel of r is divided by its unit."""
     return scaled(r, [1 / unit for unit in channel_units(r)])
 
 
@@ -240,5 +240,5 @@ def gaps_to_json(r: Matrix, gaps: tuple[tuple[float, float], ...]) -> dict[str, 
 
 
 def gaps_from_json(data: Mapping[str, Any]) -> tuple[tuple[float, float], ...]:
-    """What `gaps_to_json` wrote."""
+    """This reads what `gaps_to_json` wrote."""
     return tuple((one["least_nonzero_above"], one["largest_below"]) for one in data["singular_values"])

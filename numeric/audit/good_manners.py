@@ -17,14 +17,14 @@ from .vectors import floats, shipped
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for function, vector, arguments in _questions():
         yield _deterministic(function, vector, arguments)
         yield _untouched(function, vector, arguments)
 
 
 def _questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
-    """(function, vector, arguments)."""
+    """Each is (function, vector, arguments)."""
     model, fault, system = (shipped(kind)[0] for kind in ("identification", "faults", "structure"))
     r, A, F, C, G = (floats(M) for M in (fault.r, fault.system.A, fault.system.F, fault.system.C, fault.system.G))
     y, u = (floats(M) for M in with_input(fault.r, fault.system, fault.view.scale))
@@ -62,7 +62,7 @@ def _untouched(name: str, vector: str, arguments: tuple[Any, ...]) -> Check:
 
 
 def _flat(answer: Any) -> Any:
-    """All numbers of an answer in one array."""
+    """The array has all numbers of an answer."""
     if is_dataclass(answer) and not isinstance(answer, type):
         answer = astuple(answer)
     if isinstance(answer, dict):

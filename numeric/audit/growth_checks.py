@@ -24,8 +24,8 @@ import numpy as np
 import psutil
 
 from ...base.arrays import Array
+from ...base.processes import family, resident
 from ..model.models import StateSpaceModel
-from .programs import family, resident
 from .rationals import floats, signs
 from .records import Check, Function, Measurement, Severity
 from .vectors import FaultVector, IdentificationVector, shipped
@@ -93,7 +93,7 @@ def exponent(costs: tuple[float, float], lengths: tuple[int, int], floor: float)
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for function in ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct"):
         yield _grows("memory-grows-with-N", function, "memory runs out on records of ordinary length")
         yield _grows("time-grows-with-N", function, "no answer in bearable time on records of ordinary length")

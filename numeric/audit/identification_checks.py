@@ -16,7 +16,7 @@ import numpy as np
 from faultspace.exact.algebra.matrices import Matrix
 
 from ...base.arrays import Array
-from .exact_comparison import characteristic_polynomial, distances, lifted, markov, matched, poles, transfer
+from .exact_comparison import distances, lifted, markov, matched, poles, polynomial_from_the_top, transfer
 from .rationals import floats, scaled
 from .records import Broken, Check, Function, Measurement, Severity
 from .vectors import POINTS, IdentificationVector, shipped
@@ -27,7 +27,7 @@ RECOVERY = "the model is wrong although the data determine it: every prediction 
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for vector in shipped("identification"):
         p, n_u = vector.C.nrows, vector.B.ncols
         ones = [Fraction(1)]
@@ -109,7 +109,7 @@ def models_off(
     yield _worst("Markov parameters", distances(markov(*found, count), markov(*truth, count)), moved)
     for z, bound in zip(POINTS, vector.bound("transfer", part), strict=True):
         yield _worst(f"transfer function at {z}", distances([transfer(*found, z)], [transfer(*truth, z)])[0], bound[entries])
-    polynomials = [characteristic_polynomial(one)[1:] for one in (A, vector.A)]
+    polynomials = [polynomial_from_the_top(one)[1:] for one in (A, vector.A)]
     off = np.array([abs(float(x - y)) for x, y in zip(*polynomials, strict=True)])
     yield _worst("characteristic polynomial", off, vector.bound("characteristic_polynomial", part))
     yield _worst("eigenvalues", matched(poles(A), poles(vector.A))[1], vector.bound("poles", part))
@@ -120,6 +120,6 @@ def _rows_over(given: Matrix, units: Sequence[Fraction]) -> Matrix:
 
 
 def _worst(quantity: str, got: Array, bound: Array) -> Measurement:
-    """The entry with the largest ratio."""
+    """This measures the entry with the largest ratio."""
     place = np.unravel_index(int(np.argmax(got / np.maximum(bound, np.finfo(float).tiny))), got.shape)
     return Measurement(quantity, float(got[place]), float(bound[place]))

@@ -1,6 +1,6 @@
 """A named adapter in a process of its own: it may hang, crash, print, fork or exhaust memory, and the audit goes on.
 
-Isolated    the worker process of one adapter; `perform` gives the record of a check whatever becomes of the process
+Isolated    the worker process of one adapter; `perform` gives the result of a check whatever becomes of the process
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from types import TracebackType
 from typing import Any, Self
 
 from ...base.errors import InvalidData
-from .programs import STANDARD, Limits, Program
-from .records import Broken, Check, Record, broken
+from ...base.processes import STANDARD, Limits
+from .programs import Program
+from .records import Broken, Check, CheckResult, broken
 
 LOADING = 120.0  # seconds for Python and the adapter's imports, whatever a check may take
 
@@ -45,14 +46,14 @@ class Isolated:
         self._loaded = False
         self._program.close()
 
-    def perform(self, check: Check) -> Record:
-        """Never raises for what the adapter does."""
+    def perform(self, check: Check) -> CheckResult:
+        """This never raises for what the adapter does."""
         begun = time.perf_counter()
         try:
             if not self._loaded:
                 self._load()
             begun = time.perf_counter()
-            return Record(**self._ask({"check": check.name, "function": check.function})["record"])
+            return CheckResult(**self._ask({"check": check.name, "function": check.function})["record"])
         except (Broken, InvalidData) as failure:  # after a crash it may be loaded again, or not
             self.close()
             return broken(check, failure, time.perf_counter() - begun)

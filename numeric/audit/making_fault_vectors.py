@@ -88,7 +88,7 @@ def _nearly_twice(system: ResidualSystem) -> tuple[Matrix, Matrix]:
 
 
 def fault_vectors() -> list[FaultVector]:
-    """See the module."""
+    """The module says what these vectors are."""
     return [_faults(slug, system) for slug, system in fault_systems()]
 
 
@@ -171,7 +171,7 @@ def singular_values(H: Matrix) -> tuple[float, float]:
 
 
 def unexciting_vectors() -> list[UnexcitingVector]:
-    """See the module."""
+    """The module says what these vectors are."""
     systems = dict(fault_systems())
     rng = Random("unexciting")
     one, two, N = systems["one-fault"], systems["two-faults"], 2 * HALF
@@ -186,15 +186,15 @@ def unexciting_vectors() -> list[UnexcitingVector]:
     return [_unexciting(*case) for case in cases]
 
 
-def _unexciting(slug: str, system: ResidualSystem, v: Matrix, shown: int) -> UnexcitingVector:
+def _unexciting(slug: str, system: ResidualSystem, v: Matrix, visible: int) -> UnexcitingVector:
     windows = system.n + 5
     x0 = drawn(Random(slug), system.n, 1, 1)
     r = simulate(system, x0, v).residuals
     ranks = tuple(rank(hankel(r, s)) for s in range(1, windows + 1))
-    if {ranks[-1] - ranks[-2], ranks[-2] - ranks[-3]} != {shown}:
-        raise ArithmeticError(f"{slug}: the ranks {ranks} do not show {shown}")
+    if {ranks[-1] - ranks[-2], ranks[-2] - ranks[-3]} != {visible}:
+        raise ArithmeticError(f"{slug}: the ranks {ranks} do not show {visible}")
     gaps = tuple(singular_values(hankel(in_channel_units(r), s)) for s in range(1, windows + 1))
-    return UnexcitingVector(slug, system, x0, v, ranks, gaps, shown)
+    return UnexcitingVector(slug, system, x0, v, ranks, gaps, visible)
 
 
 # -- noise ------------------------------------------------------------------------------------------------------------------------------

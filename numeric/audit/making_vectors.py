@@ -53,7 +53,7 @@ def _upward(values: Any) -> Any:
 
 
 def identification_vectors() -> list[IdentificationVector]:
-    """See the module."""
+    """The module says what these vectors are."""
     cases = [(n, n_u, p, True, True, 0) for n, n_u, p in [(2, 1, 1), (1, 2, 1), (2, 3, 1), (2, 1, 2), (3, 2, 2), (2, 3, 2)]]
     cases += [(3, 1, 3, True, True, 0), (2, 2, 3, True, True, 0), (3, 3, 3, True, True, 0)]
     cases += [(2, 2, 2, False, True, 0), (2, 2, 2, True, False, 0), (2, 2, 2, False, False, 0), (3, 1, 2, True, True, 4)]
@@ -242,14 +242,14 @@ def documents() -> dict[str, dict[str, Any]]:
 
 
 def written(document: Mapping[str, Any]) -> str:
-    """One vector a line."""
+    """The file has one vector on each line."""
     head = {name: value for name, value in document.items() if name != "vectors"}
     lines = ",\n".join(json.dumps(one) for one in document["vectors"])
     return f'{json.dumps(head)[:-1]}, "vectors": [\n{lines}\n]}}\n'
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Writes all files; returns 0."""
+    """This writes all files and returns 0."""
     parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.making_vectors", description="Make the audit's vectors.")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files, made if it is not there")
     out: Path = parser.parse_args(arguments).out

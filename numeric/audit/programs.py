@@ -1,8 +1,6 @@
 """A program that is asked by lines and answers by lines, under a limit of time and a limit of memory.
 
 Program     starts it with the first question; `ask` sends one line and gives the next one back; `close` ends it and all that it started
-Limits      seconds an answer may take, bytes that the program and its children may hold; STANDARD: a minute, 4 GiB
-family, resident    a process with its descendants, and the bytes that they hold
 
 What the program does wrong raises Broken with the words for it: hangs, ends, takes too much memory, talks out of turn. It is killed
 then, and started again with the next question.
@@ -13,50 +11,21 @@ from __future__ import annotations
 import os
 import selectors
 import shlex
-import signal
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from signal import Signals
 
 import psutil
 
 from ...base.errors import InvalidData
+from ...base.processes import Limits, family, kill_session, resident, session
 from .records import Broken
 
 LONGEST_ANSWER = 64 << 20
 GLANCE = 0.05  # seconds between two looks at the memory: what grows by gigabytes a second is seen in time
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Of one answer: seconds it may take, bytes of memory that the program and its children may hold meanwhile."""
-
-    seconds: float = 60.0
-    memory: int = 4 << 30
-
-
-STANDARD = Limits()
-
-
-def family(pid: int) -> list[psutil.Process]:
-    """The process and its descendants; none where it is gone."""
-    with suppress(psutil.Error):
-        first = psutil.Process(pid)
-        return [first, *first.children(recursive=True)]
-    return []
-
-
-def resident(processes: Iterable[psutil.Process]) -> int:
-    """Bytes that the processes hold (shared pages counted once for each)."""
-    total = 0
-    for one in processes:
-        with suppress(psutil.Error):
-            total += int(one.memory_info().rss)
-    return total
 
 
 class Program:
@@ -89,8 +58,7 @@ class Program:
             return
         # Those in other sessions too: as seen at the last glances, whatever their parents did meanwhile.
         started, self._family = self._family | set(family(process.pid)), set()
-        with suppress(OSError):
-            os.killpg(process.pid, signal.SIGKILL)
+        kill_session(process.pid)
         for one in started:
             with suppress(psutil.Error):
                 one.kill()
@@ -103,13 +71,8 @@ class Program:
     def _start(self) -> None:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115
         try:
-            self._process = subprocess.Popen(
-                self._arguments,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=self._errors,
-                start_new_session=True,
-                env=self._environment,
+            self._process = session(
+                self._arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, env=self._environment
             )
         except OSError as error:
             self._errors.close()

@@ -28,7 +28,7 @@ def matrix(rows: Sequence[Sequence[Any]], width: int) -> Matrix:
 
 
 def fractions(given: Matrix) -> list[list[Fraction]]:
-    """The entries as Fractions."""
+    """These are the entries as Fractions."""
     return [[Fraction(int(x.p), int(x.q)) for x in row] for row in given.elements()]
 
 
@@ -38,7 +38,7 @@ def floats(given: Matrix) -> Array:
 
 
 def scaled(given: Matrix, factors: Sequence[Fraction]) -> Matrix:
-    """Column j times factors[j]."""
+    """Column j is multiplied by factors[j]."""
     return matrix([[x * f for x, f in zip(row, factors, strict=True)] for row in fractions(given)], given.ncols)
 
 

@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-import scipy.signal
+import scipy  # its folders are loaded when they are first used
 
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
@@ -47,16 +47,16 @@ class ConsistencyVector:
 
     @property
     def poles(self) -> tuple[complex, ...]:
-        """Of the system."""
+        """These are the poles of the system."""
         return poles(self.system.residual.A)
 
     @property
     def bound(self) -> float:
-        """Half the bias."""
+        """The bound is half the bias."""
         return float(np.max(matched(self.biased_poles, self.poles)[1])) / 2
 
     def record(self) -> tuple[Array, Array]:
-        """(y, u), (samples, p) and (samples, n_u)."""
+        """The pair is (y, u), of shapes (samples, p) and (samples, n_u)."""
         residual, n_u = self.system.residual, self.system.nu
         drawn = signs(self.seed, (n_u + 1) * self.samples).reshape(n_u + 1, self.samples).T
         v = scipy.signal.lfilter([1.0], [1.0, -float(self.c)], drawn[:, n_u])
@@ -66,14 +66,14 @@ class ConsistencyVector:
         return model.simulate(np.column_stack([u, v]), np.zeros(len(A))), u
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-ready."""
+        """The document is JSON-ready."""
         names = ("slug", "block_rows", "samples", "seed", "bound")
         found = {"poles": _complexes(self.poles), "biased_poles": _complexes(self.biased_poles)}
         return {"system": self.system.to_json(), "c": str(self.c)} | {name: getattr(self, name) for name in names} | found
 
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> ConsistencyVector:
-        """The vector that `to_json` wrote."""
+        """This reads the vector that `to_json` wrote."""
         parts = data["system"]
         system = FaultySystem(
             ResidualSystem.of(*(parts[name] for name in "AFCG")), *(matrix(parts[name], len(parts[name][0])) for name in "BD")
@@ -108,13 +108,13 @@ class NoisyVector:
         return np.ascontiguousarray(columns[:, :m]), np.ascontiguousarray(columns[:, m:])
 
     def record(self) -> Array:
-        """r with noise, (samples, p)."""
+        """This is r with noise, (samples, p)."""
         v, noise = self.drawn()
         model = StateSpaceModel(*(floats(M) for M in (self.system.A, self.system.F, self.system.C, self.system.G)))
         return np.asarray(model.simulate(v, np.zeros(self.system.n)) + float(self.noise) * noise)
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-ready."""
+        """The document is JSON-ready."""
         return {
             **{name: getattr(self, name) for name in ("slug", "samples", "seed")},
             "system": self.system.to_json(),
@@ -125,7 +125,7 @@ class NoisyVector:
 
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> NoisyVector:
-        """The vector that `to_json` wrote."""
+        """This reads the vector that `to_json` wrote."""
         return NoisyVector(
             data["slug"],
             ResidualSystem.of(*(data["system"][name] for name in "AFCG")),

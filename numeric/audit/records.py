@@ -3,12 +3,13 @@
 Check         slug, function tested, vector, claim, effect on a user, severity, kind, and `measure`, which calls the function
 Measurement   quantity, got, bound: a distance from the exact answer, and what rounding may make of it
 Named         what both are called by
-Record        a check's outcome: verdict, the worst measurement, in words what happened
-Kind          must-hold, must-refuse (an answer is the failure) or free (told, never failed)
+CheckResult   a check's outcome: verdict (a Status), the worst measurement, in words what happened
+Demand        must-hold, must-refuse (an answer is the failure) or free (told, never failed)
 Refused       the implementation declined to answer; Broken: it crashed, hung or answered what is no answer
 perform       runs one check; never raises for what the implementation does
-broken        the record of a check during which the implementation broke
-grouped       records by slug and function
+broken        the result of a check during which the implementation broke
+grouped       results by slug and function
+message       a failure in words, with the line that shows it again
 """
 
 from __future__ import annotations
@@ -35,8 +36,8 @@ class NotOffered(Exception):
     """The implementation answers, but not what this check asks of it: some do not tell all that a function can."""
 
 
-class Kind(StrEnum):
-    """What the check asks for."""
+class Demand(StrEnum):
+    """This is what a check asks for."""
 
     MUST_HOLD = "must-hold"
     MUST_REFUSE = "must-refuse"
@@ -51,7 +52,7 @@ class Severity(StrEnum):
     NUISANCE = "nuisance"
 
 
-class Verdict(StrEnum):
+class Status(StrEnum):
     """PASS; FAIL: measured beyond the bound, or an answer where none can be; REFUSED: no answer where one is due; BROKEN; NOT_OFFERED."""
 
     PASS = "pass"
@@ -79,7 +80,7 @@ class Measurement:
 
 @dataclass(frozen=True)
 class Named:
-    """What a check and its record are called by."""
+    """What a check and its result are called by."""
 
     slug: str
     function: str
@@ -87,7 +88,7 @@ class Named:
 
     @property
     def name(self) -> str:
-        """slug[vector]."""
+        """The name is slug[vector]."""
         return f"{self.slug}[{self.vector}]"
 
     @property
@@ -112,11 +113,11 @@ class Check(Named):
     effect: str
     severity: Severity
     measure: Callable[[Function], Iterable[Measurement]]
-    kind: Kind = Kind.MUST_HOLD
+    kind: Demand = Demand.MUST_HOLD
 
 
 @dataclass(frozen=True)
-class Record(Named):
+class CheckResult(Named):
     """The outcome of one check; got, bound, ratio are those of the worst measurement (None where nothing was measured)."""
 
     claim: str | None
@@ -133,60 +134,72 @@ class Record(Named):
 
     @property
     def failed(self) -> bool:
-        """Whether a must is not met."""
-        return self.kind != Kind.FREE and self.verdict not in (Verdict.PASS, Verdict.NOT_OFFERED)
+        """It has failed where a must is not met."""
+        return self.kind != Demand.FREE and self.verdict not in (Status.PASS, Status.NOT_OFFERED)
 
     def to_json(self) -> dict[str, Any]:
         """JSON-ready; numbers that are not finite as strings."""
-        shown = {name: str(value) if isinstance(value, float) and abs(value) == inf else value for name, value in asdict(self).items()}
-        return {"check": self.name, **shown, "failed": self.failed}
+        values = {name: str(value) if isinstance(value, float) and abs(value) == inf else value for name, value in asdict(self).items()}
+        return {"check": self.name, **values, "failed": self.failed}
 
 
-def perform(check: Check, function: Function) -> Record:
-    """The record of one check on a guarded function."""
+def perform(check: Check, function: Function) -> CheckResult:
+    """The result of one check on a guarded function."""
     begun = time.perf_counter()
     worst: Measurement | None = None
     detail = ""
     try:
         measured = list(check.measure(function))
-        if check.kind is Kind.MUST_REFUSE:
-            verdict, detail = Verdict.FAIL, "answered where no answer can be right"
+        if check.kind is Demand.MUST_REFUSE:
+            verdict, detail = Status.FAIL, "answered where no answer can be right"
         else:
             worst = max(measured, key=lambda one: one.ratio)
-            verdict = Verdict.PASS if worst.ratio <= 1 else Verdict.FAIL
+            verdict = Status.PASS if worst.ratio <= 1 else Status.FAIL
             beyond = [one.quantity for one in measured if one.ratio > 1]
             detail = f"beyond the bound: {', '.join(dict.fromkeys(beyond))}" if beyond else ""
     except Refused as refusal:
-        verdict = Verdict.PASS if check.kind is Kind.MUST_REFUSE else Verdict.REFUSED
+        verdict = Status.PASS if check.kind is Demand.MUST_REFUSE else Status.REFUSED
         detail = str(refusal)
     except Broken as failure:
-        verdict, detail = Verdict.BROKEN, str(failure)
+        verdict, detail = Status.BROKEN, str(failure)
     except NotOffered as absent:
-        verdict, detail = Verdict.NOT_OFFERED, str(absent)
+        verdict, detail = Status.NOT_OFFERED, str(absent)
     except Exception as error:  # the comparison did not expect such an answer
-        verdict, detail = Verdict.BROKEN, f"the answer cannot be read: {type(error).__name__}: {error}"
-    return _record(check, verdict, worst, detail, time.perf_counter() - begun)
+        verdict, detail = Status.BROKEN, f"the answer cannot be read: {type(error).__name__}: {error}"
+    return _result(check, verdict, worst, detail, time.perf_counter() - begun)
 
 
-def broken(check: Check, failure: Exception, seconds: float) -> Record:
-    """BROKEN, in the words of the failure."""
-    return _record(check, Verdict.BROKEN, None, str(failure), seconds)
+def broken(check: Check, failure: Exception, seconds: float) -> CheckResult:
+    """The status is BROKEN, in the words of the failure."""
+    return _result(check, Status.BROKEN, None, str(failure), seconds)
 
 
-def grouped(records: Iterable[Record]) -> list[list[Record]]:
-    """Those of one slug and function together, in their order."""
-    groups: dict[tuple[str, str], list[Record]] = {}
-    for record in records:
-        groups.setdefault((record.slug, record.function), []).append(record)
+def grouped(results: Iterable[CheckResult]) -> list[list[CheckResult]]:
+    """Those of one slug and function stand together, in their order."""
+    groups: dict[tuple[str, str], list[CheckResult]] = {}
+    for one in results:
+        groups.setdefault((one.slug, one.function), []).append(one)
     return list(groups.values())
 
 
-def _record(check: Check, verdict: Verdict, worst: Measurement | None, detail: str, seconds: float) -> Record:
+def message(result: CheckResult, adapter: str = "ADAPTER") -> str:
+    """What went wrong, what it does to a user, by how much, and the line that shows it again."""
+    measured = "" if result.ratio is None else f" {result.quantity}: got {result.got:.3g}," if result.got is not None else " got NaN,"
+    if result.ratio is not None and result.bound is not None:
+        measured += f" bound {result.bound:.3g}, ratio {result.ratio:.3g}."
+    detail = f" {result.detail}." if result.detail else ""
+    return (
+        f"{result.name} ({result.function}): {result.verdict}.{measured}{detail} Effect: {result.effect} ({result.severity}). "
+        f"Again: faultspace audit {adapter} --check '{result.full_name}'"
+    )
+
+
+def _result(check: Check, verdict: Status, worst: Measurement | None, detail: str, seconds: float) -> CheckResult:
     effect, severity = check.effect, check.severity
-    if verdict in (Verdict.REFUSED, Verdict.BROKEN):  # whoever gets no answer is not misled
-        due = "something was to be said of the question" if check.kind is Kind.MUST_REFUSE else "there is an answer"
+    if verdict in (Status.REFUSED, Status.BROKEN):  # whoever gets no answer is not misled
+        due = "something was to be said of the question" if check.kind is Demand.MUST_REFUSE else "there is an answer"
         effect, severity = f"no answer where {due}", Severity.NUISANCE
-    return Record(
+    return CheckResult(
         check.slug,
         check.function,
         check.vector,

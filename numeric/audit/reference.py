@@ -20,13 +20,13 @@ from ..model.residuals import residual as subtract
 from ..signal.reconstruction import reconstruct_fault
 from ..signal.zeros import fault_zeros
 from ..space.by_ranks import fault_space as space
-from .adapter import Structure
+from .adapter import ZeroStructure
 
 RANK = 1e-10  # of the largest singular value: ranks of small matrices with entries of a few digits
 
 
 def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Array, Array, Array, Array]:
-    """PI-MOESP."""
+    """The method is PI-MOESP."""
     found = pi_moesp(y, u, order=order, block_rows=block_rows)
     if not found.condition_numbers["observability"] <= UNDETERMINED:
         raise InvalidData("; ".join(found.warnings))
@@ -34,7 +34,7 @@ def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Array, Ar
 
 
 def residual(y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Array:
-    """With the initial state fitted."""
+    """The initial state is fitted."""
     return subtract(y, u, StateSpaceModel(A, B, C, D)).r
 
 
@@ -46,7 +46,7 @@ def window_ranks(r: Array, windows: int) -> tuple[int, ...]:
 
 
 def fault_dimension(r: Array) -> int | None:
-    """None where undecided."""
+    """The number is None where it is undecided."""
     return count(r).n_v
 
 
@@ -59,20 +59,20 @@ def fault_space(r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Arra
 
 
 def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Array:
-    """By the smoother."""
+    """The signal is that of the smoother."""
     found = reconstruct_fault(r, A, F, C, G, x0=x0)
     if not found.left_invertible:
         raise InvalidData(found.reason)
     return found.v
 
 
-def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:
+def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
     """Orders of infinite zeros from #{order <= k} = rank T_(k+1) - rank T_k; finite zeros those of the pencil."""
     if not all(np.all(np.isfinite(matrix)) for matrix in (A, F, C, G)):
         raise InvalidData("A, F, C, G: got entries that are NaN or infinite")
     orders = _infinite_zero_orders(A, F, C, G)
     found = fault_zeros(A, F, C, G)
-    return Structure(len(orders), [complex(z) for z in found.zeros], orders, len(orders) == F.shape[1])
+    return ZeroStructure(len(orders), [complex(z) for z in found.zeros], orders, len(orders) == F.shape[1])
 
 
 def _infinite_zero_orders(A: Array, F: Array, C: Array, G: Array) -> list[int]:

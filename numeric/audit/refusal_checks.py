@@ -19,14 +19,14 @@ from ...base.arrays import Array
 from .fault_checks import as_number, space_off
 from .fault_vectors import FaultVector
 from .rationals import floats, matrix
-from .records import Check, Function, Kind, Measurement, Refused, Severity
+from .records import Check, Demand, Function, Measurement, Refused, Severity
 from .vectors import IdentificationVector, shipped
 
 MISSING = "a missing sample goes into the estimate unnoticed"
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     yield from _of_identify(next(v for v in shipped("identification") if v.C.nrows > 1 and v.B.ncols > 1))
     yield from _of_faults(next(v for v in shipped("faults") if v.slug == "two-faults"))
     for vector in shipped("faults"):
@@ -40,7 +40,7 @@ def _refuses(
         called(*arguments())
         return iter(())
 
-    return Check(slug, function, vector, claim, effect, Severity.SILENT, measure, Kind.MUST_REFUSE)
+    return Check(slug, function, vector, claim, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
 
 
 def _with(array: Array, value: float) -> Array:

@@ -1,7 +1,7 @@
 """Implementation against check: the audit of our reference and of every published package that is here, written as one JSON file.
 
-    audit_peer    the records of one package; needs it installed
-    tallies       the records of one implementation, summed up by slug and function
+    tallies       the results of one audit, summed up by slug and function
+    board         our reference and these packages
     merged        new entries in place of old ones
     main          audits and writes scoreboard.json; what is not installed here keeps the entry that it has there
 
@@ -18,60 +18,37 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from ...base.errors import InvalidData
-from .peers import PEERS, Peer, peer
-from .programs import STANDARD, Limits
-from .records import Record, Verdict, grouped
-from .running import audit, audit_named
+from .peers import PEERS
+from .peers import peer as peer_named
+from .records import CheckResult, Status, grouped
+from .running import audit
 from .scoreboard_pages import write_pages
 from .scoreboard_records import Audited, Board, Tally
-from .subprocess_adapter import Exec
-
-REFERENCE = "faultspace.numeric.audit.reference"
 
 
-def audit_peer(
-    one: Peer,
-    *,
-    limits: Limits = STANDARD,
-    only: Sequence[str] = (),
-    tell: Callable[[str, int, int], None] = lambda name, done, total: None,
-) -> tuple[Record, ...]:
-    """The records of a published package. Raises InvalidData, with what it needs, where it is not installed."""
-    if one.version() is None:
-        raise InvalidData(f"{one.name} is not installed here; needed is: {one.needs}")
-    if one.adapter is not None:
-        return audit_named(one.adapter, limits=limits, only=only, tell=tell)
-    with Exec(one.command or (), limits) as program:
-        return audit(program, only=only, tell=tell)
+def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
+    """There is one for each slug and function, in the order of the results."""
+    found = []
+    for group in grouped(one for one in results if one.verdict != Status.NOT_OFFERED):
+        failed = [one for one in group if one.failed]
+        worst = failed[0] if failed else max(group, key=lambda one: one.ratio or 0.0)
+        numbers = [None if x is None else (str(x) if abs(x) == inf else float(f"{x:.2g}")) for x in (worst.got, worst.bound)]
+        said: Any = (worst.vector, worst.verdict, worst.quantity, *numbers, worst.detail)
+        found.append(Tally(worst.slug, worst.function, worst.kind, worst.claim, worst.effect, len(group), len(failed), *said))
+    return tuple(found)
 
 
-def tallies(records: Iterable[Record]) -> tuple[Tally, ...]:
-    """One for each slug and function, in the order of the records."""
-    result = []
-    for group in grouped(record for record in records if record.verdict != Verdict.NOT_OFFERED):
-        failed = [record for record in group if record.failed]
-        shown = failed[0] if failed else max(group, key=lambda record: record.ratio or 0.0)
-        numbers = [None if x is None else (str(x) if abs(x) == inf else float(f"{x:.2g}")) for x in (shown.got, shown.bound)]
-        told: Any = (shown.vector, shown.verdict, shown.quantity, *numbers, shown.detail)
-        result.append(Tally(shown.slug, shown.function, shown.kind, shown.claim, shown.effect, len(group), len(failed), *told))
-    return tuple(result)
+def board(names: Sequence[str], seconds: float, on_progress: Callable[[str, int, int], None]) -> Board:
+    """Our reference and these packages, those that are here; a check may take so many seconds."""
 
-
-def board(names: Sequence[str], limits: Limits, tell: Callable[[str, int, int], None]) -> Board:
-    """Our reference and these packages, those that are here."""
-
-    def timed(name: str, title: str, version: str, needs: str, run: Callable[..., tuple[Record, ...]]) -> Audited:
+    def audited(name: str, title: str, version: str, needs: str, peer: str | None) -> Audited:
         begun = time.perf_counter()
-        records = run(tell=lambda check, done, total: tell(name, done, total))
-        return Audited(name, title, version, needs, round(time.perf_counter() - begun, 1), tallies(records))
+        found = audit(peer=peer, seconds=seconds, on_progress=lambda check, done, total: on_progress(name, done, total))
+        return Audited(name, title, version, needs, round(time.perf_counter() - begun, 1), tallies(found))
 
-    result = [timed("faultspace", "our own reference", "this one", "", lambda tell: audit_named(REFERENCE, limits=limits, tell=tell))]
-    for one in (peer(name) for name in names):
-        version = one.version()
-        if version is not None:
-            result.append(timed(one.name, one.title, version, one.needs, lambda tell, one=one: audit_peer(one, limits=limits, tell=tell)))
-    return Board(tuple(result))
+    known = [(one, one.version()) for one in map(peer_named, names)]
+    ours = audited("faultspace", "our own reference", "this one", "", None)
+    return Board((ours, *(audited(one.name, one.title, version, one.needs, one.name) for one, version in known if version is not None)))
 
 
 def merged(new: Board, old: Board) -> Board:
@@ -102,7 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                     bars[name] = progress.add_task(name, total=total)
                 progress.update(bars[name], completed=done + 1)
 
-            found = merged(board(given.peer or [one.name for one in PEERS], Limits(given.timeout), tell), found)
+            found = merged(board(given.peer or [one.name for one in PEERS], given.timeout, tell), found)
         given.out.mkdir(parents=True, exist_ok=True)
         file.write_text(json.dumps(found.to_json(), indent=1) + "\n", "utf-8")
     write_pages(found, given.out)

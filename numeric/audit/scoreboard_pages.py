@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from .records import Kind
+from .records import Demand
 from .scoreboard_records import Audited, Board, Tally
 
 BEGIN, END = "<!-- scoreboard -->", "<!-- end of scoreboard -->"
@@ -40,7 +40,7 @@ def table(board: Board) -> str:
 
 
 def _musts(audited: Audited) -> list[Tally]:
-    return [one for one in audited.tallies if one.kind != Kind.FREE]
+    return [one for one in audited.tallies if one.kind != Demand.FREE]
 
 
 def _passed(audited: Audited) -> int:
@@ -51,7 +51,7 @@ def _cell(audited: Audited, slug: str, function: str) -> str:
     found = next((one for one in audited.tallies if (one.slug, one.function) == (slug, function)), None)
     if found is None:
         return ""
-    if found.kind == Kind.FREE:
+    if found.kind == Demand.FREE:
         return "told"
     return f"**{found.asked - found.failed}/{found.asked}**" if found.failed else f"{found.asked}/{found.asked}"
 
@@ -80,7 +80,7 @@ def _alike(failed: Sequence[Tally]) -> list[list[Tally]]:
     groups: dict[tuple[object, ...], list[Tally]] = {}
     for one in failed:
         key = (one.function, one.vector, one.verdict, one.quantity, one.quantity or one.detail)
-        groups.setdefault(key if one.kind != Kind.MUST_REFUSE else (one.slug, one.function), []).append(one)
+        groups.setdefault(key if one.kind != Demand.MUST_REFUSE else (one.slug, one.function), []).append(one)
     return list(groups.values())
 
 
@@ -92,7 +92,7 @@ def _words(one: Tally) -> str:
 
 
 def _short(text: str) -> str:
-    """One line of at most 200 characters."""
+    """The text becomes one line of at most 200 characters."""
     line = " ".join(text.split()).rstrip(".")
     return line if len(line) <= 200 else line[:197] + "..."
 

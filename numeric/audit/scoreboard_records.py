@@ -51,12 +51,12 @@ class Audited:
 
 @dataclass(frozen=True)
 class Board:
-    """All implementations, our own first."""
+    """The board has all implementations, our own first."""
 
     audited: tuple[Audited, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-ready."""
+        """The document is JSON-ready."""
         return {"format": FORMAT, "audited": [asdict(one) for one in self.audited]}
 
     @staticmethod

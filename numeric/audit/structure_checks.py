@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from .adapter import Structure
+from .adapter import ZeroStructure
 from .exact_comparison import matched
 from .records import Broken, Check, Function, Measurement, NotOffered, Severity
 from .vectors import StructureVector, floats, shipped
 
 
 def checks() -> Iterator[Check]:
-    """All of this module."""
+    """This yields all checks of the module."""
     for vector in shipped("structure"):
         effect = "independent faults are taken for dependent or the reverse"
         yield _check("normal-rank", vector, "proposition-3", effect, _ranks, "normal_rank", "left_invertible")
@@ -35,7 +35,7 @@ def _check(slug: str, vector: StructureVector, claim: str, effect: str, compare:
     return Check(slug, "structure", vector.slug, claim, effect, Severity.SILENT, measure)
 
 
-def _structure(answer: Structure | Mapping[str, Any], names: Sequence[str]) -> Any:
+def _structure(answer: ZeroStructure | Mapping[str, Any], names: Sequence[str]) -> Any:
     """Something with these attributes. Of a mapping that lacks one of them the check does not ask."""
     if not isinstance(answer, Mapping):
         return answer
@@ -45,19 +45,19 @@ def _structure(answer: Structure | Mapping[str, Any], names: Sequence[str]) -> A
     return SimpleNamespace(**answer)
 
 
-def _ranks(found: Structure, vector: StructureVector) -> Iterator[Measurement]:
+def _ranks(found: ZeroStructure, vector: StructureVector) -> Iterator[Measurement]:
     yield Measurement("normal rank", float(abs(found.normal_rank - vector.normal_rank)), 0.0)
     yield Measurement("left invertible", float(bool(found.left_invertible) != vector.left_invertible), 0.0)
 
 
-def _infinite(found: Structure, vector: StructureVector) -> Iterator[Measurement]:
+def _infinite(found: ZeroStructure, vector: StructureVector) -> Iterator[Measurement]:
     got, due = sorted(found.infinite_zero_orders), vector.infinite_zero_orders
     yield Measurement("number of orders", float(abs(len(got) - len(due))), 0.0)
     if len(got) == len(due):
         yield Measurement("orders of infinite zeros", float(sum(abs(a - b) for a, b in zip(got, due, strict=True))), 0.0)
 
 
-def _finite(found: Structure, vector: StructureVector) -> Iterator[Measurement]:
+def _finite(found: ZeroStructure, vector: StructureVector) -> Iterator[Measurement]:
     try:
         got = [complex(z) for z in found.finite_zeros]
     except TypeError:

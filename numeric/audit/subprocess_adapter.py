@@ -18,8 +18,9 @@ from typing import Any, Self
 import numpy as np
 
 from ...base.errors import InvalidData
-from .adapter import FUNCTIONS, Structure
-from .programs import STANDARD, Limits, Program
+from ...base.processes import STANDARD, Limits
+from .adapter import FUNCTIONS, ZeroStructure
+from .programs import Program
 from .records import Broken, Refused
 
 ARGUMENTS = {
@@ -121,9 +122,9 @@ def _numbers(value: Any) -> Any:
     return float("nan") if value is None else value
 
 
-def _structure(rank: Any, zeros: Any, orders: Any, invertible: Any) -> Structure:
+def _structure(rank: Any, zeros: Any, orders: Any, invertible: Any) -> ZeroStructure:
     try:
         found = [complex(*z) if isinstance(z, list) else complex(z) for z in (zeros if isinstance(zeros, list) else [zeros])]
-        return Structure(rank, found, np.atleast_1d(orders).tolist(), bool(invertible))
+        return ZeroStructure(rank, found, np.atleast_1d(orders).tolist(), bool(invertible))
     except (TypeError, ValueError) as error:
         raise Broken(f"the zeros are no list of numbers or pairs [re, im]: {error}") from None

@@ -72,12 +72,12 @@ class IdentificationVector:
 
     @property
     def order(self) -> int:
-        """Number of states."""
+        """The order is the number of states."""
         return self.A.nrows
 
     @cached_property
     def y(self) -> Matrix:
-        """The exact outputs (N, p)."""
+        """These are the exact outputs (N, p)."""
         return simulate(ResidualSystem(self.A, self.B, self.C, self.D), self.x0, self.u).residuals
 
     def bound(self, name: str, part: str | None = None) -> Array:
@@ -86,12 +86,12 @@ class IdentificationVector:
 
     def to_json(self) -> dict[str, Any]:
         """With the exact outputs and answers spelt out for other languages."""
-        from .exact_comparison import characteristic_polynomial, markov, poles, transfer
+        from .exact_comparison import markov, poles, polynomial_from_the_top, transfer
 
         parts: dict[str, Any] = {name: getattr(self, name).to_json() for name in ("A", "B", "C", "D", "x0", "u", "y")}
         expected = {
             "markov": [part.to_json() for part in markov(self.A, self.B, self.C, self.D, 2 * self.order + 2)],
-            "characteristic_polynomial": [str(c) for c in characteristic_polynomial(self.A)],
+            "characteristic_polynomial": [str(c) for c in polynomial_from_the_top(self.A)],
             "transfer": [{"z": z, "value": transfer(self.A, self.B, self.C, self.D, z).to_json()} for z in POINTS],
             "poles": [[z.real, z.imag] for z in poles(self.A)],
         }
@@ -122,11 +122,11 @@ class StructureVector:
 
     @property
     def left_invertible(self) -> bool:
-        """Whether the normal rank is m."""
+        """It is left-invertible where the normal rank is m."""
         return self.normal_rank == self.system.m
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-ready."""
+        """The document is JSON-ready."""
         expected = {
             "normal_rank": self.normal_rank,
             "finite_zeros": [[z.real, z.imag] for z in self.zeros],
@@ -138,7 +138,7 @@ class StructureVector:
 
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> StructureVector:
-        """The vector that `to_json` wrote."""
+        """This reads the vector that `to_json` wrote."""
         known = data["expected"]
         return StructureVector(
             data["slug"],

@@ -23,14 +23,14 @@ import psutil
 
 from ...base.errors import InvalidData
 from .adapter import guarded, load, offered
+from .catalogue import all_checks
 from .records import Function, perform
-from .running import all_checks
 
 PATIENCE = 1.0  # seconds that copies of this process have to come back
 
 
 def main(name: str) -> int:
-    """Answers until standard input ends."""
+    """This answers until standard input ends."""
     with os.fdopen(os.dup(0)) as questions, os.fdopen(os.dup(1), "w") as answers, open(os.devnull, "r+b") as nowhere:
         for taken in (0, 1):
             os.dup2(nowhere.fileno(), taken)

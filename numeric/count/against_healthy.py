@@ -29,7 +29,11 @@ those two are therefore optimistic for other data.
     visible         largest root that chance explains: a fault adding less than that times the noise, in its best direction, is not seen
 
 One fault's direction. [F; G] = z maximises the sum over frequencies of |w* x|^2 / (w* w), w = Phi^(-1/2) (H z)(f), x the whitened
-transform: maximum likelihood for an arbitrary unknown signal, which the quotient has eliminated.
+transform: maximum likelihood for an arbitrary unknown signal, which the quotient has eliminated. The signal is w* x / (w* w), shrunk at
+each frequency by the share that noise explains. How loud noise is in that direction is measured where it was not learnt: each half of the
+healthy record is whitened by the other's predictor and covariances. Taken as learnt, the drift of measured data at the lowest frequencies
+passed for signal: of an injected fault at 0.3 % of a measured record the signal then correlated with the truth by .64 to .88 (four
+draws), and with the level measured by .78 to .94.
 
     fault_dimension_against_healthy   n_v with its evidence
     fault_direction_against_healthy   z and the signal of one fault, for known A, C or purely at the outputs
@@ -40,25 +44,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
-import scipy.optimize
+import scipy  # its folders are loaded when they are first used
 from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ..count.healthy_model import LEVEL, HealthyReference, Spectra, covering_spectra
+from ..count.healthy_model import FEW_TAPERS, LEVEL, HealthyReference, Spectra, covering_spectra
 
 Complex = NDArray[np.complex128]
 
 TURNED = 0.25
-"""Share of its excess that a turning direction keeps at half the width, since it grows with the square of the width. That halves are
-compared at all, and against the geometric mean, was settled after looking at data (head of the module)."""
+"""This is the share of its excess that a turning direction keeps at half the width, since it grows with the square of the width. That
+halves are compared at all, and against the geometric mean, was settled after looking at data (head of the module)."""
 
 
 @dataclass(frozen=True, eq=False)
 class FaultsAgainstHealthy:
-    """`n_v` (None: undecided) with its `reason`; `roots`, `thresholds` (centres, p) at `frequencies` (centres,), cycles a sample, and
-    `counts` (centres,) of roots above; `visible` as in the head of the module; `kept` excess of the last counted root at half width."""
+    """How many faults stand out of what the healthy record shows, with the evidence.
+
+    `n_v` is the count (None where it is undecided), and `reason` says why. `roots` and `thresholds` (centres, p) belong to the
+    `frequencies` (centres,) in cycles a sample, and `counts` (centres,) are the roots above. `visible` is explained in the head of the
+    module, and `kept` is the share of its excess that the last counted root keeps at half the width.
+    """
 
     n_v: int | None
     reason: str
@@ -71,19 +78,22 @@ class FaultsAgainstHealthy:
 
     @property
     def at_least(self) -> int:
-        """`n_v` where it is decided; else 1 where anything stands out: that there is a fault is no matter of turning."""
+        """Return `n_v` where it is decided; else 1 where anything stands out: that there is a fault is no matter of turning."""
         return min(1, int(self.counts.max())) if self.n_v is None else self.n_v
 
     @property
     def decided(self) -> bool:
-        """Whether there is an answer."""
+        """Say whether there is an answer."""
         return self.n_v is not None
 
 
 @dataclass(frozen=True, eq=False)
 class FaultDirection:
-    """`z` = [F; G] (n + p,) of unit norm, F empty without A, C; `signal` (N,), zero before the first whitened sample, shrunk at each
-    frequency by the share that noise explains; `strength` mean of |w* x|^2 / (w* w), one for noise alone."""
+    """The direction of one fault and its signal.
+
+    `z` = [F; G] (n + p,) has unit norm, and F is empty without A and C. `signal` (N,) is zero before the first whitened sample and is
+    shrunk at each frequency by the share that noise explains. `strength` is the mean of |w* x|^2 / (w* w), which is one for noise alone.
+    """
 
     z: Array
     signal: Array
@@ -93,7 +103,8 @@ class FaultDirection:
 def fault_dimension_against_healthy(
     r: ArrayLike, healthy: HealthyReference, *, u: ArrayLike | None = None, level: float = LEVEL
 ) -> FaultsAgainstHealthy:
-    """Faults in a residual r (N, p) that the healthy record does not explain; give u (N, n_u) if the reference was learnt with inputs.
+    """Count the faults in a residual r (N, p) that the healthy record does not explain; give u (N, n_u) if the reference was learnt with
+    inputs.
 
     `level` (0, 1): probability of counting too many by chance, turning directions apart. Raises InvalidData where r does not fit the
     reference. Sources: [K64], [RS95].
@@ -130,7 +141,7 @@ def fault_dimension_against_healthy(
 
 
 def _enough_kept(count: int, tapers: int) -> float:
-    """The share of its excess at half the width from which on a direction is no turn; infinite where tapers are too few to tell."""
+    """Return the share of its excess at half the width from which on a direction is no turn; infinite where tapers are too few to tell."""
     if tapers < 4 * count:
         return np.inf
     equal = (1.0 - np.sqrt(2.0 * count / tapers)) ** 2 / (1.0 - np.sqrt(count / tapers)) ** 2
@@ -138,7 +149,8 @@ def _enough_kept(count: int, tapers: int) -> float:
 
 
 def _kept_at_half_width(healthy: HealthyReference, record: Spectra, where: NDArray[np.bool_], count: int) -> float:
-    """Median over the centres `where` of the excess of root number `count` over its median by chance, half the tapers against all."""
+    """Return the median over the centres `where` of the excess of root number `count` over its median by chance, half the tapers against
+    all."""
     wide = Spectra(record.frequencies[where], record.transforms[where])
     half = Spectra(wide.frequencies, wide.transforms[:, : wide.transforms.shape[1] // 2])
     last = count - 1
@@ -154,43 +166,82 @@ def fault_direction_against_healthy(
     C: ArrayLike | None = None,
     u: ArrayLike | None = None,
 ) -> FaultDirection:
-    """[F; G] and signal of one fault in r (N, p); A (n, n), C (p, n) of the model, or neither for a fault at the outputs alone.
+    """Return [F; G] and the signal of one fault in r (N, p); A (n, n), C (p, n) of the model, or neither for a fault at the outputs alone.
 
     The sign and the split of size between z and the signal are free: z has unit norm in the given units. With zeros in the fault model
     (zeta > 0) other members of the fault space fit as well. Raises InvalidData where shapes do not fit. Needs memory for (N / 2) p (n + p)
     complex numbers.
     """
-    e, regressors = healthy.innovations(r, u)
-    frequencies = np.asarray(np.fft.rfftfreq(len(e))[1:-1], dtype=float)
-    transforms = np.fft.rfft(e, axis=0) / np.sqrt(len(e))
-    told = np.fft.rfft(regressors, axis=0)[1:-1] / np.sqrt(len(e))
-    forecast = np.sqrt(1.0 + np.sum(np.abs(told) ** 2, axis=1))
-    effect = healthy.response(frequencies)
     if (A is None) != (C is None):
         raise InvalidData("A and C: got one without the other; give both, or neither for a fault at the outputs alone")
-    if A is not None and C is not None:
-        effect = effect @ _columns(np.array(A, dtype=float, ndmin=2), np.array(C, dtype=float, ndmin=2), frequencies, healthy.p)
+    model = None if A is None or C is None else (np.array(A, dtype=float, ndmin=2), np.array(C, dtype=float, ndmin=2))
+    e, regressors = healthy.innovations(r, u)
+    record = _whitened(healthy, e, regressors, model)
+    z = _likeliest(record.effect, record.x)
+    matched, power, ratio = record.matched(z)
+    level = _smooth(ratio, healthy.tapers)
+    noise = _noise_level(healthy, model, z, record.frequencies)
+    spectrum = np.zeros(len(e) // 2 + 1, dtype=complex)
+    spectrum[1 : 1 + len(ratio)] = np.maximum(1.0 - noise / np.maximum(level, noise), 0.0) * matched / power
+    signal = np.concatenate([np.zeros(healthy.lags), np.fft.irfft(spectrum * np.sqrt(len(e)), n=len(e))])
+    return FaultDirection(z, signal, float(ratio.mean()))
+
+
+@dataclass(frozen=True, eq=False)
+class _Whitened:
+    """The transforms x (len, p) of a record at `frequencies` (len,), whitened, and the `effect` (len, p, size) of each column on them."""
+
+    frequencies: Array
+    effect: Complex
+    x: Complex
+
+    def matched(self, z: Array) -> tuple[Complex, Array, Array]:
+        """Return w* x, w* w and |w* x|^2 / (w* w) at each frequency for w = effect z."""
+        w = self.effect @ z
+        power = np.sum(np.abs(w) ** 2, axis=1)
+        inner = np.sum(w.conj() * self.x, axis=1)
+        return inner, power, np.abs(inner) ** 2 / power
+
+
+def _whitened(healthy: HealthyReference, e: Array, regressors: Array, model: tuple[Array, Array] | None) -> _Whitened:
+    """Whiten innovations e (N, p) with their regressors (N, q), at all frequencies but zero and one half."""
+    frequencies = np.asarray(np.fft.rfftfreq(len(e))[1:-1], dtype=float)
+    transforms = np.fft.rfft(e, axis=0)[1:-1] / np.sqrt(len(e))
+    explained = np.fft.rfft(regressors, axis=0)[1:-1] / np.sqrt(len(e))
+    forecast = np.sqrt(1.0 + np.sum(np.abs(explained) ** 2, axis=1))
+    effect = healthy.response(frequencies)
+    if model is not None:
+        effect = effect @ _columns(*model, frequencies, healthy.p)
     whitener = np.array([np.linalg.inv(np.linalg.cholesky(phi)) for phi in healthy.covariances])
     nearest = healthy.nearest(frequencies)
     for centre, factor in enumerate(whitener):
         effect[nearest == centre] = factor @ effect[nearest == centre]
     effect /= forecast[:, None, None]
-    x = np.einsum("kij,kj->ki", whitener[nearest], transforms[1:-1] / forecast[:, None])
-    z = _likeliest(effect, x)
-    w = effect @ z
-    power = np.sum(np.abs(w) ** 2, axis=1)
-    matched = np.sum(w.conj() * x, axis=1)
-    ratio = np.abs(matched) ** 2 / power
-    width = healthy.tapers
-    smooth = np.convolve(ratio, np.ones(width), "same") / np.convolve(np.ones(len(ratio)), np.ones(width), "same")
-    spectrum = np.zeros(len(transforms), dtype=complex)
-    spectrum[1:-1] = np.maximum(1.0 - 1.0 / np.maximum(smooth, 1.0), 0.0) * matched / power
-    signal = np.concatenate([np.zeros(healthy.lags), np.fft.irfft(spectrum * np.sqrt(len(e)), n=len(e))])
-    return FaultDirection(z, signal, float(ratio.mean()))
+    return _Whitened(frequencies, effect, np.einsum("kij,kj->ki", whitener[nearest], transforms / forecast[:, None]))
+
+
+def _noise_level(healthy: HealthyReference, model: tuple[Array, Array] | None, z: Array, frequencies: Array) -> Array:
+    """Return the |w* x|^2 / (w* w) that noise makes in the direction z near each frequency (len,), one where it is as it was learnt.
+
+    Each half of the healthy record is whitened by what was learnt on the other, which knows nothing of it: a drift at the lowest
+    frequencies, which a predictor fits where it is learnt and does not where it is used, shows in no other way.
+    """
+    levels = []
+    for fold in healthy.folds:
+        innovations = fold.reference.unchecked_innovations(fold.residual, fold.inputs)
+        half = _whitened(fold.reference, *innovations, model)
+        levels.append(np.interp(frequencies, half.frequencies, _smooth(half.matched(z)[2], 2 * FEW_TAPERS + 1)))
+    return np.asarray(np.mean(levels, axis=0))
+
+
+def _smooth(values: Array, width: int) -> Array:
+    """Return the mean of the `width` values around each, fewer at the ends."""
+    window = np.ones(min(width, len(values)))
+    return np.asarray(np.convolve(values, window, "same") / np.convolve(np.ones(len(values)), window, "same"))
 
 
 def _columns(A: Array, C: Array, frequencies: Array, p: int) -> Complex:
-    """[C (zI - A)^-1, I] at z = exp(2 pi i f): (len, p, n + p)."""
+    """Return [C (zI - A)^-1, I] at z = exp(2 pi i f): (len, p, n + p)."""
     n = A.shape[0]
     if A.shape != (n, n) or C.shape != (p, n):
         raise InvalidData(f"A, C: got shapes {A.shape}, {C.shape}; needed (n, n), ({p}, n) for a residual of {p} channels")
@@ -204,7 +255,8 @@ def _columns(A: Array, C: Array, frequencies: Array, p: int) -> Complex:
 
 
 def _likeliest(effect: Complex, x: Complex) -> Array:
-    """The unit z that maximises sum_k |w_k* x_k|^2 / |w_k|^2, w_k = effect_k z; sought in coordinates where sum_k |w_k|^2 = |z|^2."""
+    """Return the unit z that maximises sum_k |w_k* x_k|^2 / |w_k|^2, w_k = effect_k z; sought in coordinates where sum_k |w_k|^2 =
+    |z|^2."""
     size = effect.shape[2]
     sizes = np.sqrt(np.sum(np.abs(effect) ** 2, axis=(0, 1)))
     scaled = effect / sizes

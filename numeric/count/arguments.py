@@ -20,7 +20,7 @@ from ..data.validation import enough_samples, positive, signal
 
 @dataclass(frozen=True)
 class Arguments:
-    """Arguments after checking; `longest` is the number of samples of the longest window looked at."""
+    """These are the arguments after checking; `longest` is the number of samples of the longest window looked at."""
 
     r: Array
     A: Array
@@ -31,30 +31,30 @@ class Arguments:
 
     @property
     def n(self) -> int:
-        """Number of states."""
+        """Return the number of states."""
         return int(self.A.shape[0])
 
     @property
     def p(self) -> int:
-        """Number of outputs."""
+        """Return the number of outputs."""
         return int(self.C.shape[0])
 
 
 def fitting(r: ArrayLike, A: ArrayLike, C: ArrayLike) -> tuple[Array, Array, Array]:
-    """r (N, p), not zero throughout, A (n, n), C (p, n) as float arrays. Raises InvalidData."""
+    """Return r (N, p), not zero throughout, A (n, n) and C (p, n) as float arrays. Raises InvalidData where they do not fit."""
     residual, A, C = shaped(r, A, C)
     not_zero(bool(np.any(residual)))
     return residual, A, C
 
 
 def not_zero(seen: bool) -> None:
-    """InvalidData where no sample of r was `seen` to differ from zero."""
+    """Raise InvalidData where no sample of r was `seen` to differ from zero."""
     if not seen:
         raise InvalidData("r is zero throughout: nothing is to be learnt from it; has the fault been recorded at all?")
 
 
 def shaped(r: ArrayLike, A: ArrayLike, C: ArrayLike) -> tuple[Array, Array, Array]:
-    """The same for a stretch of r, which may be zero."""
+    """Return what `fitting` returns, for a stretch of r, which may be zero."""
     residual = signal(r, "r")
     A, C = (np.array(matrix, dtype=float, ndmin=2) for matrix in (A, C))
     p, n = residual.shape[1], A.shape[0]
@@ -69,7 +69,7 @@ def shaped(r: ArrayLike, A: ArrayLike, C: ArrayLike) -> tuple[Array, Array, Arra
 
 
 def arguments(r: ArrayLike, A: ArrayLike, C: ArrayLike, n_v: int | None, block_rows: int | None) -> Arguments:
-    """The arguments as arrays that fit. Raises InvalidData."""
+    """Return the arguments as arrays that fit. Raises InvalidData where they do not."""
     residual, A, C = fitting(r, A, C)
     N, p = residual.shape
     n = A.shape[0]

@@ -19,7 +19,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-import scipy.optimize
+import scipy  # its folders are loaded when they are first used
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
@@ -27,13 +27,13 @@ from .against_healthy import FaultsAgainstHealthy
 from .healthy_model import HealthyReference
 
 DRAWS = 4000
-"""Divided by the number of outputs, which makes each of them dearer."""
+"""It is divided by the number of outputs, which makes each of them dearer."""
 GAINS = np.concatenate([[0.0], np.geomspace(0.1, 1000.0, 40)])
 _SEED = 1935
 
 
 def visible_white_faults(healthy: HealthyReference, count: FaultsAgainstHealthy, power: float) -> Array:
-    """Standard deviation (p,) of a white signal at each output alone that the count would find with chance `power` in (0, 1).
+    """Return the standard deviation (p,) of a white signal at each output alone that the count would find with chance `power` in (0, 1).
 
     `count` is that of a record against `healthy`: its length and thresholds are those that are asked about.
     """
@@ -50,7 +50,7 @@ def visible_white_faults(healthy: HealthyReference, count: FaultsAgainstHealthy,
 
 
 def _least_size(gain: Array, forecast: Array, missed: Array, apart: int, power: float) -> float:
-    """The size at which the chances of missing at centres so far apart multiply to 1 - power, for the best choice of the first."""
+    """Return the size at which the chances of missing at centres so far apart multiply to 1 - power, for the best choice of the first."""
 
     def excess(logarithm: float) -> float:
         square = np.exp(2.0 * logarithm)
@@ -65,13 +65,13 @@ def _least_size(gain: Array, forecast: Array, missed: Array, apart: int, power: 
 
 
 def _chance_of_missing(p: int, over: int, under: int, thresholds: Array) -> Array:
-    """(centres, GAINS): the chance that the largest root stays below each threshold."""
+    """Return the chance (centres, GAINS) that the largest root stays below each threshold."""
     return np.stack([np.searchsorted(roots, thresholds) / len(roots) for roots in _largest_roots(p, over, under)], axis=1)
 
 
 @lru_cache(maxsize=8)
 def _largest_roots(p: int, over: int, under: int) -> Array:
-    """(GAINS, draws): largest roots in rising order, for each gain."""
+    """Return the largest roots (GAINS, draws) in rising order, for each gain."""
     random = np.random.default_rng(_SEED)
     count = max(DRAWS // p, 200)
 

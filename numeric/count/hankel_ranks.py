@@ -34,7 +34,7 @@ FLOOR_LIMIT = 2.0**-32
 
 @dataclass(frozen=True)
 class HankelRanks:
-    """Ranks of R_1 .. R_S (S = len(ranks)): `values[i]`, `thresholds[i]`, `margins[i]` belong to window i + 1."""
+    """The ranks of R_1 .. R_S, S = len(ranks), where `values[i]`, `thresholds[i]` and `margins[i]` belong to window i + 1."""
 
     values: tuple[Array, ...]
     ranks: tuple[int, ...]
@@ -46,12 +46,12 @@ class HankelRanks:
 
     @property
     def gaps(self) -> tuple[int, ...]:
-        """rank R_(s+1) - rank R_s for s = 1 .. S - 1."""
+        """Return the rank R_(s+1) - rank R_s for s = 1 .. S - 1."""
         return tuple(b - a for a, b in pairwise(self.ranks))
 
 
 def hankel_triangle(r: Array, windows: int, *, chunk: int = 4096) -> Array:
-    """The triangle T (windows p, windows p) of the Hankel matrix of r (N, p); memory independent of N."""
+    """Return the triangle T (windows p, windows p) of the Hankel matrix of r (N, p); memory independent of N."""
     samples, p = r.shape
     width = windows * p
     columns = samples - windows + 1
@@ -66,7 +66,7 @@ def hankel_triangle(r: Array, windows: int, *, chunk: int = 4096) -> Array:
 
 
 def hankel_values(r: Array, windows: int) -> tuple[Array, ...]:
-    """Singular values of R_1 .. R_windows, all over the N - windows + 1 columns of the longest."""
+    """Return singular values of R_1 .. R_windows, all over the N - windows + 1 columns of the longest."""
     p = r.shape[1]
     triangle = hankel_triangle(r, windows)
     return tuple(scipy.linalg.svdvals(triangle[: s * p, : s * p], check_finite=False) for s in range(1, windows + 1))
@@ -85,7 +85,7 @@ def ranks_at(values: tuple[Array, ...], thresholds: tuple[float, ...], columns: 
 
 
 def rounding_ranks(r: Array, windows: int, *, unit: float) -> HankelRanks:
-    """Ranks of R_1 .. R_windows by the rounding threshold; r (N, p) scaled to unit mean square a channel.
+    """Return ranks of R_1 .. R_windows by the rounding threshold; r (N, p) scaled to unit mean square a channel.
 
     `unit` is the rounding unit of the numbers that were given (2^-52 for float64, 2^-23 for float32).
     """

@@ -49,7 +49,7 @@ LEAST_SAMPLES = 64
 MANY_TAPERS = 16
 FEW_TAPERS = 4
 FREEDOM = 8
-"""Degrees of freedom of a covariance, in multiples of the number of channels: at eight the whitening costs an eighth of a fault."""
+"""A covariance has so many degrees of freedom for each channel: at eight the whitening costs an eighth of a fault."""
 MOST_LAGS = 32
 SPENT = 8
 """At most the eighth part of the healthy samples is spent on coefficients of the predictor."""
@@ -57,19 +57,29 @@ SPENT = 8
 
 @dataclass(frozen=True)
 class Spectra:
-    """`transforms` (centres, T, p) of a record at `frequencies` (centres,), cycles a sample."""
+    """The record holds the `transforms` (centres, T, p) of a signal at `frequencies` (centres,), in cycles a sample."""
 
     frequencies: Array
     transforms: Complex
 
 
 @dataclass(frozen=True, eq=False)
-class HealthyReference:
-    """A residual's behaviour without fault; see the head of the module.
+class Fold:
+    """A half of the healthy record, `residual` (N, p) and `inputs` (N, n_u), with the `reference` that was learnt on the other half."""
 
-    `scales` (p,) units taken out of r, `input_scales` (n_u,); `lags`, `coefficients` (q, p) of the predictor, q = (p + n_u) lags + n_u, and
-    `root` (q, q) with root' root = (X0' X0)^-1; `samples` predicted; `covariances` (centres, p, p) complex at `centres` (centres,)
-    cycles a sample, of `freedom`; `strains`: frequencies and strains by number of tapers.
+    reference: HealthyReference
+    residual: Array
+    inputs: Array
+
+
+@dataclass(frozen=True, eq=False)
+class HealthyReference:
+    """This is how a residual behaves without a fault; the head of the module explains it.
+
+    `scales` (p,) and `input_scales` (n_u,) are the units taken out of r and u. The predictor has `lags` lags and the `coefficients` (q, p),
+    q = (p + n_u) lags + n_u; `root` (q, q) satisfies root' root = (X0' X0)^-1, and `samples` were predicted. The complex `covariances`
+    (centres, p, p) of `freedom` degrees of freedom belong to `centres` (centres,), in cycles a sample, and `strains` holds frequencies and
+    strains by number of tapers.
     """
 
     scales: Array
@@ -82,28 +92,29 @@ class HealthyReference:
     covariances: Complex
     freedom: int
     strains: dict[int, tuple[Array, Array]]
+    folds: tuple[Fold, ...]
 
     @property
     def p(self) -> int:
-        """Number of channels."""
+        """Return the number of channels."""
         return len(self.scales)
 
     @property
     def tapers(self) -> int:
-        """T: as many as channels, at least sixteen."""
+        """Return T, as many as there are channels and at least sixteen."""
         return max(self.p, MANY_TAPERS)
 
     @property
     def taper_numbers(self) -> tuple[int, ...]:
-        """T, T / 2, T / 4 .. down to at least four: the widths at which a record may be looked at."""
+        """Return T, T / 2, T / 4 .. down to at least four, which are the widths at which a record may be looked at."""
         return tuple(self.tapers >> k for k in range(int(np.log2(self.tapers / FEW_TAPERS)) + 1))
 
     def innovations(self, r: ArrayLike, u: ArrayLike | None = None) -> tuple[Array, Array]:
-        """e (N - lags, p) of a residual r (N, p) with inputs u (N, n_u), and its regressors X root', (N - lags, q).
+        """Return e (N - lags, p) of a residual r (N, p) with inputs u (N, n_u), and its regressors X root', (N - lags, q).
 
         Raises InvalidData where the record does not fit the healthy one.
         """
-        return self._innovations(*self._fitting(r, u))
+        return self.unchecked_innovations(*self._fitting(r, u))
 
     def _fitting(self, r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
         residual, inputs = residual_and_inputs(r, u)
@@ -118,24 +129,25 @@ class HealthyReference:
             )
         return residual, inputs
 
-    def _innovations(self, residual: Array, inputs: Array) -> tuple[Array, Array]:
+    def unchecked_innovations(self, residual: Array, inputs: Array) -> tuple[Array, Array]:
+        """Return the same for arrays (N, p) and (N, n_u) known to fit."""
         past, now = _about_means(*lagged(residual / self.scales, inputs / self.input_scales, self.lags))
         return now - past @ self.coefficients, past @ self.root.T
 
     def spectra(self, r: ArrayLike, u: ArrayLike | None = None, *, tapers: int | None = None) -> Spectra:
-        """Tapered transforms of e, the error of the forecast divided out; arguments as `innovations`."""
+        """Return tapered transforms of e, with the error of the forecast divided out; arguments as `innovations`."""
         return self.unchecked_spectra(*self._fitting(r, u), tapers or self.tapers)
 
     def unchecked_spectra(self, residual: Array, inputs: Array, tapers: int) -> Spectra:
-        """The same for arrays (N, p) and (N, n_u) known to fit."""
-        e, regressors = self._innovations(residual, inputs)
+        """Return the same for arrays (N, p) and (N, n_u) known to fit."""
+        e, regressors = self.unchecked_innovations(residual, inputs)
         record = covering_spectra(e, tapers)
-        told = covering_spectra(regressors, tapers).transforms
-        between = np.eye(tapers) + told @ told.conj().transpose(0, 2, 1)
+        explained = covering_spectra(regressors, tapers).transforms
+        between = np.eye(tapers) + explained @ explained.conj().transpose(0, 2, 1)
         return Spectra(record.frequencies, np.asarray(np.linalg.solve(np.linalg.cholesky(between), record.transforms), dtype=complex))
 
     def response(self, frequencies: Array) -> Complex:
-        """The filter from r to e at these frequencies, (len, p, p), units included."""
+        """Return the filter from r to e at these frequencies, (len, p, p), units included."""
         p, width = self.p, self.p + len(self.input_scales)
         turns = np.exp(-2j * np.pi * np.outer(frequencies, np.arange(1, self.lags + 1)))
         steps = self.coefficients[: width * self.lags].reshape(self.lags, width, p)[:, :p].transpose(0, 2, 1)
@@ -143,7 +155,7 @@ class HealthyReference:
         return np.asarray(filters / self.scales)
 
     def remembered(self, frequencies: Array) -> Complex:
-        """What a unit signal at each output is in the regressors X root' of `innovations`, (len, q, p)."""
+        """Return what a unit signal at each output is in the regressors X root' of `innovations`, (len, q, p)."""
         width, count = self.p + len(self.input_scales), len(self.root)
         turns = np.exp(-2j * np.pi * np.outer(frequencies, np.arange(1, self.lags + 1)))
         places = np.zeros((self.lags, count, self.p))
@@ -152,11 +164,11 @@ class HealthyReference:
         return np.asarray(self.root @ np.tensordot(turns, places, axes=1))
 
     def nearest(self, frequencies: Array) -> NDArray[np.int_]:
-        """The number of the centre nearest to each frequency."""
+        """Return the number of the centre nearest to each frequency."""
         return np.searchsorted((self.centres[1:] + self.centres[:-1]) / 2.0, frequencies)
 
     def strain(self, record: Spectra) -> Array:
-        """What thresholds at the record's centres are multiplied by: the largest strain with as many tapers nearby, at least 1."""
+        """Return what thresholds at the record's centres are multiplied by: the largest strain with as many tapers nearby, at least 1."""
         known = self.strains.get(record.transforms.shape[1])
         if known is None:
             return np.ones(len(record.frequencies))
@@ -165,7 +177,7 @@ class HealthyReference:
         return np.asarray(np.maximum(1.0, np.max(np.where(near, known[1], 1.0), axis=1)))
 
     def roots(self, record: Spectra) -> Array:
-        """Ratios of a whitened record's covariance to the healthy one at each centre, (centres, p), falling."""
+        """Return ratios of a whitened record's covariance to the healthy one at each centre, (centres, p), falling."""
         found = np.empty((len(record.frequencies), self.p))
         for i, (rows, centre) in enumerate(zip(record.transforms, self.nearest(record.frequencies), strict=True)):
             own = rows.T @ rows.conj() / len(rows)
@@ -173,17 +185,18 @@ class HealthyReference:
         return np.maximum(found, 0.0)
 
     def thresholds(self, record: Spectra, level: float) -> Array:
-        """What the root j + 1 of `roots` exceeds, given j faults, with a chance of at most `level` over all centres: (centres, p)."""
+        """Return what the root j + 1 of `roots` exceeds, given j faults, with a chance of at most `level` over all centres: (centres,
+        p)."""
         return self.strain(record)[:, None] * self.chance_roots(record, level / len(record.frequencies))
 
     def chance_roots(self, record: Spectra, chance: float) -> Array:
-        """What the root j + 1 exceeds, given j faults, with this chance at one centre: (p,)."""
+        """Return what the root j + 1 exceeds, given j faults, with this chance at one centre: (p,)."""
         tapers, p = record.transforms.shape[1:]
         return np.array([largest_root_quantile(chance, p - j, tapers, self.freedom) for j in range(p)])
 
 
 def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: float = LEVEL) -> HealthyReference:
-    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u); `level`: of the quantiles that strain is told in.
+    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u); `level`: of the quantiles that strain is measured in.
 
     Raises InvalidData for NaN, fewer than 64 samples a channel, or channels that are constant or exact combinations of others (there
     is no noise to compare with; `fault_dimension` counts the faults of such residuals).
@@ -196,16 +209,17 @@ def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: 
     half = samples // 2
     reference = _learnt(residual, inputs)
     strains = {}
-    folds = [(_learnt(residual[:half], inputs[:half]), slice(half, None)), (_learnt(residual[half:], inputs[half:]), slice(None, half))]
+    halves = [(residual[:half], inputs[:half]), (residual[half:], inputs[half:])]
+    folds = tuple(Fold(_learnt(*learnt), *other) for learnt, other in (halves, halves[::-1]))
     for tapers in reference.taper_numbers:
-        records = [(fold, fold.unchecked_spectra(residual[other], inputs[other], tapers)) for fold, other in folds]
-        ratios = [fold.roots(record)[:, 0] / fold.thresholds(record, level)[:, 0] for fold, record in records]
+        records = [(fold.reference, fold.reference.unchecked_spectra(fold.residual, fold.inputs, tapers)) for fold in folds]
+        ratios = [learnt.roots(record)[:, 0] / learnt.thresholds(record, level)[:, 0] for learnt, record in records]
         strains[tapers] = np.concatenate([record.frequencies for _, record in records]), np.concatenate(ratios)
-    return replace(reference, strains=strains)
+    return replace(reference, strains=strains, folds=folds)
 
 
 def _learnt(residual: Array, inputs: Array) -> HealthyReference:
-    """The reference without its strains."""
+    """Return the reference without its strains and folds."""
     p = residual.shape[1]
     scales, input_scales = channel_sizes(residual), channel_sizes(inputs) if inputs.shape[1] else np.ones(0)
     scaled, pushed = residual / scales, inputs / input_scales
@@ -217,11 +231,11 @@ def _learnt(residual: Array, inputs: Array) -> HealthyReference:
     coefficients = root.T @ (factor.T @ now)
     share = 1.0 - len(coefficients) / len(e)
     centres, covariances, freedom = _covariances(spectra(e, max(p, MANY_TAPERS)), share)
-    return HealthyReference(scales, input_scales, lags, coefficients, root, len(e), centres, covariances, freedom, {})
+    return HealthyReference(scales, input_scales, lags, coefficients, root, len(e), centres, covariances, freedom, {}, ())
 
 
 def spectra(e: Array, tapers: int) -> Spectra:
-    """Tapered transforms of e (N, p) at centres `tapers` / (N + 1) apart, the first half as far from zero, all below one half.
+    """Return tapered transforms of e (N, p) at centres `tapers` / (N + 1) apart, the first half as far from zero, all below one half.
 
     The t-th sine taper (2 / (N+1))^(1/2) sin(pi t k / (N+1)) shifts the plain transform by t / (2 (N+1)) to both sides [RS95].
     """
@@ -229,13 +243,14 @@ def spectra(e: Array, tapers: int) -> Spectra:
 
 
 def covering_spectra(e: Array, tapers: int) -> Spectra:
-    """As `spectra`, with one centre more, nearer than that to the last, where these would leave out frequencies next to one half."""
+    """Return what `spectra` does, with one centre more, nearer than that to the last, where these would leave out frequencies next to one
+    half."""
     last = len(e) + 1 - tapers
     return _around(e, tapers, np.union1d(_apart(len(e), tapers), last))
 
 
 def _apart(samples: int, tapers: int) -> NDArray[np.int_]:
-    """Centres that share no frequency, in units of 1 / (2 (N+1))."""
+    """Return centres that share no frequency, in units of 1 / (2 (N+1))."""
     return np.arange(tapers, samples + 1 - tapers + 1, 2 * tapers)
 
 
@@ -248,7 +263,7 @@ def _around(e: Array, tapers: int, centres: NDArray[np.int_]) -> Spectra:
 
 
 def residual_and_inputs(r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
-    """r and u as arrays of equal length; without u none of its channels."""
+    """Return r and u as arrays of equal length; without u none of its channels."""
     residual = signal(r, "r")
     inputs = np.zeros((len(residual), 0)) if u is None else signal(u, "u")
     if len(inputs) != len(residual):
@@ -257,20 +272,20 @@ def residual_and_inputs(r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array
 
 
 def lagged(r: Array, u: Array, lags: int) -> tuple[Array, Array]:
-    """[r(k-1) u(k-1) .. r(k-lags) u(k-lags) u(k)] and r(k), for k = lags .. N - 1."""
+    """Return [r(k-1) u(k-1) .. r(k-lags) u(k-lags) u(k)] and r(k), for k = lags .. N - 1."""
     joint, samples = np.hstack([r, u]), len(r)
     past = [joint[lags - j : samples - j] for j in range(1, lags + 1)]
     return np.hstack([*past, u[lags:]]), r[lags:]
 
 
 def _about_means(past: Array, now: Array) -> tuple[Array, Array]:
-    """Both without their means, which is a predictor with a constant: a mean that has moved is no fault that keeps exciting, and is
+    """Take the means off both, which makes a predictor with a constant: a mean that has moved is no fault that keeps exciting, and is
     tested by `mean_shift`; left in, it would count as a fault at the lowest frequency."""
     return past - past.mean(axis=0), now - now.mean(axis=0)
 
 
 def number_of_lags(r: Array, u: Array) -> int:
-    """Lags of the predictor; one triangle serves every number of them, over the same samples."""
+    """Return the lags of the predictor; one triangle serves every number of them, over the same samples."""
     samples, p = r.shape
     width, n_u = p + u.shape[1], u.shape[1]
     most = int(np.clip((samples // SPENT - n_u) // width, 0, MOST_LAGS))
@@ -299,7 +314,7 @@ def number_of_lags(r: Array, u: Array) -> int:
 
 
 def _covariances(record: Spectra, share: float) -> tuple[Array, Complex, int]:
-    """Centres, the covariance around each, and its degrees of freedom; `share` of the freedom is left after the predictor."""
+    """Return centres, the covariance around each, and its degrees of freedom; `share` of the freedom is left after the predictor."""
     count, tapers, p = record.transforms.shape
     width = min(int(np.ceil(FREEDOM * p / (tapers * share))) | 1, count)
     sums = np.cumsum(np.einsum("ctp,ctq->cpq", record.transforms, record.transforms.conj()), axis=0)

@@ -35,7 +35,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.stats
+import scipy  # its folders are loaded when they are first used
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
@@ -56,7 +56,8 @@ _SEED = 20250513
 
 @dataclass(frozen=True)
 class LawLevel:
-    """What the best law on `outputs` mixtures leaves: least and largest level over some random mixtures, in nats, and the largest drop."""
+    """This is what the best law on `outputs` mixtures leaves: the least and largest level over some random mixtures, in nats, and the
+    largest drop."""
 
     outputs: int
     least: float
@@ -65,13 +66,13 @@ class LawLevel:
 
     @property
     def middle(self) -> float:
-        """Half way between the mixtures."""
+        """Return the level half way between the mixtures."""
         return (self.least + self.largest) / 2
 
 
 @dataclass(frozen=True)
 class KernelRowTest:
-    """The levels looked at, by falling number of outputs, and what they say. `n_v` is None when undecided."""
+    """The test holds the levels looked at, by falling number of outputs, and what they say; `n_v` is None where it is undecided."""
 
     n_v: int | None
     levels: tuple[LawLevel, ...]
@@ -147,13 +148,13 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
 
 
 def _loaded(moments: WindowMoments, count: int) -> NDArray[np.int_]:
-    """The outputs on which the best law on all of them has its largest coefficients."""
+    """Return the outputs on which the best law on all of them has its largest coefficients."""
     sizes = np.linalg.norm(kernel_row(moments).coefficients, axis=0)
     return np.sort(np.argsort(-sizes, kind="stable")[:count])
 
 
 def _walk(levels: dict[int, LawLevel]) -> tuple[LawLevel, ...]:
-    """The levels by falling number of outputs."""
+    """Return the levels by falling number of outputs."""
     return tuple(levels[k] for k in sorted(levels, reverse=True))
 
 

@@ -18,8 +18,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-import scipy.optimize
-import scipy.special
+import scipy  # its folders are loaded when they are first used
 
 from ...base.arrays import Array
 
@@ -27,7 +26,7 @@ NODES = 300
 
 
 def largest_root_probability(root: float, dimension: int, over: int, under: int) -> float:
-    """P(largest root of S1 against S0 <= root): S1 of `over` degrees of freedom, S0 of `under`, at least `dimension`. Source: [K64].
+    """Return P(largest root of S1 against S0 <= root): S1 of `over` degrees of freedom, S0 of `under`, at least `dimension`. Source: [K64].
 
     Raises ValueError for under < dimension, where the ratio is unbounded.
     """
@@ -40,7 +39,7 @@ def largest_root_probability(root: float, dimension: int, over: int, under: int)
 
 @lru_cache(maxsize=1024)
 def largest_root_quantile(chance: float, dimension: int, over: int, under: int) -> float:
-    """The root that the largest exceeds with probability `chance` in (0, 1); arguments as `largest_root_probability`."""
+    """Return the root that the largest exceeds with probability `chance` in (0, 1); arguments as `largest_root_probability`."""
     if not 0.0 < chance < 1.0:
         raise ValueError(f"chance: got {chance}; needed a probability strictly between 0 and 1")
     largest_root_probability(1.0, dimension, over, under)
@@ -49,7 +48,7 @@ def largest_root_quantile(chance: float, dimension: int, over: int, under: int) 
 
 
 def _below(x: float, dimension: int, over: int, under: int) -> float:
-    """P(b_max <= x)."""
+    """Return P(b_max <= x)."""
     if over < dimension:
         dimension, over, under = over, dimension, under + over - dimension
     nodes, weights = _gauss_legendre()
@@ -60,7 +59,7 @@ def _below(x: float, dimension: int, over: int, under: int) -> float:
 
 
 def _jacobi_functions(points: Array, count: int, a: int, c: int) -> Array:
-    """The first `count` polynomials orthonormal on (0, 1) for (1-b)^a b^c, times the root of that weight: (count, points)."""
+    """Return the first `count` polynomials orthonormal on (0, 1) for (1-b)^a b^c, times the root of that weight: (count, points)."""
     logarithm = scipy.special.xlogy(c, points) + scipy.special.xlog1py(a, -points) - scipy.special.betaln(c + 1, a + 1)
     functions = [np.exp(logarithm / 2.0)]
     before, link = np.zeros_like(points), 0.0
@@ -76,6 +75,6 @@ def _jacobi_functions(points: Array, count: int, a: int, c: int) -> Array:
 
 @lru_cache(maxsize=1)
 def _gauss_legendre() -> tuple[Array, Array]:
-    """Nodes and weights on (-1, 1)."""
+    """Return nodes and weights on (-1, 1)."""
     nodes, weights = np.polynomial.legendre.leggauss(NODES)
     return nodes, weights

@@ -27,9 +27,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.fft
-import scipy.optimize
-import scipy.stats
+import scipy  # its folders are loaded when they are first used
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
@@ -38,18 +36,21 @@ from .healthy_model import LEVEL, lagged, number_of_lags, residual_and_inputs
 from .windows import channel_sizes
 
 POWER = 0.9
-"""The chance with which a fault of the size that is told is found."""
+"""This is the chance with which a fault of the reported size is found."""
 COSINES = 0.41
-"""B = COSINES K^(2/3) cosine transforms [LLSW18]."""
+"""The test takes B = COSINES K^(2/3) cosine transforms [LLSW18]."""
 UNIT_ROOT = 20.7
 """K (1 - root) of a random walk of K samples, its mean fitted, stays below this with probability .99 [F76, table 8.5.1]."""
 
 
 @dataclass(frozen=True, eq=False)
 class MeanReference:
-    """`coefficients` (1 + q, p), that of the constant first, of the predictor with so many `lags`, r in units of `scales` (p,), u in
-    those of `input_scales` (n_u,); `root` with root' root = (X0' X0)^-1; `still` (p, p) = I - sum A_j; `long_run` (p, p) covariance W of
-    `freedom` B; `nearest` least |1 - root| of the predictor; `samples` K."""
+    """This is what the healthy record says about the mean of a residual.
+
+    `coefficients` (1 + q, p), that of the constant first, belong to the predictor with `lags` lags, of r in units of `scales` (p,) and u in
+    those of `input_scales` (n_u,). `root` satisfies root' root = (X0' X0)^-1, `still` (p, p) is I - sum A_j, `long_run` (p, p) is the
+    covariance W of `freedom` B, `nearest` is the least |1 - root| of the predictor, and `samples` is K.
+    """
 
     scales: Array
     input_scales: Array
@@ -64,21 +65,21 @@ class MeanReference:
 
     @property
     def p(self) -> int:
-        """Number of outputs."""
+        """Return the number of outputs."""
         return len(self.scales)
 
     @property
     def law(self) -> tuple[int, int]:
-        """Degrees of freedom of Fisher's law."""
+        """Return the degrees of freedom of Fisher's law."""
         return self.p, self.freedom - self.p + 1
 
     def threshold(self, level: float) -> float:
-        """What T^2 exceeds by chance with probability `level`."""
+        """Return what T^2 exceeds by chance with probability `level`."""
         over, under = self.law
         return float(scipy.stats.f.isf(level, over, under)) * self.freedom * self.p / under
 
     def noncentrality(self, level: float, power: float) -> float:
-        """d' V^-1 d of a shift d that the test finds with chance `power`."""
+        """Return d' V^-1 d of a shift d that the test finds with chance `power`."""
         over, under = self.law
         bound = float(scipy.stats.f.isf(level, over, under))
         most = 1.0
@@ -89,9 +90,13 @@ class MeanReference:
 
 @dataclass(frozen=True, eq=False)
 class MeanShift:
-    """`shifted` (None: undecided) with its `reason`; `shift` (p,) estimated, in units of r, and its standard `deviations` (p,); `channels`
-    numbers of the outputs whose own shift is beyond chance; `statistic` T^2 against `threshold` at `level`; `visible` (p,): the shift of
-    one output alone that would be found with chance POWER. Arrays are None where nothing could be estimated."""
+    """The verdict on the mean of a residual, with its evidence.
+
+    `shifted` is None where it is undecided, and `reason` says why. `shift` (p,) is the estimate in units of r, and `deviations` (p,) are
+    its standard deviations. `channels` numbers the outputs whose own shift is beyond chance. `statistic` is T^2, held against `threshold`
+    at `level`. `visible` (p,) is the shift of one output alone that would be found with chance POWER. Arrays are None where nothing could
+    be estimated.
+    """
 
     shifted: bool | None
     reason: str
@@ -144,7 +149,7 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
 
 
 def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u: ArrayLike | None, *, level: float = LEVEL) -> MeanShift:
-    """Whether the mean of r (M, p), with inputs u (M, n_u), has left that of the healthy residual (K, p) with its inputs.
+    """Test whether the mean of r (M, p), with inputs u (M, n_u), has left that of the healthy residual (K, p) with its inputs.
 
     `level` (0, 1): probability of finding a shift where there is none. What the healthy record cannot bear is an undecided answer, never an
     error. Source: head of the module.
@@ -173,7 +178,8 @@ def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u:
 
 
 def mean_about_zero(r: ArrayLike, *, level: float = LEVEL) -> MeanShift:
-    """Whether the mean of a residual r (N, p) differs from zero, by its own noise at frequency zero. Undecided as `mean_shift` is."""
+    """Test whether the mean of a residual r (N, p) differs from zero, by its own noise at frequency zero. It is undecided as `mean_shift`
+    is."""
     residual, _ = residual_and_inputs(r, None)
     try:
         reference = mean_reference(residual)
@@ -186,7 +192,7 @@ def mean_about_zero(r: ArrayLike, *, level: float = LEVEL) -> MeanShift:
 
 
 def _tested(reference: MeanReference, r: Array, u: Array, level: float) -> MeanShift:
-    """The test itself."""
+    """Do the test itself."""
     X, now = _regressors(r / reference.scales, u / reference.input_scales, reference.lags)
     e = (now - X @ reference.coefficients).mean(axis=0)
     h = 1.0 / len(now) + float(np.sum((reference.root @ _expected(reference, X.mean(axis=0))) ** 2))
@@ -194,7 +200,7 @@ def _tested(reference: MeanReference, r: Array, u: Array, level: float) -> MeanS
 
 
 def _judged(reference: MeanReference, e: Array, h: float, level: float) -> MeanShift:
-    """The verdict on the mean e (p,) of what the predictor leaves, of covariance W h where there is no shift."""
+    """Return the verdict on the mean e (p,) of what the predictor leaves, of covariance W h where there is no shift."""
     statistic = float(e @ np.linalg.solve(reference.long_run, e)) / h
     threshold = reference.threshold(level)
     back = np.linalg.inv(reference.still)
@@ -213,13 +219,13 @@ def _judged(reference: MeanReference, e: Array, h: float, level: float) -> MeanS
 
 
 def _regressors(r: Array, u: Array, lags: int) -> tuple[Array, Array]:
-    """[1, r(k-1) u(k-1) .. r(k-lags) u(k-lags) u(k)] and r(k)."""
+    """Return [1, r(k-1) u(k-1) .. r(k-lags) u(k-lags) u(k)] and r(k)."""
     past, now = lagged(r, u, lags)
     return np.hstack([np.ones((len(now), 1)), past]), now
 
 
 def _expected(reference: MeanReference, means: Array) -> Array:
-    """The means of the regressors with those of r replaced by what the predictor expects without a shift."""
+    """Return the means of the regressors with those of r replaced by what the predictor expects without a shift."""
     p, width = reference.p, reference.p + len(reference.input_scales)
     expected = means.copy()
     of_r = [slice(1 + j * width, 1 + j * width + p) for j in range(reference.lags)]
@@ -232,7 +238,7 @@ def _expected(reference: MeanReference, means: Array) -> Array:
 
 
 def _nearest_root(steps: list[Array]) -> float:
-    """Least |1 - z| over the roots z of the predictor."""
+    """Return the least |1 - z| over the roots z of the predictor."""
     if not steps:
         return 1.0
     p, lags = len(steps[0]), len(steps)
@@ -242,5 +248,5 @@ def _nearest_root(steps: list[Array]) -> float:
 
 
 def _sizes(u: Array) -> Array:
-    """Units of the inputs, about their means; one for an input that is still."""
+    """Return the units of the inputs, about their means; one for an input that is still."""
     return channel_sizes(u - u.mean(axis=0)) if u.shape[1] else np.ones(0)

@@ -12,7 +12,7 @@ normalised row residual, scaled to a mean logarithm of zero so that the level be
     degree              eta, the degree of N; coefficient rows N_0 .. N_eta of p entries, stacked into g
     window              psi(k) = [r(k); ..; r(k+eta)], so that N(q) r (k) = g psi(k)
     WindowMoments       second moments of psi in frequency bands: all that the likelihood needs of the data, whatever N
-    KernelRow           the fitted row, its level and the noise colour
+    FittedRow           the fitted row, its level and the noise colour
     level               log of the mean of |N r|^2 / (phi N N*): the log noise power per sample that N leaves
     angle               centre of a band, in radians per sample
 
@@ -38,13 +38,16 @@ NOISE_ORDER = 4
 FLAT = 1e-5
 _STEPS = 60
 _COLOUR_FLOOR = 1e-3
-"""Least normalised noise spectrum: below it a spectral null of the noise would claim all the weight."""
+"""This is the least normalised noise spectrum: below it a spectral null of the noise would claim all the weight."""
 
 
 @dataclass(frozen=True)
 class WindowMoments:
-    """Banded second moments of the window psi: `moments` (bands, p (degree+1), p (degree+1)), real parts, summing to the
-    time Gram of psi; `counts` (bands,) real degrees of freedom a band, summing to `samples` = N - degree; `angles` (bands,)."""
+    """These are second moments of the window psi, by bands of frequencies.
+
+    `moments` (bands, p (degree+1), p (degree+1)) are real parts and sum to the time Gram of psi; `counts` (bands,) are real degrees of
+    freedom a band and sum to `samples` = N - degree; `angles` (bands,) are the centres of the bands.
+    """
 
     moments: Array
     counts: Array
@@ -54,21 +57,24 @@ class WindowMoments:
     samples: int
 
     def of_degree(self, degree: int) -> WindowMoments:
-        """The moments of the shorter window: the same samples, so levels of different degrees are comparable."""
+        """Return the moments of the shorter window: the same samples, so levels of different degrees are comparable."""
         size = self.channels * (degree + 1)
         return WindowMoments(self.moments[:, :size, :size], self.counts, self.angles, self.channels, degree, self.samples)
 
     def mixed(self, mix: Array) -> WindowMoments:
-        """The moments of the signal r @ mix, mix of shape (p, k) with orthonormal columns."""
+        """Return the moments of the signal r @ mix, mix of shape (p, k) with orthonormal columns."""
         repeated = np.kron(np.eye(self.degree + 1), mix)
         moments = repeated.T @ self.moments @ repeated
         return WindowMoments(moments, self.counts, self.angles, mix.shape[1], self.degree, self.samples)
 
 
 @dataclass(frozen=True)
-class KernelRow:
-    """A fitted row: `coefficients` (degree+1, p), N(q) = sum_j coefficients[j] q^j, of unit norm; `level` in nats;
-    `noise_colour` the monic autoregression (1, a_1, ..) of the noise; `flat` whether the last step gained less than `FLAT` nats."""
+class FittedRow:
+    """A kernel row that was fitted.
+
+    `coefficients` (degree+1, p) have unit norm and make N(q) = sum_j coefficients[j] q^j; `level` is in nats; `noise_colour` is the monic
+    autoregression (1, a_1, ..) of the noise; `flat` says whether the last step gained less than `FLAT` nats.
+    """
 
     coefficients: Array
     level: float
@@ -77,12 +83,12 @@ class KernelRow:
 
     @property
     def degree(self) -> int:
-        """The degree allowed, eta."""
+        """Return the degree allowed, eta."""
         return int(self.coefficients.shape[0]) - 1
 
 
 def window_moments(r: Array, degree: int, *, u: Array | None = None, bands: int = BANDS) -> WindowMoments:
-    """Banded moments of the windows of r (N, p); memory independent of N.
+    """Return banded moments of the windows of r (N, p), in memory that does not depend on N.
 
     With u (N, n_u) the windows are first made orthogonal to the inputs from `PAST` samples before to their end: then what u explains
     of N r, the error of an identified model above all, does not count as noise. (Projecting r itself would leave the fault's
@@ -149,8 +155,8 @@ def kernel_row(
     within: Array | None = None,
     noise_order: int = NOISE_ORDER,
     rounds: int = 3,
-) -> KernelRow:
-    """The maximum-likelihood row for these moments.
+) -> FittedRow:
+    """Return the maximum-likelihood row for these moments.
 
     `starts`: coefficient arrays (d+1, p), d <= degree, tried beside the plain null space (the row that the least singular
     vector of the Hankel matrix gives). `within` (q, p (degree+1)): rows that span the coefficient vectors allowed, for
@@ -165,11 +171,11 @@ def kernel_row(
     data = basis @ (moments.moments / (scale * moments.samples)) @ basis.T
     gains = basis @ gains @ basis.T
 
-    guesses = [basis @ _padded(start, degree) for start in starts]
-    guesses += list(np.linalg.eigh(data.sum(axis=0))[1].T[:2])
+    guesses = [*np.linalg.eigh(data.sum(axis=0))[1].T[:2], *(basis @ _padded(start, degree) for start in starts)]
     colour = np.ones(len(angles))
     fits = [_descend(data, gains, g / np.linalg.norm(g)) for g in guesses if np.linalg.norm(g) > 0]
-    g, cost, flat = min(fits, key=lambda fit: fit[1])
+    # Costs that rounding makes are equal: the plain null vector is then the most exact.
+    g, cost, flat = min(fits, key=lambda fit: max(fit[1], _rounding(data, gains, fit[0])))
     regression = np.array([1.0])
     for _ in range(rounds if noise_order else 0):
         spectrum = _numerator(data, g) / (_numerator(gains, g) * moments.counts)
@@ -179,18 +185,24 @@ def kernel_row(
         colour /= np.exp(np.average(np.log(colour), weights=moments.counts))
         g, cost, flat = _descend(data / colour[:, None, None], gains, g)
     level = float(np.log(max(cost, np.finfo(float).tiny)) + np.log(scale))
-    return KernelRow((basis.T @ g).reshape(degree + 1, p), level, regression, flat)
+    return FittedRow((basis.T @ g).reshape(degree + 1, p), level, regression, flat)
 
 
 def _padded(start: Array, degree: int) -> Array:
-    """A coefficient array of lower degree as a vector of this degree."""
+    """Return a coefficient array of lower degree as a vector of this degree."""
     start = np.asarray(start, dtype=float)
     return np.vstack([start, np.zeros((degree + 1 - start.shape[0], start.shape[1]))]).ravel()
 
 
 def _numerator(forms: Array, g: Array) -> Array:
-    """The quadratic forms g' Q_b g of all bands."""
+    """Return the quadratic forms g' Q_b g of all bands."""
     return np.asarray((forms @ g) @ g)
+
+
+def _rounding(data: Array, gains: Array, g: Array) -> float:
+    """Return how wrong rounding may make the cost: each g' S g, a sum of w terms, by w eps |S|."""
+    sizes = np.einsum("bii->b", data) / np.maximum(_numerator(gains, g), 1e-12)
+    return float(len(g) * np.finfo(float).eps * np.sum(sizes))
 
 
 def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
@@ -206,6 +218,9 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
 
     cost = cost_of(g)
     flat = False
+    # Of a cost that rounding makes, as without noise, no slope is known: steps would turn g by the root of rounding.
+    if cost <= _rounding(data, gains, g):
+        return g, cost, True
     for _ in range(_STEPS):
         sg, qg = data @ g, gains @ g
         a, d = np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
@@ -236,7 +251,7 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
 
 
 def _autoregression(spectrum: Array, angles: Array, counts: Array, order: int) -> Array:
-    """The monic Yule-Walker autoregression of a spectrum sampled at the angles."""
+    """Return the monic Yule-Walker autoregression of a spectrum sampled at the angles."""
     weight = spectrum * counts / counts.sum()
     lags = np.cos(np.outer(np.arange(order + 1), angles)) @ weight
     if lags[0] <= 0.0:

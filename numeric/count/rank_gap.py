@@ -28,16 +28,22 @@ after looking at simulated data: rules of thumb with measured rates (`benchmarks
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown
 from ..count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
 from ..count.kernel_rows import LawLevel, kernel_row_test
+from ..data.plain import plain
+from ..data.records import Stored, in_memory
 from ..data.validation import positive, signal
+from ..drawing import plot_levels, plot_window_ranks
 
 DEFAULT_BLOCK_ROWS = 20
 LARGEST_DEGREE = 9
@@ -45,14 +51,14 @@ MOST_MIXTURES = 12
 """Of more outputs than this the kernel-row test looks at so many fixed mixtures: they too obey laws as long as there are fewer faults, and
 the cost, which grows with the cube of outputs times degree, stays that of twelve outputs."""
 LARGEST_HANKEL = 280
-"""Rows of the longest Hankel matrix, where `block_rows` is not given and outputs are many: its factor costs the square a sample."""
+"""The longest Hankel matrix has so many rows where `block_rows` is not given and outputs are many: its factor costs the square a sample."""
 CLEAR_MARGIN = 1.0
 LEAST_RUN = 3
 DIED_OUT = 1e-6
 
 
-@dataclass(frozen=True)
-class FaultDimension:
+@dataclass(frozen=True, repr=False)
+class FaultDimension(Shown):
     """The answer `n_v` (None: undecided) with its `reason` and evidence; `regime` is "rounding" or "noise".
 
     `ranks`, `thresholds`, `margins`, `singular_values` belong to `windows`; `gaps[i]` to s = windows[i]. `levels`: what the
@@ -73,14 +79,50 @@ class FaultDimension:
 
     @property
     def decided(self) -> bool:
-        """Whether there is an answer."""
+        """Say whether there is an answer."""
         return self.n_v is not None
 
+    @property
+    def title(self) -> str:
+        """Return the answer, on one short line."""
+        return f"number of faults n_v: {'undecided' if self.n_v is None else self.n_v}"
 
-def fault_dimension(r: ArrayLike, *, block_rows: int | None = None, u: ArrayLike | None = None) -> FaultDimension:
-    """The number of independent faults in a residual r (N, p), in any units, from its gaps up to s = block_rows.
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield what there is to say of it, as pairs of a name and a value."""
+        yield "why", self.reason
+        yield "regime", "only rounding" if self.regime == "rounding" else "noise in every window"
+        if self.regime == "rounding":
+            yield "windows s", " ".join(map(str, self.windows))
+            yield "rank R_s", " ".join(map(str, self.ranks))
+            yield "rank R_(s+1) - rank R_s", " ".join(map(str, self.gaps))
+        for level in self.levels:
+            yield f"level of {level.outputs} mixed outputs", f"{level.least:.3g} to {level.largest:.3g} nats"
 
-    Without `block_rows` it looks up to 20, less far for few samples or many channels. float32 data are judged by float32 rounding. For
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: the answer, its reason, and what belongs to each window."""
+        levels = [{"outputs": level.outputs, "least": plain(level.least), "largest": plain(level.largest)} for level in self.levels]
+        return {
+            "n_v": self.n_v,
+            "reason": self.reason,
+            "regime": self.regime,
+            "windows": list(self.windows),
+            "ranks": list(self.ranks),
+            "gaps": list(self.gaps),
+            "margins": plain(self.margins),
+            "thresholds": plain(self.thresholds),
+            "levels": levels,
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw what the answer rests on into the matplotlib axes `ax`, new ones where None are given, and return them: the singular values
+        of the longest windows, or under noise the levels of the kernel-row test. Raises ImportError without matplotlib."""
+        return plot_levels(self.levels, self.n_v, ax=ax) if self.levels else plot_window_ranks(self, ax=ax)
+
+
+def fault_dimension(r: ArrayLike | Stored, *, block_rows: int | None = None, u: ArrayLike | None = None) -> FaultDimension:
+    """Return the number of independent faults in a residual r (N, p), in any units, from its gaps up to s = block_rows.
+
+    Without `block_rows` it looks up to 20, less far for few samples or many channels. float32 data have float32 rounding. For
     a residual of an identified model give its inputs `u` (N, n_u): the model's error is driven by u, and without u it counts as further
     faults where it stands out of the noise; with u the ranks are those of [U_s; R_s] less those of U_s. With a record from before the
     fault, `fault_dimension_against_healthy` sees more. Raises InvalidData for NaN, constant or too few samples and for u of
@@ -90,8 +132,9 @@ def fault_dimension(r: ArrayLike, *, block_rows: int | None = None, u: ArrayLike
     >>> fault_dimension(np.hstack([v, 2 * v])).n_v
     1
     """
-    unit = _rounding_unit(r)
-    data = signal(r, "r")
+    values = in_memory(r)
+    unit = _rounding_unit(values)
+    data = signal(values, "r")
     inputs = None if u is None else _inputs(u, len(data))
     rows = _block_rows(data, block_rows, 0 if inputs is None else inputs.shape[1])
     scaled, scales = _scaled(data)
@@ -114,13 +157,13 @@ def fault_dimension(r: ArrayLike, *, block_rows: int | None = None, u: ArrayLike
 
 
 def _rounding_unit(r: ArrayLike) -> float:
-    """Unit in the last place of the numbers given."""
+    """Return the unit in the last place of the numbers given."""
     dtype = np.asarray(r).dtype
     return float(np.finfo(dtype).eps) if dtype in (np.float16, np.float32) else float(np.finfo(float).eps)
 
 
 def _inputs(u: ArrayLike, samples: int) -> Array:
-    """u with unit mean square in each channel."""
+    """Return u with unit mean square in each channel."""
     inputs = signal(u, "u")
     if len(inputs) != samples:
         raise InvalidData(f"u has {len(inputs)} samples and r has {samples}; equal numbers are needed: cut both to the samples they share")
@@ -131,7 +174,8 @@ def _inputs(u: ArrayLike, samples: int) -> Array:
 
 
 def _ranks_beyond(u: Array, r: Array, windows: int, unit: float) -> HankelRanks:
-    """rank [U_s; R_s] - rank U_s: by the same law for the joint signal [u; r], driven by u and v, its gaps count the faults alone."""
+    """Return the rank [U_s; R_s] - rank U_s: by the same law for the joint signal [u; r], driven by u and v, its gaps count the faults
+    alone."""
     joint = rounding_ranks(np.hstack([u, r]), windows, unit=unit)
     own = rounding_ranks(u, windows, unit=unit)
     # Fewer than none would be a joint rank that was decided too small: nothing is clear there.
@@ -142,7 +186,7 @@ def _ranks_beyond(u: Array, r: Array, windows: int, unit: float) -> HankelRanks:
 
 
 def _block_rows(r: Array, block_rows: int | None, n_u: int) -> int:
-    """The largest window asked for or affordable: R_(s+1), with u below it, needs at least as many columns as twice its rows."""
+    """Return the largest window asked for or affordable: R_(s+1), with u below it, needs at least as many columns as twice its rows."""
     samples, p = len(r), int(r.shape[1])
     width = 2 * (p + n_u) + 1
     most = samples // width - 1
@@ -165,7 +209,7 @@ def _block_rows(r: Array, block_rows: int | None, n_u: int) -> int:
 
 
 def _mixtures(r: Array) -> Array:
-    """r (N, p), or the first MOST_MIXTURES channels of it turned by a fixed orthogonal matrix, in unit mean square again."""
+    """Return r (N, p), or the first MOST_MIXTURES channels of it turned by a fixed orthogonal matrix, in unit mean square again."""
     p = r.shape[1]
     if p <= MOST_MIXTURES:
         return r
@@ -174,7 +218,7 @@ def _mixtures(r: Array) -> Array:
 
 
 def _scaled(r: Array) -> tuple[Array, Array]:
-    """r with unit mean square in each channel that is not zero, and the scales; safe from under- and overflow."""
+    """Return r with unit mean square in each channel that is not zero, and the scales; safe from under- and overflow."""
     peaks = np.max(np.abs(r), axis=0)
     if np.all(r.max(axis=0) == r.min(axis=0)):
         raise InvalidData(
@@ -189,7 +233,7 @@ def _scaled(r: Array) -> tuple[Array, Array]:
 
 
 def _from_gaps(exact: HankelRanks, scaled: Array) -> tuple[int | None, str]:
-    """The verdict of the rounding regime."""
+    """Return the verdict of the rounding regime."""
     p = scaled.shape[1]
     clear = 0
     while clear < len(exact.ranks) and exact.margins[clear] >= CLEAR_MARGIN:

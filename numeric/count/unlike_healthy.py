@@ -24,7 +24,7 @@ LONGER = 4
 
 
 def beyond_healthy_inputs(before: Array, u: Array, names: Sequence[str]) -> str:
-    """Why the model's error need not be as the healthy samples show it, or nothing."""
+    """Say why the model's error need not be as the healthy samples show it, or nothing."""
     sizes = np.where(before.std(axis=0) > 0.0, before.std(axis=0), 1.0)
     louder, away = u.std(axis=0) / sizes, np.abs(u.mean(axis=0) - before.mean(axis=0)) / sizes
     for i, name in enumerate(names):
@@ -35,7 +35,7 @@ def beyond_healthy_inputs(before: Array, u: Array, names: Sequence[str]) -> str:
 
 
 def unlike_healthy(r: Array, healthy: Array, y: Array, healthy_y: Array, names: Sequence[str]) -> str:
-    """What a plot would show and no spectrum or mean: a spike, a sensor that is stuck or dead. Nothing where there is none."""
+    """Say what a plot would show and no spectrum or mean: a spike, or a sensor that is stuck or dead. It is empty where there is none."""
     peaks, sizes = np.abs(healthy).max(axis=0), np.sqrt(np.mean(healthy**2, axis=0))
     for i, name in enumerate(names):
         where = int(np.argmax(np.abs(r[:, i])))
@@ -51,6 +51,6 @@ def unlike_healthy(r: Array, healthy: Array, y: Array, healthy_y: Array, names: 
 
 
 def _longest_still(values: Array) -> int:
-    """Samples of the longest run of equal values."""
+    """Return samples of the longest run of equal values."""
     edges = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1], [True]]))
     return int(np.diff(edges).max())

@@ -1,5 +1,5 @@
-"""The Hankel matrix R_s of a residual, compressed once to a triangular factor, and the coordinates in which it is
-judged.
+"""The Hankel matrix R_s of a residual, compressed once to a triangular factor, and the coordinates in which its ranks
+are decided.
 
     hankel_factor        L, (p s, p s) with L L' = R_s R_s', by sequential QR: the only place where N enters
     leading_factor       the factor of fewer block rows from that of more
@@ -27,7 +27,7 @@ CHUNK = 1 << 18
 
 
 def hankel_factor(r: Array, s: int) -> Array:
-    """L with L L' = R_s R_s' for r (N, p) with N >= s: lower triangular, (p s, p s), computed in time (p s)^2 N and
+    """Return L with L L' = R_s R_s' for r (N, p) with N >= s: lower triangular, (p s, p s), computed in time (p s)^2 N and
     memory without N.
     """
     N, p = r.shape
@@ -42,12 +42,12 @@ def hankel_factor(r: Array, s: int) -> Array:
 
 
 def leading_factor(factor: Array, rows: int) -> Array:
-    """The factor of the first `rows` rows of the matrix that `factor` stands for (its last windows are left out)."""
+    """Return the factor of the first `rows` rows of the matrix that `factor` stands for (its last windows are left out)."""
     return factor[:rows, :rows]
 
 
 def channel_sizes(r: Array) -> Array:
-    """Root mean square (p,) of each channel of r (N, p), one for a channel that is zero; safe from overflow."""
+    """Return the root mean square (p,) of each channel of r (N, p), one for a channel that is zero; safe from overflow."""
     peaks = np.max(np.abs(r), axis=0)
     peaks[peaks == 0] = 1.0
     sizes = peaks * np.sqrt(np.mean((r / peaks) ** 2, axis=0))
@@ -56,11 +56,10 @@ def channel_sizes(r: Array) -> Array:
 
 @dataclass(frozen=True)
 class ObservedCoordinates:
-    """r / scale = C x', x' = T x: in these A, C the matrix O_s of `windows` samples has orthonormal columns, as far
-    as (A, C) is observable.
+    """In these coordinates r / scale = C x' and x' = T x, and the matrix O_s of `windows` samples has orthonormal columns, as far as (A, C)
+    is observable.
 
-    In them the column z = [f; g] has the size of the residual that a unit pulse of its fault makes, in units of
-    `scale`.
+    In them the column z = [f; g] has the size of the residual that a unit pulse of its fault makes, in units of `scale`.
     """
 
     A: Array
@@ -71,25 +70,25 @@ class ObservedCoordinates:
 
     @property
     def state_condition(self) -> float:
-        """Condition number of T alone: how much rounding grows in A and C."""
+        """Return the condition number of T alone: how much rounding grows in A and C."""
         return float(np.linalg.cond(self.T)) if self.T.size else 1.0
 
     @property
     def condition(self) -> float:
-        """Condition number of the change of coordinates of [f; g]: by how much it can stretch one angle against
+        """Return the condition number of the change of coordinates of [f; g]: by how much it can stretch one angle against
         another.
         """
         sizes = np.concatenate([np.linalg.svd(self.T, compute_uv=False), 1 / self.scale])
         return float(sizes.max() / sizes.min())
 
     def back(self, columns: Array) -> Array:
-        """[f; g] (n + p, k) of the given coordinates, in the original ones."""
+        """Return [f; g] (n + p, k) of the given coordinates, in the original ones."""
         n = self.A.shape[0]
         return np.vstack([np.linalg.solve(self.T, columns[:n]), self.scale[:, None] * columns[n:]])
 
 
 def observed_coordinates(r: Array, A: Array, C: Array, s: int) -> ObservedCoordinates:
-    """Coordinates for r (N, p), A (n, n), C (p, n) on windows of s samples. A channel that is zero throughout keeps
+    """Return coordinates for r (N, p), A (n, n), C (p, n) on windows of s samples. A channel that is zero throughout keeps
     its unit.
     """
     scale = channel_sizes(r)
@@ -110,7 +109,7 @@ def observed_coordinates(r: Array, A: Array, C: Array, s: int) -> ObservedCoordi
 
 
 def gap_rank(values: Array, candidates: Iterable[int], floor: float) -> tuple[int, float]:
-    """The rank among `candidates` with the largest ratio values[rank - 1] / values[rank], and that ratio.
+    """Return the rank among `candidates` with the largest ratio values[rank - 1] / values[rank], and that ratio.
 
     `values` descend; anything below `floor` counts as `floor`. Rank 0 compares with 1, the scale of the problem;
     full rank with the floor.

@@ -33,11 +33,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
-from ...base.errors import InvalidInput, in_file, shorten
-from .records import Record, RecordWriter
+from ...base.errors import InvalidInput, in_file, quote_path, shorten
+from .records import OnProgress, Record, RecordWriter, silent
 from .text_tables import TextTable
+from .validation import first_not_finite
 
-Tell = Callable[[int, int], None]
+OnRead = Callable[[int, int], None]
 
 FORMATS = {
     ".csv": "text", ".tsv": "text", ".txt": "text", ".dat": "text",
@@ -53,7 +54,8 @@ _SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
 
 @dataclass(frozen=True)
 class _Opened:
-    """What a reader found: channels of each selector, an output known to float32 only or not, rows (any, sum of widths) in time's order."""
+    """This is what a reader found: the channels of each selector, whether an output is known to float32 only, and rows (any, sum of
+    widths) in time's order."""
 
     widths: tuple[int, ...]
     single: bool
@@ -61,18 +63,18 @@ class _Opened:
 
 
 def split_names(given: Sequence[str]) -> list[str]:
-    """The names in options that may each hold several, separated by commas outside brackets."""
+    """Return the names in options that may each hold several, separated by commas outside brackets."""
     names = [name.strip() for text in given for name in re.split(r",(?![^\[\]]*\])", text)]
     return [name for name in names if name]
 
 
-def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], tell: Tell | None = None) -> Record:
-    """The record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
+def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], on_progress: OnProgress | None = None) -> Record:
+    """Return the record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 
     `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the
     names of columns or, for matrices, as NAME[:,j]. Rows are samples, in the order of time and in the file's units, and every number
-    must be finite. `tell(done, total)` hears how much of how much has been read. The Record has `len`, the number of samples, `inputs`
-    and `outputs`; it is read in pieces and need not fit into memory (a MAT file must).
+    must be finite. `on_progress(stage, done, total)` hears how much of how much has been read. The Record has `len`, the number of
+    samples, `inputs` and `outputs`; it is read in pieces and need not fit into memory (a MAT file must).
 
     Raises InvalidInput for a file that cannot be read, a channel that is not there or is named twice, and for numbers that are not finite.
 
@@ -83,6 +85,7 @@ def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], tel
     >>> len(record), record.inputs, record.outputs
     (2, ('valve',), ('level',))
     """
+    heard = on_progress or silent
     with in_file(path), ExitStack() as stack:
         chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
         for option, names in chosen.items():
@@ -102,7 +105,7 @@ def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], tel
             raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
         try:
             reader = {"text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat}[read_as]
-            found = reader(Path(path), names, tell or (lambda done, total: None), stack)
+            found = reader(Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
             labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
             u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
             y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
@@ -130,7 +133,7 @@ def _once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
 
 
 def _labels(selector: str, count: int) -> list[str]:
-    """The channels that a selector stands for: itself, or for several its last range replaced by each number."""
+    """Return the channels that a selector stands for: itself, or for several its last range replaced by each number."""
     if count == 1:
         return [selector]
     match = _SELECTOR.match(selector)
@@ -143,12 +146,8 @@ def _labels(selector: str, count: int) -> list[str]:
 
 def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
     """Refuses what is no finite number; the rows begin with sample `first`."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        if np.isfinite(np.sum(rows)):
-            return
-    wrong = np.argwhere(~np.isfinite(rows))
-    if len(wrong):
-        k, j = (int(number) for number in wrong[0])
+    if wrong := first_not_finite(rows):
+        k, j = wrong
         what = "no number (NaN or empty)" if np.isnan(rows[k, j]) else "infinite"
         raise InvalidInput(
             f"channel {shorten(labels[j])} is {what} at sample {first + k} (counted from 0), expected finite numbers: cut the record "
@@ -165,7 +164,7 @@ def _missing(name: str, there: Sequence[str], what: str) -> InvalidInput:
     return InvalidInput(f"there is no {what} {shorten(name)}, expected one of: {listed}{advice}")
 
 
-def _text(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+def _text(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
     table = TextTable.opened(path)
     wanted: list[list[int]] = []
     for name in names:
@@ -181,10 +180,10 @@ def _text(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Op
                 raise InvalidInput(f"got {shorten(name)}, expected columns {MATRIX}[:,j] of a file without a line of names")
             wanted.append([int(j) for j in np.atleast_1d(picked[0])])
     places = [place for group in wanted for place in group]
-    return _Opened(tuple(map(len, wanted)), False, table.pieces(places, tell))
+    return _Opened(tuple(map(len, wanted)), False, table.pieces(places, on_read))
 
 
-def _parquet(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
     try:
         parquet: Any = import_module("pyarrow.parquet")
         arrow: Any = import_module("pyarrow")
@@ -217,7 +216,7 @@ def _parquet(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> 
                 columns = [batch.column(batch.schema.get_field_index(name)).cast(arrow.float64()) for name in names]
                 yield np.column_stack([np.asarray(column.to_numpy(zero_copy_only=False), dtype=np.float64) for column in columns])
                 done += batch.num_rows
-                tell(done, file.metadata.num_rows)
+                on_read(done, file.metadata.num_rows)
         except arrow.ArrowException as error:
             raise refused(error) from None
 
@@ -225,7 +224,7 @@ def _parquet(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> 
     return _Opened((1,) * len(names), single, rows())
 
 
-def _npz(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
     try:
         if not zipfile.is_zipfile(path):
             np.load(path, allow_pickle=False)  # complains of what is no data at all
@@ -234,7 +233,7 @@ def _npz(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Ope
         members = {name.removesuffix(".npy"): name for name in archive.namelist()}
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="faultspace-")))
         arrays = _Lazily(list(members), lambda name: _member(archive, members[name], folder))
-        return _side_by_side([_signal(_picked(arrays, name, "array"), name) for name in names], names, tell)
+        return _side_by_side([_signal(_picked(arrays, name, "array"), name) for name in names], names, on_read)
     except ValueError as error:
         if isinstance(error, InvalidInput):
             raise
@@ -247,7 +246,7 @@ def _npz(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Ope
 
 
 def _member(archive: zipfile.ZipFile, name: str, folder: Path) -> Any:
-    """An array of the archive: read where it is small, else unpacked and mapped."""
+    """Return an array of the archive: read where it is small, else unpacked and mapped."""
     with archive.open(name) as packed:
         if archive.getinfo(name).file_size <= MAPPED:
             return np.load(io.BytesIO(packed.read()), allow_pickle=False)
@@ -257,7 +256,7 @@ def _member(archive: zipfile.ZipFile, name: str, folder: Path) -> Any:
     return np.load(unpacked, mmap_mode="r", allow_pickle=False)
 
 
-def _npy(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+def _npy(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
     try:
         small = path.stat().st_size <= MAPPED
         array = np.load(path, mmap_mode=None if small else "r", allow_pickle=False)
@@ -266,7 +265,7 @@ def _npy(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Ope
         if array.ndim == 0:
             raise InvalidInput("got a single number, expected a matrix with a row a sample")
         what = f"array; the one of an NPY file is called {MATRIX}, it is not"
-        return _side_by_side([_signal(_picked({MATRIX: array}, name, what), name) for name in names], names, tell)
+        return _side_by_side([_signal(_picked({MATRIX: array}, name, what), name) for name in names], names, on_read)
     except ValueError as error:
         if isinstance(error, InvalidInput):
             raise
@@ -274,14 +273,14 @@ def _npy(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Ope
         raise InvalidInput(f"cannot be read as NPY data ({_first_line(error)}), {advice}") from None
 
 
-def _mat(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Opened:
+def _mat(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
     from scipy.io import loadmat, whosmat
     from scipy.io.matlab import MatReadError
 
     try:
         there = [name for name, _, _ in whosmat(path)]
         arrays = _Lazily(there, lambda name: loadmat(path, variable_names=[name])[name])
-        return _side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, tell)
+        return _side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read)
     except NotImplementedError:
         raise InvalidInput("got a MAT file of version 7.3 (HDF5), expected version 7 or older: save it with the option '-v7'") from None
     except (MatReadError, ValueError, TypeError, KeyError, IndexError) as error:
@@ -290,8 +289,8 @@ def _mat(path: Path, names: Sequence[str], tell: Tell, stack: ExitStack) -> _Ope
         raise InvalidInput(f"cannot be read as MAT data ({_first_line(error)}), expected a MAT file of version 7 or older") from None
 
 
-def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], tell: Tell) -> _Opened:
-    """Signals (N, k) of one length, joined piece by piece."""
+def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read: OnRead) -> _Opened:
+    """Return signals (N, k) of one length, joined piece by piece."""
     samples = len(signals[0])
     if any(len(values) != samples for values in signals):
         sizes = ", ".join(f"{name} {len(values)}" for name, values in zip(names, signals, strict=True))
@@ -303,7 +302,7 @@ def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], tell: T
             yield np.hstack([np.asarray(values[part], dtype=np.float64) for values in signals])
             for values in signals:
                 _forget(values)
-            tell(min(first + PIECE, samples), samples)
+            on_read(min(first + PIECE, samples), samples)
 
     single = any(values.dtype in (np.float16, np.float32) for values in signals)
     return _Opened(tuple(values.shape[1] for values in signals), single, rows())
@@ -318,7 +317,7 @@ def _forget(values: Any) -> None:
 
 
 class _Lazily(Mapping[str, Any]):
-    """Arrays by name, each read when asked for and then kept."""
+    """The mapping gives arrays by name; each is read when it is asked for and then kept."""
 
     def __init__(self, names: Sequence[str], read: Callable[[str], Any]) -> None:
         self._names, self._read = list(names), read
@@ -337,7 +336,7 @@ class _Lazily(Mapping[str, Any]):
 
 
 def _picked(arrays: Mapping[str, Any], selector: str, what: str) -> Any:
-    """What the selector stands for: an array itself, or NAME[...] of one."""
+    """Return what the selector stands for: an array itself, or NAME[...] of one."""
     there = list(arrays)
     if selector in there:
         return arrays[selector]
@@ -372,7 +371,7 @@ def _range(text: str) -> slice:
 
 
 def _signal(values: Any, name: str) -> NDArray[Any]:
-    """Values as a view (N, k) of their own type: a vector is one channel, whichever way it lies."""
+    """Return the values as a view (N, k) of their own type: a vector is one channel, whichever way it lies."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         hint = "its real and imaginary part as two channels" if array.dtype.kind == "c" else "a plain array of numbers"

@@ -1,6 +1,7 @@
 """A measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
 
 stored          a SampleStore of an array; silent: progress that nobody hears
+in_memory       the samples of a result that keeps them in a store, as an array
 SampleStore     rows (N, k) of floats: in memory while they are few, beyond IN_MEMORY bytes in a temporary file
 Record          inputs and outputs in one store, their names, and what is known of every channel; iterating gives pieces (y, u)
 Moments         least and greatest values, means and deviations of rows that come in pieces
@@ -18,6 +19,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,14 +28,15 @@ from ...base.arrays import Array
 from ...base.errors import InvalidInput
 from .validation import PIECE
 
-Tell = Callable[[str, int, int], None]
+OnProgress = Callable[[str, int, int], None]
 
 IN_MEMORY = 1 << 24
 NUMBER = 8  # bytes
 
 
 class SampleStore:
-    """Rows of `width` floats, appended and read by number; `len` is how many there are. What is read cannot be written to."""
+    """The store keeps rows of `width` floats, which are appended and read by number; `len` is how many there are. What is read cannot be
+    written to."""
 
     def __init__(self, width: int) -> None:
         self.width = width
@@ -44,7 +47,7 @@ class SampleStore:
         return self._count
 
     def append(self, rows: Array) -> None:
-        """Rows (any, width) behind the others. Raises InvalidInput where the disk is full."""
+        """Append rows (any, width) behind the others. Raises InvalidInput where the disk is full."""
         try:
             self._file.seek(0, os.SEEK_END)
             self._file.write(np.ascontiguousarray(rows, dtype=np.float64).data)
@@ -57,24 +60,38 @@ class SampleStore:
         self._count += len(rows)
 
     def read(self, first: int, last: int) -> Array:
-        """Rows first .. last - 1."""
+        """Return rows first .. last - 1."""
         last = min(last, self._count)
         self._file.seek(NUMBER * self.width * first)
         content = self._file.read(NUMBER * self.width * max(last - first, 0))
         return np.frombuffer(content, dtype=np.float64).reshape(-1, self.width)
 
     def pieces(self, first: int = 0, last: int | None = None) -> Iterator[Array]:
-        """Rows first .. last - 1, PIECE at a time."""
+        """Yield rows first .. last - 1, PIECE at a time."""
         end = self._count if last is None else min(last, self._count)
         for start in range(first, end, PIECE):
             yield self.read(start, min(start + PIECE, end))
 
 
 def stored(rows: Array) -> SampleStore:
-    """A store of the rows (N, k)."""
+    """Return a store of the rows (N, k)."""
     store = SampleStore(rows.shape[1])
     store.append(rows)
     return store
+
+
+class Stored(Protocol):
+    """This is a result that keeps its samples in a `store`, as the residual of a model does."""
+
+    @property
+    def store(self) -> SampleStore:
+        """Return the samples (N, k)."""
+
+
+def in_memory(rows: ArrayLike | SampleStore | Stored) -> Any:
+    """Return the samples of a store, or of a result that keeps them in one, as an array (N, k); an array as it is."""
+    store = rows if isinstance(rows, SampleStore) else getattr(rows, "store", None)
+    return store.read(0, len(store)) if isinstance(store, SampleStore) else rows
 
 
 def silent(stage: str, done: int, total: int) -> None:
@@ -83,7 +100,7 @@ def silent(stage: str, done: int, total: int) -> None:
 
 @dataclass(frozen=True)
 class Channels:
-    """Of every channel, inputs before outputs: least and greatest value, mean and standard deviation, each (k,)."""
+    """This is what is known of every channel, inputs before outputs: least and greatest value, mean and standard deviation, each (k,)."""
 
     least: Array
     greatest: Array
@@ -116,44 +133,44 @@ class Record:
             yield self._split(rows)
 
     def stretch(self, first: int, last: int) -> tuple[Array, Array]:
-        """y and u of samples first .. last - 1."""
+        """Return y and u of samples first .. last - 1."""
         return self._split(self.store.read(first, min(last, len(self))))
 
     @property
     def y(self) -> Array:
-        """All outputs (N, p), in memory."""
+        """Return all outputs (N, p), in memory."""
         return self.stretch(0, len(self))[0]
 
     @property
     def u(self) -> Array:
-        """All inputs (N, n_u), in memory."""
+        """Return all inputs (N, n_u), in memory."""
         return self.stretch(0, len(self))[1]
 
     @property
     def p(self) -> int:
-        """Number of outputs."""
+        """Return the number of outputs."""
         return len(self.outputs)
 
     @property
     def n_u(self) -> int:
-        """Number of inputs."""
+        """Return the number of inputs."""
         return len(self.inputs)
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All channels, inputs before outputs."""
+        """Return all channels, inputs before outputs."""
         return self.inputs + self.outputs
 
     def about_means(self) -> Record:
-        """The same record with every channel about its mean."""
+        """Return the same record with every channel about its mean."""
         return self.about(self.channels.mean)
 
     def about(self, means: Array) -> Record:
-        """The same record with `means` (k,), inputs before outputs, taken off."""
+        """Return the same record with `means` (k,), inputs before outputs, taken off."""
         return replace(self, offset=means)
 
     def beginning(self, length: int) -> Record:
-        """The first `length` samples as a record of their own, with what is known of their channels; nothing is copied."""
+        """Return the first `length` samples as a record of their own, with what is known of their channels; nothing is copied."""
         known = Moments(self.store.width)
         for rows in self.store.pieces(0, length):
             known.add(rows)
@@ -165,7 +182,7 @@ class Record:
 
 
 class Moments:
-    """What is known of channels whose rows come in pieces; the moments of pieces are merged, not summed up from zero."""
+    """The object gathers what is known of channels whose rows come in pieces; the moments of pieces are merged, not summed up from zero."""
 
     def __init__(self, width: int) -> None:
         self._count = 0
@@ -173,7 +190,7 @@ class Moments:
         self._mean, self._squares = np.zeros(width), np.zeros(width)
 
     def add(self, rows: Array) -> None:
-        """Rows (1 or more, width)."""
+        """Take in rows (1 or more, width)."""
         before, count = self._count, len(rows)
         self._count += count
         self._least, self._greatest = np.minimum(self._least, rows.min(axis=0)), np.maximum(self._greatest, rows.max(axis=0))
@@ -184,30 +201,30 @@ class Moments:
             self._squares = self._squares + ((rows - mean) ** 2).sum(axis=0) + step**2 * before * count / (before + count)
 
     def channels(self) -> Channels:
-        """What has come."""
+        """Return what is known of the channels from the rows that have come."""
         return Channels(self._least, self._greatest, self._mean, np.sqrt(self._squares / max(self._count, 1)))
 
 
 class RecordWriter:
-    """Takes rows [u, y] of finite numbers; `record` makes the Record of them."""
+    """The writer takes rows [u, y] of finite numbers, and `record` makes the Record of them."""
 
     def __init__(self, width: int) -> None:
         self.store = SampleStore(width)
         self._known = Moments(width)
 
     def append(self, rows: Array) -> None:
-        """Rows (any, width). Raises InvalidInput where there is no room."""
+        """Return rows (any, width). Raises InvalidInput where there is no room."""
         if len(rows):
             self.store.append(rows)
             self._known.add(rows)
 
     def record(self, *, outputs: Sequence[str], inputs: Sequence[str], format: str, single: bool = False) -> Record:
-        """What has been taken."""
+        """Make the record of the rows that have been taken."""
         return Record(self.store, tuple(outputs), tuple(inputs), format, self._known.channels(), np.zeros(self.store.width), single)
 
 
 def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequence[str]) -> Record:
-    """The record of arrays y (N, p) and u (N, n_u) of finite numbers."""
+    """Return the record of arrays y (N, p) and u (N, n_u) of finite numbers."""
     rows = np.hstack([np.asarray(u, dtype=np.float64), np.asarray(y, dtype=np.float64)])
     writer = RecordWriter(rows.shape[1])
     writer.append(rows)
@@ -215,17 +232,17 @@ def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequ
 
 
 class Passes:
-    """The pieces of a record, any number of times; each reading is told by its number, as `stage`, pass 1, 2, .."""
+    """The object gives the pieces of a record any number of times; each reading is reported by its number, as `stage`, pass 1, 2, .."""
 
-    def __init__(self, record: Record, stage: str, tell: Tell) -> None:
-        self._record, self._stage, self._tell = record, stage, tell
+    def __init__(self, record: Record, stage: str, on_progress: OnProgress) -> None:
+        self._record, self._stage, self._on_progress = record, stage, on_progress
         self._begun = 0
 
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
         self._begun += 1
         stage, done = f"{self._stage}, pass {self._begun}", 0
-        self._tell(stage, 0, len(self._record))
+        self._on_progress(stage, 0, len(self._record))
         for y, u in self._record:
             yield y, u
             done += len(y)
-            self._tell(stage, done, len(self._record))
+            self._on_progress(stage, done, len(self._record))

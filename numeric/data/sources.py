@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from ...base.errors import InvalidData
 from .files import read_record
-from .records import Record, RecordWriter, Tell, silent
+from .records import OnProgress, Record, RecordWriter
 from .validation import checked_pieces, two_dimensional
 
 Source = ArrayLike | str | os.PathLike[str] | Record | Iterable[tuple[ArrayLike, ArrayLike]]
@@ -30,9 +30,9 @@ def record_from(
     *,
     inputs: Sequence[str] | None = None,
     outputs: Sequence[str] | None = None,
-    on_progress: Tell | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Record:
-    """The record of y (N, p) and u (N, n_u): arrays, or data frames, whose columns give the names, in any
+    """Return the record of y (N, p) and u (N, n_u): arrays, or data frames, whose columns give the names, in any
     units; or of y alone: a Record, the path of a
     file (then `inputs` and `outputs` choose its channels), a frame (likewise), or pieces (y, u) in the order of time, read once.
 
@@ -56,9 +56,7 @@ def record_from(
     if isinstance(y, str | os.PathLike):
         if inputs is None or outputs is None:
             raise InvalidData("inputs, outputs: a file needs the names of both: pass inputs=[...], outputs=[...]")
-        name = os.fspath(y)
-        tell = on_progress or silent
-        return read_record(name, inputs=inputs, outputs=outputs, tell=lambda done, total: tell(f"reading {name}", done, total))
+        return read_record(os.fspath(y), inputs=inputs, outputs=outputs, on_progress=on_progress)
     if _columns(y) is not None:
         if inputs is None or outputs is None:
             raise InvalidData("u is missing: pass it, or name the columns of the frame that are inputs and outputs")
@@ -102,7 +100,7 @@ def _pairs(chunks: Iterable[Any]) -> Iterable[tuple[ArrayLike, ArrayLike]]:
 
 
 def _columns(values: Any) -> list[str] | None:
-    """The names of a frame's columns, or of a series; None for what has none."""
+    """Return the names of a frame's columns, or of a series; None for what has none."""
     if hasattr(values, "columns") and hasattr(values, "to_numpy"):
         return [str(name) for name in values.columns]
     if hasattr(values, "name") and hasattr(values, "to_numpy"):

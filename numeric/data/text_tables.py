@@ -31,7 +31,7 @@ LONGEST_LINE = 1 << 22
 
 @dataclass(frozen=True)
 class TextTable:
-    """`names` are the columns' names, or None where no line names them; `width` their number; `skipped` the lines before the values."""
+    """The table has `width` columns with these `names`, or None where no line names them; `skipped` lines stand before the values."""
 
     path: Path
     separator: str
@@ -41,12 +41,12 @@ class TextTable:
 
     @property
     def separator_name(self) -> str:
-        """The separator in words."""
+        """Return the separator in words."""
         return SEPARATORS[self.separator]
 
     @classmethod
     def opened(cls, path: Path) -> TextTable:
-        """What the beginning of the file tells. Raises InvalidInput where that is no table."""
+        """Open a table by what the beginning of the file shows. Raises InvalidInput where that is no table."""
         try:
             with _stream(path) as stream:
                 beginning = list(islice(_lines(stream), LOOKED_AT))
@@ -65,9 +65,9 @@ class TextTable:
             _names_once(fields)
         return cls(path, separator, names, len(fields), beginning[0][0] if named else beginning[0][0] - 1)
 
-    def pieces(self, columns: Sequence[int], tell: Callable[[int, int], None]) -> Iterator[Array]:
-        """The chosen columns, (any, len(columns)), PIECE lines at a time; NaN where a line says so. `tell` hears bytes read and bytes in
-        all. Raises InvalidInput for a field that is no number, and where there is no line of values."""
+    def pieces(self, columns: Sequence[int], on_read: Callable[[int, int], None]) -> Iterator[Array]:
+        """Yield the chosen columns, (any, len(columns)), PIECE lines at a time; NaN where a line says so. `on_read` hears bytes read and
+        bytes in all. Raises InvalidInput for a field that is no number, and where there is no line of values."""
         size = self.path.stat().st_size
         with _stream(self.path) as stream:
             numbered = (pair for pair in _lines(stream) if pair[0] > self.skipped)
@@ -75,7 +75,7 @@ class TextTable:
             while piece := list(islice(numbered, PIECE)):
                 empty = False
                 yield self._parsed(piece, columns)
-                tell(min(stream.buffer.tell(), size), size)
+                on_read(min(stream.buffer.tell(), size), size)
         if empty:
             raise InvalidInput(f"got no samples after line {self.skipped}, expected a record of many")
 
@@ -94,7 +94,7 @@ class TextTable:
         return np.array([self._row(number, line, columns) for number, line in piece], dtype=np.float64)
 
     def _row(self, number: int, line: str, columns: Sequence[int]) -> list[float]:
-        """One line, slowly; the complaint names the line and the column."""
+        """Parse one line, slowly, so that the complaint names the line and the column."""
         fields = _fields(line, self.separator)
         if len(fields) != self.width:
             got = f"{len(fields)} field{'' if len(fields) == 1 else 's'}"
@@ -119,7 +119,7 @@ def _stream(path: Path) -> TextIO:
 
 
 def _lines(stream: TextIO) -> Iterator[tuple[int, str]]:
-    """The lines that count, with their numbers from 1."""
+    """Yield the lines that count, with their numbers from 1."""
     number = 0
     while line := stream.readline(LONGEST_LINE):
         number += 1
@@ -133,7 +133,7 @@ def _lines(stream: TextIO) -> Iterator[tuple[int, str]]:
 
 
 def _separator(lines: Sequence[str]) -> str:
-    """The separator that makes a table of the lines, most columns first. Raises InvalidInput where none does."""
+    """Return the separator that makes a table of the lines, most columns first. Raises InvalidInput where none does."""
     tables = {}
     for separator in SEPARATORS:
         widths = {len(_fields(line, separator)) for line in lines}
@@ -164,7 +164,7 @@ def _separator(lines: Sequence[str]) -> str:
 
 
 def _numeric_share(lines: Sequence[str], separator: str) -> float:
-    """The share of fields that are numbers, a decimal comma allowed: such a table is told apart and then complained about."""
+    """Return the share of fields that are numbers, a decimal comma allowed: such a table is told apart and then complained about."""
     fields = [field for line in lines for field in _fields(line, separator)]
     good = sum(_number(field.replace(",", ".")) is not None for field in fields)
     return good / len(fields)

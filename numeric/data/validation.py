@@ -9,6 +9,7 @@ pieces              the checked float64 pieces (y, u) of one experiment, for dat
 experiment          the checked pieces (y, u) of one experiment, from arrays or pieces, anew at each `iter`
 checked_piece       one such piece that the caller hands over
 enough_samples      a refusal of too few samples, with a hint at transposed data
+first_not_finite    where the first number stands that is NaN or infinite
 positive            a positive integer argument
 constant_channels   numbers of the channels that never change, from their least and greatest values
 """
@@ -27,7 +28,7 @@ PIECE = 1 << 14  # samples converted and checked at once
 
 
 def positive(value: Any, name: str) -> int:
-    """`value` as a positive int; InvalidData otherwise (booleans and floats are refused)."""
+    """Return `value` as a positive int. Raises InvalidData for anything else, booleans and floats included."""
     try:
         number = index(value)
     except TypeError:
@@ -38,8 +39,8 @@ def positive(value: Any, name: str) -> int:
 
 
 def two_dimensional(values: ArrayLike, name: str) -> NDArray[Any]:
-    """`values` as an array (N, channels), a view where it already is an array; InvalidData for other shapes and for types without real
-    values.
+    """Return `values` as an array (N, channels), a view where it already is an array. Raises InvalidData for other shapes and types without
+    real values.
     """
     if np.ma.is_masked(values):
         raise InvalidData(
@@ -62,26 +63,30 @@ def two_dimensional(values: ArrayLike, name: str) -> NDArray[Any]:
 
 
 def _finite(array: NDArray[Any], name: str, first: int) -> Array:
-    """`array` as float64; InvalidData that names the first sample (counted from `first`) and channel that is no finite number."""
+    """Return `array` as float64. Raises InvalidData that names the first sample (counted from `first`) and channel that is not finite."""
     piece = np.asarray(array, dtype=np.float64)
-    # A finite sum needs finite terms: the element-wise search runs only where the sum is not finite (or overflows).
-    with np.errstate(over="ignore", invalid="ignore"):
-        total = np.sum(piece)
-    if not np.isfinite(total):
-        wrong = np.argwhere(~np.isfinite(piece))
-        if len(wrong):
-            row, column = (int(number) for number in wrong[0])
-            value = "NaN" if np.isnan(piece[row, column]) else "infinite"
-            raise InvalidData(
-                f"{name} is {value} at sample {first + row}, channel {column} (counted from 0); every sample must be finite: cut the "
-                "record there, "
-                f"or identify from its parts as several experiments"
-            )
+    if wrong := first_not_finite(piece):
+        row, column = wrong
+        value = "NaN" if np.isnan(piece[row, column]) else "infinite"
+        raise InvalidData(
+            f"{name} is {value} at sample {first + row}, channel {column} (counted from 0); every sample must be finite: cut the "
+            "record there, or identify from its parts as several experiments"
+        )
     return piece
 
 
+def first_not_finite(rows: Array) -> tuple[int, int] | None:
+    """Return row and column of the first number that is NaN or infinite, None where every one is finite."""
+    # A finite sum needs finite terms: the element-wise search runs only where the sum is not finite (or overflows).
+    with np.errstate(over="ignore", invalid="ignore"):
+        if np.isfinite(np.sum(rows)):
+            return None
+    wrong = np.argwhere(~np.isfinite(rows))
+    return (int(wrong[0, 0]), int(wrong[0, 1])) if len(wrong) else None
+
+
 def signal(values: ArrayLike, name: str = "y") -> Array:
-    """A checked signal (N, channels) in float64: `values` themselves where they are float64, else a converted copy."""
+    """Return a checked signal (N, channels) in float64: `values` themselves where they are float64, else a converted copy."""
     array = two_dimensional(values, name)
     converted = array.astype(np.float64, copy=False)
     for first in range(0, len(array), PIECE):
@@ -103,14 +108,14 @@ def _same_length(y: NDArray[Any], u: NDArray[Any]) -> None:
 
 
 def signals(y: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
-    """Checked y (N, p) and u (N, n_u) of equal length."""
+    """Return checked y (N, p) and u (N, n_u) of equal length."""
     outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
     _same_length(outputs, inputs)
     return signal(outputs, "y"), signal(inputs, "u")
 
 
 def enough_samples(samples: int, needed: int, why: str, shape: tuple[int, ...] = ()) -> None:
-    """InvalidData where `samples` < `needed`; `why` says what needs them, `shape` (of y) allows a hint at transposed data."""
+    """Raise InvalidData where `samples` < `needed`; `why` says what needs them, `shape` (of y) allows a hint at transposed data."""
     if samples >= needed:
         return
     transposed = len(shape) == 2 and shape[1] > shape[0]
@@ -119,7 +124,7 @@ def enough_samples(samples: int, needed: int, why: str, shape: tuple[int, ...] =
 
 
 def pieces(y: ArrayLike, u: ArrayLike, size: int = PIECE) -> Iterator[tuple[Array, Array]]:
-    """The checked pieces of one experiment, `size` samples each but the last: float64 copies only as large as one piece."""
+    """Yield the checked pieces of one experiment, `size` samples each but the last: float64 copies only as large as one piece."""
     outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
     _same_length(outputs, inputs)
     for first in range(0, len(outputs), size):
@@ -128,14 +133,14 @@ def pieces(y: ArrayLike, u: ArrayLike, size: int = PIECE) -> Iterator[tuple[Arra
 
 
 def checked_piece(y: ArrayLike, u: ArrayLike, first: int) -> tuple[Array, Array]:
-    """One piece (y, u) handed over by the caller, whose first sample has the number `first`."""
+    """Return one piece (y, u) handed over by the caller, whose first sample has the number `first`."""
     outputs, inputs = two_dimensional(y, "y"), two_dimensional(u, "u")
     _same_length(outputs, inputs)
     return _finite(outputs, "y", first), _finite(inputs, "u", first)
 
 
 class _Experiment:
-    """The checked pieces of one experiment, anew at each `iter`."""
+    """The object gives the checked pieces of one experiment anew at each `iter`."""
 
     def __init__(self, begin: Callable[[], Iterator[tuple[Array, Array]]]) -> None:
         self._begin = begin
@@ -145,8 +150,8 @@ class _Experiment:
 
 
 def experiment(y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLike | None) -> Iterable[tuple[Array, Array]]:
-    """The checked pieces (y, u) of one experiment, which can be read more than once: of arrays y (N, p), u (N, n_u), PIECE samples each;
-    where u is None, those that y gives at each `iter`, counted from its first sample.
+    """Return the checked pieces (y, u) of one experiment, which can be read more than once: of arrays y (N, p), u (N, n_u), PIECE samples
+    each; where u is None, those that y gives at each `iter`, counted from its first sample.
     """
     if u is not None:
         return _Experiment(lambda: pieces(cast(ArrayLike, y), u))
@@ -161,7 +166,7 @@ def experiment(y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLik
 
 
 def checked_pieces(chunks: Iterable[tuple[ArrayLike, ArrayLike]]) -> Iterator[tuple[Array, Array]]:
-    """Each piece (y, u) checked; samples are counted over all of them."""
+    """Check each piece (y, u) and yield it; samples are counted over all of them."""
     first = 0
     for y, u in chunks:
         piece = checked_piece(y, u, first)
@@ -170,5 +175,5 @@ def checked_pieces(chunks: Iterable[tuple[ArrayLike, ArrayLike]]) -> Iterator[tu
 
 
 def constant_channels(least: Array, greatest: Array) -> list[int]:
-    """Numbers (from 0) of the channels whose least and greatest values are equal."""
+    """Return the numbers (from 0) of the channels whose least and greatest values are equal."""
     return [int(channel) for channel in np.flatnonzero(least == greatest)]

@@ -37,9 +37,8 @@ Pieces = Iterable[tuple[Array, Array]]
 
 
 class Blocks(NamedTuple):
-    """The blocks of L = R.T against Uf, Up, Yf: Yf = l31 Q1 + l32 Q2 + l33 Q3, Up = l21 Q1 + l22 Q2, Uf = l11 Q1, with orthonormal Q1,
-    Q2, Q3.
-    """
+    """These are the blocks of L = R.T against Uf, Up, Yf: Yf = l31 Q1 + l32 Q2 + l33 Q3, Up = l21 Q1 + l22 Q2, Uf = l11 Q1, with
+    orthonormal Q1, Q2, Q3."""
 
     l11: Array
     l21: Array
@@ -51,10 +50,10 @@ class Blocks(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Compression:
-    """What PI-MOESP needs of any number of samples.
+    """This is what PI-MOESP needs of any number of samples.
 
-    factor (k, k) is upper triangular with a nonnegative diagonal, k = (block_rows + past_rows) n_u + block_rows p, rows of H in the
-    order Uf, Up, Yf, in each by time, then channel. `samples` and `columns` (windows) are counted over all parts merged; `condition` is
+    `factor` (k, k) is upper triangular with a nonnegative diagonal, k = (block_rows + past_rows) n_u + block_rows p; the rows of H come in
+    the order Uf, Up, Yf, in each by time, then channel. `samples` and `columns` (windows) are counted over all parts merged; `condition` is
     that of [Uf; Up] with its rows scaled to equal length; `rounding` estimates the relative error of the factor's blocks that a model uses.
     """
 
@@ -71,18 +70,18 @@ class Compression:
 
     @property
     def inputs(self) -> int:
-        """Rows of [Uf; Up]."""
+        """Return rows of [Uf; Up]."""
         return (self.block_rows + self.past_rows) * self.n_u
 
     def blocks(self) -> Blocks:
-        """The blocks of R.T, as views where possible."""
+        """Return the blocks of R.T, as views where possible."""
         lower = self.factor.T
         a, b = self.block_rows * self.n_u, self.inputs
         return Blocks(lower[:a, :a], lower[a:b, :a], lower[a:b, a:b], lower[b:, :a], lower[b:, a:b], lower[b:, b:])
 
 
 def window_rows(n_u: int, p: int, past_rows: int, block_rows: int) -> NDArray[np.intp]:
-    """The rows (lag, channel) of [Uf; Up; Yf] for the joint signal [u, y]."""
+    """Return the rows (lag, channel) of [Uf; Up; Yf] for the joint signal [u, y]."""
     past, future = range(past_rows), range(past_rows, past_rows + block_rows)
     inputs, outputs = range(n_u), range(n_u, n_u + p)
     parts = ((future, inputs), (past, inputs), (future, outputs))
@@ -90,7 +89,7 @@ def window_rows(n_u: int, p: int, past_rows: int, block_rows: int) -> NDArray[np
 
 
 def scaled_condition(upper: Array) -> float:
-    """The condition of a triangular factor with its columns scaled to equal length; infinite where one vanishes."""
+    """Return the condition of a triangular factor with its columns scaled to equal length; infinite where one vanishes."""
     lengths = np.linalg.norm(upper, axis=0)
     return float("inf") if np.any(lengths == 0) else float(np.linalg.cond(upper / lengths))
 
@@ -119,7 +118,7 @@ def _enough(samples: int, shape: _Shape) -> None:
 
 
 def _started(data: Iterator[tuple[Array, Array]], past_rows: int, block_rows: int) -> tuple[_Shape, Array]:
-    """The shape told by the first piece, and that piece as a joint signal."""
+    """Return the shape that the first piece has, and that piece as a joint signal."""
     try:
         y, u = next(data)
     except StopIteration:
@@ -143,7 +142,7 @@ def _by_qr(data: Pieces, past_rows: int, block_rows: int) -> Compression:
 
 
 def _by_gram(data: Pieces, past_rows: int, block_rows: int) -> Compression | None:
-    """The compression by Gram, or None where its input block is not positive definite in floats (squares that overflow included)."""
+    """Return the compression by Gram, or None where its input block is not positive definite in floats (squares that overflow included)."""
     source = iter(data)
     shape, piece = _started(source, past_rows, block_rows)
     channels = shape.n_u + shape.p
@@ -164,7 +163,7 @@ def _by_gram(data: Pieces, past_rows: int, block_rows: int) -> Compression | Non
 
 
 def _by_route(again: Callable[[], Pieces] | None, once: Pieces | None, past_rows: int, block_rows: int, route: str | None) -> Compression:
-    """`again` gives the data anew at each call; `once` are data that can be read one time."""
+    """Choose the route and compress; `again` gives the data anew at each call; `once` are data that can be read one time."""
     if route not in (None, "qr", "gram"):
         raise InvalidData(f"route must be 'qr', 'gram' or None, which chooses (got {route!r})")
     data = once if again is None else again()
@@ -186,7 +185,7 @@ def _by_route(again: Callable[[], Pieces] | None, once: Pieces | None, past_rows
 def compress(
     y: ArrayLike, u: ArrayLike, *, block_rows: int, past_rows: int | None = None, route: str | None = None, chunk: int = 1 << 14
 ) -> Compression:
-    """The compression of one experiment.
+    """Return the compression of one experiment.
 
     y (N, p), u (N, n_u): arrays or memory maps, read `chunk` samples at a time; extra memory does not grow with N. past_rows defaults to
     block_rows. InvalidData for unusable arrays and for fewer than past_rows + block_rows samples.
@@ -202,7 +201,7 @@ def compress(
 def compress_chunks(
     chunks: Iterable[tuple[ArrayLike, ArrayLike]], *, block_rows: int, past_rows: int | None = None, route: str | None = None
 ) -> Compression:
-    """The compression of one experiment handed over in consecutive pieces (y, u) of any lengths, without overlap.
+    """Return the compression of one experiment handed over in consecutive pieces (y, u) of any lengths, without overlap.
 
     A list, or any object that gives its pieces anew at each `iter`, may be read twice when route is None; a generator is read once, by QR.
     """
@@ -214,13 +213,13 @@ def compress_chunks(
 
 
 def windows(block_rows: int, past_rows: int | None) -> tuple[int, int]:
-    """(block_rows, past_rows) checked, past_rows = block_rows where None."""
+    """Check block_rows and past_rows and return both; past_rows = block_rows where it is None."""
     future = positive(block_rows, "block_rows")
     return future, future if past_rows is None else positive(past_rows, "past_rows")
 
 
 def merge(*compressions: Compression) -> Compression:
-    """The compression of all windows of the given ones: of several experiments, or of parts of one.
+    """Return the compression of all windows of the given ones: of several experiments, or of parts of one.
 
     Parts of one experiment give the whole when neighbours share past_rows + block_rows - 1 samples: each window is then seen once. The
     order does not matter up to rounding. InvalidData without arguments or where dimensions differ.

@@ -23,7 +23,8 @@ GROUP_WIDTH = 64  # entries of a group of samples, about: wide enough for fast p
 
 
 class DisplacementGram:
-    """Correlations of a signal with `channels` channels at lags 0..lags-1, for the Gram matrix of its Hankel matrix with `lags` block rows.
+    """The object sums the correlations of a signal with `channels` channels at lags 0..lags-1, for the Gram matrix of its Hankel matrix
+    with `lags` block rows.
 
     `append` takes the next samples of ONE experiment; memory does not depend on how many there are.
     """
@@ -42,7 +43,7 @@ class DisplacementGram:
 
     @property
     def columns(self) -> int:
-        """Columns of the Hankel matrix so far."""
+        """Return columns of the Hankel matrix so far."""
         return max(self.samples - self._lags + 1, 0)
 
     def append(self, piece: Array) -> None:
@@ -62,7 +63,7 @@ class DisplacementGram:
         self._kept = joint[first_groups * self._group :].copy()
 
     def _first_row(self) -> Array:
-        """G[0, d], d = 0..lags-1, as an array (lags, channels, channels)."""
+        """Return G[0, d], d = 0..lags-1, as an array (lags, channels, channels)."""
         lags, group, channels = self._lags, self._group, self._channels
         blocks = self._products.reshape(self._reach, group, channels, group, channels)
         row = np.zeros((lags, channels, channels))
@@ -76,7 +77,7 @@ class DisplacementGram:
         return row
 
     def gram(self) -> Array:
-        """G (lags * channels, lags * channels), rows ordered by lag, then channel. At least `lags` samples must have come."""
+        """Return G (lags * channels, lags * channels), rows ordered by lag, then channel. At least `lags` samples must have come."""
         lags, channels = self._lags, self._channels
         head, tail = self._head[: lags - 1], self._kept[len(self._kept) - lags + 1 :]
         blocks = np.empty((lags, channels, lags, channels))
@@ -93,7 +94,7 @@ class DisplacementGram:
         return blocks.reshape(lags * channels, lags * channels)
 
     def cancellation(self, gram: Array) -> float:
-        """How much larger a channel's greatest diagonal entry of G is than its least: what the end terms may have cancelled."""
+        """Return how much larger a channel's greatest diagonal entry of G is than its least: what the end terms may have cancelled."""
         energies = np.diag(gram).reshape(self._lags, self._channels)
         least, greatest = energies.min(axis=0), energies.max(axis=0)
         if np.any((least <= 0) & (greatest > 0)):
@@ -102,14 +103,15 @@ class DisplacementGram:
 
 
 class GramFactor(NamedTuple):
-    """`factor` (k, k), or None where the input block is not positive definite in floats; `condition` of the scaled input block."""
+    """The `factor` (k, k) is None where the input block is not positive definite in floats; `condition` is that of the scaled input
+    block."""
 
     factor: Array | None
     condition: float
 
 
 def factor_from_gram(gram: Array, inputs: int) -> GramFactor:
-    """The upper triangular R with R.T @ R = gram, whose first `inputs` rows belong to [Uf; Up].
+    """Return the upper triangular R with R.T @ R = gram, whose first `inputs` rows belong to [Uf; Up].
 
     Only the input block is factored; the rest follows by triangular solves, since outputs without noise make the whole matrix singular.
     The last diagonal block is the root of a difference and good to sqrt(eps) only, the others to eps times the square of `condition`.

@@ -32,7 +32,8 @@ Pieces = Iterable[tuple[Array, Array]]
 
 @dataclass(frozen=True, eq=False)
 class InputMatrices:
-    """B (n, n_u), D (p, n_u), one initial state (n,) an experiment where the data were read, and the condition of the scaled regression."""
+    """These are B (n, n_u), D (p, n_u), one initial state (n,) an experiment where the data were read, and the condition of the scaled
+    regression."""
 
     B: Array
     D: Array
@@ -41,8 +42,8 @@ class InputMatrices:
 
 
 def _least_squares(matrix: Array, right: Array) -> tuple[Array, float]:
-    """The least-squares solution with columns scaled to equal length (shortest where rank is lacking), and the condition of the scaled
-    matrix.
+    """Return the least-squares solution with columns scaled to equal length (shortest where rank is lacking), and the condition of the
+    scaled matrix.
     """
     lengths = np.linalg.norm(matrix, axis=0)
     lengths[lengths == 0] = 1.0
@@ -52,7 +53,7 @@ def _least_squares(matrix: Array, right: Array) -> tuple[Array, float]:
 
 
 def by_moesp(compression: Compression, A: Array, C: Array) -> InputMatrices:
-    """MOESP's regression [V93] on the compression, for A (n, n) and C (p, n) with s p > n."""
+    """Find B and D by MOESP's regression [V93] on the compression, for A (n, n) and C (p, n) with s p > n."""
     s, p, n_u, n = compression.block_rows, compression.p, compression.n_u, len(A)
     parts = compression.blocks()
     observability = observability_matrix(A, C, s)
@@ -71,17 +72,17 @@ def by_moesp(compression: Compression, A: Array, C: Array) -> InputMatrices:
 
 
 def growth(A: Array, samples: int) -> float:
-    """The largest modulus of an eigenvalue of A to the power `samples` (inf where it overflows), 0 without states."""
+    """Return the largest modulus of an eigenvalue of A to the power `samples` (inf where it overflows), 0 without states."""
     radius = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
     with np.errstate(over="ignore"):
         return float(np.float64(radius) ** samples)
 
 
 class _Regression:
-    """The rows (y(k); x0, B, D) of one experiment, taken piece by piece into a triangular factor with the columns [x0, B, D, y].
+    """The object takes the rows (y(k); x0, B, D) of one experiment piece by piece into a triangular factor with the columns [x0, B, D, y].
 
-    B's columns are the responses of x(k+1) = A x(k) + e_i u_j(k) for each i and j. All rows of a block of samples are one linear map of
-    a short vector: the states of those responses at the block's start, and its inputs and outputs. Where that vector is short enough
+    B's columns are the responses of x(k+1) = A x(k) + e_i u_j(k) for each i and j. All rows of a block of samples are one linear map of a
+    short vector: the states of those responses at the block's start, and its inputs and outputs. Where that vector is short enough
     (CONDENSED), the factor of the vectors is gathered first and mapped once at the end, which costs far less than mapping every block.
     """
 
@@ -109,7 +110,7 @@ class _Regression:
         self._factor = np.zeros((self.width, self.width), order="F")
 
     def take(self, y: Array, u: Array) -> None:
-        """The next samples: whole blocks, but for the end of the experiment."""
+        """Take the next samples: whole blocks, but for the end of the experiment."""
         whole = len(y) // self.block
         at_once = max(1, ENTRIES // (2 * self._length)) if self._condenses else self._mapped_at_once
         for first in range(0, whole, at_once):
@@ -126,7 +127,7 @@ class _Regression:
             self._map(self._vectors(filled[0], filled[1]), rest)
 
     def factor(self) -> Array:
-        """The triangular factor of all rows taken; nothing can be taken afterwards."""
+        """Return the triangular factor of all rows taken; nothing can be taken afterwards."""
         if self._condenses:
             vectors = np.triu(self._vectors_factor)
             for first in range(0, len(vectors), self._mapped_at_once):
@@ -135,7 +136,7 @@ class _Regression:
         return np.triu(self._factor)
 
     def _vectors(self, y: Array, u: Array) -> Array:
-        """One row a block: states (x0's, then each input's), inputs, outputs, each channel's samples together."""
+        """Return one row a block: states (x0's, then each input's), inputs, outputs, each channel's samples together."""
         count, n = len(y) // self.block, self.n
         states = np.empty((1 + self.n_u, count, n, n))
         pushes = np.zeros((1 + self.n_u, count, n, n))
@@ -173,7 +174,7 @@ class _Regression:
 
 
 def _full_batches(data: Pieces, size: int) -> Pieces:
-    """The same samples in pieces of a multiple of `size`, but for the last."""
+    """Return the same samples in pieces of a multiple of `size`, but for the last."""
     kept: list[tuple[Array, Array]] = []
     length = 0
     for piece in data:
@@ -190,7 +191,8 @@ def _full_batches(data: Pieces, size: int) -> Pieces:
 
 
 def by_output_error(experiments: Sequence[Pieces], A: Array, C: Array, n_u: int) -> InputMatrices:
-    """The least sum of squared output errors over all samples of all experiments, for A (n, n), C (p, n) and n_u inputs.
+    """Find B, D and the initial states of the least sum of squared output errors over all samples of all experiments, for A (n, n), C (p,
+    n) and n_u inputs.
 
     An experiment is an iterable of pieces y (T, p), u (T, n_u) of float64. InvalidData where the powers of A overflow.
     """

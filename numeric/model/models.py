@@ -5,7 +5,7 @@ Simulator               the response to inputs that come in pieces, many samples
 observability_matrix    O_s, the rows C, CA, ..., CA^(s-1)
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import accumulate, repeat
@@ -24,7 +24,7 @@ PIECE = 1 << 14  # samples simulated before the next are read
 
 
 def observability_matrix(A: Array, C: Array, rows: int) -> Array:
-    """O_rows (rows p, n), rows >= 1."""
+    """Return O_rows (rows p, n), rows >= 1."""
     return np.concatenate(list(accumulate(repeat(A, rows - 1), lambda block, step: block @ step, initial=C)))
 
 
@@ -66,32 +66,32 @@ class StateSpaceModel:
 
     @property
     def n(self) -> int:
-        """Number of states."""
+        """Return the number of states."""
         return int(self.A.shape[0])
 
     @property
     def n_u(self) -> int:
-        """Number of inputs."""
+        """Return the number of inputs."""
         return int(self.D.shape[1])
 
     @property
     def p(self) -> int:
-        """Number of outputs."""
+        """Return the number of outputs."""
         return int(self.D.shape[0])
 
     @property
     def poles(self) -> NDArray[np.complex128]:
-        """Eigenvalues of A by falling modulus, then falling real and imaginary part."""
+        """Return the eigenvalues of A by falling modulus, then falling real and imaginary part."""
         values = np.linalg.eigvals(self.A).astype(np.complex128)
         return values[np.lexsort((-values.imag, -values.real, -np.abs(values)))]
 
     @property
     def is_stable(self) -> bool:
-        """Whether every pole lies strictly inside the unit circle."""
+        """Say whether every pole lies strictly inside the unit circle."""
         return bool(np.all(np.abs(self.poles) < 1))
 
     def markov(self, count: int) -> Array:
-        """D, CB, CAB, ..., as an array (count, p, n_u), count >= 0."""
+        """Return D, CB, CAB, ..., as an array (count, p, n_u), count >= 0."""
         values = np.empty((max(count, 0), self.p, self.n_u))
         state = self.B
         for k in range(len(values)):
@@ -100,7 +100,8 @@ class StateSpaceModel:
         return values
 
     def simulate(self, u: ArrayLike, x0: ArrayLike | None = None) -> Array:
-        """y (N, p) from u (N, n_u) and the state x0 (n,) at the first sample, zero unless given. An unstable model may overflow to inf."""
+        """Return y (N, p) from u (N, n_u) and the state x0 (n,) at the first sample, zero unless given. An unstable model may overflow to
+        inf."""
         inputs = signal(u, "u")
         if inputs.shape[1] != self.n_u:
             hint = "; it looks transposed: pass u.T" if inputs.shape[0] == self.n_u else ""
@@ -111,28 +112,33 @@ class StateSpaceModel:
             y[first : first + PIECE] = simulator.respond(inputs[first : first + PIECE])
         return y
 
-    def to_control(self) -> Any:
-        """The model as control.StateSpace with unstated sample time (dt=True); needs python-control, whose data are channel-major."""
+    def to_control(self, *, dt: float | None = None, inputs: Sequence[str] | None = None, outputs: Sequence[str] | None = None) -> Any:
+        """Return the model as control.StateSpace, with the names of its channels where they are given.
+
+        `dt` is the sample time in seconds; where it is None, the model is of discrete time with a time unstated (control's dt=True). The
+        data of python-control are channel-major. Raises ImportError where it is not installed.
+        """
         try:
             control = import_module("control")
         except ImportError:
             raise ImportError("to_control() needs python-control: pip install control") from None
-        return control.StateSpace(self.A, self.B, self.C, self.D, True)
+        names = {"inputs": None if inputs is None else list(inputs), "outputs": None if outputs is None else list(outputs)}
+        return control.ss(self.A, self.B, self.C, self.D, True if dt is None else dt, **names)
 
-    def to_scipy(self) -> Any:
-        """The model as scipy.signal.dlti with sample time 1."""
+    def to_scipy(self, *, dt: float | None = None) -> Any:
+        """Return the model as scipy.signal.dlti with the sample time `dt` in seconds, 1 where it is None."""
         from scipy.signal import dlti
 
-        return dlti(self.A, self.B, self.C, self.D, dt=1)
+        return dlti(self.A, self.B, self.C, self.D, dt=1 if dt is None else dt)
 
     def to_json(self) -> dict[str, Any]:
-        """A JSON-ready dict {"format": "faultspace-model/1", "n", "n_u", "p", "A", "B", "C", "D"}; floats come back bit for bit."""
+        """Return a JSON-ready dict {"format": "faultspace-model/1", "n", "n_u", "p", "A", "B", "C", "D"}; floats come back bit for bit."""
         sizes = {"format": FORMAT, "n": self.n, "n_u": self.n_u, "p": self.p}
         return sizes | {name: getattr(self, name).tolist() for name in "ABCD"}
 
     @classmethod
     def from_json(cls, record: Mapping[str, Any]) -> Self:
-        """The model of `to_json`. InvalidData for another format, missing keys or shapes that do not fit."""
+        """Return the model of `to_json`. InvalidData for another format, missing keys or shapes that do not fit."""
         if not isinstance(record, Mapping) or record.get("format") != FORMAT:
             got = record.get("format") if isinstance(record, Mapping) else type(record).__name__
             raise InvalidData(f'a model has "format": "{FORMAT}" (got {got!r})')
@@ -149,9 +155,10 @@ class StateSpaceModel:
 
 
 class Simulator:
-    """The response of a model to inputs that come in pieces; `state` is the state at the next sample.
+    """The simulator gives the response of a model to inputs that come in pieces; `state` is the state at the next sample.
 
-    BLOCK samples at a time: Y = O x + T u with the block's observability matrix O and Toeplitz matrix T, x := A^b x + [A^(b-1)B ... B] u.
+    It takes BLOCK samples at a time: Y = O x + T u with the block's observability matrix O and Toeplitz matrix T, x := A^b x + [A^(b-1)B
+    ... B] u.
     """
 
     def __init__(self, model: StateSpaceModel, x0: ArrayLike | None = None) -> None:
@@ -167,7 +174,7 @@ class Simulator:
             self._step = np.linalg.matrix_power(model.A, BLOCK)
 
     def respond(self, u: Array) -> Array:
-        """y (T, p) for the next samples u (T, n_u)."""
+        """Return y (T, p) for the next samples u (T, n_u)."""
         model, whole = self._model, len(u) // BLOCK
         y = np.empty((len(u), model.p))
         with np.errstate(over="ignore", invalid="ignore"):
@@ -188,7 +195,7 @@ class Simulator:
 
 
 def _toeplitz(markov: Array) -> Array:
-    """The lower block-triangular Toeplitz matrix T_s (s p, s n_u) of s Markov parameters."""
+    """Return the lower block-triangular Toeplitz matrix T_s (s p, s n_u) of s Markov parameters."""
     count, p, n_u = markov.shape
     blocks = np.zeros((count, p, count, n_u))
     for lag in range(count):

@@ -24,7 +24,7 @@ MoespModel                  the result: model, order, gap, singular values, x0, 
 Gap, choose_order           the order rule
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,7 +33,10 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown
+from ..data.plain import plain
 from ..data.validation import constant_channels, experiment, positive
+from ..drawing import plot_singular_values
 from ..model.compression import EPS, Compression, Pieces, compress, compress_chunks, merge
 from ..model.input_matrices import by_moesp, by_output_error, growth
 from ..model.models import Simulator, StateSpaceModel
@@ -55,7 +58,8 @@ class OrderUndecided(InvalidData):
 
 @dataclass(frozen=True)
 class Gap:
-    """sigma_order / sigma_(order+1) = ratio, and the largest ratio elsewhere; `clean` says whether the rule stands behind the order."""
+    """The singular value of the order is `ratio` times the next; the largest ratio elsewhere stands beside it, and `clean` says whether
+    the rule stands behind the order."""
 
     order: int
     ratio: float
@@ -64,15 +68,15 @@ class Gap:
     clean: bool
 
 
-@dataclass(frozen=True, eq=False)
-class MoespModel:
+@dataclass(frozen=True, eq=False, repr=False)
+class MoespModel(Shown):
     """What was identified and how far to trust it.
 
-    model: A (n, n), B (n, n_u), C (p, n), D (p, n_u), forwarded. singular_values: all of step 2, falling. gap: at the order taken.
-    x0 (n,): state at the first sample of the (first) experiment, None where no data were read for it. residual_covariance (p, p): mean
-    of r r^T for r = y - simulated y, with the parameters fitted taken off the number of samples, or None. condition_numbers: "inputs" of
-    [Uf; Up], "observability" of O_(s-1), "input matrices" of the regression for B, D. route: of the compression. warnings: what a user
-    must know; an unstable A is told here and never altered.
+    `model` holds A (n, n), B (n, n_u), C (p, n) and D (p, n_u), which stand here too. `singular_values` are all of step 2, falling, and
+    `gap` is that at the order taken. x0 (n,) is the state at the first sample of the (first) experiment, None where no data were read for
+    it. `residual_covariance` (p, p) is the mean of r r^T for r = y - simulated y, with the parameters fitted taken off the number of
+    samples, or None. `condition_numbers` are "inputs" of [Uf; Up], "observability" of O_(s-1) and "input matrices" of the regression for
+    B, D; `route` is that of the compression. `warnings` are what a user must know; an unstable A stands there and is never altered.
     """
 
     model: StateSpaceModel
@@ -87,40 +91,78 @@ class MoespModel:
 
     @property
     def A(self) -> Array:
-        """State matrix (n, n)."""
+        """Return the state matrix (n, n)."""
         return self.model.A
 
     @property
     def B(self) -> Array:
-        """Input matrix (n, n_u)."""
+        """Return the input matrix (n, n_u)."""
         return self.model.B
 
     @property
     def C(self) -> Array:
-        """Output matrix (p, n)."""
+        """Return the output matrix (p, n)."""
         return self.model.C
 
     @property
     def D(self) -> Array:
-        """Direct feedthrough (p, n_u)."""
+        """Return the direct feedthrough (p, n_u)."""
         return self.model.D
 
     @property
     def x0(self) -> Array | None:
-        """State (n,) at the first sample of the first experiment."""
+        """Return the state (n,) at the first sample of the first experiment."""
         return self.initial_states[0] if self.initial_states else None
 
     def to_control(self) -> Any:
-        """The model as control.StateSpace."""
+        """Return the model as control.StateSpace. Raises ImportError without python-control."""
         return self.model.to_control()
 
     def to_scipy(self) -> Any:
-        """The model as scipy.signal.dlti."""
+        """Return the model as scipy.signal.dlti."""
         return self.model.to_scipy()
+
+    @property
+    def title(self) -> str:
+        """Return what the model is, on one short line."""
+        stability = "stable" if self.model.is_stable else "NOT stable"
+        return f"model of order {self.order}, {self.model.n_u} inputs, {self.model.p} outputs, {stability}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield what there is to say of it, as pairs of a name and a value."""
+        clean = "clean" if self.gap.clean else "NOT clean"
+        yield "singular value of the order", f"{self.gap.ratio:.3g} times the next ({clean})"
+        yield "largest ratio elsewhere", f"{self.gap.runner_up_ratio:.3g}, at {self.gap.runner_up}"
+        yield "moduli of the poles", ", ".join(f"{abs(pole):.4g}" for pole in self.model.poles) or "none"
+        if self.residual_covariance is not None:
+            deviations = np.sqrt(np.diag(self.residual_covariance))
+            yield "standard deviation of the residual", ", ".join(f"{size:.4g}" for size in deviations)
+        yield from ((f"condition of the {name}", f"{value:.3g}") for name, value in self.condition_numbers.items())
+        yield from (("warning", warning) for warning in self.warnings)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: that of the model, how it was found and how far it can be trusted."""
+        return self.model.to_json() | {
+            "order": self.order,
+            "singular_values": plain(self.singular_values),
+            "order_gap": plain(self.gap.ratio),
+            "order_gap_clean": self.gap.clean,
+            "x0": plain(self.x0),
+            "residual_covariance": plain(self.residual_covariance),
+            "condition_numbers": {name: plain(value) for name, value in self.condition_numbers.items()},
+            "route": self.route,
+            "warnings": list(self.warnings),
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the singular values and the order into the matplotlib axes `ax`, new ones where None are given, and return them. Raises
+        ImportError without matplotlib."""
+        return plot_singular_values(self.singular_values, order=self.order, ax=ax)
 
 
 def choose_order(values: Array, floor: float, most: int) -> Gap:
-    """The rule of the module's docstring on falling singular values; `floor` is the rounding level, `most` the largest order allowed.
+    """Choose the order by the rule of the module's docstring on falling singular values; `floor` is the rounding level, `most` the largest
+    order allowed.
 
     Without any value above the floor, the order is 0.
     """
@@ -142,7 +184,7 @@ def choose_order(values: Array, floor: float, most: int) -> Gap:
 
 
 def gap_at(values: Array, floor: float, order: int) -> Gap:
-    """The gap at a given order, beside the largest elsewhere."""
+    """Return the gap at a given order, beside the largest elsewhere."""
     held = np.maximum(values, floor)
     ratios = held[:-1] / held[1:]
     others = [k for k in range(len(ratios)) if k != order - 1]
@@ -154,7 +196,7 @@ def gap_at(values: Array, floor: float, order: int) -> Gap:
 
 @dataclass(frozen=True, eq=False)
 class Range:
-    """What step 2 gives: A, C in units of the scaled outputs, the scale (p,), and the account of the order."""
+    """This is what step 2 gives: A, C in units of the scaled outputs, the scale (p,), and the account of the order."""
 
     A: Array
     C: Array
@@ -166,8 +208,8 @@ class Range:
 
 
 def output_scale(outputs: Array, p: int, columns: int) -> Array:
-    """Root mean square (p,) of each output, from the `columns` columns of its Hankel matrix up to a rotation; 1 for outputs that are
-    zero.
+    """Return the root mean square (p,) of each output, from the `columns` columns of its Hankel matrix up to a rotation; 1 for outputs that
+    are zero.
     """
     energy = np.sum(outputs.reshape(-1, p, outputs.shape[1]) ** 2, axis=(0, 2))
     scale: Array = np.where(energy > 0, np.sqrt(energy / (outputs.shape[0] // p * columns)), 1.0)
@@ -175,12 +217,12 @@ def output_scale(outputs: Array, p: int, columns: int) -> Array:
 
 
 def _listed(values: Array, count: int = 24) -> str:
-    shown = ", ".join(f"{value:.3g}" for value in values[:count])
-    return shown + (f", ... ({len(values)} values)" if len(values) > count else "")
+    listed = ", ".join(f"{value:.3g}" for value in values[:count])
+    return listed + (f", ... ({len(values)} values)" if len(values) > count else "")
 
 
 def system_range(projected: Array, scale: Array, floor: float, order: int | None, instruments: int) -> Range:
-    """Order, A and C from the projected outputs (s p, any), rows scaled by `scale` (p,) per output.
+    """Find order, A and C from the projected outputs (s p, any), rows scaled by `scale` (p,) per output.
 
     InvalidData where the order asked for cannot be had, or no order is asked for and there is no clean gap, or one that leaves A
     undetermined.
@@ -256,7 +298,7 @@ def system_range(projected: Array, scale: Array, floor: float, order: int | None
 
 
 def check_compression(compression: Compression) -> None:
-    """InvalidData for too few windows, and for inputs that do not excite the future window."""
+    """Raise InvalidData for too few windows, and for inputs that do not excite the future window."""
     rows = len(compression.factor)
     if compression.columns < rows:
         lags = compression.past_rows + compression.block_rows
@@ -282,7 +324,7 @@ def check_compression(compression: Compression) -> None:
 
 
 def _spread(source: Pieces) -> None:
-    """InvalidData for a constant input, naming it: the commonest lack of excitation."""
+    """Raise InvalidData for a constant input, which it names: the commonest lack of excitation."""
     least = greatest = None
     for _, part in source:
         low, high = part.min(axis=0), part.max(axis=0)
@@ -298,7 +340,7 @@ def _spread(source: Pieces) -> None:
 
 
 def _instruments(past: Array, apart: Array) -> Array:
-    """Orthonormal directions (q n_u, k) among the past inputs' own (columns of `apart` = L22) that they excite; `past` is [L21 L22].
+    """Return orthonormal directions (q n_u, k) among the past inputs' own (columns of `apart` = L22) that they excite; `past` is [L21 L22].
 
     Directions at the rounding level would be noise of the arithmetic, not instruments.
     """
@@ -342,7 +384,7 @@ def _residual_covariance(experiments: Sequence[Pieces], model: StateSpaceModel, 
 
 
 def complete(found: Range, compression: Compression, experiments: Sequence[Pieces] | None) -> MoespModel:
-    """B, D, x0 and the rest of the record, by output error where there are data and A allows it, else by MOESP's regression."""
+    """Complete the record with B, D, x0 and the rest, by output error where there are data and A allows it, else by MOESP's regression."""
     A, scale = found.A, found.scale[:, np.newaxis]
     C = found.C * scale
     warnings = found.warnings + _stability(A)
@@ -379,7 +421,7 @@ def pi_moesp(
     past_rows: int | None = None,
     route: str | None = None,
 ) -> MoespModel:
-    """The model of one experiment, by PI-MOESP [V93].
+    """Identify the model of one experiment by PI-MOESP [V93].
 
     y (N, p) and u (N, n_u) are arrays or memory maps, in any units, and are not modified; without u, y gives the consecutive pieces
     (y, u) of the experiment anew at each `iter`, as a list or a record does. An array is read in the same pieces; extra memory does not
@@ -409,7 +451,7 @@ def pi_moesp_experiments(
     past_rows: int | None = None,
     route: str | None = None,
 ) -> MoespModel:
-    """One model of several experiments (y, u) with the same channels, each with an own initial state, by PI-MOESP [V93].
+    """Identify one model of several experiments (y, u) with the same channels, each with an own initial state, by PI-MOESP [V93].
 
     Each y (N_i, p) and u (N_i, n_u) may have its own length, all in the same units; arguments and result are those of `pi_moesp`. Raises
     InvalidData as there, and where no experiment is given.
@@ -428,14 +470,15 @@ def pi_moesp_experiments(
 
 
 def _compressed(y: Any, u: ArrayLike | None, source: Pieces, block_rows: int, past_rows: int | None, route: str | None) -> Compression:
-    """Of arrays, which tell their shapes beforehand, or of pieces."""
+    """Compress arrays, which show their shapes beforehand, or pieces."""
     if u is not None:
         return compress(y, u, block_rows=block_rows, past_rows=past_rows, route=route)
     return compress_chunks(source, block_rows=block_rows, past_rows=past_rows, route=route)
 
 
 def _modelled(sources: Sequence[Pieces], compression: Compression, order: int | None) -> MoespModel:
-    """The model of all experiments from their merged compression; a lack of excitation is told by the constant input, if there is one."""
+    """Return the model of all experiments from their merged compression; a lack of excitation is told by the constant input, if there is
+    one."""
     try:
         check_compression(compression)
     except InvalidData:
@@ -446,5 +489,6 @@ def _modelled(sources: Sequence[Pieces], compression: Compression, order: int | 
 
 
 def pi_moesp_from_compression(compression: Compression, *, order: int | None = None) -> MoespModel:
-    """The model from a compression alone, with B and D by MOESP's own regression [V93]; no initial state and no residual covariance."""
+    """Return the model from a compression alone, with B and D by MOESP's own regression [V93]; no initial state and no residual
+    covariance."""
     return complete(_range_of(compression, order), compression, None)

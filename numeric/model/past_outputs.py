@@ -17,7 +17,8 @@ from ..model.sequential_qr import SequentialQR
 
 
 def po_moesp(y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows: int, past_rows: int | None = None) -> MoespModel:
-    """The model of one experiment by past inputs and outputs [VV07, ch. 9]; biased where a fault or a disturbance is coloured.
+    """Identify the model of one experiment by past inputs and outputs [VV07, ch. 9]; it is biased where a fault or a disturbance is
+    coloured.
 
     y (N, p) and u (N, n_u) are arrays in any units, and are not modified; arguments, order rule and result are those of `pi_moesp`, with
     p block_rows > order and singular values of the unscaled factor. Raises InvalidData as there.

@@ -20,6 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 import scipy.linalg
@@ -27,23 +28,29 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown
+from ..data.plain import plain
 from ..data.records import SampleStore, stored
 from ..data.validation import experiment
+from ..drawing import plot_residual
 from .models import Simulator, StateSpaceModel
 
 GROWTH = 1e4
-"""Largest growth over the record with which a mode is still simulated forward: it costs four digits of sixteen."""
+"""This is the largest growth over the record with which a mode is still simulated forward: it costs four digits of sixteen."""
 FORWARD = 1e6
-"""Largest growth over the record with which a mode is simulated forward from a state that is given: ten digits remain."""
+"""This is the largest growth over the record with which a mode is simulated forward from a state that is given: ten digits remain."""
 CHUNK = 1024
 
 
-@dataclass(frozen=True, eq=False)
-class ResidualSignal:
-    """r (N, p) in `store`, in the units of y; `x0` (n,) the state at the first sample, `fitted` whether it was fitted to this record;
-    `covariance` (p, p) of r about zero, fitted degrees of freedom taken off; `x0_covariance` (n, n), zero when x0 was given; `observed` the
-    number of state directions that the record determines; `backward` the number of growing modes that were run backward; `notes` what a
-    user should know."""
+@dataclass(frozen=True, eq=False, repr=False)
+class ResidualSignal(Shown):
+    """The residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
+
+    `store` holds r, and `x0` (n,) is the state at the first sample; `fitted` says whether it was fitted to this record. `covariance` (p, p)
+    is that of r about zero, with fitted degrees of freedom taken off; `x0_covariance` (n, n) is zero where x0 was given. `observed` is the
+    number of state directions that the record determines, `backward` the number of growing modes that were run backward, and `notes` are
+    what a user should know.
+    """
 
     store: SampleStore
     x0: Array
@@ -56,20 +63,60 @@ class ResidualSignal:
 
     @cached_property
     def r(self) -> Array:
-        """The residual (N, p), all of it in memory."""
+        """Return the residual (N, p), all of it in memory."""
         return self.store.read(0, len(self.store))
+
+    @property
+    def title(self) -> str:
+        """Return what the residual is, on one short line."""
+        return f"residual of {len(self.store)} samples, {self.store.width} outputs"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield what there is to say of it, as pairs of a name and a value."""
+        sizes = np.sqrt(np.diag(self.covariance))
+        yield "standard deviation by output", ", ".join(f"{size:.4g}" for size in sizes)
+        yield "initial state", f"{'fitted' if self.fitted else 'given'}, {self.observed} of {len(self.x0)} directions determined"
+        yield from (("note", note) for note in self.notes)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of everything but the samples, which `r` has."""
+        return {
+            "samples": len(self.store),
+            "p": self.store.width,
+            "x0": plain(self.x0),
+            "fitted": self.fitted,
+            "covariance": plain(self.covariance),
+            "x0_covariance": plain(self.x0_covariance),
+            "observed": self.observed,
+            "backward": self.backward,
+            "notes": list(self.notes),
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the residual into the matplotlib axes `ax`, new ones where None are given, and return them. Raises ImportError without
+        matplotlib."""
+        return plot_residual(self.r, ax=ax)
+
+
+class HasModel(Protocol):
+    """This is what an identification returns: a result with its `model`."""
+
+    @property
+    def model(self) -> Any:
+        """Return the model that was identified, or another result that has it; None where there is none."""
 
 
 def residual(
     y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
     u: ArrayLike | None,
-    model: StateSpaceModel,
+    model: StateSpaceModel | HasModel,
     *,
     x0: ArrayLike | None = None,
 ) -> ResidualSignal:
-    """r = y - (the model's response to u); the initial state is fitted by least squares [GVL13] unless `x0` (n,) is given.
+    """Return r = y - (the model's response to u); the initial state is fitted by least squares [GVL13] unless `x0` (n,) is given.
 
-    y (N, p) and u (N, n_u) are arrays in the model's units; where u is None, y gives the consecutive pieces (y, u) of the record at each
+    y (N, p) and u (N, n_u) are arrays in the model's units; `model` is a StateSpaceModel, or a result that has one, of `pi_moesp` or
+    `identify`. Where u is None, y gives the consecutive pieces (y, u) of the record at each
     `iter`. With x0 given, the record is read once, piece by piece, and none of it is held; the fit of x0 holds it. The covariance of x0
     holds for a stationary r, with autocovariances up to lag N^(1/3) under Bartlett weights [NW87]; the model is taken as exact.
     Raises InvalidData for NaN, unequal lengths, channels that do not fit the
@@ -80,6 +127,7 @@ def residual(
     >>> residual(model.simulate(u) + 0.25, u, model, x0=[0.0]).r.ravel().tolist()
     [0.25, 0.25, 0.25, 0.25]
     """
+    model = _found_in(model)
     source = experiment(y, u)
     if x0 is not None:
         return _with_given_state(source, model, x0)
@@ -111,6 +159,16 @@ def residual(
     )
 
 
+def _found_in(model: StateSpaceModel | HasModel) -> StateSpaceModel:
+    """Return the model of a result; InvalidData where it has none."""
+    found: Any = model
+    while found is not None and not isinstance(found, StateSpaceModel):
+        found = found.model
+    if found is None:
+        raise InvalidData("model: the identification has none, since its order is undecided: state an order")
+    return found
+
+
 def _fits(y: tuple[int, ...], u: tuple[int, ...], model: StateSpaceModel) -> None:
     """Refuse channels that do not fit the model."""
     if y[1] != model.p or u[1] != model.n_u:
@@ -132,7 +190,7 @@ def _check(y: tuple[int, ...], u: tuple[int, ...], model: StateSpaceModel) -> No
 
 
 def _with_given_state(source: Iterable[tuple[Array, Array]], model: StateSpaceModel, x0: ArrayLike) -> ResidualSignal:
-    """The residual from a known initial state, piece by piece."""
+    """Return the residual from a known initial state, piece by piece."""
     simulator = Simulator(model, np.array(x0, dtype=np.float64).reshape(-1))
     state, store, squares = simulator.state.copy(), SampleStore(model.p), np.zeros((model.p, model.p))
     u_width = 0
@@ -154,18 +212,19 @@ def _with_given_state(source: Iterable[tuple[Array, Array]], model: StateSpaceMo
 
 
 def growing_modes(model: StateSpaceModel, samples: int) -> int:
-    """How many modes grow so much over so many samples that the model cannot be simulated forward from a given state."""
+    """Return how many modes grow so much over so many samples that the model cannot be simulated forward from a given state."""
     return int(np.sum(np.abs(model.poles) > FORWARD ** (1.0 / samples)))
 
 
 def _radius(samples: int) -> float:
-    """The modulus that grows by GROWTH over the record."""
+    """Return the modulus that grows by GROWTH over the record."""
     return float(GROWTH ** (1.0 / samples))
 
 
 @dataclass(frozen=True)
 class SplitModel:
-    """x = basis [x_f; x_b]: x_f runs forward from its first state, x_b backward from the state after the last sample; theta stacks both."""
+    """The state is x = basis [x_f; x_b], where x_f runs forward from its first state and x_b backward from the state after the last
+    sample; theta stacks both."""
 
     forward_model: StateSpaceModel
     backward_model: StateSpaceModel
@@ -174,34 +233,34 @@ class SplitModel:
 
     @property
     def backward(self) -> int:
-        """Number of states that run backward."""
+        """Return the number of states that run backward."""
         return self.backward_model.n
 
     def forced(self, u: Array) -> Array:
-        """The response to u with theta = 0."""
+        """Return the response to u with theta = 0."""
         return self.forward_model.simulate(u) + self.backward_model.simulate(u[::-1])[::-1]
 
     def rows(self, start: int, stop: int) -> Array:
-        """Rows start .. stop - 1 of the regressor, (stop - start, p, n)."""
+        """Return rows start .. stop - 1 of the regressor, (stop - start, p, n)."""
         ahead = _powers(self.forward_model, start, stop - start)
         behind = _powers(self.backward_model, self.samples - stop, stop - start)[::-1]
         return np.concatenate([ahead, behind], axis=2)
 
     def chunks(self) -> Iterator[tuple[int, int, Array]]:
-        """The regressor in chunks (start, stop, rows)."""
+        """Return the regressor in chunks (start, stop, rows)."""
         for start in range(0, self.samples, CHUNK):
             stop = min(start + CHUNK, self.samples)
             yield start, stop, self.rows(start, stop)
 
     def first_state(self, theta: Array, u: Array) -> Array:
-        """The state x at the first sample."""
+        """Return the state x at the first sample."""
         ahead = self.forward_model.n
         simulator = Simulator(self.backward_model, theta[ahead:])
         simulator.respond(np.ascontiguousarray(u[::-1]))
         return np.asarray(self.basis @ np.concatenate([theta[:ahead], simulator.state]))
 
     def to_first_state(self) -> Array:
-        """d x(0) / d theta."""
+        """Return d x(0) / d theta."""
         back = np.linalg.matrix_power(self.backward_model.A, self.samples)
         return np.asarray(self.basis @ scipy.linalg.block_diag(np.eye(self.forward_model.n), back))
 
@@ -225,7 +284,7 @@ def split(model: StateSpaceModel, samples: int) -> SplitModel:
 
 
 def _powers(model: StateSpaceModel, first: int, count: int) -> Array:
-    """C A^k for k = first .. first + count - 1, (count, p, n), by doubling."""
+    """Return C A^k for k = first .. first + count - 1, (count, p, n), by doubling."""
     block = (model.C @ np.linalg.matrix_power(model.A, first))[np.newaxis]
     step = model.A
     while len(block) < count:
@@ -235,7 +294,7 @@ def _powers(model: StateSpaceModel, first: int, count: int) -> Array:
 
 
 def _fit(parts: SplitModel, error: Array) -> tuple[Array, Array, int]:
-    """theta by least squares, a matrix D with D D' = (Phi' Phi)^+, and the number of directions determined."""
+    """Return theta by least squares, a matrix D with D D' = (Phi' Phi)^+, and the number of directions determined."""
     n = parts.basis.shape[0]
     triangle = np.zeros((0, n + 1))
     for start, stop, phi in parts.chunks():
@@ -251,7 +310,7 @@ def _fit(parts: SplitModel, error: Array) -> tuple[Array, Array, int]:
 
 
 def _state_covariance(parts: SplitModel, r: Array, directions: Array) -> Array:
-    """Covariance of theta for a stationary r: D D' Phi' Cov(r) Phi D D', lags up to N^(1/3), Bartlett weights."""
+    """Return the covariance of theta for a stationary r: D D' Phi' Cov(r) Phi D D', lags up to N^(1/3), Bartlett weights."""
     reach = min(int(np.ceil(len(r) ** (1 / 3))), len(r) - 1)
     middle = np.zeros((parts.basis.shape[0],) * 2)
     lagged = [(1.0 - lag / (reach + 1)) * (r[lag:].T @ r[: len(r) - lag]) / len(r) for lag in range(reach + 1)]

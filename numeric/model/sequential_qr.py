@@ -19,14 +19,14 @@ ENTRIES = 1 << 17  # entries of a block of columns: one that stays in the cache 
 
 
 def _nonnegative(factor: Array) -> Array:
-    """The factor with rows turned so that its diagonal is nonnegative: R is then unique where H has full row rank."""
+    """Return the factor with rows turned so that its diagonal is nonnegative: R is then unique where H has full row rank."""
     upper = np.triu(factor)
     turned: Array = np.where(np.diag(upper) < 0, -1.0, 1.0)[:, np.newaxis] * upper
     return turned
 
 
 def append_rows(factor: Array, block: Array) -> Array:
-    """The factor of [factor; block], block of any number of rows; both may be overwritten. LAPACK's tpqrt knows that `factor` is
+    """Return the factor of [factor; block], block of any number of rows; both may be overwritten. LAPACK's tpqrt knows that `factor` is
     triangular.
     """
     width = factor.shape[1]
@@ -37,7 +37,7 @@ def append_rows(factor: Array, block: Array) -> Array:
 
 
 def triangular(*stacked: Array) -> Array:
-    """R (k, k), upper triangular with nonnegative diagonal, with R.T @ R = the sum of S.T @ S over the given S (any, k)."""
+    """Return R (k, k), upper triangular with nonnegative diagonal, with R.T @ R = the sum of S.T @ S over the given S (any, k)."""
     factor = np.zeros((stacked[0].shape[1],) * 2, order="F")
     for block in stacked:
         factor = append_rows(factor, np.array(block, dtype=np.float64, order="F"))
@@ -45,7 +45,7 @@ def triangular(*stacked: Array) -> Array:
 
 
 class SequentialQR:
-    """The running factor of the Hankel matrix whose rows are `rows`, an integer array (k, 2) of (lag, channel).
+    """This is the running factor of the Hankel matrix whose rows are `rows`, an integer array (k, 2) of (lag, channel).
 
     `append` takes the next samples of ONE experiment (T, channels); memory is k^2 plus one block of columns plus one piece.
     """
@@ -74,5 +74,5 @@ class SequentialQR:
         self._kept = joint[:, columns:].copy()
 
     def factor(self) -> Array:
-        """R (k, k) so far; fewer columns than rows leave zero rows."""
+        """Return R (k, k) so far; fewer columns than rows leave zero rows."""
         return _nonnegative(self._factor)

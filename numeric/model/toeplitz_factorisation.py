@@ -23,7 +23,7 @@ from .models import observability_matrix
 
 
 def toeplitz_factorisation(r: Array, A: Array, C: Array, *, block_rows: int, rank: int, n_z: int) -> Array:
-    """Orthonormal columns (n + p, n_z) for the residual r (N, p), `rank` the rank that R_s is taken to have, s = `block_rows` >= 2.
+    """Return orthonormal columns (n + p, n_z) for the residual r (N, p), `rank` the rank that R_s is taken to have, s = `block_rows` >= 2.
 
     Where the rank leaves no null row, every column is a solution: all of R^(n+p), whatever n_z. Raises InvalidData for a rank or an n_z
     that cannot be.
@@ -44,7 +44,7 @@ def toeplitz_factorisation(r: Array, A: Array, C: Array, *, block_rows: int, ran
 
 
 def _conditions(U: Array, A: Array, C: Array) -> Array:
-    """The conditions as a matrix that multiplies the column of Q_1, .., Q_s and f; U is (s, p, rank)."""
+    """Return the conditions as a matrix that multiplies the column of Q_1, .., Q_s and f; U is (s, p, rank)."""
     s, p, rank = U.shape
     n = A.shape[0]
     inner = np.zeros((s - 1, s, p, s + 1, rank))  # block row i, block column j, outputs, coefficient Q_j

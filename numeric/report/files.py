@@ -15,11 +15,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...base.errors import InvalidInput, quote_path
 from ..count.mean_shift import POWER
-from ..data.records import SampleStore, Tell
+from ..data.plain import plain
+from ..data.records import OnProgress, SampleStore
 from ..space.distances import containment_distance
 from .pictures import PICTURES, pictures
 from .summary import advice, fit, markdown, summary
@@ -32,7 +32,8 @@ NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, *PICTURES)
 
 
 def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
-    """Everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `worded` rewrites notes and advice."""
+    """Return everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `worded` rewrites notes and
+    advice."""
     record, model = answer.record, answer.model
     result: dict[str, Any] = {
         "data": data,
@@ -43,7 +44,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "block_rows": answer.block_rows,
         "order": model.order if model else None,
         "order_given": answer.order_given,
-        "singular_values": _plain(answer.singular_values),
+        "singular_values": plain(answer.singular_values),
         "n_v": answer.n_v,
         "n_v_at_least": answer.at_least,
         "n_v_given": answer.n_v_given,
@@ -55,14 +56,14 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
     }
     if model:
         result |= {
-            "order_gap": _plain(model.gap.ratio),
+            "order_gap": plain(model.gap.ratio),
             "order_gap_clean": model.gap.clean,
-            "poles": _plain(model.model.poles),
+            "poles": plain(model.model.poles),
             "stable": model.model.is_stable,
-            "fit": _plain(fit(answer)),
-            "residual_covariance": _plain(answer.residual.covariance) if answer.residual else None,
-            "x0": _plain(answer.residual.x0) if answer.residual else None,
-            "condition_numbers": {name: _plain(value) for name, value in model.condition_numbers.items()},
+            "fit": plain(fit(answer)),
+            "residual_covariance": plain(answer.residual.covariance) if answer.residual else None,
+            "x0": plain(answer.residual.x0) if answer.residual else None,
+            "condition_numbers": {name: plain(value) for name, value in model.condition_numbers.items()},
         }
     if answer.dimension:
         found = answer.dimension
@@ -73,7 +74,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
             "windows": list(found.windows),
             "ranks": list(found.ranks),
             "gaps": list(found.gaps),
-            "margins": _plain(found.margins),
+            "margins": plain(found.margins),
         }
     if answer.against:
         result["against_healthy"] = {
@@ -81,7 +82,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
             "at_least": answer.against.at_least,
             "reason": answer.against.reason,
             "healthy": list(answer.counted_against),
-            "visible": _plain(answer.against.visible),
+            "visible": plain(answer.against.visible),
         }
     mean = answer.mean
     result["mean_shift"] = mean and {
@@ -89,30 +90,32 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "shifted": mean.shifted,
         "reason": mean.reason,
         "level": mean.level,
-        "statistic": _plain(mean.statistic),
-        "threshold": _plain(mean.threshold),
-        "shift": _plain(mean.shift),
-        "deviations": _plain(mean.deviations),
+        "statistic": plain(mean.statistic),
+        "threshold": plain(mean.threshold),
+        "shift": plain(mean.shift),
+        "deviations": plain(mean.deviations),
         "outputs": [answer.record.outputs[i] for i in mean.channels],
     }
     if answer.healthy is not None and mean:
-        result["visible"] = {"power": POWER, "level": mean.level, "constant": _plain(mean.visible), "white": _plain(answer.visible)}
+        result["visible"] = {"power": POWER, "level": mean.level, "constant": plain(mean.visible), "white": plain(answer.visible)}
     result["fault_space"] = _space(answer)
-    result["explained"] = _plain(answer.explained)
-    result["explained_by_noise"] = _plain(answer.by_noise)
+    result["explained"] = plain(answer.explained)
+    result["explained_by_noise"] = plain(answer.by_noise)
     signal = answer.signal
     result["fault_signal"] = signal and {
         "delay": signal.delay,
         "trusted": list(signal.trusted),
-        "zeros": _plain(signal.zeros),
-        "misfit": _plain(signal.misfit),
-        "mismatch": _plain(signal.mismatch),
+        "zeros": plain(signal.zeros),
+        "misfit": plain(signal.misfit),
+        "mismatch": plain(signal.mismatch),
         "reason": signal.reason,
     }
     return result
 
 
-def write(answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callable[[str], str] = str) -> tuple[list[str], list[str]]:
+def write(
+    answer: Findings, out: Path, data: str, on_progress: OnProgress, *, worded: Callable[[str], str] = str
+) -> tuple[list[str], list[str]]:
     """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `document`.
 
     Raises InvalidInput where the folder cannot be written into.
@@ -121,7 +124,7 @@ def write(answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callabl
     try:
         with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
             folder = Path(name)
-            _tables(answer, folder, tell)
+            _tables(answer, folder, on_progress)
             remarks += pictures(answer, folder)
             lines = [*summary(answer, data, worded=worded)]
             if remarks:
@@ -139,7 +142,7 @@ def write(answer: Findings, out: Path, data: str, tell: Tell, *, worded: Callabl
     return written, remarks
 
 
-def _tables(answer: Findings, folder: Path, tell: Tell) -> None:
+def _tables(answer: Findings, folder: Path, on_progress: OnProgress) -> None:
     if answer.model is not None:
         model = answer.model.model.to_json()
         model |= {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
@@ -150,11 +153,11 @@ def _tables(answer: Findings, folder: Path, tell: Tell) -> None:
     if (space := _space(answer)) is not None:
         _json(folder / SPACE, space)
     if answer.signal is not None:
-        _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, tell)
+        _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, on_progress)
 
 
-def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, tell: Tell) -> None:
-    """A line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back."""
+def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, on_progress: OnProgress) -> None:
+    """Write a line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back."""
     first, last = trusted
     with open(path, "w", encoding="utf-8", newline="\n") as stream:
         stream.write(",".join(["sample", "determined", *(f"v{j + 1}" for j in range(v.width))]) + "\n")
@@ -165,44 +168,15 @@ def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, tell: Te
                 lines.append(",".join([str(k), str(int(first <= k < last)), *map(repr, row)]))
                 k += 1
             stream.write("\n".join(lines) + "\n")
-            tell("writing the fault signal", k, len(v))
+            on_progress("writing the fault signal", k, len(v))
 
 
 def _space(answer: Findings) -> dict[str, Any] | None:
     space = answer.fault_space
     if space is None:
         return None
-    return {
-        "n": space.n,
-        "p": len(space.basis) - space.n,
-        "n_v": space.n_v,
-        "n_z": space.n_z if space.meaningful else None,
-        "zeta": space.zeta,
-        "equations": space.equations,
-        "unknowns": space.unknowns,
-        "meaningful": space.meaningful,
-        "decided": space.decided,
-        "reason": space.reason,
-        "block_rows": space.block_rows,
-        "basis": _plain(space.basis) if space.meaningful else None,
-        "F": _plain(space.F) if space.meaningful else None,
-        "G": _plain(space.G) if space.meaningful else None,
-        "pair_in_space": _plain(containment_distance(np.vstack(answer.pair), space.basis)) if answer.pair else None,
-    }
+    return space.to_json() | {"pair_in_space": plain(containment_distance(np.vstack(answer.pair), space.basis)) if answer.pair else None}
 
 
 def _json(path: Path, content: object) -> None:
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-
-
-def _plain(values: ArrayLike | None) -> Any:
-    """Lists and numbers that JSON has: null for what is not finite."""
-    if values is None:
-        return None
-    array = np.asarray(values)
-    if array.ndim:
-        return [_plain(entry) for entry in array]
-    if np.iscomplexobj(array):
-        return [_plain(array.real), _plain(array.imag)]
-    number = float(array)
-    return number if np.isfinite(number) else None

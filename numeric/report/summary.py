@@ -27,7 +27,7 @@ CANDIDATES = 3
 
 
 def fit(answer: Findings) -> Array | None:
-    """100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
+    """Return 100 (1 - |y - simulated| / |y - mean|) for each output (p,), on the data that identified the model."""
     if answer.sizes is None:
         return None
     record = answer.record if answer.healthy is None else answer.record.beginning(answer.healthy)
@@ -36,7 +36,7 @@ def fit(answer: Findings) -> Array | None:
 
 
 def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
-    """The answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
+    """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
     yield f"{len(record)} samples, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
@@ -51,9 +51,9 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         moduli = np.abs(model.model.poles)
         stability = "stable" if model.model.is_stable else "NOT stable"
         yield f"poles: {_listed(model.model.poles)} ({stability}, largest modulus {moduli.max(initial=0.0):.{DIGITS}g})"
-        shown = fit(answer)
-        if shown is not None:
-            pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, shown, strict=True)]
+        explained = fit(answer)
+        if explained is not None:
+            pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, explained, strict=True)]
             left = "what is left is faults, noise and the model's error"
             if answer.healthy is not None:
                 yield f"identified from the samples 0 to {answer.healthy - 1}, stated to be without fault"
@@ -94,7 +94,7 @@ def _why_the_order(answer: Findings) -> str:
 
 
 def _healthy_lines(answer: Findings) -> Iterator[str]:
-    """Both counts, where there are two."""
+    """Yield both counts, where there are two."""
     against, alone = answer.against, answer.dimension
     if against is None:
         return
@@ -111,7 +111,7 @@ def _count(answer: Findings) -> str:
 
 
 def _mean_lines(answer: Findings) -> Iterator[str]:
-    """The mean beside the rank: what moved it, by how much."""
+    """Yield what moved the mean, and by how much, beside the rank."""
     mean, sizes, record = answer.mean, answer.sizes, answer.record
     if mean is None or sizes is None:
         return
@@ -126,15 +126,15 @@ def _mean_lines(answer: Findings) -> Iterator[str]:
 
 
 def _visible_lines(answer: Findings) -> Iterator[str]:
-    """What would have been seen, where little or nothing was."""
+    """Yield what would have been seen, where little or nothing was."""
     mean, outputs = answer.mean, answer.record.outputs
     if answer.healthy is None or mean is None:
         return
     kinds = [("a constant at one output", mean.visible), ("a white signal at one output, deviation", answer.visible)]
     for kind, sizes in kinds:
         if sizes is not None:
-            told = _several([f"{name} {size:.3g}" for name, size in zip(outputs, sizes, strict=True)])
-            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {told}"
+            listed = _several([f"{name} {size:.3g}" for name, size in zip(outputs, sizes, strict=True)])
+            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {listed}"
 
 
 def _said(number: int | None) -> str:
@@ -194,7 +194,7 @@ def _signal_lines(answer: Findings) -> Iterator[str]:
 
 
 def advice(answer: Findings) -> list[str]:
-    """What to try next: about what is undecided first, and how to make sure of what is not."""
+    """Say what to try next: about what is undecided first, and how to make sure of what is not."""
     model, record = answer.model, answer.record
     if model is None:
         return [
@@ -248,8 +248,8 @@ def _counted(number: int, word: str) -> str:
 
 
 def _listed(values: ArrayLike, most: int = MOST_ROWS) -> str:
-    shown = [_number(value) for value in np.asarray(values).ravel()]
-    return ", ".join(shown[:most]) + (f", ... ({len(shown)} in all)" if len(shown) > most else "")
+    digits = [_number(value) for value in np.asarray(values).ravel()]
+    return ", ".join(digits[:most]) + (f", ... ({len(digits)} in all)" if len(digits) > most else "")
 
 
 def _number(value: Any) -> str:
@@ -266,12 +266,12 @@ def _matrix(matrix: Array) -> list[str]:
     # No minus before a zero that rounding made.
     rounded = np.round(matrix, DIGITS) + 0.0
     rows = [[f"{entry: .{DIGITS}f}" for entry in row[:MOST_ROWS]] + ["..."] * (len(row) > MOST_ROWS) for row in rounded]
-    shown = rows if len(rows) <= 2 * MOST_ROWS else [*rows[: 2 * MOST_ROWS - 1], ["..."]]
-    return ["[ " + "  ".join(row) + " ]" for row in shown]
+    kept = rows if len(rows) <= 2 * MOST_ROWS else [*rows[: 2 * MOST_ROWS - 1], ["..."]]
+    return ["[ " + "  ".join(row) + " ]" for row in kept]
 
 
 def markdown(lines: Sequence[str]) -> str:
-    """The lines with blank ones around headings, code and lists; a plain line is a paragraph's own line."""
+    """Return the lines with blank ones around headings, code and lists; a plain line is a paragraph's own line."""
     text: list[str] = []
     for line in lines:
         plain = bool(line) and not line.startswith(("#", "-", "    "))

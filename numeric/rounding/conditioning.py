@@ -41,14 +41,14 @@ SMALL = 10.0
 
 
 def reflections_error(width: int, rows: int) -> float:
-    """Relative columnwise backward error of a sequential QR of `rows` rows, width columns, blocks of at least width / 2 rows."""
+    """Return the relative columnwise backward error of a sequential QR of `rows` rows, width columns, blocks of at least width / 2 rows."""
     blocks = -(-2 * rows // width)
     return width * (5.0 * rows + 35.0 * blocks) * UNIT
 
 
 @dataclass(frozen=True)
 class BackwardError:
-    """Frobenius norms of E in scaled channels: `future` on Uf, `outputs` on Yf, and `turn` = |L_u^-1 E_u| for L_u of [Uf; Up]."""
+    """These are Frobenius norms of E in scaled channels: `future` on Uf, `outputs` on Yf, and `turn` = |L_u^-1 E_u| for L_u of [Uf; Up]."""
 
     future: float
     outputs: float
@@ -57,9 +57,9 @@ class BackwardError:
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """The compression in channels of unit size, L32 = U S V' there, and the model in the basis U.
+    """The setting is the compression in channels of unit size, with L32 = U S V' there, and the model in the basis U.
 
-    lower: L by rows Uf, Up, Yf. scales: (n_u,), (p,). U: (s p, n); values: all singular values of L32.
+    `lower` is L by rows Uf, Up, Yf; the scales are (n_u,) and (p,); U is (s p, n), and `values` are all singular values of L32.
     """
 
     compression: Compression
@@ -72,11 +72,11 @@ class Setting:
 
     @property
     def n(self) -> int:
-        """Order."""
+        """Return the order of the model."""
         return self.model.n
 
     def part(self, rows: str, columns: str) -> Array:
-        """A block of L by the letters f, p, y of its rows and columns."""
+        """Return a block of L by the letters f, p, y of its rows and columns."""
         s, q = self.compression.block_rows * self.compression.n_u, self.compression.inputs
         spans = {"f": slice(0, s), "p": slice(s, q), "y": slice(q, None), "u": slice(0, q)}
         return self.lower[spans[rows], spans[columns]]
@@ -91,12 +91,12 @@ def _frobenius(matrix: Any) -> float:
 
 
 def _least(matrix: Array) -> float:
-    """The least singular value of a matrix with at least as many rows as columns, else of its transpose."""
+    """Return the least singular value of a matrix with at least as many rows as columns, else of its transpose."""
     return float(np.linalg.svd(matrix, compute_uv=False)[-1])
 
 
 def setting(compression: Compression, found: MoespModel) -> Setting:
-    """The setting of a model found from this compression by `pi_moesp` or `pi_moesp_from_compression`."""
+    """Return the setting of a model found from this compression by `pi_moesp` or `pi_moesp_from_compression`."""
     s, q, p, n_u = compression.block_rows, compression.past_rows, compression.p, compression.n_u
     parts = compression.blocks()
     scale = output_scale(np.hstack([parts.l31, parts.l32, parts.l33]), p, compression.columns)
@@ -117,19 +117,19 @@ def setting(compression: Compression, found: MoespModel) -> Setting:
 
 
 def measured(where: Setting, relative: float) -> BackwardError:
-    """E with every row at most `relative` times its row of H."""
+    """Return E with every row at most `relative` times its row of H."""
     inputs = where.part("u", "u")
     turn = relative * _frobenius(inputs) / _least(inputs)
     return BackwardError(relative * _frobenius(where.part("f", "f")), relative * _frobenius(where.lower[len(inputs) :]), turn)
 
 
 def by_qr(where: Setting) -> BackwardError:
-    """The worst case of the sequential QR, the data themselves correctly rounded from exact ones included."""
+    """Bound the worst case of the sequential QR, the data themselves correctly rounded from exact ones included."""
     return measured(where, reflections_error(len(where.lower), where.compression.columns) + UNIT)
 
 
 def gram_error(where: Setting) -> float:
-    """g with |dG_ij| <= g |h_i| |h_j|: sums of `columns` products, end terms added, one factorisation and one solve."""
+    """Return g with |dG_ij| <= g |h_i| |h_j|: sums of `columns` products, end terms added, one factorisation and one solve."""
     compression = where.compression
     lags = compression.past_rows + compression.block_rows
     cancellation = max(1.0, compression.rounding / (EPS * compression.condition**2))
@@ -137,7 +137,7 @@ def gram_error(where: Setting) -> float:
 
 
 def by_gram(where: Setting) -> BackwardError:
-    """The worst case of the Gram by displacement with its input block factored, rounding of the data included."""
+    """Bound the worst case of the Gram by displacement with its input block factored, rounding of the data included."""
     inputs, outputs, unit = where.part("u", "u"), where.part("y", "u"), gram_error(where)
     least, size, response = _least(inputs), _frobenius(inputs), _frobenius(where.lower[len(inputs) :])
     future = 0.5 * unit * size * size / least
@@ -151,14 +151,14 @@ def by_gram(where: Setting) -> BackwardError:
 
 
 def noise_free_range(where: Setting, backward: BackwardError) -> float:
-    """The bound on |D| where the data are those of a model of the order taken, without noise and fault."""
+    """Return the bound on |D| where the data are those of a model of the order taken, without noise and fault."""
     toeplitz = _toeplitz_norm(where.model, where.compression.block_rows)
     rounding = SMALL * len(where.U) * EPS * where.values[0]
     return float((backward.outputs + toeplitz * backward.future + rounding) / where.values[where.n - 1])
 
 
 def noisy_range(where: Setting, backward: BackwardError) -> float:
-    """The bound on |D| for any data: what floats and exact arithmetic make of the same windows."""
+    """Return the bound on |D| for any data: what floats and exact arithmetic make of the same windows."""
     others = np.hstack([where.part("y", "f"), where.part("y", "y")])
     beyond = where.values[where.n] if len(where.values) > where.n else 0.0
     rounding = SMALL * len(where.U) * EPS * where.values[0]
@@ -167,13 +167,13 @@ def noisy_range(where: Setting, backward: BackwardError) -> float:
 
 
 def _toeplitz_norm(model: StateSpaceModel, s: int) -> float:
-    """|T_s(B, D)| by its block columns' Frobenius norms."""
+    """Return |T_s(B, D)| by its block columns' Frobenius norms."""
     return float(np.sqrt(sum(_frobenius(model.markov(k)) ** 2 for k in range(1, s + 1))))
 
 
 @dataclass(frozen=True, eq=False)
 class ModelError:
-    """Bounds on |dA|, |dB|, |dC|, |dD| of `model`, all in scaled channels and the basis U; `range` is the bound on |D|."""
+    """These are bounds on |dA|, |dB|, |dC| and |dD| of `model`, all in scaled channels and the basis U; `range` is the bound on |D|."""
 
     model: StateSpaceModel
     input_scale: Array
@@ -186,7 +186,7 @@ class ModelError:
 
     @property
     def poles(self) -> Array:
-        """A bound for each pole, in the order of numpy.linalg.eigvals(model.A): infinite for a multiple one."""
+        """Return a bound for each pole, in the order of numpy.linalg.eigvals(model.A): infinite for a multiple one."""
         values, right = np.linalg.eig(self.model.A)
         with np.errstate(divide="ignore", invalid="ignore"):
             # Rows of the inverse are left eigenvectors with y' x = 1.
@@ -199,7 +199,7 @@ class ModelError:
 
     @property
     def characteristic_polynomial(self) -> Array:
-        """A bound for each coefficient of z^(n-1), ..., z, 1 in det(zI - A)."""
+        """Return a bound for each coefficient of z^(n-1), ..., z, 1 in det(zI - A)."""
         A, n = self.model.A, self.model.n
         bounds, adjugate = np.empty(n), np.eye(n)
         for k in range(n):  # Faddeev and Leverrier: adj(zI - A) = sum of adjugate_k z^(n-1-k)
@@ -209,7 +209,7 @@ class ModelError:
         return bounds
 
     def markov(self, count: int) -> Array:
-        """A bound for every entry of the Markov parameters D, CB, ..., (count, p, n_u), in the data's own units."""
+        """Return a bound for every entry of the Markov parameters D, CB, ..., (count, p, n_u), in the data's own units."""
         A, B, C = self.model.A, self.model.B, self.model.C
         bounds = np.empty(count)
         before = [_norm(C)]  # |C A^k|
@@ -227,7 +227,7 @@ class ModelError:
         return np.asarray(bounds[:, np.newaxis, np.newaxis] * units)
 
     def transfer(self, z: complex) -> Array:
-        """A bound for every entry of D + C (zI - A)^-1 B, (p, n_u), in the data's own units."""
+        """Return a bound for every entry of D + C (zI - A)^-1 B, (p, n_u), in the data's own units."""
         resolvent = np.linalg.inv(z * np.eye(self.model.n) - self.model.A)
         before, after = float(np.linalg.norm(self.model.C @ resolvent, 2)), float(np.linalg.norm(resolvent @ self.model.B, 2))
         bound = self.D + self.C * after + before * self.A * after + before * self.B
@@ -235,7 +235,7 @@ class ModelError:
 
 
 def _shift_error(where: Setting, moved: float) -> float:
-    """|dA| for |D| = moved and the rounding of the small least squares."""
+    """Return |dA| for |D| = moved and the rounding of the small least squares."""
     p = len(where.scale)
     upper, lower = where.U[:-p], where.U[p:]
     amplified = 1.0 / _least(upper)
@@ -246,7 +246,7 @@ def _shift_error(where: Setting, moved: float) -> float:
 
 
 def _powers(model: StateSpaceModel, count: int) -> tuple[Array, Array]:
-    """|A^k| and |C A^k| for k = 0 .. count - 1."""
+    """Return |A^k| and |C A^k| for k = 0 .. count - 1."""
     states, outputs, power = np.empty(count), np.empty(count), np.eye(model.n)
     for k in range(count):
         states[k], outputs[k] = _norm(power), _norm(model.C @ power)
@@ -255,14 +255,14 @@ def _powers(model: StateSpaceModel, count: int) -> tuple[Array, Array]:
 
 
 def _observability_error(model: StateSpaceModel, s: int, dA: float, dC: float) -> float:
-    """|dO_s|: block k moves by dC A^k + sum_j C A^j dA A^(k-1-j)."""
+    """Return |dO_s|: block k moves by dC A^k + sum_j C A^j dA A^(k-1-j)."""
     states, outputs = _powers(model, s)
     blocks = [dC * states[k] + dA * float(np.dot(outputs[:k], states[:k][::-1])) for k in range(s)]
     return _frobenius(np.array(blocks))
 
 
 def moesp_error(where: Setting, backward: BackwardError, moved: float) -> ModelError:
-    """The model whose B and D come from MOESP's regression (`pi_moesp_from_compression`).
+    """Bound the errors of the model whose B and D come from MOESP's regression (`pi_moesp_from_compression`).
 
     `moved` is from `noise_free_range` or `noisy_range`.
     """
@@ -310,7 +310,8 @@ def moesp_error(where: Setting, backward: BackwardError, moved: float) -> ModelE
 
 
 def output_error_error(where: Setting, moved: float, experiments: Sequence[tuple[Array, Array]], *, relative: float = UNIT) -> ModelError:
-    """The model whose B and D come from output error (`pi_moesp`, or `pi_moesp_experiments` with these y (N, p), u (N, n_u)).
+    """Bound the errors of the model whose B and D come from output error (`pi_moesp`, or `pi_moesp_experiments` with these y (N, p), u (N,
+    n_u)).
 
     `relative` is by how much each sample may be wrong in relation to itself. The regressor is built here in full: for records of some
     thousand samples.
@@ -360,7 +361,7 @@ def output_error_error(where: Setting, moved: float, experiments: Sequence[tuple
 
 
 def _regressor(model: StateSpaceModel, u: Array) -> tuple[Array, float]:
-    """Phi (N p, n + n n_u + p n_u) with y = Phi [x0, B by columns, D by rows], and the Frobenius norm of the states behind it."""
+    """Return Phi (N p, n + n n_u + p n_u) with y = Phi [x0, B by columns, D by rows], and the Frobenius norm of the states behind it."""
     n, p, n_u, N = model.n, model.p, u.shape[1], len(u)
     Phi, energy = np.zeros((N, p, n + n * n_u + p * n_u)), 0.0
     state = np.zeros((n, n + n * n_u))
@@ -379,6 +380,6 @@ def _regressor(model: StateSpaceModel, u: Array) -> tuple[Array, float]:
 
 
 def _state_size(model: StateSpaceModel, u: Any, x0: Any) -> float:
-    """The Frobenius norm of the states x(0), ..., x(N - 1)."""
+    """Return the Frobenius norm of the states x(0), ..., x(N - 1)."""
     states = StateSpaceModel(model.A, model.B, np.eye(model.n), np.zeros((model.n, u.shape[1]))).simulate(u, x0)
     return _frobenius(states)

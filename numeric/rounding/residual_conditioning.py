@@ -33,18 +33,18 @@ def _norm(matrix: Any) -> float:
 
 
 def _gain(model: StateSpaceModel, samples: int) -> float:
-    """sum |C A^k| over the record."""
+    """Return sum |C A^k| over the record."""
     blocks = observability_matrix(model.A, model.C, samples).reshape(samples, model.p, model.n)
     return float(np.sum(np.linalg.norm(blocks, axis=(1, 2))))
 
 
 def _states(model: StateSpaceModel, u: Array, x0: Array) -> float:
-    """|x| over the record."""
+    """Return |x| over the record."""
     return _norm(StateSpaceModel(model.A, model.B, np.eye(model.n), np.zeros((model.n, model.n_u))).simulate(u, x0))
 
 
 def _arithmetic(model: StateSpaceModel) -> float:
-    """Relative error of each matrix that stands for its rounding, a Schur form's, and sums over a block of samples."""
+    """Return the relative error of each matrix that stands for its rounding, a Schur form's, and sums over a block of samples."""
     return (1 + BLOCK * (model.n_u + model.n)) * UNIT + SMALL * model.n * EPS
 
 
@@ -57,13 +57,13 @@ def _simulation_error(model: StateSpaceModel, y: Array, u: Array, states: float)
 
 
 def given_state_error(y: Array, u: Array, model: StateSpaceModel, x0: Array) -> float:
-    """Bound on |r - exact r| for `residual(y, u, model, x0=x0)`, y (N, p), u (N, n_u), x0 (n,)."""
+    """Return the bound on |r - exact r| for `residual(y, u, model, x0=x0)`, y (N, p), u (N, n_u), x0 (n,)."""
     of_start = _norm(observability_matrix(model.A, np.eye(model.n), len(u))) * UNIT * _norm(x0) * _norm(model.C)
     return _simulation_error(model, y, u, _states(model, u, x0)) + of_start
 
 
 def fitted_state_error(y: Array, u: Array, model: StateSpaceModel, r: Array) -> float:
-    """Bound on |r - exact r| for `residual(y, u, model)` with its result `r` (N, p); stable models, full observability."""
+    """Return the bound on |r - exact r| for `residual(y, u, model)` with its result `r` (N, p); stable models, full observability."""
     N = len(u)
     zero = np.zeros(model.n)
     error = y - model.simulate(u, zero)
@@ -78,13 +78,13 @@ def fitted_state_error(y: Array, u: Array, model: StateSpaceModel, r: Array) -> 
 
 
 def singular_value_error(values: Array, columns: int) -> float:
-    """Bound on the error of every one of the singular values (s p,) of R_s with so many columns, samples correctly rounded."""
+    """Return the bound on the error of every one of the singular values (s p,) of R_s with so many columns, samples correctly rounded."""
     width = len(values)
     return (UNIT + reflections_error(width, columns) + SMALL * width * EPS) * _norm(values)
 
 
 def fault_signal_error(r: Array, A: Array, F: Array, C: Array, G: Array, found: Reconstruction, *, x0: Array | None = None) -> float:
-    """Bound on |v - exact v| over the trusted samples of `reconstruct_fault(r, A, F, C, G, x0=x0)`; builds [O_N T_N] in full."""
+    """Return the bound on |v - exact v| over the trusted samples of `reconstruct_fault(r, A, F, C, G, x0=x0)`; builds [O_N T_N] in full."""
     N, m, n = len(r), F.shape[1], len(A)
     model = StateSpaceModel(A, F, C, G)
     free = observability_matrix(A, C, N)

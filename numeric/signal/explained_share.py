@@ -22,7 +22,7 @@ from ..data.validation import signal
 
 
 def noise_share(r: ArrayLike, n_v: int, units: Array, *, healthy: bool) -> float:
-    """The share that n_v <= p signals could explain of noise, r (N, p) in `units` (p,); `healthy`: r is a residual without fault.
+    """Return the share that n_v <= p signals could explain of noise, r (N, p) in `units` (p,); `healthy`: r is a residual without fault.
 
     Otherwise only the spectrum of each output is taken from r. Raises InvalidData for fewer than 4 MANY_TAPERS samples.
     """

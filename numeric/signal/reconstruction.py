@@ -11,27 +11,31 @@ slowly for pieces of LONGEST samples, and where the initial state is given, the 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
+from ...base.sheets import Shown
 from ..count.arguments import not_zero
-from ..data.records import SampleStore, Tell, silent, stored
+from ..data.plain import plain
+from ..data.records import OnProgress, SampleStore, Stored, silent, stored
 from ..data.validation import signal
-from .smoother import Stretch, simulated, smoothed
+from ..drawing import plot_stored_signal
+from .smoother import Solution, Stretch, simulated, smoothed
 
 LONGEST = 1 << 16
 LEAST_MARGIN = 1 << 10  # samples left out at an inner edge, at least: the smoother forgets noise in far fewer
 COMPARED = 64
 
 
-@dataclass(frozen=True, eq=False)
-class Reconstruction:
-    """v (N, n_v) in `store`, with x(k+1) = A x + F v and `simulated` = C x + G v.
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class Reconstruction(Solution, Shown):
+    """A fault signal v (N, n_v), kept in `store`, with x(k+1) = A x + F v and `simulated` = C x + G v.
 
     delay            samples until v(k) is seen, from a known x(0), or from an unknown one if such a delay exists; None where the system
                      is not left-invertible, so that v is not determined at all
@@ -46,21 +50,13 @@ class Reconstruction:
     """
 
     store: SampleStore
-    delay: int | None
-    trusted: tuple[int, int]
-    zeros: NDArray[np.complex128]
-    left_invertible: bool
-    misfit: float
-    reason: str
     mismatch: float
     left: Array
     whole: Array
-    x0: Array
-    pair: tuple[Array, Array, Array, Array]
 
     @cached_property
     def v(self) -> Array:
-        """The signal (N, n_v), all of it in memory."""
+        """Return the signal (N, n_v), all of it in memory."""
         return self.store.read(0, len(self.store))
 
     @cached_property
@@ -69,42 +65,78 @@ class Reconstruction:
 
     @property
     def x(self) -> Array:
-        """The states (N, n) that v drives from x0, all of them in memory."""
+        """Return the states (N, n) that v drives from x0, all of them in memory."""
         return self._simulated[0]
 
     @property
     def simulated(self) -> Array:
-        """C x + G v (N, p), all of it in memory."""
+        """Return C x + G v (N, p), all of it in memory."""
         return self._simulated[1]
 
     @property
+    def title(self) -> str:
+        """Return what the signal is, on one short line."""
+        first, last = self.trusted
+        determined = "no sample is determined" if first >= last else f"samples {first} to {last - 1} are determined"
+        return f"fault signal of {len(self.store)} samples, n_v {self.store.width}: {determined}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield what there is to say of it, as pairs of a name and a value."""
+        yield "why", self.reason
+        yield "delay until it is seen", "not determined by the outputs" if self.delay is None else f"{self.delay} samples"
+        yield "moduli of the finite zeros", ", ".join(f"{size:.4g}" for size in np.abs(self.zeros)) or "none"
+        yield "left unexplained of the residual", f"{100 * self.misfit:.2g} %"
+        if self.mismatch:
+            yield "largest difference of pieces", f"{self.mismatch:.2g} of the signal"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of everything but the samples, which `v` has; complex zeros are [real, imaginary]."""
+        return {
+            "samples": len(self.store),
+            "n_v": self.store.width,
+            "delay": self.delay,
+            "trusted": list(self.trusted),
+            "zeros": plain(self.zeros),
+            "left_invertible": self.left_invertible,
+            "misfit": plain(self.misfit),
+            "mismatch": plain(self.mismatch),
+            "reason": self.reason,
+            "x0": plain(self.x0),
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the signal into the matplotlib axes `ax`, new ones where None are given, and return them; samples that are not determined
+        are shaded. Raises ImportError without matplotlib."""
+        return plot_stored_signal(self.store, self.trusted, ax=ax)
+
+    @property
     def fit(self) -> float:
-        """1 - misfit: one where the simulated residual equals the given one."""
+        """Return 1 - misfit, which is one where the simulated residual equals the given one."""
         return 1.0 - self.misfit
 
     def explained(self, units: Array) -> float:
-        """The share of r that the signal explains, in squares, the outputs in these units (p,)."""
+        """Return the share of r that the signal explains, in squares, the outputs in these units (p,)."""
         whole = float(np.sum(self.whole / units**2))
         return 1.0 - float(np.sum(self.left / units**2)) / whole if whole else 0.0
 
 
 def reconstruct_fault(
-    r: ArrayLike | SampleStore,
+    r: ArrayLike | SampleStore | Stored,
     A: ArrayLike,
     F: ArrayLike,
     C: ArrayLike,
     G: ArrayLike,
     *,
     x0: ArrayLike | None = None,
-    judged: tuple[int, int] | None = None,
-    on_progress: Tell | None = None,
+    within: tuple[int, int] | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Reconstruction:
-    """The signal v of the faults F, G whose simulated residual equals r, by the smoother of [HP98], [MZ10].
+    """Reconstruct the signal v of the faults F, G whose simulated residual equals r, by the smoother of [HP98], [MZ10].
 
-    r (N, p) is an array or a store, in the units of y; A (n, n), F (n, n_v), C (p, n), G (p, n_v); v comes in units of r over those of
-    G. x0 (n,) is the initial state, where it is known. `judged` are the samples (first, last) of `left` and `whole`, by default all;
-    `on_progress(stage, done, total)` hears how far it has come. Raises InvalidData for shapes that do not fit, values that are not
-    finite, more faults than outputs, a fault without any effect, or a model so unstable that the record overflows.
+    r (N, p) is an array, a store or the ResidualSignal of `residual`, in the units of y; A (n, n), F (n, n_v), C (p, n), G (p, n_v); v
+    comes in units of r over those of G. x0 (n,) is the initial state, where it is known. `within` are the samples (first, last) of `left`
+    and `whole`, by default all; `on_progress(stage, done, total)` hears how far it has come. Raises InvalidData for shapes that do not fit,
+    values that are not finite, more faults than outputs, a fault without any effect, or a model so unstable that the record overflows.
 
     >>> import numpy as np
     >>> v = np.sin(np.arange(50.0))[:, np.newaxis]
@@ -113,31 +145,32 @@ def reconstruct_fault(
     >>> found.delay, bool(np.allclose(found.v, v))
     (0, True)
     """
-    tell = on_progress or silent
-    store = r if isinstance(r, SampleStore) else stored(signal(r, "r"))
+    on_progress = on_progress or silent
+    held: Any = getattr(r, "store", r)
+    store = held if isinstance(held, SampleStore) else stored(signal(held, "r"))
     N = len(store)
-    within = judged or (0, N)
+    kept = within or (0, N)
 
     def solve(start: int, stop: int, state: ArrayLike | None = None) -> Stretch:
         return smoothed(store.read(start, stop), A, F, C, G, x0=state)
 
-    tell("fault signal", 0, N)
+    on_progress("fault signal", 0, N)
     not_zero(any(np.any(rows) for rows in store.pieces()))
     if x0 is not None or N <= LONGEST:
-        found = _single(solve(0, N, x0), store, within)
+        found = _single(solve(0, N, x0), store, kept)
     else:
         begin = solve(0, LONGEST)
         margin = max(begin.trusted[0], LONGEST - begin.trusted[1], LEAST_MARGIN)
         lost = begin.trusted[0] >= begin.trusted[1] or 4 * margin > LONGEST
-        found = _single(solve(0, N), store, within) if lost else _joined(begin, solve, store, margin, within, tell)
-    tell("fault signal", N, N)
+        found = _single(solve(0, N), store, kept) if lost else _joined(begin, solve, store, margin, kept, on_progress)
+    on_progress("fault signal", N, N)
     return found
 
 
 def _joined(
-    begin: Stretch, solve: Callable[[int, int], Stretch], r: SampleStore, margin: int, within: tuple[int, int], tell: Tell
+    begin: Stretch, solve: Callable[[int, int], Stretch], r: SampleStore, margin: int, within: tuple[int, int], on_progress: OnProgress
 ) -> Reconstruction:
-    """The middles of the pieces that `solve` gives, one after the other."""
+    """Join the middles of the pieces that `solve` gives, one after the other."""
     N = len(r)
     v, left, mismatch = SampleStore(begin.v.shape[1]), 0.0, 0.0
     parts = np.zeros((2, r.width))
@@ -151,7 +184,7 @@ def _joined(
         left += float(np.sum(error**2))
         parts += _squares(error, given, len(v), within)
         v.append(piece.v[part])
-        tell("fault signal", kept, N)
+        on_progress("fault signal", kept, N)
         if end == N:
             break
         before = piece.v[kept - start : kept - start + COMPARED]
@@ -163,37 +196,18 @@ def _joined(
     whole = float(sum(np.sum(part**2) for part in r.pieces()))
     trusted = begin.trusted[0], N - (len(piece.v) - piece.trusted[1])
     misfit = float(np.sqrt(left / whole)) if whole else 0.0
-    return _reconstruction(v, begin, trusted, misfit, mismatch, parts)
+    known = {field.name: getattr(begin, field.name) for field in fields(Solution)} | {"trusted": trusted, "misfit": misfit}
+    return Reconstruction(store=v, mismatch=mismatch, left=parts[0], whole=parts[1], **known)
 
 
 def _single(whole: Stretch, r: SampleStore, within: tuple[int, int]) -> Reconstruction:
     given = r.read(0, len(whole.v))
     parts = _squares(given - whole.simulated, given, 0, within)
-    return _reconstruction(stored(whole.v), whole, whole.trusted, whole.misfit, 0.0, parts)
-
-
-def _reconstruction(
-    v: SampleStore, first: Stretch, trusted: tuple[int, int], misfit: float, mismatch: float, parts: Array
-) -> Reconstruction:
-    """What is known of the signal from its first piece, and what was gathered over all of them."""
-    left, whole = parts
-    return Reconstruction(
-        store=v,
-        delay=first.delay,
-        trusted=trusted,
-        zeros=first.zeros,
-        left_invertible=first.left_invertible,
-        misfit=misfit,
-        reason=first.reason,
-        mismatch=mismatch,
-        left=left,
-        whole=whole,
-        x0=first.x0,
-        pair=first.pair,
-    )
+    known = {field.name: getattr(whole, field.name) for field in fields(Solution)}
+    return Reconstruction(store=stored(whole.v), mismatch=0.0, left=parts[0], whole=parts[1], **known)
 
 
 def _squares(error: Array, given: Array, start: int, within: tuple[int, int]) -> Array:
-    """Sums of squares (2, p) of both over those samples `within`; the first one is sample `start`."""
+    """Return sums of squares (2, p) of both over those samples `within`; the first one is sample `start`."""
     first, last = (min(max(edge - start, 0), len(given)) for edge in within)
     return np.stack([np.sum(rows[first:last] ** 2, axis=0) for rows in (error, given)])

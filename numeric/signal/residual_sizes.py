@@ -20,9 +20,12 @@ PART = PIECE // 16  # samples whose energy is kept as one number
 
 @dataclass(frozen=True, eq=False)
 class ResidualSizes:
-    """`peak` and `norm` (p,) are the largest |r| and the root of the sum of squares of each channel, in its units; `energies` is the sum
-    over channels of r^2 / norm^2 in each part of PART samples; `early_peak`, `early_norm` (p,) are the same as the first two over the
-    samples that the model is from."""
+    """This is how large a residual is, channel by channel and part by part.
+
+    `peak` and `norm` (p,) are the largest |r| and the root of the sum of squares of each channel, in its units; `energies` is the sum over
+    channels of r^2 / norm^2 in each part of PART samples; `early_peak` and `early_norm` (p,) are the same as the first two over the samples
+    that the model is from.
+    """
 
     peak: Array
     norm: Array
@@ -32,7 +35,7 @@ class ResidualSizes:
 
 
 def residual_sizes(store: SampleStore, early: int) -> ResidualSizes:
-    """The sizes of r (N, p) in `store`, whose first `early` samples the model is from; r is read three times, in pieces."""
+    """Return the sizes of r (N, p) in `store`, whose first `early` samples the model is from; r is read three times, in pieces."""
     peaks = np.array([np.abs(r).max(axis=0) for r in store.pieces()])
     peak = peaks.max(axis=0)
     unit = np.where(peak > 0, peak, 1.0)
@@ -46,7 +49,7 @@ def residual_sizes(store: SampleStore, early: int) -> ResidualSizes:
 
 
 def loudest(energies: Array, samples: int, length: int) -> tuple[int, int]:
-    """(first, last) of at most `length` consecutive samples out of so many, those with the largest energy, in steps of PART samples.
+    """Return (first, last) of at most `length` consecutive samples out of so many, those with the largest energy, in steps of PART samples.
 
     A fault that acts for a part of the record raises the residual there; where nothing differs, any stretch is as good.
     """

@@ -1,7 +1,8 @@
 """The fault signal of one stretch of the residual in memory: v and x such that the simulated residual equals the given one.
 
     smoothed            the smoother for r, A, F, C, G, with the initial state known or not
-    Stretch             v, x, simulated, delay, zeros, the samples to be trusted, and why not the others
+    Solution            delay, zeros, the samples to be trusted, and why not the others
+    Stretch             a Solution with v, x and simulated in memory
     simulated           x and C x + G v from v and the initial state
     linear_recursion    x(k+1) = A x(k) + drive(k) in about 2 sqrt(N) steps
     delay               v(k) is first seen in r(k + delay): at the end of the record some samples of v are not
@@ -43,23 +44,10 @@ MOST_GAINS = 5000
 SETTLED = 1e-13
 
 
-@dataclass(frozen=True)
-class Stretch:
-    """v (N, m), x (N, n) with x(k+1) = A x + F v, and simulated = C x + G v (N, p).
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class Solution:
+    """This is what is known of a fault signal beside its values; the docstring of `Reconstruction` explains the fields one by one."""
 
-    delay            samples until v(k) is seen, from a known x(0), or from an unknown one if such a delay exists;
-                     None where the system is not left-invertible, so that v is not determined at all
-    trusted          (first, last): v[first:last] is disturbed by no zero and no delay; empty where first >= last
-    zeros            finite zeros of (A, F, C, G)
-    left_invertible  whether v is determined by r and x(0) in principle
-    misfit           |r - simulated| / |r|
-    reason           what is determined and what is not, in words
-    x0, pair         the initial state (n,) and (A, F, C, G), from which x and simulated follow
-    """
-
-    v: Array
-    x: Array
-    simulated: Array
     delay: int | None
     trusted: tuple[int, int]
     zeros: NDArray[np.complex128]
@@ -70,8 +58,18 @@ class Stretch:
     pair: tuple[Array, Array, Array, Array]
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Stretch(Solution):
+    """This is one stretch of a solution: the signal v (N, m), the states x (N, n) of x(k+1) = A x + F v, and `simulated` = C x + G v (N,
+    p)."""
+
+    v: Array
+    x: Array
+    simulated: Array
+
+
 def smoothed(r: ArrayLike, A: ArrayLike, F: ArrayLike, C: ArrayLike, G: ArrayLike, *, x0: ArrayLike | None = None) -> Stretch:
-    """v and x from r (N, p) for A (n, n), F (n, m), C (p, n), G (p, m); x0 (n,) if the initial state is known.
+    """Find v and x from r (N, p) for A (n, n), F (n, m), C (p, n), G (p, m); x0 (n,) if the initial state is known.
 
     Raises InvalidData for shapes that do not fit, values that are not finite, more faults than outputs, a fault
     without any effect, or a model so unstable that the record overflows.
@@ -101,7 +99,19 @@ def smoothed(r: ArrayLike, A: ArrayLike, F: ArrayLike, C: ArrayLike, G: ArrayLik
     misfit = float(np.linalg.norm(r - response)) / size if size else 0.0
     delay = limits.delay_known_state if start is not None or limits.delay_unknown_state is None else limits.delay_unknown_state
     trusted, reason = _limits(N, m, limits, delay, start is not None)
-    return Stretch(v, x, response, delay, trusted, limits.zeros, limits.left_invertible, misfit, reason, initial, (A, F, C, G))
+    return Stretch(
+        delay=delay,
+        trusted=trusted,
+        zeros=limits.zeros,
+        left_invertible=limits.left_invertible,
+        misfit=misfit,
+        reason=reason,
+        x0=initial,
+        pair=(A, F, C, G),
+        v=v,
+        x=x,
+        simulated=response,
+    )
 
 
 def _faults(n: int, p: int, F: ArrayLike, G: ArrayLike, x0: ArrayLike | None) -> tuple[Array, Array, Array | None]:
@@ -123,7 +133,7 @@ def _faults(n: int, p: int, F: ArrayLike, G: ArrayLike, x0: ArrayLike | None) ->
 
 @dataclass(frozen=True)
 class _Gains:
-    """v = from_r r + from_t t - from_x x; the cost to come before this sample: |S x - (t_from_r r + t_from_t t)|^2."""
+    """The gains make v = from_r r + from_t t - from_x x, and the cost to come before this sample |S x - (t_from_r r + t_from_t t)|^2."""
 
     from_x: Array
     from_r: Array
@@ -134,7 +144,7 @@ class _Gains:
 
 
 class _Smoother:
-    """The gains for N samples, counted from the end; they repeat once S has settled."""
+    """The smoother holds the gains for N samples, counted from the end; they repeat once S has settled."""
 
     def __init__(self, coordinates: ObservedCoordinates, F: Array, G: Array, samples: int) -> None:
         self.A, self.F, self.C, self.G = coordinates.A, F, coordinates.C, G
@@ -163,7 +173,7 @@ class _Smoother:
         return _Gains(top[:, :n], top[:, n : n + p], top[:, n + p :], R[m:, m:], below[:, :p], below[:, p:])
 
     def solve(self, r: Array, start: Array | None) -> tuple[Array, Array]:
-        """v (N, m) and x(0) for r (N, p), regularised."""
+        """Return v (N, m) and x(0) for r (N, p), regularised."""
         N = len(r)
         n, m = self.F.shape
         steady, settling = self.gains[-1], min(len(self.gains), N)
@@ -190,7 +200,7 @@ class _Smoother:
 
 
 def _refined(smoother: _Smoother, r: Array, start: Array | None) -> tuple[Array, Array]:
-    """The solution plus the solutions for what it leaves over, until that stops shrinking."""
+    """Return the solution plus the solutions for what it leaves over, until that stops shrinking."""
     v, x0 = smoother.solve(r, start)
     matrices = smoother.A, smoother.F, smoother.C, smoother.G
     left = r - simulated(*matrices, x0, v)[1]
@@ -207,13 +217,13 @@ def _refined(smoother: _Smoother, r: Array, start: Array | None) -> tuple[Array,
 
 
 def simulated(A: Array, F: Array, C: Array, G: Array, x0: Array, v: Array) -> tuple[Array, Array]:
-    """x (N, n) and C x + G v (N, p) of x(k+1) = A x + F v from x(0) = x0 (n,)."""
+    """Return x (N, n) and C x + G v (N, p) of x(k+1) = A x + F v from x(0) = x0 (n,)."""
     x = linear_recursion(A, v @ F.T, x0)[:-1]
     return x, x @ C.T + v @ G.T
 
 
 def linear_recursion(A: Array, drive: Array, start: Array) -> Array:
-    """x (N + 1, n) with x(0) = start, x(k+1) = A x(k) + drive(k), for drive (N, n).
+    """Return x (N + 1, n) with x(0) = start, x(k+1) = A x(k) + drive(k), for drive (N, n).
 
     Blocks of about sqrt(N) samples run side by side from zero; then their starts one after the other: 2 sqrt(N) steps.
     """
@@ -238,31 +248,31 @@ def linear_recursion(A: Array, drive: Array, start: Array) -> Array:
 
 
 def _limits(N: int, m: int, limits: FaultZeros, delay: int | None, known: bool) -> tuple[tuple[int, int], str]:
-    """The samples that nothing disturbs, and the sentence about the others."""
+    """Return the samples that nothing disturbs, and the sentence about the others."""
     zeros, tail = limits.zeros, limits.delay_known_state
     if delay is None or tail is None:
         return (0, 0), f"not left-invertible: other signals of {m} faults give the same residual; v is one, a small one"
     if delay >= N:
         return (0, 0), f"{N} samples are no more than the delay of {delay}: v is not determined"
     sizes = np.abs(zeros)
-    shown = ", ".join(f"{size:.4g}" for size in sizes)
+    moduli = ", ".join(f"{size:.4g}" for size in sizes)
     # At the end of a long record the state is known from the past, so that the shorter delay counts there.
     first, last = 0, N - tail
-    said = [f"v is seen after {delay} samples" + (f", the last {tail} are not determined" if tail else "")]
+    sentences = [f"v is seen after {delay} samples" + (f", the last {tail} are not determined" if tail else "")]
     inside, outside = sizes[sizes < 1], sizes[sizes > 1]
     if inside.size and not known:
         first = min(_fading(float(inside.max()), N), N)
-        said.append(f"zeros inside the unit circle leave the first {first} samples to the unknown initial state")
+        sentences.append(f"zeros inside the unit circle leave the first {first} samples to the unknown initial state")
     if outside.size:
         lost = min(_fading(1 / float(outside.min()), N), N)
         last = max(last - lost, 0)
-        said.append(f"zeros outside the unit circle leave the last {lost} uncertain, although the future was used")
+        sentences.append(f"zeros outside the unit circle leave the last {lost} uncertain, although the future was used")
     if np.any(np.isclose(sizes, 1, atol=1e-6, rtol=0)):
-        said.append(f"a zero on the unit circle disturbs every sample (moduli {shown})")
-        return (0, 0), "; ".join(said)
-    return (first, last), "; ".join(said) + (f" (moduli of the zeros: {shown})" if zeros.size else "")
+        sentences.append(f"a zero on the unit circle disturbs every sample (moduli {moduli})")
+        return (0, 0), "; ".join(sentences)
+    return (first, last), "; ".join(sentences) + (f" (moduli of the zeros: {moduli})" if zeros.size else "")
 
 
 def _fading(rate: float, most: int) -> int:
-    """Samples until rate^k has fallen to FADED."""
+    """Return samples until rate^k has fallen to FADED."""
     return 1 if rate == 0 else min(int(np.ceil(np.log(FADED) / np.log(rate))), most)

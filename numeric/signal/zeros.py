@@ -29,7 +29,7 @@ TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class FaultZeros:
-    """Finite zeros (complex), delays (None where there is none), left-invertibility."""
+    """The record holds the finite zeros (complex), both delays (None where there is none), and whether the system is left-invertible."""
 
     zeros: NDArray[np.complex128]
     left_invertible: bool
@@ -38,7 +38,7 @@ class FaultZeros:
 
 
 def fault_zeros(A: Array, F: Array, C: Array, G: Array) -> FaultZeros:
-    """Of A (n, n), F (n, m), C (p, n), G (p, m), which should be of comparable size (balanced units)."""
+    """Find the zeros and delays of A (n, n), F (n, m), C (p, n), G (p, m), which should be of comparable size (balanced units)."""
     zeros = finite_zeros(A, F, C, G)
     known = _delay(A, F, C, G, state_known=True)
     if known is None:
@@ -47,7 +47,7 @@ def fault_zeros(A: Array, F: Array, C: Array, G: Array) -> FaultZeros:
 
 
 def finite_zeros(A: Array, F: Array, C: Array, G: Array) -> NDArray[np.complex128]:
-    """The finite zeros of the pencil, with their multiplicities, by ascending modulus: the motion on V* under zero output,
+    """Return the finite zeros of the pencil, with their multiplicities, by ascending modulus: the motion on V* under zero output,
     modulo the states of V* that faults without an effect on the output reach from rest [TSH01] ch. 7.
     """
     W = output_nulling(A, F, C, G)
@@ -61,7 +61,7 @@ def finite_zeros(A: Array, F: Array, C: Array, G: Array) -> NDArray[np.complex12
 
 
 def _complement_of_reached(L: Array, B: Array) -> Array:
-    """Orthonormal columns orthogonal to im [B, L B, L^2 B, ...]: the largest subspace that L' keeps and B' annihilates."""
+    """Return orthonormal columns orthogonal to im [B, L B, L^2 B, ...]: the largest subspace that L' keeps and B' annihilates."""
     rest = _null_space(B.T)
     while True:
         smaller = rest @ _null_space((L.T @ rest) - rest @ (rest.T @ L.T @ rest))
@@ -71,7 +71,7 @@ def _complement_of_reached(L: Array, B: Array) -> Array:
 
 
 def _null_space(matrix: Array) -> Array:
-    """Orthonormal columns."""
+    """Return orthonormal columns."""
     if 0 in matrix.shape:
         return np.eye(matrix.shape[1])
     _, values, right = np.linalg.svd(matrix)
@@ -79,7 +79,7 @@ def _null_space(matrix: Array) -> Array:
 
 
 def output_nulling(A: Array, F: Array, C: Array, G: Array) -> Array:
-    """V* as orthonormal columns (n, k): the limit of V_0 = R^n, V_(j+1) = {x : some v has C x + G v = 0 and A x + F
+    """Return V* as orthonormal columns (n, k): the limit of V_0 = R^n, V_(j+1) = {x : some v has C x + G v = 0 and A x + F
     v in V_j}.
     """
     n = A.shape[0]

@@ -5,10 +5,12 @@ r = s + w with N(q) s = 0 whatever the faults are [W91], w of spectrum phi in ev
     cost(N) = sum over frequencies of tr[(N N*)^-1 N r r* N*] / phi
 
 which depends on the rows through the space they span alone, and for one row is |N r|^2 / (phi N N*). The colour phi is
-estimated in turns with N, as an autoregression of the whitened row residual scaled to a mean logarithm of zero.
+estimated in turns with N, as an autoregression of the whitened row residual scaled to a mean logarithm of zero. Where the noise has
+the power lam_c phi in channel c, N N* reads N diag(lam) N*: a channel measured without noise, as a known input, has lam_c = 0.
 
     degrees        eta_1 .. eta_k, the degree of each row
     within         for each row, the vectors that its coefficients may combine: P with P O_(eta+1) = 0
+    shares         lam (p,), the power of the noise in each channel, relative to phi
     h              what is sought: the coefficients of every row in its `within`, one after the other
     gauge          changes of h that leave the span alone: adding q^a N_j to N_i for a <= eta_i - eta_j
     KernelBasis    the rows, their level, the noise colour, and the covariance of h off the gauge
@@ -43,12 +45,17 @@ TINY = float(np.finfo(float).tiny)
 
 @dataclass(frozen=True)
 class KernelBasis:
-    """`rows`: k arrays (eta_i + 1, p), N_i(q) = sum_j rows[i][j] q^j, unit norm; `level` in nats; `noise_colour` the monic autoregression;
-    `within` as given; `covariance` of h, zero along the gauge."""
+    """The rows of a kernel basis, how much noise they leave, and how sure they are.
+
+    `rows` are k arrays (eta_i + 1, p) of unit norm with N_i(q) = sum_j rows[i][j] q^j, `level` is in nats, `noise_colour` is the monic
+    autoregression of the noise, `spectrum` (bands,) is the phi that follows from it, of mean logarithm zero, `within` is as it was given,
+    and `covariance` is that of h, which is zero along the gauge.
+    """
 
     rows: tuple[Array, ...]
     level: float
     noise_colour: Array
+    spectrum: Array
     within: tuple[Array, ...]
     covariance: Array
 
@@ -60,17 +67,45 @@ def kernel_basis(
     *,
     noise_order: int = NOISE_ORDER,
     rounds: int = ROUNDS,
+    shares: Array | None = None,
 ) -> KernelBasis:
-    """The likeliest basis; row i combines the orthonormal rows of within[i] (q_i, p (eta_i + 1)).
+    """Find the likeliest basis; row i combines the orthonormal rows of within[i] (q_i, p (eta_i + 1)).
 
-    `starts`: bases, each k arrays (eta_i + 1, p), tried beside the rows that the moments make least.
+    `starts`: bases, each k arrays (eta_i + 1, p), tried beside the rows that the moments make least. `shares` (p,): the power of the noise
+    in each channel, relative to the colour; equal ones where it is None.
     """
-    problem = _problem(moments, within)
+    problem = _problem(moments, within, shares)
+    starting = [_coefficients(within, start) for start in starts]
+    return _likeliest(moments, problem, within, starting + _plain(problem, within), noise_order, rounds)
+
+
+def refined_basis(
+    moments: CrossMoments,
+    within: Sequence[Array],
+    start: Sequence[Array],
+    *,
+    noise_order: int = NOISE_ORDER,
+    rounds: int = ROUNDS,
+    shares: Array | None = None,
+) -> KernelBasis:
+    """Find the same from one start alone, k arrays (eta_i + 1, p): for moments, or shares, that differ little from those it was fitted
+    to."""
+    problem = _problem(moments, within, shares)
+    return _likeliest(moments, problem, within, [_coefficients(within, start)], noise_order, rounds)
+
+
+def _coefficients(within: Sequence[Array], rows: Sequence[Array]) -> Array:
+    """Return the h of rows (eta_i + 1, p)."""
+    return np.concatenate([basis @ row.ravel() for basis, row in zip(within, rows, strict=True)])
+
+
+def _likeliest(
+    moments: CrossMoments, problem: _Problem, within: Sequence[Array], guesses: list[Array], noise_order: int, rounds: int
+) -> KernelBasis:
+    """Return the best descent of all guesses with a white colour, then colour and rows in turns."""
     colour = np.ones(len(moments.angles))
-    guesses = [np.concatenate([basis @ row.ravel() for basis, row in zip(within, start, strict=True)]) for start in starts]
-    guesses += _plain(problem, within)
     fits = [_descend(problem, colour, _normed(problem, h)) for h in guesses]
-    h, cost = min(fits, key=lambda fit: fit[1])
+    h, cost = min(fits, key=lambda fit: max(fit[1], _rounding(problem, colour, fit[0])))
     regression = np.ones(1)
     before = np.inf
     for _ in range(rounds if noise_order else 0):
@@ -85,13 +120,13 @@ def kernel_basis(
     level = float(np.log(max(cost / k, TINY)) + np.log(problem.size))
     rows = tuple((part @ basis).reshape(-1, moments.channels) for part, basis in zip(np.split(h, problem.cuts), within, strict=True))
     covariance = _covariance(problem, colour, h, max(cost / k, TINY), moments.samples)
-    return KernelBasis(rows, level, regression, tuple(within), covariance)
+    return KernelBasis(rows, level, regression, colour, tuple(within), covariance)
 
 
 @dataclass(frozen=True)
 class _Problem:
-    """Moments in units of their mean (bands, w, w), gains of white noise alike, and the map `spread` (q, k, w) from h to rows
-    padded to the same degree."""
+    """This holds the moments in units of their mean (bands, w, w), the gains of white noise alike, and the map `spread` (q, k, w) from h to
+    rows padded to the same degree."""
 
     data: ComplexArray
     gains: ComplexArray
@@ -103,14 +138,14 @@ class _Problem:
     size: float
 
     def rows(self, h: Array) -> Array:
-        """(k, w)."""
+        """Return the rows (k, w) that h stands for."""
         return np.asarray(np.tensordot(h, self.spread, axes=1))
 
 
-def _problem(moments: CrossMoments, within: Sequence[Array]) -> _Problem:
+def _problem(moments: CrossMoments, within: Sequence[Array], shares: Array | None = None) -> _Problem:
     p, width = moments.channels, moments.channels * (moments.degree + 1)
     powers = np.exp(1j * np.outer(moments.angles, np.arange(moments.degree + 1)))
-    gains = np.einsum("bi,bj,kl->bikjl", powers, powers.conj(), np.eye(p), optimize=True)
+    gains = np.einsum("bi,bj,kl->bikjl", powers, powers.conj(), np.eye(p) if shares is None else np.diag(shares), optimize=True)
     size = float(np.trace(moments.moments.sum(axis=0)).real) / width or 1.0
     counts = [len(basis) for basis in within]
     spread = np.zeros((sum(counts), len(within), width))
@@ -131,7 +166,7 @@ def _problem(moments: CrossMoments, within: Sequence[Array]) -> _Problem:
 
 
 def _plain(problem: _Problem, within: Sequence[Array]) -> list[Array]:
-    """The left singular vectors of least value of P R: two choices for one row, one for several."""
+    """Return the left singular vectors of least value of P R: two choices for one row, one for several."""
     power = problem.data.sum(axis=0).real
     taken: dict[int, int] = {}
     parts, seconds = [], []
@@ -147,7 +182,7 @@ def _plain(problem: _Problem, within: Sequence[Array]) -> list[Array]:
 
 
 def _normed(problem: _Problem, h: Array) -> Array:
-    """h with rows of unit norm, those of one degree orthonormal: the span stays the same."""
+    """Return h with rows of unit norm, those of one degree orthonormal: the span stays the same."""
     parts = np.split(h, problem.cuts)
     for degree in set(problem.degrees):
         chosen = [i for i, other in enumerate(problem.degrees) if other == degree]
@@ -158,14 +193,14 @@ def _normed(problem: _Problem, h: Array) -> Array:
 
 
 def _parts(problem: _Problem, h: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
-    """For rows N: X = S N', Y = Q N' (bands, w, k), E = N X and W = (N Y)^-1 (bands, k, k)."""
+    """Return X = S N', Y = Q N' (bands, w, k), E = N X and W = (N Y)^-1 (bands, k, k) for the rows N."""
     N = problem.rows(h)
     X, Y = problem.data @ N.T, problem.gains @ N.T
     return X, Y, N @ X, np.asarray(np.linalg.inv(N @ Y + 1e-12 * np.eye(len(N))), dtype=complex)
 
 
 def _whitened_power(problem: _Problem, h: Array) -> Array:
-    """tr[(N N*)^-1 N r r* N*] a row, in each band: (bands,)."""
+    """Return tr[(N N*)^-1 N r r* N*] a row, in each band: (bands,)."""
     _, _, E, W = _parts(problem, h)
     return np.asarray(np.maximum(np.einsum("bij,bji->b", W, E).real, 0.0) / len(problem.degrees))
 
@@ -174,8 +209,15 @@ def _cost(problem: _Problem, colour: Array, h: Array) -> float:
     return float(np.sum(_whitened_power(problem, h) / colour)) * len(problem.degrees)
 
 
+def _rounding(problem: _Problem, colour: Array, h: Array) -> float:
+    """Return how wrong rounding may make the cost: each N S N', a sum of w terms, by w eps |S| |N|^2, weighted as the cost is."""
+    W = _parts(problem, h)[3]
+    sizes = np.einsum("bii->b", problem.data).real * np.einsum("bii->b", W).real
+    return float(problem.data.shape[1] * np.finfo(float).eps * np.sum(sizes / colour))
+
+
 def _derivatives(problem: _Problem, colour: Array, h: Array) -> tuple[Array, Array, Array]:
-    """Half the gradient of the cost, half its second derivatives, and the part of these that the scores' variance is made of."""
+    """Return half the gradient of the cost, half its second derivatives, and the part of these that the scores' variance is made of."""
     X, Y, E, W = _parts(problem, h)
     bleach = 1 / colour[:, None, None]
     XW, YW = (X * bleach) @ W, Y @ W
@@ -197,7 +239,7 @@ def _derivatives(problem: _Problem, colour: Array, h: Array) -> tuple[Array, Arr
 
 
 def _free(problem: _Problem, h: Array) -> Array:
-    """Orthonormal columns (q, q - gauge): the changes of h that change the span."""
+    """Return orthonormal columns (q, q - gauge): the changes of h that change the span."""
     N = problem.rows(h)
     p = problem.channels
     shifts = []
@@ -211,9 +253,12 @@ def _free(problem: _Problem, h: Array) -> Array:
 
 
 def _descend(problem: _Problem, colour: Array, h: Array) -> tuple[Array, float]:
-    """Levenberg-Marquardt off the gauge. Invariant: the cost never rises."""
+    """Descend by Levenberg and Marquardt off the gauge. The cost never rises, and what is left of it at the level of rounding, as without
+    noise, is not descended: steps would follow rounding there and turn h by its root."""
     damping, cost = 1e-3, _cost(problem, colour, h)
     for _ in range(STEPS):
+        if cost <= _rounding(problem, colour, h):
+            break
         gradient, second, scores = _derivatives(problem, colour, h)
         free = _free(problem, h)
         if free.shape[1] == 0:
@@ -242,7 +287,7 @@ def _descend(problem: _Problem, colour: Array, h: Array) -> tuple[Array, float]:
 
 
 def _covariance(problem: _Problem, colour: Array, h: Array, power: float, samples: float) -> Array:
-    """Covariance of h off the gauge, H^-1 J H^-1 with J = power / samples times the scores, these weighted by the noise that the
+    """Return the covariance of h off the gauge, H^-1 J H^-1 with J = power / samples times the scores, these weighted by the noise that the
     bands hold in fact: what the autoregression misses widens the answer."""
     free = _free(problem, h)
     if free.shape[1] == 0:
@@ -257,7 +302,7 @@ def _covariance(problem: _Problem, colour: Array, h: Array, power: float, sample
 
 
 def _autoregression(spectrum: Array, angles: Array, weights: Array, order: int) -> Array:
-    """The monic Yule-Walker autoregression of a spectrum sampled at the angles."""
+    """Return the monic Yule-Walker autoregression of a spectrum sampled at the angles."""
     lags = np.cos(np.outer(np.arange(order + 1), angles)) @ (spectrum * weights)
     if not lags[0] > 0.0:
         return np.asarray(np.eye(1, order + 1)[0], dtype=np.float64)
@@ -266,7 +311,7 @@ def _autoregression(spectrum: Array, angles: Array, weights: Array, order: int) 
 
 
 def _colour(regression: Array, angles: Array, weights: Array) -> Array:
-    """Its spectrum, of mean logarithm zero, not below the floor."""
+    """Return the spectrum of the autoregression, of mean logarithm zero and not below the floor."""
     colour = 1.0 / np.abs(np.exp(-1j * np.outer(angles, np.arange(len(regression)))) @ regression) ** 2
     colour /= np.exp(np.log(colour) @ weights)
     colour = np.maximum(colour, COLOUR_FLOOR)

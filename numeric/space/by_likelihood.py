@@ -64,7 +64,7 @@ SIGNAL_FLOOR = 1e-3
 def fault_space_by_likelihood(
     r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None
 ) -> FaultSpaceEstimate:
-    """The fault space of a noisy residual r (N, p) for A (n, n), C (p, n), from kernel rows of maximum likelihood.
+    """Estimate the fault space of a noisy residual r (N, p) for A (n, n), C (p, n), from kernel rows of maximum likelihood.
 
     `n_v` is asked of `fault_dimension` when not given. `block_rows` s is the window the answer is for: rows of
     degree below s are used; by default it is lag + 1. Consistent only for noise of one colour and of the same power
@@ -117,7 +117,7 @@ def fault_space_by_likelihood(
 def fault_space_by_least_squares(
     r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None
 ) -> FaultSpaceEstimate:
-    """The same from the left singular vectors of P R_s, their conditions weighted by the covariance that white noise
+    """Estimate the same from the left singular vectors of P R_s, their conditions weighted by the covariance that white noise
     gives them.
 
     Raises InvalidData as `fault_space`.
@@ -170,7 +170,7 @@ def fault_space_by_least_squares(
 
 
 def _faults(data: Arguments) -> tuple[int | None, str]:
-    """The number of faults and where it comes from; None, or p, with the reason why there is no answer."""
+    """Return the number of faults and where it comes from; None, or p, with the reason why there is no answer."""
     if data.n_v is None:
         found = fault_dimension(data.r)
         if found.n_v is None:
@@ -201,7 +201,7 @@ def _too_short(data: Arguments, faults: int, zeta: int, lag: int, window: int) -
 
 
 def _mixes(p: int, faults: int) -> list[Array]:
-    """Orthonormal mixes (p, n_v + 1) of the outputs: the identity where that is all of them, else enough general
+    """Return orthonormal mixes (p, n_v + 1) of the outputs: the identity where that is all of them, else enough general
     ones to see every output.
     """
     if p == faults + 1:
@@ -212,14 +212,14 @@ def _mixes(p: int, faults: int) -> list[Array]:
 
 @dataclass(frozen=True)
 class _Course:
-    """For degrees 0, 1, ..: the level of the best row of a mix, and the row (degree + 1, p) in all outputs."""
+    """This is the course over the degrees 0, 1, ..: the level of the best row of a mix, and the row (degree + 1, p) in all outputs."""
 
     levels: list[float]
     rows: list[Array]
 
 
 def _fit(moments: CrossMoments, coordinates: ObservedCoordinates, mix: Array) -> _Course:
-    """For degrees 0, 1, .. up to the number of observed states."""
+    """Fit rows of the degrees 0, 1, .. up to the number of observed states."""
     mixed = moments.mixed(mix).real_parts()
     course = _Course([], [])
     starts: tuple[Array, ...] = ()
@@ -237,7 +237,7 @@ def _fit(moments: CrossMoments, coordinates: ObservedCoordinates, mix: Array) ->
 
 
 def _solutions(conditions: Array, n_z: int) -> tuple[Array, Array]:
-    """Singular values (n + p,) of the conditions (.., n + p), and the n_z columns that meet them best."""
+    """Return singular values (n + p,) of the conditions (.., n + p), and the n_z columns that meet them best."""
     width = conditions.shape[1]
     _, values, right = np.linalg.svd(conditions)
     return np.concatenate([values, np.zeros(width - values.size)]), right[width - n_z :].T
@@ -248,8 +248,9 @@ def _told_bound(n_z: int, most: int) -> str:
 
 
 def _least_degree(levels: Array, samples: int, least: int) -> tuple[int, float]:
-    """The least degree, `least` or more, after which no longer row gains more than IDLE nats, and how clear that is (1 or more: clear
-    on both sides). `least` is what the observability indices of (A, C) demand: below it there is no alternative that a gain could refute.
+    """Return the least degree, `least` or more, after which no longer row gains more than IDLE nats, and how clear that is (1 or more:
+    clear on both sides). `least` is what the observability indices of (A, C) demand: below it there is no alternative that a gain could
+    refute.
     """
     idle = max(IDLE, 30 / samples)
     best = np.minimum.accumulate(levels[::-1])[::-1]
@@ -268,7 +269,7 @@ def _null_directions(data: Arguments, s: int) -> tuple[ObservedCoordinates, Arra
 
 
 def _zeros_by_rank(data: Arguments, faults: int, s: int) -> tuple[int, float]:
-    """zeta by the largest drop among the ranks of P R_s that it allows, and the drop."""
+    """Return zeta by the largest drop among the ranks of P R_s that it allows, and the drop."""
     s = min(s, (len(data.r) + 1) // (data.p + 1))
     coordinates, P, _, values = _null_directions(data, s)
     hidden = data.n - coordinates.observed
@@ -284,7 +285,7 @@ def _zeros_by_rank(data: Arguments, faults: int, s: int) -> tuple[int, float]:
 
 
 def null_row_covariance(P: Array, left: Array, values: Array, signal: int) -> Array:
-    """Covariance (p s, p s), up to a factor, of the error that white noise makes in each left singular vector to a
+    """Return the covariance (p s, p s), up to a factor, of the error that white noise makes in each left singular vector to a
     small value.
 
     To first order the vector tilts towards signal direction j with variance proportional to lambda_j / (lambda_j -
@@ -298,7 +299,7 @@ def null_row_covariance(P: Array, left: Array, values: Array, signal: int) -> Ar
 
 
 def _whitened(conditions: Array, maps: Array, uncertainty: Array, columns: Array) -> Array:
-    """Conditions (q, s, n + p) as (q s, n + p), each row's s conditions multiplied so that their errors at `columns`
+    """Return conditions (q, s, n + p) as (q s, n + p), each row's s conditions multiplied so that their errors at `columns`
     are white on average.
     """
     responses = np.einsum("kab,bz->kaz", maps, columns)

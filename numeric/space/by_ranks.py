@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 from ...base.arrays import Array
 from ..count.arguments import Arguments, arguments
 from ..count.windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
+from ..data.records import Stored, in_memory
 from .by_likelihood import fault_space_by_least_squares, fault_space_by_likelihood
 from .error_bound import fault_space_error_bound
 from .largest import largest_fault_space
@@ -44,8 +45,10 @@ __all__ = [
 ]
 
 
-def fault_space(r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None) -> FaultSpaceEstimate:
-    """The fault space of a residual r (N, p), in the units of y, for the model's A (n, n) and C (p, n): problem (11) of [G25].
+def fault_space(
+    r: ArrayLike | Stored, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None
+) -> FaultSpaceEstimate:
+    """Estimate the fault space of a residual r (N, p), in the units of y, for the model's A (n, n) and C (p, n): problem (11) of [G25].
 
     `n_v` is the number of faults, found from the data when not given; `block_rows` is s, by default the least window
     that surely suffices. Answers that mean nothing (no null rows, window not longer than the lag) are returned as
@@ -57,7 +60,7 @@ def fault_space(r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = N
     >>> found.n_z, bool(np.allclose(found.G[1], 2 * found.G[0]))
     (1, True)
     """
-    data = arguments(r, A, C, n_v, block_rows)
+    data = arguments(in_memory(r), A, C, n_v, block_rows)
     ladder = _ladder(data)
     if ladder.exact:
         return _from_ladder(data, ladder)
@@ -67,7 +70,7 @@ def fault_space(r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = N
 def noise_free_fault_space(
     r: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None
 ) -> FaultSpaceEstimate:
-    """The same from exact ranks: for a residual without noise, with an error bound from conditioning. Raises as
+    """Find the same from exact ranks, for a residual without noise, with an error bound from conditioning. Raises as
     `fault_space`.
     """
     data = arguments(r, A, C, n_v, block_rows)
@@ -76,7 +79,7 @@ def noise_free_fault_space(
 
 @dataclass(frozen=True)
 class Ladder:
-    """rank R_s and the drop behind it for s = 0 .. longest; `floor` bounds the rounding in the singular values."""
+    """The ladder holds rank R_s and the drop behind it for s = 0 .. longest; `floor` bounds the rounding in the singular values."""
 
     factor: Array
     scale: Array
@@ -86,17 +89,17 @@ class Ladder:
     exact: bool
 
     def gap(self, s: int) -> int:
-        """rank R_(s+1) - rank R_s."""
+        """Return the rank R_(s+1) - rank R_s."""
         return self.ranks[s + 1] - self.ranks[s]
 
     @property
     def final_gap(self) -> int:
-        """The step of the longest window seen: the number of independent faults once the window is beyond the lag."""
+        """Return the step of the longest window seen: the number of independent faults once the window is beyond the lag."""
         return self.gap(len(self.ranks) - 2)
 
     @property
     def lag(self) -> int:
-        """Least s from which on every step is the last one."""
+        """Return the least s from which on every step is the last one."""
         s = len(self.ranks) - 2
         while s > 0 and self.gap(s - 1) == self.final_gap:
             s -= 1
@@ -180,7 +183,7 @@ def _no_null_rows(data: Arguments, ladder: Ladder) -> str:
 
 
 def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int, margin: float) -> tuple[bool, str]:
-    """Whether the answer means something, and the sentence that says why or why not."""
+    """Return whether the answer means something, and the sentence that says why or why not."""
     s, lag, longest = data.block_rows, ladder.lag, len(ladder.ranks) - 1
     ranks = f"ranks of R_1 .. R_{longest}: {', '.join(map(str, ladder.ranks[1:]))}"
     if ladder.final_gap == 0:

@@ -31,7 +31,7 @@ DEPENDENT = 1e-12
 
 
 class HasMatrices(Protocol):
-    """Anything with A (n, n), B (n, n_u), C (p, n), D (p, n_u)."""
+    """This is anything with A (n, n), B (n, n_u), C (p, n) and D (p, n_u)."""
 
     @property
     def A(self) -> Any: ...
@@ -45,7 +45,7 @@ class HasMatrices(Protocol):
 
 @dataclass(frozen=True)
 class SubspaceComparison:
-    """span U and span V side by side; the distances are sines, `angles` radians in ascending order."""
+    """The comparison sets span U and span V side by side; the distances are sines, and `angles` are radians in ascending order."""
 
     dimensions: tuple[int, int]
     angles: Array
@@ -54,12 +54,12 @@ class SubspaceComparison:
 
     @property
     def same_dimension(self) -> bool:
-        """Whether the two-sided distance can be below one at all."""
+        """Say whether the two-sided distance can be below one at all."""
         return self.dimensions[0] == self.dimensions[1]
 
     @property
     def two_sided(self) -> float:
-        """The larger of both containment distances: |P_U - P_V| in the spectral norm."""
+        """Return the larger of both containment distances: |P_U - P_V| in the spectral norm."""
         return max(self.first_in_second, self.second_in_first)
 
     def __str__(self) -> str:
@@ -70,7 +70,7 @@ class SubspaceComparison:
 
 
 def principal_angles(U: object, V: object) -> Array:
-    """Principal angles in radians, ascending, between the column spans of U (d, k) and V (d, l): min(k, l) of them.
+    """Return principal angles in radians, ascending, between the column spans of U (d, k) and V (d, l): min(k, l) of them.
 
     Each comes from its sine and its cosine together, so that an angle of 1e-12 is as accurate as one of 1. Raises
     InvalidData for different numbers of rows, dependent columns, or entries that are not finite.
@@ -81,14 +81,14 @@ def principal_angles(U: object, V: object) -> Array:
 
 
 def containment_distance(U: object, V: object) -> float:
-    """Sine of the largest angle from span U to span V: 0 iff U lies in V, 1 if dim U > dim V. Raises as
+    """Return the sine of the largest angle from span U to span V: 0 iff U lies in V, 1 if dim U > dim V. Raises as
     `principal_angles`.
     """
     return compare_subspaces(U, V).first_in_second
 
 
 def subspace_distance(U: object, V: object) -> float:
-    """The two-sided distance, sine of the largest angle either way: 0 iff the spans are equal, 1 if their dimensions
+    """Return the two-sided distance, sine of the largest angle either way: 0 iff the spans are equal, 1 if their dimensions
     differ.
 
     Raises as `principal_angles`.
@@ -97,7 +97,7 @@ def subspace_distance(U: object, V: object) -> float:
 
 
 def compare_subspaces(U: object, V: object) -> SubspaceComparison:
-    """Dimensions, angles and both containments of span U (d, k) and span V (d, l). Raises as `principal_angles`."""
+    """Compare dimensions, angles and both containments of span U (d, k) and span V (d, l). Raises as `principal_angles`."""
     first, second = _orthonormal(U, "U"), _orthonormal(V, "V")
     _same_space(first, second)
     k, other = first.shape[1], second.shape[1]
@@ -107,7 +107,7 @@ def compare_subspaces(U: object, V: object) -> SubspaceComparison:
 
 
 def author_error(truth: object, estimate: object, n_v: int | None = None) -> float:
-    """The error as published: the 2-norm of the angles between the true [F; G] and the estimate over n_v pi/2.
+    """Return the error as published: the 2-norm of the angles between the true [F; G] and the estimate over n_v pi/2.
 
     `n_v` is the number of columns of `truth` (d, n_v) unless given. Two doubts come with it: the angles cannot
     exceed sqrt(n_v) pi/2 in norm, so that for n_v > 1 the error never reaches one; and an estimate that is the whole
@@ -122,7 +122,7 @@ def author_error(truth: object, estimate: object, n_v: int | None = None) -> flo
 
 
 def containment_error(truth: object, estimate: object) -> float:
-    """How far span `truth` (d, k) is from lying in span `estimate` (d, l): angle norm over sqrt(k) pi/2, from 0 to 1.
+    """Return how far span `truth` (d, k) is from lying in span `estimate` (d, l): angle norm over sqrt(k) pi/2, from 0 to 1.
 
     Directions of `truth` for which `estimate` has no room count as right angles. Raises as `principal_angles`.
     """
@@ -131,7 +131,7 @@ def containment_error(truth: object, estimate: object) -> float:
 
 
 def two_sided_error(truth: object, estimate: object) -> float:
-    """The metric of [YL16] on subspaces of all dimensions over its maximum, from 0 (equal spans) to 1. Raises as
+    """Return the metric of [YL16] on subspaces of all dimensions over its maximum, from 0 (equal spans) to 1. Raises as
     `principal_angles`.
 
     Each dimension that one span has more than the other counts as a right angle.
@@ -141,7 +141,7 @@ def two_sided_error(truth: object, estimate: object) -> float:
 
 
 def markov_distance(model1: HasMatrices, model2: HasMatrices, *, samples: int | None = None) -> float:
-    """|H1 - H2| / max(|H1|, |H2|), Frobenius norms over the Markov parameters D, CB, CAB, ...; between 0 and 2, no
+    """Return |H1 - H2| / max(|H1|, |H2|), Frobenius norms over the Markov parameters D, CB, CAB, ...; between 0 and 2, no
     basis matters.
 
     `samples` parameters are compared; by default n1 + n2 + 1, which are enough to tell any two different maps of
@@ -173,7 +173,7 @@ def _angles_and_dimensions(U: object, V: object) -> tuple[Array, int, int]:
 
 
 def _angles(first: Array, second: Array) -> Array:
-    """Cosines see right angles well, sines small ones; the arc tangent of both sees all. Orthonormal columns in."""
+    """Return cosines see right angles well, sines small ones; the arc tangent of both sees all. Orthonormal columns in."""
     if first.shape[1] < second.shape[1]:
         first, second = second, first
     if second.shape[1] == 0:

@@ -30,7 +30,7 @@ SHARP = 1e9
 
 
 def fault_space_error_bound(coordinates: ObservedCoordinates, left: Array, values: Array, rank: int, floor: float, columns: Array) -> float:
-    """Bound on the sine of the largest angle to the true space, at most 1, the ranks taken as right.
+    """Return the bound on the sine of the largest angle to the true space, at most 1, the ranks taken as right.
 
     `left` (p s, p s) and `values` (p s,) of R_s, `rank` its rank, `floor` the size of rounding in `values`, `columns`
     (n + p, n_z) the orthonormal solutions in the observed coordinates.
@@ -79,8 +79,8 @@ def fault_space_error_bound(coordinates: ObservedCoordinates, left: Array, value
 
 
 def _recursion_error(rows: Array, coordinates: ObservedCoordinates) -> float:
-    """Bound in Frobenius norm on the rounding in the conditions of `rows` (q, s, p): that of A and C, given and transformed, and of
-    every step of the recursion, carried on by the powers of A."""
+    """Return the bound in Frobenius norm on the rounding in the conditions of `rows` (q, s, p): that of A and C, given and transformed, and
+    of every step of the recursion, carried on by the powers of A."""
     A, C, T = coordinates.A, coordinates.C, coordinates.T
     n = A.shape[0]
     if n == 0:

@@ -27,7 +27,7 @@ HALF_THE_DIGITS = float(np.sqrt(EPS))
 
 
 def observability_indices(A: Array, C: Array) -> tuple[int, ...]:
-    """nu_1 <= .. <= nu_p of A (n, n) and C (p, n), ranks decided at half the digits; their sum is the number of observed states.
+    """Return nu_1 <= .. <= nu_p of A (n, n) and C (p, n), ranks decided at half the digits; their sum is the number of observed states.
 
     Neither the basis of the states nor the units of the outputs matter. Source: [K80].
     """
@@ -47,6 +47,7 @@ def observability_indices(A: Array, C: Array) -> tuple[int, ...]:
 
 
 def largest_fault_space(A: Array, C: Array, n_v: int) -> int:
-    """The most columns that the fault space of n_v <= p independent faults can have with A (n, n), C (p, n). Source: head of the module."""
+    """Return the most columns that the fault space of n_v <= p independent faults can have with A (n, n), C (p, n). Source: head of the
+    module."""
     p, n = C.shape
     return int(n) + n_v - sum(observability_indices(A, C)[: p - n_v])

@@ -13,12 +13,16 @@ p). Source: [G25] problem (11).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown
+from ..data.plain import plain
 
 DRAWS = 4000
 _SEED = 20250519
@@ -26,12 +30,13 @@ _SEED = 20250519
 
 @dataclass(frozen=True, eq=False)
 class SpaceUncertainty:
-    """`root` (q, n + p, n_z): the basis is off by the sum of root[i] times standard normal numbers, to first order."""
+    """The uncertainty is given by `root` (q, n + p, n_z): to first order the basis is off by the sum of root[i] times standard normal
+    numbers."""
 
     root: Array
 
     def angle(self, confidence: float = 0.95) -> float:
-        """Radians that the largest principal angle to the true space stays below with this probability; the same at
+        """Return the radians that the largest principal angle to the true space stays below with this probability; the same at
         every call.
 
         To first order in the noise: honest while it is small (up to half a radian, say). Raises InvalidData for a
@@ -47,8 +52,8 @@ class SpaceUncertainty:
         return float(np.arctan(np.quantile(sizes, confidence)))
 
 
-@dataclass(frozen=True)
-class FaultSpaceEstimate:
+@dataclass(frozen=True, repr=False)
+class FaultSpaceEstimate(Shown):
     """The columns [f; g] that explain no more than the residual shows.
 
     basis            (n + p, n_z), orthonormal columns
@@ -88,29 +93,72 @@ class FaultSpaceEstimate:
 
     @property
     def F(self) -> Array:
-        """Fhat, n x n_z."""
+        """Return Fhat, n x n_z."""
         return self.basis[: self.n]
 
     @property
     def G(self) -> Array:
-        """Ghat, p x n_z."""
+        """Return Ghat, p x n_z."""
         return self.basis[self.n :]
 
     @property
+    def title(self) -> str:
+        """Return what the estimate is, on one short line."""
+        if not self.meaningful:
+            return "fault space: none that means anything"
+        return f"fault space of dimension {self.n_z}{'' if self.decided else ' (undecided)'}, n_v {_or_undecided(self.n_v)}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield what there is to say of it, as pairs of a name and a value."""
+        yield "why", self.reason
+        yield "number of faults n_v", _or_undecided(self.n_v)
+        yield "zeros, finite and infinite", _or_undecided(self.zeta)
+        yield "equations", f"{self.equations} for the {self.unknowns} entries of a column [f; g]"
+        yield "method", f"{self.method}, windows of {self.block_rows} samples"
+        if self.error_bound is not None:
+            yield "sine of the angle to the true space", f"at most {self.error_bound:.2g}, from rounding"
+        if self.uncertainty is not None:
+            yield "angle to the true space", f"below {np.degrees(self.uncertainty.angle()):.2g} degrees with probability 0.95"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict; basis, F and G are null where the estimate means nothing."""
+        known = self.basis if self.meaningful else None
+        return {
+            "n": self.n,
+            "p": len(self.basis) - self.n,
+            "n_v": self.n_v,
+            "n_z": self.n_z if self.meaningful else None,
+            "zeta": self.zeta,
+            "equations": self.equations,
+            "unknowns": self.unknowns,
+            "meaningful": self.meaningful,
+            "decided": self.decided,
+            "reason": self.reason,
+            "block_rows": self.block_rows,
+            "basis": plain(known),
+            "F": plain(None if known is None else self.F),
+            "G": plain(None if known is None else self.G),
+        }
+
+    @property
     def zeta(self) -> int | None:
-        """Number of zeros, finite and infinite, of a left-invertible fault system; None where the data cannot tell:
+        """Return the number of zeros, finite and infinite, of a left-invertible fault system; None where the data cannot tell:
         n_v unknown, the answer without meaning, or n_z undecided.
         """
         return None if self.n_v is None or not self.meaningful or not self.decided else self.n_z - self.n_v
 
 
+def _or_undecided(number: int | None) -> str:
+    return "undecided" if number is None else str(number)
+
+
 def everything(n: int, p: int, n_v: int | None, block_rows: int, reason: str, *, lag: int | None = None) -> FaultSpaceEstimate:
-    """The estimate without a single equation: every column is a solution, which means nothing."""
+    """Return the estimate without a single equation: every column is a solution, which means nothing."""
     return FaultSpaceEstimate(np.eye(n + p), n + p, n, n_v, lag, block_rows, np.zeros(0), 0, n + p, 1.0, False, False, reason, None, "none")
 
 
 def kernel_conditions(rows: Array, A: Array, C: Array) -> Array:
-    """Conditions (q, s, n + p) of the kernel rows (q, s, p), row k holding [X_(k+1), N_k], for A (n, n), C (p, n)."""
+    """Return conditions (q, s, n + p) of the kernel rows (q, s, p), row k holding [X_(k+1), N_k], for A (n, n), C (p, n)."""
     q, s, p = rows.shape
     n = A.shape[0]
     conditions = np.zeros((q, s, n + p))
@@ -123,7 +171,7 @@ def kernel_conditions(rows: Array, A: Array, C: Array) -> Array:
 
 
 def condition_maps(A: Array, C: Array, s: int) -> Array:
-    """(s, p s, n + p): condition k of a row g (p s,) is g @ maps[k]. Column j of maps[k] is block column k of
+    """Return (s, p s, n + p): condition k of a row g (p s,) is g @ maps[k]. Column j of maps[k] is block column k of
     T_s(e_j).
     """
     p = C.shape[0]
@@ -131,5 +179,5 @@ def condition_maps(A: Array, C: Array, s: int) -> Array:
 
 
 def orthonormal(columns: Array) -> Array:
-    """Orthonormal columns with the span of independent `columns`."""
+    """Return orthonormal columns with the span of independent `columns`."""
     return np.asarray(np.linalg.qr(columns)[0]) if columns.shape[1] else columns

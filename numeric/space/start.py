@@ -28,8 +28,8 @@ SLACK = 0.3
 def joint_basis(
     moments: CrossMoments, coordinates: ObservedCoordinates, rows: int, degree: int, columns: Array, level: float
 ) -> KernelBasis | None:
-    """The likeliest basis of this many rows, whose degrees add up to `degree`, started from the fault space `columns` (n + p, n_z) in the
-    observed coordinates; None where no split of the degree comes near the `level` that single rows leave."""
+    """Find the likeliest basis of this many rows, whose degrees add up to `degree`, started from the fault space `columns` (n + p, n_z) in
+    the observed coordinates; None where no split of the degree comes near the `level` that single rows leave."""
     for degrees in islice(splits(degree, rows), SPLITS):
         within = [complement(coordinates.A, coordinates.C, eta + 1) for eta in degrees]
         start = rows_from(columns, coordinates, degrees)
@@ -42,13 +42,13 @@ def joint_basis(
 
 
 def splits(degree: int, rows: int) -> Iterator[tuple[int, ...]]:
-    """Ascending row degrees that add up to `degree`, the most equal first."""
+    """Return ascending row degrees that add up to `degree`, the most equal first."""
     parts = (part for part in combinations_with_replacement(range(degree + 1), rows) if sum(part) == degree)
     yield from sorted(parts, key=lambda part: (part[-1] - part[0], part[-1]))
 
 
 def complement(A: Array, C: Array, s: int) -> Array:
-    """P (k, p s) with orthonormal rows, P O_s = 0."""
+    """Return P (k, p s) with orthonormal rows, P O_s = 0."""
     blocks = [C]
     for _ in range(s - 1):
         blocks.append(blocks[-1] @ A)
@@ -59,7 +59,7 @@ def complement(A: Array, C: Array, s: int) -> Array:
 
 
 def rows_from(columns: Array, coordinates: ObservedCoordinates, degrees: tuple[int, ...]) -> list[Array] | None:
-    """Kernel rows (eta_i + 1, p) of these ascending degrees that come nearest to N T_s(z) = 0 for the columns z and leave no
+    """Return kernel rows (eta_i + 1, p) of these ascending degrees that come nearest to N T_s(z) = 0 for the columns z and leave no
     row a combination of shifts of the others; None where the degrees leave no room for that."""
     p = coordinates.C.shape[0]
     found: list[Array] = []

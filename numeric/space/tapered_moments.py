@@ -16,7 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.signal
+import scipy  # its folders are loaded when they are first used
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
@@ -33,8 +33,11 @@ EDGES = 0.1
 
 @dataclass(frozen=True)
 class CrossMoments:
-    """`moments` (bands, p (degree+1), p (degree+1)) of psi psi*, whose sum over bands has the mean square of psi as real
-    part; `weights` (bands,), the share of each band, summing to one; `angles` (bands,), its centre in radians a sample."""
+    """These are cross-spectral moments of the window psi.
+
+    `moments` (bands, p (degree+1), p (degree+1)) are those of psi psi*, whose sum over bands has the mean square of psi as real part;
+    `weights` (bands,) are the shares of the bands and sum to one; `angles` (bands,) are their centres in radians a sample.
+    """
 
     moments: ComplexArray
     weights: Array
@@ -44,25 +47,25 @@ class CrossMoments:
     samples: float
 
     def of_degree(self, degree: int) -> CrossMoments:
-        """The moments of the shorter window: the same samples, so that levels of different degrees are comparable."""
+        """Return the moments of the shorter window: the same samples, so that levels of different degrees are comparable."""
         size = self.channels * (degree + 1)
         moments = self.moments[:, :size, :size]
         return CrossMoments(moments, self.weights, self.angles, self.channels, degree, self.samples)
 
     def mixed(self, mix: Array) -> CrossMoments:
-        """The moments of r @ mix, mix (p, k)."""
+        """Return the moments of r @ mix, mix (p, k)."""
         repeated = np.kron(np.eye(self.degree + 1), mix)
         moments = repeated.T @ self.moments @ repeated
         return CrossMoments(moments, self.weights, self.angles, mix.shape[1], self.degree, self.samples)
 
     def real_parts(self) -> WindowMoments:
-        """What a single row asks of them."""
+        """Return what a single row asks of them."""
         count = round(self.samples)
         return WindowMoments(self.moments.real * count, self.weights * count, self.angles, self.channels, self.degree, count)
 
 
 def tapered_moments(r: Array, degree: int) -> CrossMoments:
-    """The moments of r (N, p). Raises InvalidData where the windows are fewer than twice their own size."""
+    """Return the moments of r (N, p). Raises InvalidData where the windows are fewer than twice their own size."""
     N, p = r.shape
     windows, size = N - degree, p * (degree + 1)
     if windows < 2 * size:

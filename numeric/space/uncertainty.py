@@ -22,7 +22,8 @@ from .result import SpaceUncertainty, condition_maps, kernel_conditions
 def space_uncertainty(
     rows: Sequence[Array], within: Sequence[Array], covariance: Array, coordinates: ObservedCoordinates, columns: Array
 ) -> SpaceUncertainty:
-    """For kernel rows (eta_i + 1, p), combinations of within[i] (q_i, p (eta_i + 1)) with coefficients of this covariance, and
+    """Return the uncertainty for kernel rows (eta_i + 1, p), combinations of within[i] (q_i, p (eta_i + 1)) with coefficients of this
+    covariance, and
     the solutions `columns` (n + p, n_z) of their conditions, all in the observed coordinates."""
     A, C = coordinates.A, coordinates.C
     conditions = np.vstack([kernel_conditions(row[None], A, C)[0] for row in rows])

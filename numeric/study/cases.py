@@ -27,7 +27,7 @@ from ..model.toeplitz_factorisation import toeplitz_factorisation
 from ..space.by_likelihood import fault_space_by_likelihood
 from ..space.distances import containment_error, two_sided_error
 from ..space.result import orthonormal
-from .experiments import NOISE_GAIN, Experiment, experiment, response
+from .runs import NOISE_GAIN, StudyRun, response, study_run
 from .systems import MOST_ZEROS, N_V, N_X, P, StudySystem, study_system
 
 Estimator = Callable[[Array, StateSpaceModel, int], Array]
@@ -42,8 +42,11 @@ PAPER, LIKELIHOOD = "paper", "likelihood"
 
 @dataclass(frozen=True)
 class Errors:
-    """Of one estimate, as fractions. `published`: angles from [F; G] over n_v pi/2; `containment`: the same over sqrt(n_v) pi/2;
-    `two_sided`: distance to the whole true fault space, dimensions included, over its maximum."""
+    """These are the errors of one estimate, as fractions.
+
+    `published` takes the angles from [F; G] over n_v pi/2, `containment` the same over sqrt(n_v) pi/2, and `two_sided` is the distance to
+    the whole true fault space, dimensions included, over its maximum.
+    """
 
     published: float
     containment: float
@@ -52,7 +55,7 @@ class Errors:
 
 @dataclass(frozen=True)
 class Estimate:
-    """What one estimator made of a case: dimension and errors, or the reason why there are none."""
+    """This is what one estimator made of a case: dimension and errors, or the reason why there are none."""
 
     n_z: int | None
     errors: Errors | None
@@ -61,10 +64,10 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Case:
-    """One system: its zeros, the window and rank taken, an estimate by name of estimator, and a random subspace of dimension n_z.
+    """A case is one system: its zeros, the window and rank taken, an estimate by name of estimator, and a random subspace of dimension n_z.
 
-    `vacuous`: the rank leaves no null row, so the published estimate is the whole space and says nothing. `decibels`: of the noise, as
-    measured. `distance_to_unit_circle` of the nearest zero, None without zeros.
+    It is `vacuous` where the rank leaves no null row, so that the published estimate is the whole space and says nothing. `decibels` are
+    those of the noise as measured, and `distance_to_unit_circle` is that of the nearest zero, None without zeros.
     """
 
     index: int
@@ -82,27 +85,27 @@ class Case:
 
     @property
     def n_zeros(self) -> int:
-        """Number of finite zeros."""
+        """Return the number of finite zeros."""
         return len(self.zeros)
 
 
 def published_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """As published: s = 5, the noise that is called 1 %, true matrices, the residual from a random initial state."""
+    """Estimate a case as published: s = 5, the noise that is called 1 %, true matrices, the residual from a random initial state."""
     return _with_true_model(index, seed, samples, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
 
 
 def corrected_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """A window beyond the lag, noise of 1 %, true matrices, both estimators."""
+    """Estimate a case with a window beyond the lag, noise of 1 %, true matrices, both estimators."""
     return _with_true_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD))
 
 
 def identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """As published, with the identified model; a refusal of the identification is recorded, not raised."""
+    """Estimate a case as published, with the identified model; a refusal of the identification is recorded, not raised."""
     return _with_identified_model(index, seed, samples, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
 
 
 def corrected_identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """As corrected, with the identified model and both estimators."""
+    """Estimate a case as corrected, with the identified model and both estimators."""
     return _with_identified_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD))
 
 
@@ -130,7 +133,7 @@ def _with_identified_model(
 
 
 class _Drawn:
-    """System, run and what is known of them before anything is estimated; one case after the other has a zero more."""
+    """The object holds system, run and what is known of them before anything is estimated; one case after the other has a zero more."""
 
     def __init__(self, index: int, seed: np.random.SeedSequence, samples: int, level: float, window: int) -> None:
         # Not seed.spawn, which would count the children and so change with a second use.
@@ -138,14 +141,14 @@ class _Drawn:
         of_system, of_run, of_start, of_subspace = parts
         self.index, self.window = index, window
         self.system: StudySystem = study_system(index % (MOST_ZEROS + 1), of_system)
-        self.run: Experiment = experiment(self.system, of_run, level=level, samples=samples)
+        self.run: StudyRun = study_run(self.system, of_run, level=level, samples=samples)
         self.start, self.subspace = np.random.default_rng(of_start), np.random.default_rng(of_subspace)
         self.rank = N_X + window * N_V - self.system.n_zeros
         self.vacuous = self.rank >= P * window
         self.n_z = N_X + P if self.vacuous else N_V + self.system.n_zeros
 
     def estimate(self, name: str, r: Array, model: StateSpaceModel, to_true: Array) -> Estimate:
-        """By the estimator of that name from r and the model's A, C; judged in the true state basis."""
+        """Estimate by the estimator of that name from r and the model's A, C, and measure the error in the true state basis."""
         try:
             if name == PAPER:
                 found = toeplitz_factorisation(r, model.A, model.C, block_rows=self.window, rank=self.rank, n_z=self.n_z)
@@ -156,7 +159,7 @@ class _Drawn:
         return Estimate(found.shape[1], _errors(self.system, orthonormal(np.vstack([to_true @ found[:N_X], found[N_X:]]))))
 
     def case(self, estimates: Mapping[str, Estimate]) -> Case:
-        """The record."""
+        """Make the record of the case."""
         system = self.system
         return Case(
             index=self.index,

@@ -47,11 +47,12 @@ EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class ExampleRun:
-    """Ranks for s = 1 .. 6. `default_*` count above max(rows, columns) eps sigma_1, `threshold_*` above 1; `window_gap` at s = 20.
+    """The run holds ranks for s = 1 .. 6: those named `default_*` count above max(rows, columns) eps sigma_1, those named `threshold_*`
+    above 1.
 
-    `angle_true`, `angle_identified`: two-sided error of the estimated fault space, as fractions, the latter with the right rank given at
-    s = 4; `angle_published`: with the threshold's rank at s = 5. `fault_space_dimension`: the true one.
-    `state_error`: relative error of A in the true state basis.
+    `window_gap` is the gap at s = 20. `angle_true` and `angle_identified` are the two-sided errors of the estimated fault space, as
+    fractions, the latter with the right rank given at s = 4; `angle_published` is that with the threshold's rank at s = 5.
+    `fault_space_dimension` is the true one, and `state_error` is the relative error of A in the true state basis.
     """
 
     theory: tuple[int, ...]
@@ -70,18 +71,19 @@ class ExampleRun:
 
     @property
     def published_gap(self) -> int:
-        """rank R_6 - rank R_5 of the identified branch at the published threshold."""
+        """Return the rank R_6 - rank R_5 of the identified branch at the published threshold."""
         return self.threshold_identified[IDENTIFIED_WINDOW] - self.threshold_identified[IDENTIFIED_WINDOW - 1]
 
     @property
     def differs(self) -> tuple[int, ...]:
-        """Windows at which the published threshold's rank is not the theoretical one."""
+        """Return the windows at which the published threshold's rank is not the theoretical one."""
         pairs = zip(self.theory, self.threshold_identified, strict=True)
         return tuple(s for s, (right, got) in enumerate(pairs, 1) if right != got)
 
 
 def system() -> tuple[StateSpaceModel, Array, Array]:
-    """The model A, B, C, D, and F (3, 1), G (2, 1); F the second unit eigenvector of A^2 - A, which belongs to A's eigenvalue 0.35."""
+    """Return the model A, B, C, D, and F (3, 1), G (2, 1); F the second unit eigenvector of A^2 - A, which belongs to A's eigenvalue
+    0.35."""
     A = np.array([[0, 1, 0], [0, 0, 1], [-0.25, 0.75, 0.25]])
     values, vectors = np.linalg.eig(A)
     F = np.real(vectors[:, [int(np.argmin(np.abs(values)))]])
@@ -90,7 +92,7 @@ def system() -> tuple[StateSpaceModel, Array, Array]:
 
 
 def example_v(seed: int = 1907, *, samples: int = SAMPLES) -> ExampleRun:
-    """One run; equal seeds give equal runs. Raises InvalidData for too few samples."""
+    """Do one run; equal seeds give equal runs. Raises InvalidData for too few samples."""
     model, F, G = system()
     r_true, r_found, found, to_true = _residuals(seed, samples)
     Z = exact_fault_space(model.A, F, model.C, G)
@@ -115,14 +117,14 @@ def example_v(seed: int = 1907, *, samples: int = SAMPLES) -> ExampleRun:
 
 
 def published_ranks(seed: int, *, samples: int = SAMPLES) -> tuple[int, int]:
-    """rank R_5 and rank R_6 of one run's identified branch, singular values above 1 counted as published."""
+    """Return the rank R_5 and rank R_6 of one run's identified branch, singular values above 1 counted as published."""
     r = _residuals(seed, samples)[1]
     first, second = (int(np.sum(_values(r, s) > PUBLISHED_THRESHOLD)) for s in (IDENTIFIED_WINDOW, IDENTIFIED_WINDOW + 1))
     return first, second
 
 
 def tally(runs: int = 50, *, samples: int = SAMPLES) -> Iterator[str]:
-    """How often which ranks come out over `runs` seeds, in words."""
+    """Say in words how often which ranks come out over `runs` seeds."""
     right = behaviour_ranks(*_fault_matrices(), IDENTIFIED_WINDOW + 1)[-2:]
     counted = Counter(published_ranks(seed, samples=samples) for seed in range(runs))
     yield f"ranks of R_{IDENTIFIED_WINDOW}, R_{IDENTIFIED_WINDOW + 1} at the threshold {PUBLISHED_THRESHOLD:g} over {runs} runs:"
@@ -131,7 +133,7 @@ def tally(runs: int = 50, *, samples: int = SAMPLES) -> Iterator[str]:
 
 
 def lines(run: ExampleRun) -> Iterator[str]:
-    """The run in words, and by itself where it is not what theory says."""
+    """Yield the run in words, and say by itself where it is not what theory says."""
     yield f"{'ranks of R_s for s =':46}" + " ".join(f"{s:3}" for s in range(1, SHOWN_WINDOWS + 1))
     yield _row("theory, rank [O_s T_s]", run.theory)
     yield _row("true system, default tolerance", run.default_true)
@@ -168,19 +170,19 @@ def lines(run: ExampleRun) -> Iterator[str]:
 
 
 def recorded_errors() -> tuple[float, float]:
-    """Two-sided errors, as fractions, of the author's recorded fault spaces: from the true system and from his identified one."""
+    """Return two-sided errors, as fractions, of the author's recorded fault spaces: from the true system and from his identified one."""
     Z = exact_fault_space(*_fault_matrices())
     true, identified = (two_sided_error(Z, np.array(columns).T) for columns in (RECORDED, RECORDED_IDENTIFIED))
     return true, identified
 
 
 def behaviour_ranks(A: Array, F: Array, C: Array, G: Array, windows: int) -> tuple[int, ...]:
-    """rank [O_s T_s] for s = 1 .. windows, by singular values; for matrices of moderate size and condition."""
+    """Return the rank [O_s T_s] for s = 1 .. windows, by singular values; for matrices of moderate size and condition."""
     return tuple(int(np.linalg.matrix_rank(_behaviour(A, F, C, G, s))) for s in range(1, windows + 1))
 
 
 def exact_fault_space(A: Array, F: Array, C: Array, G: Array) -> Array:
-    """Orthonormal basis (n + p, n_z) of the columns that satisfy problem (11) for the known matrices, at s = n + 1."""
+    """Return orthonormal basis (n + p, n_z) of the columns that satisfy problem (11) for the known matrices, at s = n + 1."""
     n, p = A.shape[0], C.shape[0]
     s = n + 1
     behaviour = _behaviour(A, F, C, G, s)
@@ -195,7 +197,8 @@ def _fault_matrices() -> tuple[Array, Array, Array, Array]:
 
 
 def _residuals(seed: int, samples: int) -> tuple[Array, Array, StateSpaceModel, Array]:
-    """Residuals of the true and of the identified system from one random start, the identified model, T with O_true T = O_found."""
+    """Return the residuals of the true and of the identified system from one random start, the identified model, T with O_true T =
+    O_found."""
     rng = np.random.default_rng(seed)
     model, F, G = system()
     t = np.arange(samples)
@@ -212,7 +215,7 @@ def _residuals(seed: int, samples: int) -> tuple[Array, Array, StateSpaceModel, 
 
 
 def _behaviour(A: Array, F: Array, C: Array, G: Array, s: int) -> Array:
-    """[O_s T_s], (p s, n + n_v s)."""
+    """Return [O_s T_s], (p s, n + n_v s)."""
     markov = StateSpaceModel(A, F, C, G).markov(s)
     zero = np.zeros_like(markov[0])
     toeplitz = np.block([[markov[i - j] if i >= j else zero for j in range(s)] for i in range(s)])
@@ -220,13 +223,13 @@ def _behaviour(A: Array, F: Array, C: Array, G: Array, s: int) -> Array:
 
 
 def _identified_error(r: Array, found: StateSpaceModel, to_true: Array, Z: Array, window: int, rank: int) -> float:
-    """Error of the identified branch with rank and dimension given, the estimate carried to the true state basis."""
+    """Return the error of the identified branch with rank and dimension given, the estimate carried to the true state basis."""
     estimate = toeplitz_factorisation(r, found.A, found.C, block_rows=window, rank=rank, n_z=Z.shape[1])
     return two_sided_error(Z, np.vstack([to_true @ estimate[:ORDER], estimate[ORDER:]]))
 
 
 def _values(r: Array, s: int) -> Array:
-    """Singular values of R_s, unscaled, as published."""
+    """Return singular values of R_s, unscaled, as published."""
     return np.asarray(np.linalg.svd(hankel_factor(r, s), compute_uv=False))
 
 

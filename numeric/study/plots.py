@@ -31,12 +31,12 @@ LEAST = 1e-2
 
 
 def error_histogram(study: Study, ax: Any = None, *, estimator: str = PAPER) -> Any:
-    """Number of cases by error, coloured by number of zeros; vacuous cases have no error and stand hatched at the left edge."""
+    """Draw the number of cases by error, coloured by number of zeros; vacuous cases have no error and stand hatched at the left edge."""
     ax = _axes(ax)
-    shown = [case for case in study.cases if _percent(study, case, estimator) is not None and not case.vacuous]
+    drawn = [case for case in study.cases if _percent(study, case, estimator) is not None and not case.vacuous]
     edges = np.geomspace(LEAST, 100, BINS + 1)
-    kinds = sorted({case.n_zeros for case in shown})
-    samples = [[_percent(study, case, estimator) for case in shown if case.n_zeros == k] for k in kinds]
+    kinds = sorted({case.n_zeros for case in drawn})
+    samples = [[_percent(study, case, estimator) for case in drawn if case.n_zeros == k] for k in kinds]
     if samples:
         colours, labels = [COLOURS[k] for k in kinds], [_zeros(k) for k in kinds]
         ax.hist(samples, edges, stacked=True, color=colours, label=labels, edgecolor="white", linewidth=0.5)
@@ -59,7 +59,8 @@ def error_histogram(study: Study, ax: Any = None, *, estimator: str = PAPER) -> 
 
 
 def errors_by_zeros(study: Study, ax: Any = None) -> Any:
-    """Box plot: quartiles, whiskers from 10 to 90 %, all cases as points, the median in figures; the random subspace's median as a bar."""
+    """Draw a box plot: quartiles, whiskers from 10 to 90 %, all cases as points, the median in figures; the random subspace's median as a
+    bar."""
     ax = _axes(ax)
     _boxes(ax, study, by_zeros(study), cases_by_zeros(study))
     ax.set_title("By number of finite zeros")
@@ -67,7 +68,7 @@ def errors_by_zeros(study: Study, ax: Any = None) -> Any:
 
 
 def errors_by_phase(study: Study, ax: Any = None) -> Any:
-    """The same for systems without zeros, with all zeros in the unit circle, and with a zero outside."""
+    """Draw the same for systems without zeros, with all zeros in the unit circle, and with a zero outside."""
     ax = _axes(ax)
     _boxes(ax, study, by_phase(study), cases_by_phase(study))
     ax.set_title("By phase")
@@ -75,7 +76,8 @@ def errors_by_phase(study: Study, ax: Any = None) -> Any:
 
 
 def errors_against_circle(study: Study, ax: Any = None, *, estimator: str = PAPER) -> Any:
-    """Error over the distance of the nearest zero to the unit circle, both logarithmic; open marks: one zero or more outside the circle."""
+    """Draw the error over the distance of the nearest zero to the unit circle, both logarithmic; open marks: one zero or more outside the
+    circle."""
     ax = _axes(ax)
     for k, colour in COLOURS.items():
         for minimum_phase in (True, False):
@@ -100,7 +102,8 @@ def errors_against_circle(study: Study, ax: Any = None, *, estimator: str = PAPE
 
 
 def study_figure(study: Study) -> Any:
-    """A figure with all plots, histogram and circle for each estimator, made without any window system: save it with `figure.savefig`."""
+    """Make a figure with all plots, histogram and circle for each estimator, made without any window system: save it with
+    `figure.savefig`."""
     from matplotlib.figure import Figure
 
     estimators = study.plan.estimators
@@ -125,7 +128,7 @@ def study_figure(study: Study) -> Any:
 
 
 def _boxes(ax: Any, study: Study, groups: list[Group], members: dict[str, list[Case]]) -> None:
-    """Groups of one label stand together, one box for each estimator."""
+    """Draw the groups of one label together, one box for each estimator."""
     spread = np.random.default_rng(0)
     labels, estimators = list(members), study.plan.estimators
     width = 0.8 / len(estimators)
@@ -137,8 +140,8 @@ def _boxes(ax: Any, study: Study, groups: list[Group], members: dict[str, list[C
             name = group.label.replace("not minimum ", "not minimum\n")
             ticks.append(f"{name}\n({group.cases}{_remark(group)})")
         if group.vacuous:
-            told = "vacuous:\nno null row,\nerror zero by\nconstruction"
-            ax.text(place, LEAST * 1.2, told, ha="center", va="bottom", fontsize="small", color=INK)
+            label = "vacuous:\nno null row,\nerror zero by\nconstruction"
+            ax.text(place, LEAST * 1.2, label, ha="center", va="bottom", fontsize="small", color=INK)
             continue
         if group.quantiles is None:
             continue
@@ -169,12 +172,12 @@ def _boxes(ax: Any, study: Study, groups: list[Group], members: dict[str, list[C
 
 
 def _once(ax: Any, label: str) -> str | None:
-    """The label, unless something on the axes has it."""
+    """Return the label, unless something on the axes has it."""
     return None if label in ax.get_legend_handles_labels()[1] else label
 
 
 def _percent(study: Study, case: Case, estimator: str) -> float | None:
-    """The error to draw; None where there is none."""
+    """Return the error to draw; None where there is none."""
     error = study.error(case, estimator)
     return None if error is None else max(100 * error, LEAST)
 

@@ -43,7 +43,7 @@ import scipy.special
 from ...base.errors import InvalidData
 from ..data.validation import positive
 from .cases import LIKELIHOOD, PAPER, Case, corrected_case, corrected_identified_case, identified_case, published_case
-from .experiments import SAMPLES
+from .runs import SAMPLES
 from .workers import Progress, in_order
 
 SEED = 1907
@@ -53,8 +53,8 @@ CONFIDENCE = 0.95
 
 @dataclass(frozen=True)
 class Plan:
-    """What a study does with each system. `metric` names the field of `Errors` that is its error; `worth`: systems that are worth
-    the start of a process."""
+    """The plan says what a study does with each system. `metric` names the field of `Errors` that is its error, and `worth` is the
+    number of systems that are worth the start of a process."""
 
     name: str
     title: str
@@ -89,9 +89,11 @@ STUDIES = {plan.name: plan for plan in (PUBLISHED, IDENTIFIED, CORRECTED, CORREC
 
 @dataclass(frozen=True)
 class Group:
-    """The cases of one kind by one estimator: how many, how many of them vacuous, without an error, with the true dimension; quantiles 10,
-    25, 50, 75, 90 % of the error, the confidence interval of its median, the median by containment alone, over that metric's own maximum
-    (low where the estimate holds [F; G] but has a wrong dimension), a random subspace's median. None where there is nothing to tell.
+    """The group holds the cases of one kind by one estimator; a field is None where there is nothing to report.
+
+    It says how many cases there are and how many of them are vacuous, have no error, or have the true dimension; the quantiles 10, 25, 50,
+    75, 90 % of the error with the confidence interval of its median; the median by containment alone, over that metric's own maximum (it is
+    low where the estimate holds [F; G] but has a wrong dimension); and the median of a random subspace.
     """
 
     label: str
@@ -107,7 +109,7 @@ class Group:
 
     @property
     def median(self) -> float | None:
-        """Of the error, a fraction."""
+        """Return the median of the error, as a fraction."""
         return None if self.quantiles is None else self.quantiles[QUANTILES.index(0.5)]
 
 
@@ -122,16 +124,16 @@ class Study:
     seconds: float
 
     def error(self, case: Case, estimator: str = PAPER) -> float | None:
-        """The study's error of a case by an estimator; None where there is no estimate."""
+        """Return the study's error of a case by an estimator; None where there is no estimate."""
         errors = case.estimates[estimator].errors
         return None if errors is None else float(getattr(errors, self.plan.metric))
 
     def random_error(self, case: Case) -> float:
-        """The same of a random subspace."""
+        """Return the study's error of a random subspace."""
         return float(getattr(case.random, self.plan.metric))
 
     def to_json(self) -> dict[str, Any]:
-        """A JSON-ready record: settings, tables, cases. Equal studies give equal records but for "seconds"."""
+        """Return a JSON-ready record: settings, tables, cases. Equal studies give equal records but for "seconds"."""
         plan = self.plan
         return {
             "name": plan.name,
@@ -158,14 +160,14 @@ def monte_carlo(
     samples: int = SAMPLES,
     jobs: int | None = None,
     cluster: str | None = None,
-    progress: Progress | None = None,
+    on_progress: Progress | None = None,
 ) -> Study:
-    """The paper's Monte Carlo study: how far the estimated fault space lies from the true one, over many random systems.
+    """Run the paper's Monte Carlo study: how far the estimated fault space lies from the true one, over many random systems.
 
     `plan` is one of PUBLISHED, IDENTIFIED, CORRECTED and CORRECTED_IDENTIFIED, or its name in `STUDIES`: "published", "identified",
     "corrected", "corrected-identified". `systems` random systems are drawn, a quarter for each number of zeros from 0 to 3, with records of
     `samples` samples each; equal seeds give equal cases. `jobs` processes share the work (None: all cores, as far as they are worth their
-    start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `progress` is called with (done,
+    start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `on_progress` is called with (done,
     total, seconds left) as cases come in. The Study has `cases`, whose errors are fractions of the metric's maximum, and `to_json()`.
     Source: [G25] section V; [YL16] for the distances.
 
@@ -185,12 +187,12 @@ def monte_carlo(
         raise InvalidData(f"seed: got {seed}; a whole number from 0 on is needed")
     start = time.perf_counter()
     tasks = [(index, child, samples) for index, child in enumerate(np.random.SeedSequence(seed).spawn(systems))]
-    cases = in_order(plan.case, tasks, worth=plan.worth, jobs=jobs, cluster=cluster, progress=progress)
+    cases = in_order(plan.case, tasks, worth=plan.worth, jobs=jobs, cluster=cluster, progress=on_progress)
     return Study(plan, seed, samples, tuple(cases), time.perf_counter() - start)
 
 
 def cases_by_zeros(study: Study) -> dict[str, list[Case]]:
-    """The cases by number of zeros: "0 zeros", "1 zero", ..."""
+    """Return the cases by number of zeros: "0 zeros", "1 zero", ..."""
     kinds: dict[str, list[Case]] = {}
     for case in sorted(study.cases, key=lambda case: case.n_zeros):
         kinds.setdefault(f"{case.n_zeros} zero{'' if case.n_zeros == 1 else 's'}", []).append(case)
@@ -198,7 +200,7 @@ def cases_by_zeros(study: Study) -> dict[str, list[Case]]:
 
 
 def cases_by_phase(study: Study) -> dict[str, list[Case]]:
-    """The cases without zeros, the minimum-phase ones, and those with a zero outside the unit circle; kinds that have a case."""
+    """Return the cases without zeros, the minimum-phase ones, and those with a zero outside the unit circle; kinds that have a case."""
     kinds = {
         "no zeros": [case for case in study.cases if not case.zeros],
         "minimum phase": [case for case in study.cases if case.zeros and case.minimum_phase],
@@ -208,18 +210,18 @@ def cases_by_phase(study: Study) -> dict[str, list[Case]]:
 
 
 def by_zeros(study: Study) -> list[Group]:
-    """For each number of zeros a group for each estimator."""
+    """Return a group for each number of zeros and each estimator."""
     return _groups(study, cases_by_zeros(study))
 
 
 def by_phase(study: Study) -> list[Group]:
-    """For each kind of phase a group for each estimator."""
+    """Return a group for each kind of phase and each estimator."""
     return _groups(study, cases_by_phase(study))
 
 
 def median_interval(values: list[float]) -> tuple[float, float] | None:
-    """The order statistics between which the median lies with a probability of 95 % or more, whatever the distribution; None for fewer
-    than six values, which have no such pair."""
+    """Return the order statistics between which the median lies with a probability of 95 % or more, whatever the distribution; None for
+    fewer than six values, which have no such pair."""
     count = len(values)
     below = scipy.special.bdtr(np.arange(count), count, 0.5)  # P(at most k values lie below the median)
     k = int(np.sum(below <= (1 - CONFIDENCE) / 2))

@@ -50,7 +50,10 @@ ZERO_TOLERANCE = 1e-8
 
 @dataclass(frozen=True, eq=False)
 class StudySystem:
-    """x+ = A x + B u + F v, y = C x + D u + G v + w; `zeros` (k,) real, ascending; `Z` (n + p, n_v + k) orthonormal; `attempts` made."""
+    """The system is x+ = A x + B u + F v, y = C x + D u + G v + w.
+
+    `zeros` (k,) are real and ascending, `Z` (n + p, n_v + k) is orthonormal and spans the fault space, and `attempts` draws were made.
+    """
 
     model: StateSpaceModel
     F: Array
@@ -61,27 +64,27 @@ class StudySystem:
 
     @property
     def n_zeros(self) -> int:
-        """Number of finite zeros; there are none at infinity."""
+        """Return the number of finite zeros; there are none at infinity."""
         return int(self.zeros.size)
 
     @property
     def minimum_phase(self) -> bool:
-        """Whether no zero lies outside the unit circle."""
+        """Say whether no zero lies outside the unit circle."""
         return bool(np.all(np.abs(self.zeros) <= 1))
 
     @property
     def distance_to_unit_circle(self) -> float:
-        """Of the nearest zero; NaN without zeros."""
+        """Return the distance of the nearest zero to the unit circle; it is NaN without zeros."""
         return float(np.min(np.abs(np.abs(self.zeros) - 1))) if self.zeros.size else float("nan")
 
     @property
     def fault_columns(self) -> Array:
-        """[F; G], (n + p, n_v)."""
+        """Return [F; G], (n + p, n_v)."""
         return np.vstack([self.F, self.G])
 
 
 def study_system(n_zeros: int, seed: np.random.SeedSequence | int) -> StudySystem:
-    """A system with exactly `n_zeros` finite zeros, 0 to 3, the same for the same seed. Raises InvalidData for other numbers."""
+    """Return a system with exactly `n_zeros` finite zeros, 0 to 3, the same for the same seed. Raises InvalidData for other numbers."""
     if n_zeros not in range(MOST_ZEROS + 1):
         raise InvalidData(f"n_zeros: got {n_zeros}; systems with 0, 1, 2 or 3 finite zeros can be built")
     rng = np.random.default_rng(seed)
@@ -104,7 +107,7 @@ def study_system(n_zeros: int, seed: np.random.SeedSequence | int) -> StudySyste
 def with_zeros(
     A: Array, C: Array, zeros: Sequence[float] | Array, directions: Sequence[int], rng: np.random.Generator, n_v: int = N_V
 ) -> tuple[Array, Array, Array]:
-    """F (n, n_v), G (p, n_v) and W (n, k): zero i at zeros[i] with state W[:, i] and fault direction unit vector directions[i].
+    """Return F (n, n_v), G (p, n_v) and W (n, k): zero i at zeros[i] with state W[:, i] and fault direction unit vector directions[i].
 
     F, G are normal on the space of all that do, which is that of the paper's generator [G25]. Raises InvalidData where there are none.
     """
@@ -128,7 +131,8 @@ def with_zeros(
 
 
 def pencil_zeros(A: Array, F: Array, C: Array, G: Array, rng: np.random.Generator | None = None) -> ComplexArray:
-    """The finite zeros of P(q) = [[q I - A, -F], [C, G]] with p >= n_v, by modulus; a simple one counts once, multiple ones are merged.
+    """Return the finite zeros of P(q) = [[q I - A, -F], [C, G]] with p >= n_v, by modulus; a simple one counts once, multiple ones are
+    merged.
 
     p - n_v random combinations of outputs are left out, which leaves a square pencil whose eigenvalues contain the zeros; those at which
     the whole pencil loses rank are the zeros. Two independent compressions must agree, so that no zero is lost to an unlucky one.
@@ -143,7 +147,7 @@ def pencil_zeros(A: Array, F: Array, C: Array, G: Array, rng: np.random.Generato
 
 
 def _poles(rng: np.random.Generator) -> ComplexArray:
-    """Five poles: real ones uniform in (-1, 1), pairs of uniform modulus and uniform angle, each with probability one half."""
+    """Return five poles: real ones uniform in (-1, 1), pairs of uniform modulus and uniform angle, each with probability one half."""
     poles: list[complex] = []
     while len(poles) < N_X:
         radius, angle = rng.uniform(-1, 1), rng.uniform(-np.pi, np.pi)
@@ -154,14 +158,14 @@ def _poles(rng: np.random.Generator) -> ComplexArray:
 
 
 def _companion(poles: ComplexArray) -> Array:
-    """The matrix with ones above the diagonal whose last row holds the characteristic polynomial of these poles."""
+    """Return the matrix with ones above the diagonal whose last row holds the characteristic polynomial of these poles."""
     A = np.eye(len(poles), k=1)
     A[-1] = -np.real(np.poly(poles))[:0:-1]
     return A
 
 
 def _third_zero(A: Array, F: Array, C: Array, G: Array, zeros: Array) -> tuple[float, Array]:
-    """The zero that follows from two planted in the first fault, from the trace, and its state."""
+    """Return the zero that follows from two planted in the first fault, from the trace, and its state."""
     f, g = F[:, 0], G[:, 0]
     third = -f[2] / f[1] + A[-1, -1] - zeros.sum()
     pencil = np.vstack([np.column_stack([A - third * np.eye(N_X), f]), np.column_stack([C, g])])
@@ -169,7 +173,7 @@ def _third_zero(A: Array, F: Array, C: Array, G: Array, zeros: Array) -> tuple[f
 
 
 def _as_intended(A: Array, F: Array, C: Array, G: Array, zeros: Array) -> bool:
-    """Whether the pencil has these zeros and no others, and G full column rank, so that none is at infinity."""
+    """Say whether the pencil has these zeros and no others, and G full column rank, so that none is at infinity."""
     if np.linalg.cond(G) > 1 / ZERO_TOLERANCE or (zeros.size > 1 and np.min(np.diff(zeros)) < 1e-3):
         return False
     found = pencil_zeros(A, F, C, G)
@@ -179,7 +183,7 @@ def _as_intended(A: Array, F: Array, C: Array, G: Array, zeros: Array) -> bool:
 
 
 def _fault_space(A: Array, F: Array, C: Array, G: Array, W: Array) -> Array:
-    """Orthonormal basis of im [F; G] + [A; C] W + [W; 0], whose dimension is n_v + k: [A; C] w lies in the span of the others."""
+    """Return orthonormal basis of im [F; G] + [A; C] W + [W; 0], whose dimension is n_v + k: [A; C] w lies in the span of the others."""
     p, k = C.shape[0], W.shape[1]
     states = W / np.linalg.norm(W, axis=0)
     return np.asarray(np.linalg.qr(np.block([[F, states], [G, np.zeros((p, k))]]))[0])
@@ -195,7 +199,7 @@ def _candidates(A: Array, F: Array, C: Array, G: Array, rng: np.random.Generator
 
 
 def _lose_rank(A: Array, F: Array, C: Array, G: Array, points: ComplexArray) -> NDArray[np.bool_]:
-    """At which of the points (k,) the pencil's least singular value is nothing beside the largest."""
+    """Say at which of the points (k,) the pencil's least singular value is nothing beside the largest."""
     constant, linear = np.block([[-A, -F], [C, G]]), np.eye(A.shape[0] + C.shape[0], A.shape[0] + F.shape[1])
     linear[A.shape[0] :] = 0
     values = np.linalg.svd(constant + points[:, None, None] * linear, compute_uv=False)

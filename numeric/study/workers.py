@@ -36,7 +36,8 @@ def in_order(
     cluster: str | None = None,
     progress: Progress | None = None,
 ) -> list[Result]:
-    """function(*task) for every task; `jobs` processes (None: all cores), or the workers of the Dask scheduler at the address `cluster`.
+    """Call function(*task) for every task and return the results in order; `jobs` processes (None: all cores), or the workers of the Dask
+    scheduler at the address `cluster`.
 
     Raises InvalidData for numbers below one, for a cluster and jobs at once, and for a cluster that cannot be used.
     """
@@ -83,6 +84,6 @@ def _client(address: str) -> AbstractContextManager[Any]:
     try:
         client: AbstractContextManager[Any] = Client(address, timeout=PATIENCE)
     except (OSError, ValueError, TypeError) as error:
-        told = " ".join(str(error).split()) or type(error).__name__
-        raise InvalidData(f"cluster: no Dask scheduler answers at {address!r} ({told}); an address is like tcp://HOST:8786") from None
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise InvalidData(f"cluster: no Dask scheduler answers at {address!r} ({reason}); an address is like tcp://HOST:8786") from None
     return client

@@ -9,7 +9,8 @@
     limit_attacks, limit_catalogue, feedback_attacks   experiments and their limits
     structure_attacks, pair_attacks   systems, and pairs of fault matrices
     catalogue    all attacks
-    results      the file of results: written by a run, shown and checked again by `verify`
+    witnesses    what an attack has found, once the checker has accepted it
+    results      the file of results: written by a run, checked again by `verify`
     attacking    what a run of `verify` does with them
 
 A random system is no adversary: what fails on a hypersurface is never met by samples, but a determinant changes its sign across it. A

@@ -1,4 +1,4 @@
-"""`python -m faultspace.proofs.adversary`: runs the attacks and tells how they ended; with --out, writes the file of results.
+"""`python -m faultspace.proofs.adversary`: runs the attacks and says how they ended; with --out, writes the file of results.
 
 Exit code 0: every attack ended as the ledger expects of its target; 1: one did not, or was not found to refute what is false.
 """
@@ -16,7 +16,7 @@ from .results import AttackRecord, refuting, run_attacks, stale, words_of, write
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command."""
+    """Runs the attacks that the arguments choose, prints how each ended, and returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m faultspace.proofs.adversary", description="Attacks on what is not proved in general.")
     parser.add_argument("--reading", metavar="ID", action="append", help="only attacks on this target, as claim.reading; may be repeated")
     parser.add_argument("--stale", action="store_true", help="only attacks that the file of --out has no record of, or one of other words")
@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{record['attack']}\n  {words_of(record)}", flush=True)
         if given.out is not None:  # at once: a run that is stopped keeps what it has found
             write([*_kept(given.out, {one["attack"] for one in records}), *records], given.out)
-    return _told(records)
+    return _exit_code(records)
 
 
 def _progress(name: str, done: int, total: int) -> None:
@@ -47,14 +47,14 @@ def _progress(name: str, done: int, total: int) -> None:
 
 
 def _kept(path: Path, again: set[str]) -> list[AttackRecord]:
-    """The records of the file that did not run now."""
+    """Returns the records of the file that did not run now."""
     if not path.exists():
         return []
     return [record for record in json.loads(path.read_text(encoding="utf-8"))["attacks"] if record["attack"] not in again]
 
 
-def _told(records: Sequence[AttackRecord]) -> int:
-    """Against the ledger: what is false is refuted by one of its attacks, what stands by none."""
+def _exit_code(records: Sequence[AttackRecord]) -> int:
+    """Returns 0 where what is false, by the ledger, is refuted by one of its attacks, and what stands by none; else 1."""
     surprises = []
     for target in dict.fromkeys(record["target"] for record in records):
         found = any(refuting(record) for record in records if record["target"] == target)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from ..evidence.attacks import Attacked
 from ..evidence.corpus import Progress
 from .catalogue import WITHOUT, attacks_on, catalogue
-from .results import AttackRecord, run_attacks, shown
+from .results import AttackRecord, checked_again, run_attacks
 
 if TYPE_CHECKING:
     from ..verdict.verdicts import ReadingResult, Row
@@ -27,28 +27,28 @@ SECONDS = 15.0
 
 @dataclass(frozen=True)
 class Attacking:
-    """The records on which this run rests."""
+    """A run of `verify` rests on these records; None stands for those of the package's file."""
 
     records: tuple[AttackRecord, ...] | None
 
 
 def attacking(claims: set[str], effort: str, jobs: int, progress: Progress) -> Attacking:
-    """The attacks on these claims, and on every row where all claims are meant; run now with effort "full"."""
+    """Returns the attacks on these claims, and those on every row where all claims are meant; effort "full" runs them now."""
     if effort != "full":
         return Attacking(None)
     chosen = [attack for attack in catalogue() if attack.target.startswith(WITHOUT) or attack.target.partition(".")[0] in claims]
 
-    def told(name: str, done: int, total: int) -> None:
+    def report(name: str, done: int, total: int) -> None:
         progress(f"adversary: {name}", done, total)
 
-    return Attacking(tuple(run_attacks(chosen, seconds=SECONDS, seed=0, jobs=jobs, progress=told)))
+    return Attacking(tuple(run_attacks(chosen, seconds=SECONDS, seed=0, jobs=jobs, progress=report)))
 
 
 def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> ReadingResult:
-    """The result with its attacks; its verdict gives way to a counterexample."""
+    """Returns the result with its attacks; its verdict gives way to a counterexample."""
     from ..verdict.verdicts import Verdict  # which needs the records of this folder
 
-    found = shown(f"{claim}.{result.reading.id}", attacks.records)
+    found = checked_again(f"{claim}.{result.reading.id}", attacks.records)
     result = replace(result, attacks=found)
     unproved = result.outcome.verdict == Verdict.CERTIFIED
     words = _against(found) or (_absent(f"{claim}.{result.reading.id}", found) if unproved else None)
@@ -59,15 +59,15 @@ def of_reading(result: ReadingResult, claim: str, attacks: Attacking) -> Reading
 
 
 def of_row(row: Row, attacks: Attacking) -> Row:
-    """The row with its attacks; one of a single hypothesis gives way to a counterexample."""
+    """Returns the row with its attacks; the verdict of a row without a single hypothesis gives way to a counterexample."""
     from ..verdict.verdicts import Verdict
 
     if len(row.dropped) != 1:
         return row
-    found = shown(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", attacks.records)
+    found = checked_again(f"{WITHOUT}{row.ablation}: {row.dropped[0]}", attacks.records)
     row = replace(row, attacks=found)
     unproved = row.verdict == Verdict.CERTIFIED
-    words = _against(found) or (_absent(f"{WITHOUT}{row.experiment}: {row.dropped[0]}", found) if unproved else None)
+    words = _against(found) or (_absent(f"{WITHOUT}{row.ablation}: {row.dropped[0]}", found) if unproved else None)
     if words is None or row.verdict in (Verdict.REFUTED, Verdict.ERROR):
         return row
     verdict = Verdict.REFUTED if any(one.refutes for one in found) else Verdict.ERROR
@@ -75,13 +75,13 @@ def of_row(row: Row, attacks: Attacking) -> Row:
 
 
 def _absent(target: str, found: tuple[Attacked, ...]) -> str | None:
-    """That the file of results has nothing on a statement that we know how to attack: what was tried is then not known."""
+    """Says that the file of results has nothing on a statement that we know how to attack: what was tried is then not known."""
     known = len(tuple(attacks_on(target)))
     return f"{known} attacks on this are known, and the file of results has none" if known and not found else None
 
 
 def _against(found: tuple[Attacked, ...]) -> str | None:
-    """What the attacks say against the statement: a counterexample, or something stored that was not found again."""
+    """Says what the attacks hold against the statement: a counterexample, or something stored that was not found again."""
     for one in found:
         if one.refutes:
             return f"the adversary, {one.id}: {one.words}"

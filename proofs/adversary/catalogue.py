@@ -21,7 +21,7 @@ WITHOUT = "without "
 
 @cache
 def catalogue() -> tuple[Attack | Sweep, ...]:
-    """In the order of the files. Raises ValueError where two attacks have one id."""
+    """Returns all attacks in the order of the files. Raises ValueError where two attacks have one id."""
     found: tuple[Attack | Sweep, ...] = (*limit_attacks(), *pair_attacks(), *structure_attacks(), *sweeps())
     if len({attack.id for attack in found}) < len(found):
         raise ValueError("two attacks have the same id")
@@ -29,12 +29,13 @@ def catalogue() -> tuple[Attack | Sweep, ...]:
 
 
 def attacks_on(target: str) -> tuple[Attack | Sweep, ...]:
-    """The attacks on this reading ("claim.reading") or row ("without EXPERIMENT: HYPOTHESIS")."""
+    """Returns the attacks on this reading ("claim.reading") or row ("without EXPERIMENT: HYPOTHESIS")."""
     return tuple(attack for attack in catalogue() if attack.target == target)
 
 
 def statement_of(target: str) -> str | None:
-    """The statement with its hypotheses, or for a row the hypotheses of its experiment; None where the ledger has no such target."""
+    """Returns the statement with its hypotheses, or for a row the hypotheses of its experiment; None where the ledger has no such
+    target."""
     if target.startswith(WITHOUT):
         experiment, _, dropped = target.removeprefix(WITHOUT).partition(": ")
         hypotheses = expected_without().get(experiment, {})
@@ -48,7 +49,7 @@ def statement_of(target: str) -> str | None:
 
 
 def expected_of(target: str) -> str | None:
-    """The verdict that the ledger expects of a target."""
+    """Returns the verdict that the ledger expects of a target, or None."""
     if target.startswith(WITHOUT):
         experiment, _, dropped = target.removeprefix(WITHOUT).partition(": ")
         return expected_without().get(experiment, {}).get(dropped)

@@ -30,7 +30,8 @@ TRIED, ROUNDS = 3, 12  # zeros that are rounded after each descent, and in all
 
 
 class _Hunt:
-    """What has been found so far, and the clock, which counts the process's own time: a busy machine makes no weaker attack."""
+    """A hunt keeps what has been found so far, and the clock, which counts the process's own time: a busy machine makes no weaker
+    attack."""
 
     def __init__(self, attack: Attack, seconds: float) -> None:
         self.attack = attack
@@ -56,7 +57,7 @@ class _Hunt:
 
 
 def pursue(attack: Attack, *, seconds: float, seed: int) -> Trial:
-    """Follow the attack for at most so many seconds of this process's time (an exact decision that has begun is ended). The same seed
+    """Follows the attack for at most so many seconds of this process's time (an exact decision that has begun is ended). The same seed
     takes the same way."""
     started = time.process_time()
     hunt, box = _Hunt(attack, seconds), attack.family.box
@@ -91,12 +92,12 @@ def pursue(attack: Attack, *, seconds: float, seed: int) -> Trial:
 
 
 def value_at(attack: Attack, point: Sequence[float]) -> float:
-    """The size of the quantity at a point."""
+    """Returns the size of the quantity at a point."""
     return float(np.linalg.norm(np.atleast_1d(attack.quantity(np.array(point, dtype=np.float64)))))
 
 
 def _follow(hunt: _Hunt, start: Floats) -> None:
-    """One start downhill (or uphill), and what is found at its end."""
+    """Follows one start downhill (or uphill), and decides what is found at its end."""
     attack, box, steps = hunt.attack, hunt.attack.family.box, 60 * len(hunt.attack.family.box)
     if attack.aim == Aim.NONZERO:
         outward(hunt.trace, start, box, steps=steps)
@@ -112,7 +113,7 @@ def _follow(hunt: _Hunt, start: Floats) -> None:
 
 
 def _cross(hunt: _Hunt) -> None:
-    """Where signs differ there is a zero: rational points of the zero set near it."""
+    """Where signs differ there is a zero: decides rational points of the zero set near it."""
     if hunt.attack.aim not in (Aim.SIGN, Aim.STRATUM) or hunt.crossed >= ROUNDS:
         return
     for zero in islice(crossings(hunt.trace), TRIED):
@@ -123,7 +124,8 @@ def _cross(hunt: _Hunt) -> None:
 
 
 def exact_zero(hunt: _Hunt, zero: Floats) -> Iterator[Point]:
-    """Exact zeros on lines through simple points near a float zero; without a rational one, a pair of exact points of either sign."""
+    """Yields exact zeros on lines through simple points near a float zero; without a rational one, a pair of exact points of either sign is
+    kept."""
     attack, box = hunt.attack, hunt.attack.family.box
     exact = attack.exact
     assert exact is not None
@@ -153,7 +155,7 @@ def exact_zero(hunt: _Hunt, zero: Floats) -> Iterator[Point]:
 
 
 def _ends(trace: Trace, point: Point, place: int, low: float, high: float) -> tuple[Fraction, Fraction] | None:
-    """The first two neighbouring looks along a parameter between which the sign changes."""
+    """Returns the first two neighbouring looks along a parameter between which the sign changes."""
     base = np.array([float(x) for x in point])
     before: tuple[Fraction, float] | None = None
     bottom, top = Fraction(low).limit_denominator(1000), Fraction(high).limit_denominator(1000)
@@ -168,7 +170,7 @@ def _ends(trace: Trace, point: Point, place: int, low: float, high: float) -> tu
 
 
 def _solved(hunt: _Hunt, end: Floats) -> Iterator[Point]:
-    """Simple points near the end, with the equations solved exactly for the parameters in which they are affine."""
+    """Yields simple points near the end, with the equations solved exactly for the parameters in which they are affine."""
     if not hunt.attack.blocks:
         return
     for point in simple(end, hunt.attack.family.box, NEAR):
@@ -183,7 +185,7 @@ def _solved(hunt: _Hunt, end: Floats) -> Iterator[Point]:
 
 
 def _decided(attack: Attack, point: Point) -> Witness | None:
-    """The exact decision; a point outside the family's domain (an unstable A, a singular covariance) is no counterexample."""
+    """Decides a point exactly; one outside the family's domain (an unstable A, a singular covariance) is no counterexample."""
     try:
         return attack.decide(point)
     except (InvalidInput, ZeroDivisionError):

@@ -13,6 +13,7 @@ condition is another one.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -28,63 +29,68 @@ from ...exact.limits.moments import covariances, window_covariances
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.windows import observability_matrix
 from ..evidence.attacks import Aim, Attack, Block, Family, Floats, Point, Witness
-from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
-from ..trust.structure_certificates import accept
+from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
 from .float_limits import Drawn, exact_experiment, float_limits, outside
 from .limit_attacks import POLE, chain, describe
+from .witnesses import confirmed
 
-Fails = Callable[[LimitDossier, PopulationLimits], bool]
+Fails = Callable[[LimitEvidence, PopulationLimits], bool]
 
 LEADING = "the bias of B, D by output error and the part of L L' that leaves the range of O_s, each against its parts and L L'"
 SHARE = "the share of (G; CF; CAF; ...) outside the range of O_s, in the Euclidean norm"
 BOTH = "that share and the bias of B, D by output error, against its parts"
 
 
+@dataclass(frozen=True)
+class Feedback:
+    """A reading of settle-1 is attacked by this: what is measured in floats, the exact test that a counterexample passes, in words, and the
+    blocks of equations of which it is a common zero."""
+
+    reading: str
+    measured: str
+    quantity: Callable[[Drawn], float | Floats]
+    fails: Fails
+    note: str
+    blocks: tuple[Block, ...]
+    starts: int = 12
+
+    def attack(self, name: str, family: Family) -> Attack:
+        """Returns the attack on the reading over this family."""
+        return Attack(
+            target=f"settle-1.{self.reading}",
+            name=name,
+            aim=Aim.ZERO,
+            measured=self.measured,
+            family=family,
+            quantity=lambda point: self.quantity(family.at(point)),
+            decide=partial(_decide, family, fails=self.fails, note=self.note),
+            blocks=self.blocks,
+            starts=self.starts,
+        )
+
+
 def feedback_attacks() -> Iterator[Attack]:
-    """For one state and for two."""
+    """Yields the attacks on each reading, for one state and for two."""
     for n, p, past in ((1, 2, 6), (2, 2, 6), (2, 3, 6)):
         family = _family(n, p, past)
         first = n + p * n  # poles, C; then F, G, B
         of_F, of_G, of_B = range(first, first + n), range(first + n, first + n + p), range(first + n + p, first + n + p + n)
         bias = Block(partial(_bias, family), tuple(of_G))
         leaving = Block(partial(_leaving, family), tuple(of_B))
-        name = f"n = {n}, p = {p}"
-        note = "its leading left singular vectors span the range of O_s, B and D by output error are right"
-        yield Attack(
-            target="settle-1.for-every-system",
-            name=name,
-            aim=Aim.ZERO,
-            measured=LEADING,
-            family=family,
-            quantity=lambda point, family=family: leading_gap(family.at(point)),  # type: ignore[misc]
-            decide=partial(_decide, family, fails=_leading_right, note=note),
-            blocks=(bias, leaving),
-        )
-        yield Attack(
-            target="settle-1.a-c-wrong",
-            name=name,
-            aim=Aim.ZERO,
-            measured=SHARE,
-            family=family,
-            quantity=lambda point, family=family: _share(family.at(point)),  # type: ignore[misc]
-            decide=partial(_decide, family, fails=_range_right, note="its range is that of O_s"),
-            blocks=(Block(partial(_outside, family), (*of_F, *of_G)),),
-        )
-        yield Attack(
-            target="settle-1.not-both",
-            name=name,
-            aim=Aim.ZERO,
-            measured=BOTH,
-            family=family,
-            quantity=lambda point, family=family: _both(family.at(point)),  # type: ignore[misc]
-            decide=partial(_decide, family, fails=_both_right, note="its range is that of O_s, B and D by output error are right"),
-            blocks=(bias,),
-            starts=8,
-        )
+        outer = Block(partial(_outside, family), (*of_F, *of_G))
+        leading = "its leading left singular vectors span the range of O_s, B and D by output error are right"
+        both = "its range is that of O_s, B and D by output error are right"
+        for one in (
+            Feedback("for-every-system", LEADING, leading_gap, _leading_right, leading, (bias, leaving)),
+            Feedback("a-c-wrong", SHARE, _share, _range_right, "its range is that of O_s", (outer,)),
+            Feedback("not-both", BOTH, _both, _both_right, both, (bias,), starts=8),
+        ):
+            yield one.attack(f"n = {n}, p = {p}", family)
 
 
 def leading_gap(drawn: Drawn) -> Floats:
-    """n entries of bias, those of P L L' O_s, and by how much the largest eigenvalue of P L L' P exceeds the least within the range."""
+    """Returns the entries of the bias and of P L L' O_s, and by how much the largest eigenvalue of P L L' P exceeds the least within the
+    range."""
     found = float_limits(drawn)
     basis, _ = np.linalg.qr(found.observability)
     product = found.past_inputs @ found.past_inputs.T / np.linalg.norm(found.past_inputs) ** 2
@@ -138,7 +144,7 @@ def _share(drawn: Drawn) -> float:
 
 
 def _bias(family: Family, point: Point) -> list[Fraction]:
-    """B and D by output error less the true ones, for n, p of the family: n + p numbers."""
+    """Returns the n + p entries of B and D by output error less the true ones."""
     experiment = exact_experiment(family.at(point))
     system = experiment.system
     found = by_output_error(covariances(experiment), system.residual.A, system.residual.C)
@@ -148,20 +154,22 @@ def _bias(family: Family, point: Point) -> list[Fraction]:
 
 
 def _leaving(family: Family, point: Point) -> list[Fraction]:
-    """P L L' O_s."""
-    experiment = exact_experiment(family.at(point))
-    L = past_input_limit(experiment, window_covariances(experiment, covariances(experiment))).matrix
-    W = observability_matrix(experiment.system.residual, experiment.s)
-    outer = L - W @ solve(W.transposed() @ W, W.transposed() @ L)
+    """Returns the entries of P L L' O_s."""
+    L, W, outer = _parted(family, point)
     return _numbers(outer @ (L.transposed() @ W))
 
 
 def _outside(family: Family, point: Point) -> list[Fraction]:
-    """P L."""
+    """Returns the entries of P L."""
+    return _numbers(_parted(family, point)[2])
+
+
+def _parted(family: Family, point: Point) -> tuple[Matrix, Matrix, Matrix]:
+    """Returns the limit L, O_s, and the part P L of the limit outside the range of O_s."""
     experiment = exact_experiment(family.at(point))
     L = past_input_limit(experiment, window_covariances(experiment, covariances(experiment))).matrix
     W = observability_matrix(experiment.system.residual, experiment.s)
-    return _numbers(L - W @ solve(W.transposed() @ W, W.transposed() @ L))
+    return L, W, L - W @ solve(W.transposed() @ W, W.transposed() @ L)
 
 
 def _numbers(matrix: Matrix) -> list[Fraction]:
@@ -169,34 +177,31 @@ def _numbers(matrix: Matrix) -> list[Fraction]:
 
 
 def _decide(family: Family, point: Point, fails: Fails, note: str) -> Witness | None:
-    """The fault is seen, and what every reading asks for is met; then `fails`."""
+    """Returns a witness where the fault is seen, what every reading asks for is met, and `fails` holds."""
     experiment = exact_experiment(family.at(point))
-    dossier = examine_experiment("adversary", experiment)
+    evidence = examine_experiment("adversary", experiment)
     residual = experiment.system.residual
     seen = kernel_representation(residual).normal_rank == residual.m
-    if not (seen and dossier.observable and dossier.controllable and dossier.long_past):
+    if not (seen and evidence.observable and evidence.controllable and evidence.long_past):
         return None
     found = limit(experiment)
-    if not fails(dossier, found):
+    if not fails(evidence, found):
         return None
-    certificates = tuple(certificates_of(found))
-    for certificate in certificates:
-        accept(certificate)
-    return Witness(f"{describe(family.at(point), dossier)}, {note}", point, certificates)
+    return confirmed(f"{describe(family.at(point), evidence)}, {note}", point, certificates_of(found))
 
 
-def _leading_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
-    return _inputs_right(dossier) and found.leading_vectors_right(found.past_inputs)
+def _leading_right(evidence: LimitEvidence, found: PopulationLimits) -> bool:
+    return _inputs_right(evidence) and found.leading_vectors_right(found.past_inputs)
 
 
-def _both_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
-    return _inputs_right(dossier) and dossier.equal
+def _both_right(evidence: LimitEvidence, found: PopulationLimits) -> bool:
+    return _inputs_right(evidence) and evidence.equal
 
 
-def _range_right(dossier: LimitDossier, found: PopulationLimits) -> bool:
-    return dossier.equal
+def _range_right(evidence: LimitEvidence, found: PopulationLimits) -> bool:
+    return evidence.equal
 
 
-def _inputs_right(dossier: LimitDossier) -> bool:
-    system = dossier.experiment.system
-    return dossier.state_inputs == (system.B, system.D)
+def _inputs_right(evidence: LimitEvidence) -> bool:
+    system = evidence.experiment.system
+    return evidence.state_inputs == (system.B, system.D)

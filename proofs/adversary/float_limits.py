@@ -29,7 +29,8 @@ Table = Sequence[Sequence[Any]]
 
 @dataclass(frozen=True)
 class Drawn:
-    """Tables by rows. u = sum_j u_taps[j] q^-j / sum u_den[j] q^-j of white e, v likewise of the same e: matrices with as many columns."""
+    """An experiment is drawn as tables by rows. u = sum_j u_taps[j] q^-j / sum u_den[j] q^-j of white e, v likewise of the same e: matrices
+    with as many columns."""
 
     A: Table
     F: Table
@@ -59,7 +60,7 @@ class FloatLimits:
 
 
 def exact_experiment(drawn: Drawn) -> Experiment:
-    """Raises InvalidInput where A or a filter is not stable."""
+    """Returns the experiment in exact arithmetic. Raises InvalidInput where A or a filter is not stable."""
     matrices = {name: _texts(getattr(drawn, name)) for name in "AFCGBD"}
     u = {"num": [_texts(tap) for tap in drawn.u_taps], "den": [str(Fraction(x)) for x in drawn.u_den]}
     v = {"num": [_texts(tap) for tap in drawn.v_taps], "den": [str(Fraction(x)) for x in drawn.v_den]}
@@ -67,7 +68,8 @@ def exact_experiment(drawn: Drawn) -> Experiment:
 
 
 def float_limits(drawn: Drawn) -> FloatLimits:
-    """Raises numpy.linalg.LinAlgError where the covariance of the future inputs is singular."""
+    """Returns the limits of an experiment in floats. Raises numpy.linalg.LinAlgError where the covariance of the future inputs is
+    singular."""
     A, F, C, G, B, D = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCGBD")
     n, nu, s, past = len(A), B.shape[1], drawn.s, drawn.past
     u_move, u_enter, u_read, u_now = _line(drawn.u_taps, drawn.u_den)
@@ -83,7 +85,7 @@ def float_limits(drawn: Drawn) -> FloatLimits:
     P = _stationary(Phi, Gamma @ Gamma.T)
 
     def windows(one: tuple[Floats, Floats], two: tuple[Floats, Floats], rows: range, columns: range) -> Floats:
-        """Cov(one(k + i), two(k + j)) in blocks."""
+        """Returns Cov(one(k + i), two(k + j)) in blocks."""
         reach = max(rows[-1] - columns[0], columns[-1] - rows[0])
         ahead, behind = _sequence(Phi, Gamma, P, one, two, reach), _sequence(Phi, Gamma, P, two, one, reach)
         return np.vstack([np.hstack([ahead[i - j] if i >= j else behind[j - i].T for j in columns]) for i in rows])
@@ -106,13 +108,13 @@ def float_limits(drawn: Drawn) -> FloatLimits:
 
 
 def determinant(M: Floats) -> float:
-    """det M (n x n) against the product of the lengths of its rows, which bounds it: from -1 to 1."""
+    """Returns det M (n x n) against the product of the lengths of its rows, which bounds it: from -1 to 1."""
     lengths = float(np.prod(np.linalg.norm(M, axis=1)))
     return float(np.linalg.det(M)) / lengths if lengths > 0 else 0.0
 
 
 def partial_covariance(found: FloatLimits) -> float:
-    """det M (n x n) against the standard deviations of the states and of the inputs: from -1 to 1 for one state."""
+    """Returns det M (n x n) against the standard deviations of the states and of the inputs: from -1 to 1 for one state."""
     n, count = found.coordinates.shape
     inputs = found.deviations[n:]
     scale = float(np.prod(found.deviations[:n]) * np.prod([inputs[j % len(inputs)] for j in range(count)]))
@@ -120,13 +122,13 @@ def partial_covariance(found: FloatLimits) -> float:
 
 
 def least_ratio(M: Floats) -> float:
-    """The least singular value of M against its largest."""
+    """Returns the least singular value of M against its largest."""
     values = np.linalg.svd(M, compute_uv=False)
     return float(values[-1] / values[0]) if values[0] > 0 else 0.0
 
 
 def outside(L: Floats, observability: Floats) -> float:
-    """The share of L outside the range of O_s, in the Frobenius norm: from 0 to 1."""
+    """Returns the share of L outside the range of O_s, in the Frobenius norm: from 0 to 1."""
     basis, values, _ = np.linalg.svd(observability, full_matrices=False)
     basis = basis[:, values > 1e-9 * values[0]]
     total = float(np.linalg.norm(L))
@@ -134,7 +136,8 @@ def outside(L: Floats, observability: Floats) -> float:
 
 
 def _line(taps: Sequence[Table], den: Sequence[Any]) -> tuple[Floats, Floats, Floats, Floats]:
-    """The delay line of one filter: how it moves, how e enters it, how the signal is read from it, and e's direct way into the signal."""
+    """Returns the delay line of one filter: how it moves, how e enters it, how the signal is read from it, and e's direct way into the
+    signal."""
     numerator = [np.array(tap, dtype=np.float64) for tap in taps]
     denominator = np.array([float(x) for x in den])
     channels, noise = numerator[0].shape
@@ -162,7 +165,7 @@ def _stationary(Phi: Floats, source: Floats) -> Floats:
 
 
 def _sequence(Phi: Floats, Gamma: Floats, P: Floats, one: tuple[Floats, Floats], two: tuple[Floats, Floats], most: int) -> list[Floats]:
-    """Cov(one(k + l), two(k)), l = 0..most."""
+    """Returns Cov(one(k + l), two(k)) for l = 0..most."""
     result = [one[0] @ P @ two[0].T + one[1] @ two[1].T]
     reached = Phi @ P @ two[0].T + Gamma @ two[1].T
     for _ in range(most):
@@ -176,7 +179,8 @@ def _texts(rows: Table) -> list[list[str]]:
 
 
 def input_bias(drawn: Drawn) -> float:
-    """How far MOESP's regression with the true A, C takes B, D from the truth, against their size and that of the fault's columns."""
+    """Returns how far MOESP's regression with the true A, C takes B, D from the truth, against their size and that of the fault's
+    columns."""
     A, F, C, G, B, D = (np.array(getattr(drawn, name), dtype=np.float64) for name in "AFCGBD")
     found = float_limits(drawn)
     s, p, n, nu = drawn.s, len(C), len(A), B.shape[1]

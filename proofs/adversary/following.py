@@ -25,7 +25,8 @@ SIMPLE = (0.0, 0.0, 1.0, -1.0, 0.5, -0.5)
 
 @dataclass
 class Trace:
-    """The quantity with a memory. Where it cannot be evaluated (a singular covariance) it is not a number, and counts as far away."""
+    """A trace is the quantity with a memory. Where the quantity cannot be evaluated (a singular covariance) it is not a number, and counts
+    as far away."""
 
     quantity: Quantity
     evaluations: int = 0
@@ -36,7 +37,7 @@ class Trace:
     signs: dict[bool, list[tuple[float, Floats]]] = field(default_factory=lambda: {True: [], False: []})
 
     def vector(self, point: Floats) -> Floats:
-        """The value as a vector."""
+        """Returns the value at this point as a vector, and remembers it."""
         self.evaluations += 1
         try:
             value = np.atleast_1d(np.asarray(self.quantity(point), dtype=np.float64))
@@ -58,12 +59,12 @@ class Trace:
         return value
 
     def number(self, point: Floats) -> float:
-        """The value as a number."""
+        """Returns the value at this point as a number, and remembers it."""
         return float(self.vector(point)[0])
 
 
 def draw_starts(box: Sequence[tuple[float, float]], count: int, rng: np.random.Generator) -> Iterator[Floats]:
-    """`count` points inside the box, every second of them with some coordinates degenerate."""
+    """Yields `count` points inside the box, every second of them with some coordinates degenerate."""
     low, high = np.array([b[0] for b in box]), np.array([b[1] for b in box])
     for i in range(count):
         point = rng.uniform(low, high)
@@ -75,7 +76,7 @@ def draw_starts(box: Sequence[tuple[float, float]], count: int, rng: np.random.G
 
 
 def descend(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, steps: int, signed: bool) -> Floats:
-    """From the start downhill: signed, past zero to the other side, where it stops; else to a common zero by least squares."""
+    """Goes downhill from the start: signed, past zero to the other side, where it stops; else to a common zero by least squares."""
     if not signed:
         low, high = np.array(box, dtype=np.float64).T
         inside = np.clip(start, low + 1e-9 * (high - low), high - 1e-9 * (high - low))
@@ -84,7 +85,7 @@ def descend(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, 
     side = 1.0 if trace.number(start) > 0 else -1.0
 
     class Crossed(Exception):
-        """The sign has changed: there is nothing more to descend to."""
+        """Raised where the sign has changed: there is nothing more to descend to."""
 
     def value(point: Floats) -> float:
         height = side * trace.number(point)
@@ -101,7 +102,7 @@ def descend(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, 
 
 
 def crossings(trace: Trace) -> Iterator[Floats]:
-    """Zeros on the segments between points of different sign, the closest to zero first."""
+    """Yields zeros on the segments between points of different sign, the closest to zero first."""
     positive, negative = (sorted(trace.signs[side], key=lambda item: item[0])[:KEPT] for side in (True, False))
     pairs = sorted(((a[0] + b[0], i, j) for i, a in enumerate(positive) for j, b in enumerate(negative)))
     for _, i, j in pairs[:KEPT]:
@@ -115,5 +116,5 @@ def crossings(trace: Trace) -> Iterator[Floats]:
 
 
 def outward(trace: Trace, start: Floats, box: Sequence[tuple[float, float]], *, steps: int) -> None:
-    """Uphill in absolute value."""
+    """Goes uphill in absolute value."""
     minimize(lambda point: -abs(trace.number(point)), start, method="Nelder-Mead", bounds=list(box), options={"maxfev": steps})

@@ -18,44 +18,41 @@ from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances, window_covariances
 from ...exact.system.windows import observability_matrix
 from ..evidence.attacks import Family, Point, Witness
-from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment
-from ..trust.structure_certificates import accept
+from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
 from .float_limits import Drawn, exact_experiment
-from .spectra import shaped_input
+from .spectra import Shaped, shaped_input
+from .witnesses import confirmed
 
 POLE = (-0.97, 0.97)
 REFLECTION = (-0.95, 0.95)
 
 At = Callable[[Sequence[Any]], Drawn]
-Fails = Callable[[LimitDossier], bool]
+Fails = Callable[[LimitEvidence], bool]
 
 
 def decided_by(at: At, fails: Fails) -> Callable[[Point], Witness | None]:
-    """The experiment at a point, its limits certified; a witness where they fail the statement."""
+    """Returns the exact decision: the experiment at a point, its limits certified, and a witness where they fail the statement."""
 
     def decide(point: Point) -> Witness | None:
         experiment = exact_experiment(at(point))
-        dossier = examine_experiment("adversary", experiment)
-        if not fails(dossier):
+        evidence = examine_experiment("adversary", experiment)
+        if not fails(evidence):
             return None
-        certificates = tuple(certificates_of(limit(experiment)))
-        for certificate in certificates:
-            accept(certificate)
-        return Witness(describe(at(point), dossier), point, certificates)
+        return confirmed(describe(at(point), evidence), point, certificates_of(limit(experiment)))
 
     return decide
 
 
-def describe(drawn: Drawn, dossier: LimitDossier) -> str:
-    """The experiment for a reader."""
-    e = dossier.experiment
+def describe(drawn: Drawn, evidence: LimitEvidence) -> str:
+    """Returns the experiment in words, for a reader."""
+    e = evidence.experiment
     u, v = e.u_filter.to_json(), e.v_filter.to_json()
-    rank = f"limit of rank {dossier.limit_rank}, n = {e.system.residual.n}"
+    rank = f"limit of rank {evidence.limit_rank}, n = {e.system.residual.n}"
     return f"{e.system.residual}, B={e.system.B}, D={e.system.D}, s = {e.s}, past = {e.past}, u = {u}, v = {v}: {rank}".replace("'", "")
 
 
 def exact_determinant(at: At) -> Callable[[Point], Fraction]:
-    """det M of the limit O_s M, exactly, for past nu = n."""
+    """Returns a function of a point: det M of the limit O_s M, exactly, for past nu = n."""
 
     def value(point: Point) -> Fraction:
         experiment = exact_experiment(at(point))
@@ -70,7 +67,7 @@ def exact_determinant(at: At) -> Callable[[Point], Fraction]:
 
 
 def chain(poles: Sequence[Any]) -> list[list[Any]]:
-    """A companion matrix with these poles, repeated or not: (A, e_1) is controllable."""
+    """Returns a companion matrix with these poles, repeated or not: (A, e_1) is controllable."""
     coefficients: list[Any] = [1]
     for pole in poles:
         coefficients = [
@@ -81,34 +78,37 @@ def chain(poles: Sequence[Any]) -> list[list[Any]]:
     return [[-c for c in coefficients[1:]], *([int(i == j) for j in range(n)] for i in range(n - 1))]
 
 
+def chained(poles: Sequence[Any], s: int, past: int, u: Shaped, fault: Sequence[Any]) -> Drawn:
+    """Returns an experiment on the companion matrix of these poles: C = I, B = e_1, and the fault enters the last state, with white noise
+    of its own through the taps `fault`."""
+    n = len(poles)
+    return Drawn(
+        A=chain(poles),
+        F=[[int(i == n - 1)] for i in range(n)],
+        C=[[int(i == j) for j in range(n)] for i in range(n)],
+        G=[[0]] * n,
+        B=[[int(i == 0)] for i in range(n)],
+        D=[[0]] * n,
+        s=s,
+        past=past,
+        u_taps=[[[x, 0]] for x in u.numerator],
+        u_den=u.denominator,
+        v_taps=list(fault),
+    )
+
+
 def shaped_family(
     n: int, s: int, past: int, reflections: int, tail: int, *, repeated: bool = False, fault: Sequence[Any] = ([[0, 1]],), words: str = ""
 ) -> Family:
-    """Parameters: n poles (one where they are repeated), reflection coefficients, then the gain and the zeros of the rest of u.
-
-    C = I, B = e_1; the fault enters the last state and has white noise of its own through the taps `fault`.
-    """
+    """Returns a family of `chained` experiments. The parameters are n poles (one where they are repeated), the reflection coefficients of
+    u, then the gain and the zeros of the rest of u."""
     count = 1 if repeated else n
     box = [POLE] * count + [REFLECTION] * reflections + [REFLECTION] * (tail + 1 if tail else 0)
 
     def at(point: Sequence[Any]) -> Drawn:
         poles, rest = list(point[:count]) * (n if repeated else 1), point[count:]
         behind = rest[reflections:]
-        u = shaped_input(rest[:reflections], behind[1:], behind[0] if tail else 0)
-        unit = [[int(i == j) for j in range(n)] for i in range(n)]
-        return Drawn(
-            A=chain(poles),
-            F=[[int(i == n - 1)] for i in range(n)],
-            C=unit,
-            G=[[0]] * n,
-            B=[[int(i == 0)] for i in range(n)],
-            D=[[0]] * n,
-            s=s,
-            past=past,
-            u_taps=[[[x, 0]] for x in u.numerator],
-            u_den=u.denominator,
-            v_taps=list(fault),
-        )
+        return chained(poles, s, past, shaped_input(rest[:reflections], behind[1:], behind[0] if tail else 0), fault)
 
     order = (*reversed(range(count, count + reflections)), *range(count + reflections, len(box)))
     text = f"n = {n}, s = {s}, past = {past}, one {f'pole {n} times' if repeated else 'real pole a state'}, C = I, B = e_1, "
@@ -117,23 +117,10 @@ def shaped_family(
 
 
 def moving_average_family(n: int, s: int, past: int, order: int) -> Family:
-    """Parameters: one pole n times, the taps of u beyond the first."""
+    """Returns a family of `chained` experiments. The parameters are one pole, taken n times, and the taps of u beyond the first."""
 
     def at(point: Sequence[Any]) -> Drawn:
-        unit = [[int(i == j) for j in range(n)] for i in range(n)]
-        return Drawn(
-            A=chain([point[0]] * n),
-            F=[[int(i == n - 1)] for i in range(n)],
-            C=unit,
-            G=[[0]] * n,
-            B=[[int(i == 0)] for i in range(n)],
-            D=[[0]] * n,
-            s=s,
-            past=past,
-            u_taps=[[[x, 0]] for x in (1, *point[1:])],
-            u_den=(1,),
-            v_taps=[[[0, 1]]],
-        )
+        return chained([point[0]] * n, s, past, Shaped((1, *point[1:]), (1,)), ([[0, 1]],))
 
     words = f"n = {n}, s = {s}, past = {past}, one pole {n} times, C = I, B = e_1, u a moving average of order {order}, v white of its own"
     return Family(words, (POLE, *[(-2.0, 2.0)] * order), at)
@@ -142,10 +129,8 @@ def moving_average_family(n: int, s: int, past: int, order: int) -> Family:
 def led_family(
     n: int, p: int, phi: Sequence[int], *, reflections: int = 0, taps: int = 0, feedthrough: bool = True, past: int | None = None
 ) -> Family:
-    """v(k) = sum_j phi_j u(k+j). Parameters: n poles, C, B, then G if it is free, then the reflection coefficients or the taps of u.
-
-    F = e_1, D = 0, s = n + 1.
-    """
+    """Returns a family with v(k) = sum_j phi_j u(k+j), F = e_1, D = 0 and s = n + 1. The parameters are n poles, C, B, then G if it is
+    free, then the reflection coefficients or the taps of u."""
     box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + (p if feedthrough else 0)) + [REFLECTION] * reflections + [(-0.9, 0.9)] * taps
     lead = len(phi) - 1
 
@@ -183,7 +168,8 @@ def led_family(
 
 
 def open_family(n: int, p: int, *, coloured_input: bool, coloured_fault: bool) -> Family:
-    """u and v independent, one of each. Parameters: n poles, C, F, G, B; then a tap and a pole of u and of v where they are coloured."""
+    """Returns a family in which u and v are independent, one of each. The parameters are n poles, C, F, G, B; then a tap and a pole of u
+    and of v where they are coloured."""
     colours = 2 * coloured_input + 2 * coloured_fault
     box = [POLE] * n + [(-2.0, 2.0)] * (p * n + n + p + n) + [(-0.9, 0.9)] * colours
 
@@ -216,7 +202,7 @@ def open_family(n: int, p: int, *, coloured_input: bool, coloured_fault: bool) -
 
 
 def vector_family(n: int, s: int, past: int, order: int) -> Family:
-    """nu = n inputs, A = a I, B = I: parameters a and the entries of the taps of u beyond the first."""
+    """Returns a family with nu = n inputs, A = a I and B = I. The parameters are a and the entries of the taps of u beyond the first."""
 
     def at(point: Sequence[Any]) -> Drawn:
         unit = [[int(i == j) for j in range(n)] for i in range(n)]

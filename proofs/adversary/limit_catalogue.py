@@ -20,7 +20,7 @@ import numpy as np
 from ...exact.limits.hidden_states import hides_a_state
 from ...exact.limits.moments import covariances
 from ..evidence.attacks import Aim, Attack, Family, Floats
-from ..evidence.experiments import LimitDossier
+from ..evidence.experiments import LimitEvidence
 from .feedback_attacks import feedback_attacks
 from .float_limits import FloatLimits, determinant, float_limits, input_bias, least_ratio, outside, partial_covariance
 from .limit_attacks import (
@@ -46,14 +46,14 @@ COLOURED = ([[0, 1]], [[0, 0]], [[0, 1]])
 
 
 def limit_attacks() -> Iterator[Attack]:
-    """In the order of the ledger."""
+    """Yields the attacks in the order of the ledger."""
     yield from _refuted()
     yield from _standing()
     yield from feedback_attacks()
 
 
 def on_the_range(target: str, family: Family, fails: Fails, name: str, starts: int = 12) -> Attack:
-    """A change of sign of det M where M is square, a small singular value where it is wide."""
+    """Returns an attack that looks for a change of sign of det M where M is square, and for a small singular value where it is wide."""
     drawn = family.at([0.0] * len(family.box))
     measure: Callable[[FloatLimits], float]
     square = drawn.past * len(drawn.B[0]) == len(drawn.A)
@@ -77,7 +77,7 @@ def on_the_range(target: str, family: Family, fails: Fails, name: str, starts: i
 
 
 def on_containment(target: str, family: Family, fails: Fails, name: str, *, past_outputs: bool = False) -> Attack:
-    """A share of the limit outside the range of O_s."""
+    """Returns an attack that looks for a share of the limit outside the range of O_s."""
 
     def quantity(point: Floats) -> float:
         found = float_limits(family.at(point))
@@ -88,17 +88,17 @@ def on_containment(target: str, family: Family, fails: Fails, name: str, *, past
 
 
 def on_inputs(target: str, family: Family, fails: Fails, name: str) -> Attack:
-    """A bias of B or D."""
+    """Returns an attack that looks for a bias of B or D."""
     return Attack(target, name, Aim.NONZERO, BIAS, family, lambda x: input_bias(family.at(x)), decided_by(family.at, fails), starts=8)
 
 
 def _length(found: FloatLimits) -> float:
-    """The length of M for one state, against the same deviations."""
+    """Returns the length of M for one state, against the same deviations."""
     return float(np.linalg.norm(found.coordinates) / np.prod(found.deviations))
 
 
 def _refuted() -> Iterator[Attack]:
-    """Statements that are false, and are found to be so: what shows that the adversary can."""
+    """Yields attacks on statements that are false, and are found to be so: they show that the adversary can refute."""
     two_poles, double_pole = shaped_family(2, 2, 2, 3, 1), shaped_family(2, 2, 2, 3, 1, repeated=True)
     longer, averaged = shaped_family(2, 3, 2, 4, 1, repeated=True), moving_average_family(2, 2, 2, 4)
     yield on_the_range("proposition-1.two-sided-range", two_poles, not_whole, "two poles")
@@ -140,7 +140,7 @@ def _refuted() -> Iterator[Attack]:
 
 
 def _standing() -> Iterator[Attack]:
-    """Statements that stand: what was tried against them."""
+    """Yields attacks on statements that stand."""
     families: Sequence[tuple[str, str, Family]] = (
         ("proposition-1.two-sided-one-state", "s = 1", shaped_family(1, 1, 1, 3, 2)),
         ("proposition-1.two-sided-one-state", "s = 3", shaped_family(1, 3, 1, 4, 1)),
@@ -197,37 +197,37 @@ def _standing() -> Iterator[Attack]:
 
 
 def nilpotent_family(n: int, s: int, reflections: int, tail: int) -> Family:
-    """All poles at 0, u of any colour: the parameters are those of u."""
+    """Returns a family with all poles at 0 and u of any colour, whose parameters are those of u."""
     family = shaped_family(n, s, n, reflections, tail, repeated=True)
     words = family.words.replace(f"one pole {n} times", f"the pole 0 {n} times")
     return Family(words, family.box[1:], lambda point: family.at([0 * point[0], *point]))
 
 
 def _felt(family: Family, point: Floats) -> float:
-    """Cov(Yf, Uf) Cov(Uf)^-1 of the outputs that the fault alone makes."""
+    """Returns the size of Cov(Yf, Uf) Cov(Uf)^-1 of the outputs that the fault alone makes."""
     drawn = family.at(point)
     unknown = replace(drawn, B=[[0] * len(row) for row in drawn.B], D=[[0] * len(row) for row in drawn.D])
     return float(np.linalg.norm(float_limits(unknown).response))
 
 
-def _formula_differs(d: LimitDossier) -> bool:
-    """Where a state is lost and the formula has none, or the other way round; n = past = 2, one input."""
+def _formula_differs(d: LimitEvidence) -> bool:
+    """Whether a state is lost and the formula has none, or the other way round; n = past = 2, one input."""
     return d.uncorrelated and _regular(d) and d.equal == hides_a_state(d.experiment, covariances(d.experiment))
 
 
-def not_whole(d: LimitDossier) -> bool:
-    """Every hypothesis of "all of the range" is met, and it is not."""
+def not_whole(d: LimitEvidence) -> bool:
+    """Whether every hypothesis of "all of the range" is met, and it is not."""
     return d.uncorrelated and _regular(d) and not d.equal
 
 
-def not_right(d: LimitDossier) -> bool:
-    """The same, or B or D come out wrong."""
+def not_right(d: LimitEvidence) -> bool:
+    """Whether the same hypotheses are met, and the range, B or D comes out wrong."""
     return d.uncorrelated and _regular(d) and not (d.equal and d.inputs_right)
 
 
-def _regular(d: LimitDossier) -> bool:
+def _regular(d: LimitEvidence) -> bool:
     return d.controllable and d.observable and d.long_past
 
 
-def _one_sided(d: LimitDossier) -> bool:
+def _one_sided(d: LimitEvidence) -> bool:
     return d.one_sided and _regular(d)

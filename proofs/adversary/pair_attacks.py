@@ -1,7 +1,7 @@
 """Attacks on what is said of pairs of systems, of pairs (Fhat P, Ghat P), and of trajectories.
 
 pair_attacks      all of them
-placed_family     a square system and a P: its D(q; P) vanishes in P where two numbers do, both affine in a column of P
+pair_family       a square system and a P: its D(q; P) vanishes in P where two numbers do, both affine in a column of P
 driven_family     a system with one fault, x(0) and a short fault signal
 """
 
@@ -25,15 +25,13 @@ from ..evidence.alternatives import comparison_certificate
 from ..evidence.attacks import Aim, Attack, Block, Family, Floats, Point, Witness
 from ..evidence.corpus import examine
 from ..trust import structure_certificates as make
-from ..trust.structure_certificates import Certificate, accept
 from .structure_attacks import on_strata
 from .structure_families import ENTRY, Tables, determinant, feedthrough, free_family, seen, system_of
-
-Found = tuple[str, list[Certificate]]
+from .witnesses import Found, confirmed
 
 
 def pair_attacks() -> Iterator[Attack]:
-    """Those on statements that are false; those that stand are attacked beside single systems."""
+    """Yields the attacks on statements that are false; those that stand are attacked beside single systems."""
     tall = free_family(1, 2, 1)
     for target in ("theorem-1.n-samples", "theorem-1.n-samples-same-a-c"):
         yield from on_strata(target, "one state", tall, [feedthrough], _late_difference)
@@ -47,15 +45,15 @@ def pair_attacks() -> Iterator[Attack]:
     yield _excitation_necessary()
 
 
-def placed_family() -> Family:
-    """n = 1, p = m = 2: Z is everything, b = e_1, a = (A; C), and P is 3 x 2, by columns."""
+def pair_family() -> Family:
+    """Returns a family of systems with n = 1, p = m = 2 and of P: Z is everything, b = e_1, a = (A; C), and P is 3 x 2, by columns."""
     system = free_family(1, 2, 2)
     words = f"{system.words}, and P of 3 x 2 entries for Z = K^3"
     return Family(words, (*system.box, *[ENTRY] * 6), lambda point: (system.at(point[:9]), [list(point[9:12]), list(point[12:15])]))
 
 
 def driven_family(samples: int, *, idle: bool) -> Family:
-    """n = m = 1, p = 2; F = 0 and x(0) = 0 where it is idle."""
+    """Returns a family with n = m = 1 and p = 2; F = 0 and x(0) = 0 where it is idle."""
     system = free_family(1, 2, 1)
     count = len(system.box)
 
@@ -71,10 +69,10 @@ def driven_family(samples: int, *, idle: bool) -> Family:
 
 
 def _bad_pair() -> Attack:
-    family = placed_family()
+    family = pair_family()
 
     def numbers(point: Any) -> list[Any]:
-        """D(0; P) and D(1; P) - D(0; P): it is of degree one in q."""
+        """Returns D(0; P) and D(1; P) - D(0; P): D is of degree one in q."""
         tables, P = family.at(point)
         column = [tables.A[0][0], tables.C[0][0], tables.C[1][0]]
         at_zero = determinant([*P, [-x for x in column]])
@@ -91,8 +89,8 @@ def _bad_pair() -> Attack:
         if not (d.observable and d.left_invertible and rank(P) == 2 and space.dimension == 3):
             return None
         pair = kernel_representation(with_pair(space, P))
-        shown = [comparison_certificate(kernel, pair), make.left_invertible(kernel), make.fault_space(kernel, space)]
-        return None if shown[0]["kind"] == "behaviour-equality" else _witness(f"{system}, P = {P}", point, shown)
+        certificates = [comparison_certificate(kernel, pair), make.left_invertible(kernel), make.fault_space(kernel, space)]
+        return None if certificates[0]["kind"] == "behaviour-equality" else confirmed(f"{system}, P = {P}", point, certificates)
 
     def quantity(point: Floats) -> Floats:
         tables, P = family.at(point)
@@ -105,7 +103,7 @@ def _bad_pair() -> Attack:
 
 
 def _excitation_at_s(target: str) -> Attack:
-    """[X; V_1] of full row rank and [X; V_2], 3 x 3, singular."""
+    """Returns an attack that looks for [X; V_1] of full row rank and [X; V_2], 3 x 3, singular."""
     family = driven_family(4, idle=False)
 
     def square(point: Any) -> list[list[Any]]:
@@ -137,7 +135,7 @@ def _excitation_at_s(target: str) -> Attack:
 
 
 def _excitation_necessary() -> Attack:
-    """The gap is right, and [X; V_2] is of rank 2 of 3: a state that is never excited."""
+    """Returns an attack that looks for a right gap while [X; V_2] is of rank 2 of 3: a state is never excited."""
     family = driven_family(6, idle=True)
 
     def quantity(point: Floats) -> float:
@@ -153,7 +151,8 @@ def _excitation_necessary() -> Attack:
 
 
 def _on_data(family: Family, fails: Callable[[int, int, int], bool], s: int) -> Callable[[Point], Witness | None]:
-    """`fails` of rank [X; V_s], rank [X; V_(s+1)] and rank R_(s+1) - rank R_s, for an observable system inverted with delay s at most."""
+    """Returns a decision by `fails` of rank [X; V_s], rank [X; V_(s+1)] and rank R_(s+1) - rank R_s, for an observable system inverted with
+    delay s at most."""
 
     def decide(point: Point) -> Witness | None:
         tables, x, v = family.at(point)
@@ -167,21 +166,15 @@ def _on_data(family: Family, fails: Callable[[int, int, int], bool], s: int) -> 
         gap = rank(hankel(data.residuals, s + 1)) - rank(hankel(data.residuals, s))
         if not fails(ranks[0], ranks[1], gap):
             return None
-        shown = [make.data_rank("excitation", system, x0, faults, k) for k in (s, s + 1)]
-        shown += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
-        return _witness(f"{system}, x(0) = {x}, v = {', '.join(map(str, v))}, s = {s}: rank gap {gap}", point, shown)
+        certificates = [make.data_rank("excitation", system, x0, faults, k) for k in (s, s + 1)]
+        certificates += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
+        return confirmed(f"{system}, x(0) = {x}, v = {', '.join(map(str, v))}, s = {s}: rank gap {gap}", point, certificates)
 
     return decide
 
 
-def _witness(words: str, point: Point, shown: list[Certificate]) -> Witness:
-    for certificate in shown:
-        accept(certificate)
-    return Witness(words, point, tuple(shown))
-
-
-def _rivals(system: ResidualSystem, window: int) -> Iterator[tuple[KernelRepresentation, KernelRepresentation]]:
-    """The system and pairs (Fhat P, Ghat P) at a window, P of small entries."""
+def _alternatives(system: ResidualSystem, window: int) -> Iterator[tuple[KernelRepresentation, KernelRepresentation]]:
+    """Yields the system and a pair (Fhat P, Ghat P) at a window, for each P of small entries."""
     kernel = kernel_representation(system)
     space = fault_space(kernel, window)
     for entries in product((0, 1, -1), repeat=space.dimension * system.m):
@@ -196,36 +189,37 @@ def _regular(system: ResidualSystem) -> bool:
 
 
 def _late_difference(system: ResidualSystem) -> Found | None:
-    """A system with the same (A, C) that agrees on n samples and differs later; both observable, controllable, left-invertible."""
+    """Finds a system with the same (A, C) that agrees on n samples and differs later; both are observable, controllable and
+    left-invertible."""
     if not _regular(system):
         return None
-    for kernel, rival in _rivals(system, system.n):
-        difference = compare(kernel, rival).first_difference
-        if difference is not None and difference > system.n and _regular(rival.system):
-            shown = [make.window_equality(kernel, rival, system.n), comparison_certificate(kernel, rival)]
-            return f"{system} and F' = {rival.system.F}, G' = {rival.system.G}", shown
+    for kernel, other in _alternatives(system, system.n):
+        difference = compare(kernel, other).first_difference
+        if difference is not None and difference > system.n and _regular(other.system):
+            certificates = [make.window_equality(kernel, other, system.n), comparison_certificate(kernel, other)]
+            return f"{system} and F' = {other.system.F}, G' = {other.system.G}", certificates
     return None
 
 
 def _other_behaviour(system: ResidualSystem) -> Found | None:
-    """A pair taken at s = n, of normal rank m, that is not equivalent."""
+    """Finds a pair taken at s = n, of normal rank m, that is not equivalent."""
     if not _regular(system):
         return None
-    for kernel, rival in _rivals(system, system.n):
-        if rival.normal_rank == system.m and compare(kernel, rival).first_difference is not None:
-            shown = [comparison_certificate(kernel, rival), make.left_invertible(rival)]
-            shown.append(make.fault_space(kernel, fault_space(kernel, system.n)))
-            return f"{system} with F' = {rival.system.F}, G' = {rival.system.G}", shown
+    for kernel, other in _alternatives(system, system.n):
+        if other.normal_rank == system.m and compare(kernel, other).first_difference is not None:
+            certificates = [comparison_certificate(kernel, other), make.left_invertible(other)]
+            certificates.append(make.fault_space(kernel, fault_space(kernel, system.n)))
+            return f"{system} with F' = {other.system.F}, G' = {other.system.G}", certificates
     return None
 
 
 def _other_form(system: ResidualSystem) -> Found | None:
-    """The same outputs by other (A, C), and another Z."""
+    """Finds the same outputs made by other (A, C), with another Z."""
     return _by_feedback(system, lambda kernel, other: fault_space(kernel).basis != fault_space(other).basis)
 
 
 def _other_dynamics(system: ResidualSystem) -> Found | None:
-    """The same outputs by an A with other eigenvalues."""
+    """Finds the same outputs made by an A with other eigenvalues."""
     return _by_feedback(system, lambda kernel, other: kernel.system.A != other.system.A) if system.n == 1 else None
 
 
@@ -236,8 +230,8 @@ def _by_feedback(system: ResidualSystem, differs: Callable[[KernelRepresentation
     for similar in (system, ResidualSystem(system.A, -system.F, -system.C, system.G)):
         for gain in (1, -1, 2):
             other = kernel_representation(with_feedback(similar, [[gain] * system.n] * system.m))
-            shown = [comparison_certificate(kernel, other)]
-            if shown[0]["kind"] == "behaviour-equality" and differs(kernel, other):
-                shown += [make.fault_space(one, fault_space(one)) for one in (kernel, other)]
-                return f"{system} and {other.system}", shown
+            certificates = [comparison_certificate(kernel, other)]
+            if certificates[0]["kind"] == "behaviour-equality" and differs(kernel, other):
+                certificates += [make.fault_space(one, fault_space(one)) for one in (kernel, other)]
+                return f"{system} and {other.system}", certificates
     return None

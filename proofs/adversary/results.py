@@ -3,11 +3,11 @@
     run_attacks    attacks run now, in parallel, as records for the file
     stored         the records of the package's file
     stale          whether an attack has no record, or one of other words
-    shown          the records on one target as a run of `verify` shows them, each checked again
+    checked_again  the records on one target as a run of `verify` shows them, each checked again
     write          records into a file
     refuting       whether a record tells of a counterexample
 
-A record keeps the SHA-256 of the statement that it attacked: where the words have changed since, it is told to be out of date and
+A record keeps the SHA-256 of the statement that it attacked: where the words have changed since, it is said to be out of date and
 counts for nothing. Checked again: the quantity at the stored point, the exact decision at the point of a witness with its certificates,
 the signs at both ends of a bracket. Floats of another machine may differ in the last digits: values are compared to a hundredth.
 """
@@ -46,8 +46,8 @@ Progress = Callable[[str, int, int], None]
 def run_attacks(
     attacks: Sequence[Attack | Sweep], *, seconds: float, seed: int, jobs: int = 1, progress: Progress | None = None
 ) -> Iterator[AttackRecord]:
-    """Every attack for at most so many seconds, a sweep for SWEEP times as many, as records, in order. `progress(id, done,
-    total)` hears of each that has ended."""
+    """Every attack runs for at most so many seconds, a sweep for SWEEP times as many; the records come in order. `progress(id, done,
+    total)` is called after each."""
     places = {attack.id: place for place, attack in enumerate(catalogue())}
     stream = Parallel(n_jobs=jobs, return_as="generator")(delayed(_run)(places[attack.id], seconds, seed) for attack in attacks)
     for done, record in enumerate(stream, 1):
@@ -57,7 +57,7 @@ def run_attacks(
 
 
 def write(records: Sequence[AttackRecord], path: Path) -> None:
-    """The file, in the order of the catalogue."""
+    """Writes the file, in the order of the catalogue."""
     order = {attack.id: place for place, attack in enumerate(catalogue())}
     kept = sorted((record for record in records if record["attack"] in order), key=lambda record: order[record["attack"]])
     path.write_text(json.dumps({"format": FORMAT, "attacks": kept}, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
@@ -65,7 +65,7 @@ def write(records: Sequence[AttackRecord], path: Path) -> None:
 
 @cache
 def stored() -> tuple[AttackRecord, ...]:
-    """The records that the package brings."""
+    """Returns the records of the file that comes with the package."""
     return tuple(json.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))["attacks"])
 
 
@@ -80,15 +80,15 @@ def stale(attack: Attack | Sweep, records: Sequence[AttackRecord]) -> bool:
     return not any(record["attack"] == attack.id and record["statement_sha256"] == digest for record in records)
 
 
-def shown(target: str, records: Sequence[AttackRecord] | None = None) -> tuple[Attacked, ...]:
-    """The records on a target (None: of the package's file), each checked again."""
+def checked_again(target: str, records: Sequence[AttackRecord] | None = None) -> tuple[Attacked, ...]:
+    """Returns the records on a target (None: of the package's file), each checked again."""
     known = {attack.id: attack for attack in attacks_on(target)}
     here = [record for record in (stored() if records is None else records) if record["target"] == target]
-    return tuple(_shown(record, known.get(record["attack"])) for record in here)
+    return tuple(_attacked(record, known.get(record["attack"])) for record in here)
 
 
 def words_of(record: AttackRecord) -> str:
-    """A record in a sentence or two."""
+    """Tells a record in a sentence or two."""
     if record["aim"] == SWEPT:
         extent = "all of it" if record["complete"] else "a part of it"
         tried = f"{extent}, {record['subjects']} in {record['cases']} cases, {record['seconds']:.0f} s of one processor, {record['date']}"
@@ -113,6 +113,7 @@ def words_of(record: AttackRecord) -> str:
 
 
 def _run(place: int, seconds: float, seed: int) -> AttackRecord:
+    """Runs the attack at this place of the catalogue."""
     attack = catalogue()[place]
     if isinstance(attack, Sweep):
         return _swept(sweep(attack, seconds=SWEEP * seconds))
@@ -176,7 +177,7 @@ def _digest(target: str) -> str | None:
     return None if statement is None else hashlib.sha256(statement.encode()).hexdigest()
 
 
-def _shown(record: AttackRecord, attack: Attack | Sweep | None) -> Attacked:
+def _attacked(record: AttackRecord, attack: Attack | Sweep | None) -> Attacked:
     words = words_of(record)
     if record["statement_sha256"] != _digest(record["target"]):
         return Attacked(record["attack"], words, False, "out of date: the statement has changed since, so that the attack must run again")
@@ -187,7 +188,7 @@ def _shown(record: AttackRecord, attack: Attack | Sweep | None) -> Attacked:
 
 
 def _again(record: AttackRecord, attack: Attack | Sweep) -> str | None:
-    """What is stored, found again; None where all of it is. A sweep is gone through again only where it found something."""
+    """Says what of a record is not found again; None where all of it is. A sweep is gone through again only where it found something."""
     if isinstance(attack, Sweep):
         again = record["witness"] is None or sweep(attack, seconds=SWEEP * 60.0).found is not None
         return None if again else "not found again: the box has no counterexample"

@@ -19,14 +19,15 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Shaped:
-    """u = (sum numerator_j q^-j / sum denominator_j q^-j) e; the denominator begins with 1 and is Schur-stable."""
+    """A filter makes u = (sum numerator_j q^-j / sum denominator_j q^-j) e; the denominator begins with 1 and is Schur-stable."""
 
     numerator: tuple[Any, ...]
     denominator: tuple[Any, ...]
 
 
 def shaped_input(coefficients: Sequence[Any], zeros: Sequence[Any] = (), gain: Any = 0) -> Shaped:
-    """The input with these reflection coefficients, each in (-1, 1), and the remaining Schur function gain * prod (z - b)/(1 - b z)."""
+    """Returns the input with these reflection coefficients, each in (-1, 1), and the remaining Schur function gain * prod (z - b)/(1 - b
+    z)."""
     p, q = [gain], [gain * 0 + 1]
     for b in zeros:
         p, q = _times(p, (-b, 1)), _times(q, (1, -b))

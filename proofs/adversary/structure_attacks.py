@@ -32,10 +32,10 @@ from ..claims.common import delays, ranks_and_inversion, spaces, zeros
 from ..claims.trajectory_recovered import zeros_are_hidden_modes
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.attacks import Aim, Attack, Family, Point, Witness
-from ..evidence.corpus import Dossier, examine
-from ..evidence.pairs_by_polynomial import examine_judged, pencil_of
+from ..evidence.corpus import Evidence, examine
+from ..evidence.pairs_by_polynomial import examine_by_polynomial, pencil_of
 from ..trust import structure_certificates as make
-from ..trust.structure_certificates import Certificate, accept
+from ..trust.structure_certificates import Certificate
 from .structure_families import (
     Square,
     crossed,
@@ -54,10 +54,11 @@ from .structure_families import (
     seen,
     system_of,
 )
+from .witnesses import Found, confirmed
 
-Fails = Callable[[Dossier], bool]
+Fails = Callable[[Evidence], bool]
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
-Decide = Callable[[ResidualSystem], tuple[str, list[Certificate]] | None]
+Decide = Callable[[ResidualSystem], Found | None]
 
 at_zero, at_one = pencil(0), pencil(1)
 
@@ -74,13 +75,13 @@ WORDS = {
 
 
 def structure_attacks() -> Iterator[Attack]:
-    """First what is false, then what stands."""
+    """Yields first attacks on what is false, then attacks on what stands."""
     yield from _refuted()
     yield from _standing()
 
 
 def on_strata(target: str, name: str, family: Family, quantities: Sequence[Square], decide: Decide) -> Iterator[Attack]:
-    """An attack for each quantity."""
+    """Yields an attack for each quantity."""
     for square in quantities:
         words = WORDS[square]
         yield Attack(
@@ -97,9 +98,9 @@ def on_strata(target: str, name: str, family: Family, quantities: Sequence[Squar
 
 
 def unlike(fails: Fails, show: Show) -> Decide:
-    """A system whose certified quantities fail the statement."""
+    """Returns a decision that finds a system whose certified quantities fail the statement."""
 
-    def decide(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+    def decide(system: ResidualSystem) -> Found | None:
         return (str(system), list(show(system))) if fails(examine("adversary", system)) else None
 
     return decide
@@ -110,9 +111,7 @@ def _at_points(family: Family, decide: Decide) -> Callable[[Point], Witness | No
         found = decide(system_of(family.at(point)))
         if found is None:
             return None
-        for certificate in found[1]:
-            accept(certificate)
-        return Witness(found[0], point, tuple(found[1]))
+        return confirmed(found[0], point, found[1])
 
     return at
 
@@ -196,42 +195,49 @@ def _standing() -> Iterator[Attack]:
 # -- what is false ---------------------------------------------------------------------------------------------------------
 
 
-def _minimal(d: Dossier) -> bool:
+def _minimal(d: Evidence) -> bool:
     return d.left_invertible and d.observable and d.controllable
 
 
-def _finite_only(d: Dossier) -> bool:
-    return _minimal(d) and any(d.rank(s) != d.n + s * d.m - (d.finite_zeros or 0) for s in range(max(d.n, 1), d.n + 3))
+def _finite_only(d: Evidence) -> bool:
+    return _minimal(d) and any(
+        d.kernel.rank(s) != d.system.n + s * d.system.m - d.finite_zeros for s in range(max(d.system.n, 1), d.system.n + 3)
+    )
 
 
-def _every_window(d: Dossier) -> bool:
-    return _minimal(d) and any(d.rank(s) != d.n + s * d.m - (d.zeta or 0) for s in range(1, d.n + 3))
+def _every_window(d: Evidence) -> bool:
+    return _minimal(d) and any(d.kernel.rank(s) != d.system.n + s * d.system.m - d.zeta for s in range(1, d.system.n + 3))
 
 
-def _early_gap(d: Dossier, known: bool) -> bool:
+def _early_gap(d: Evidence, known: bool) -> bool:
     delay = d.delay_known_state if known else d.delay_unknown_state
     if not (d.observable and d.left_invertible and delay is not None):
         return False
-    return any(d.gap(s) != d.m for s in range(max(delay, d.n - 1, 1), d.n + 2))
+    return any(d.kernel.gap(s) != d.system.m for s in range(max(delay, d.system.n - 1, 1), d.system.n + 2))
 
 
-def _gap_not_m(d: Dossier) -> bool:
-    return d.observable and any(d.gap(s) != d.m for s in range(max(d.n, 1), d.n + 3))
+def _gap_not_m(d: Evidence) -> bool:
+    return d.observable and any(d.kernel.gap(s) != d.system.m for s in range(max(d.system.n, 1), d.system.n + 3))
 
 
-def _early_space(d: Dossier) -> bool:
-    if not (d.observable and d.left_invertible and d.delay_known_state is not None and d.n):
+def _early_space(d: Evidence) -> bool:
+    if not (d.observable and d.left_invertible and d.delay_known_state is not None and d.system.n):
         return False
-    return d.space_dimensions[max(d.n, d.delay_known_state) - 1] != d.limit_dimension
+    return d.space_dimensions[max(d.system.n, d.delay_known_state) - 1] != d.fault_space.dimension
 
 
-def _right_anyway(d: Dossier) -> bool:
-    """The gap is m from n on, without controllability."""
-    return not d.controllable and d.observable and d.left_invertible and all(d.gap(s) == d.m for s in range(max(d.n, 1), d.n + 3))
+def _right_anyway(d: Evidence) -> bool:
+    """Whether the gap is m from n on, without controllability."""
+    return (
+        not d.controllable
+        and d.observable
+        and d.left_invertible
+        and all(d.kernel.gap(s) == d.system.m for s in range(max(d.system.n, 1), d.system.n + 3))
+    )
 
 
-def _first_column(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
-    """A z that the rows annihilate on the first block column of T_s(z) at s = lag + 1, and not on all of them."""
+def _first_column(system: ResidualSystem) -> Found | None:
+    """Finds a z that the rows annihilate on the first block column of T_s(z) at s = lag + 1, and not on all of them."""
     kernel = kernel_representation(system)
     d = examine("adversary", system)
     if not (d.observable and d.left_invertible):
@@ -259,16 +265,16 @@ def _first_column(system: ResidualSystem) -> tuple[str, list[Certificate]] | Non
     return None
 
 
-def _other_matrices(d: Dossier) -> bool:
+def _other_matrices(d: Evidence) -> bool:
     return d.observable and d.left_invertible and d.system.G.is_zero() and d.without_feedthrough != rank(d.system.F)
 
 
-def _state_needed(d: Dossier) -> bool:
+def _state_needed(d: Evidence) -> bool:
     return d.observable and d.left_invertible and d.delay_unknown_state is None
 
 
-def _transfer_zeros(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
-    """The zeros of the reachable part, which is minimal where the system is observable, give another rank."""
+def _transfer_zeros(system: ResidualSystem) -> Found | None:
+    """Finds a system for which the zeros of its reachable part, which is minimal where the system is observable, give another rank."""
     d = examine("adversary", system)
     if not (d.observable and d.left_invertible and not d.controllable):
         return None
@@ -277,14 +283,14 @@ def _transfer_zeros(system: ResidualSystem) -> tuple[str, list[Certificate]] | N
     if parts[0] is None or parts[1] is None:
         raise ArithmeticError("the reachable subspace is not invariant")
     part = ResidualSystem(parts[0].transposed(), parts[1].transposed(), system.C @ basis, system.G)
-    shown = [*zeros(system), make.finite_zeros(part), make.infinite_zeros(part)]
-    zeta = len(shown[-2]["statement"]["invariant_zero_polynomial"]) - 1 + sum(shown[-1]["statement"]["infinite_zero_orders"])
-    fails = any(d.rank(s) != d.n + s * d.m - zeta for s in range(max(d.n, 1), d.n + 3))
-    return (f"{system}, whose transfer function is that of its reachable part", shown) if fails else None
+    certificates = [*zeros(system), make.finite_zeros(part), make.infinite_zeros(part)]
+    zeta = len(certificates[-2]["statement"]["invariant_zero_polynomial"]) - 1 + sum(certificates[-1]["statement"]["infinite_zero_orders"])
+    fails = any(d.kernel.rank(s) != d.system.n + s * d.system.m - zeta for s in range(max(d.system.n, 1), d.system.n + 3))
+    return (f"{system}, whose transfer function is that of its reachable part", certificates) if fails else None
 
 
-def _other_split(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
-    """Two good P of one system whose pairs have different numbers of finite zeros: unit columns, and their sums."""
+def _other_split(system: ResidualSystem) -> Found | None:
+    """Finds two good P of one system whose pairs have different numbers of finite zeros: unit columns, and their sums."""
     pencil_ = pencil_of(system)
     if not pencil_.columns or pencil_.zeta < 1:
         return None
@@ -295,26 +301,26 @@ def _other_split(system: ResidualSystem) -> tuple[str, list[Certificate]] | None
             P = Matrix.of(
                 [[int((i + shift) % rows == j) + tilt * int(i == j) for j in range(cols)] for i in range(rows)], shape=(rows, cols)
             )
-            pair = examine_judged("adversary", "unit", system, P, None, 1)
+            pair = examine_by_polynomial("adversary", "unit", system, P, None, 1)
             if pair.equal:
                 found[len(pair.zero_polynomial)] = pair.pair
     if len(found) < 2:
         return None
     pairs = list(found.values())[:2]
     kernels = [kernel_representation(one) for one in (system, *pairs)]
-    shown = [comparison_certificate(kernels[0], other) for other in kernels[1:]] + [make.finite_zeros(one) for one in pairs]
-    return f"{system} with the pairs {pairs[0].F}, {pairs[0].G} and {pairs[1].F}, {pairs[1].G}", shown
+    certificates = [comparison_certificate(kernels[0], other) for other in kernels[1:]] + [make.finite_zeros(one) for one in pairs]
+    return f"{system} with the pairs {pairs[0].F}, {pairs[0].G} and {pairs[1].F}, {pairs[1].G}", certificates
 
 
-def _no_free_zeros(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+def _no_free_zeros(system: ResidualSystem) -> Found | None:
     pencil_ = pencil_of(system)
     if pencil_.observable or not pencil_.columns or not pencil_.zeta:
         return None
-    shown = [make.matrix_rank("observability", system), make.fault_space(pencil_.kernel, pencil_.space)]
-    return f"{system}: the zeros {list(map(str, pencil_.fixed))} (ascending) belong to every pair", shown
+    certificates = [make.matrix_rank("observability", system), make.fault_space(pencil_.kernel, pencil_.space)]
+    return f"{system}: the zeros {list(map(str, pencil_.fixed))} (ascending) belong to every pair", certificates
 
 
-def _bad_on_a_line(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+def _bad_on_a_line(system: ResidualSystem) -> Found | None:
     pencil_ = pencil_of(system)
     return _thick(system) if pencil_.zeta >= 1 and pencil_.columns else None
 
@@ -322,29 +328,28 @@ def _bad_on_a_line(system: ResidualSystem) -> tuple[str, list[Certificate]] | No
 # -- what stands -----------------------------------------------------------------------------------------------------------
 
 
-def wrong_delay(d: Dossier) -> bool:
-    if d.infinite_zero_orders is None:
-        return False
+def wrong_delay(d: Evidence) -> bool:
     if not d.left_invertible:
         return d.delay_known_state is not None
     return d.delay_known_state != max(d.infinite_zero_orders, default=0)
 
 
-def zeros_as_a_set(d: Dossier) -> bool:
-    if d.finite_zeros is None:
-        return False
+def zeros_as_a_set(d: Evidence) -> bool:
     return (d.delay_unknown_state is not None) != (d.left_invertible and zeros_are_hidden_modes(d.system))
 
 
-def wrong_signal(d: Dossier) -> bool:
-    if not (d.left_invertible and d.m and d.finite_zeros is not None and d.system.G.is_zero()):
+def wrong_signal(d: Evidence) -> bool:
+    if not (d.left_invertible and d.system.m and d.system.G.is_zero()):
         return False
-    hidden = d.n - rank(observability_matrix(d.system, d.n))
-    return zero_feedthrough(kernel_representation(d.system)).pins_v != (rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == hidden)
+    hidden = d.system.n - rank(observability_matrix(d.system, d.system.n))
+    return zero_feedthrough(kernel_representation(d.system)).pins_v != (
+        rank(d.system.C @ d.system.F) == d.system.m and d.finite_zeros == hidden
+    )
 
 
-def misplaced(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
-    """Multiples of the fixed zeros, of every degree: q^k, and (q - 1)^k, which may meet a pole or a hidden mode."""
+def misplaced(system: ResidualSystem) -> Found | None:
+    """Finds zeros that are not assigned, among multiples of the fixed zeros of every degree: q^k, and (q - 1)^k, which may meet a pole or a
+    hidden mode."""
     pencil_ = pencil_of(system)
     field = system.field
     if not pencil_.columns:
@@ -354,41 +359,44 @@ def misplaced(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
         while len(free) + len(pencil_.fixed) - 2 <= pencil_.zeta:
             wanted = multiply(free, pencil_.fixed)
             P = assign_zeros(pencil_, [field.write(x) for x in wanted]).P
-            pair = examine_judged("adversary", "placed", system, P, wanted, 1)
+            pair = examine_by_polynomial("adversary", "given zeros", system, P, wanted, 1)
             if not (pair.equal and pair.zero_polynomial == pair.wanted):
-                shown = [comparison_certificate(pencil_.kernel, kernel_representation(pair.pair)), make.finite_zeros(pair.pair)]
-                return f"{system}, wanted {list(map(str, wanted))}", shown
+                certificates = [comparison_certificate(pencil_.kernel, kernel_representation(pair.pair)), make.finite_zeros(pair.pair)]
+                return f"{system}, wanted {list(map(str, wanted))}", certificates
             free = multiply(free, (field.element(-root), field.element(1)))
     return None
 
 
-def irrecoverable(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+def irrecoverable(system: ResidualSystem) -> Found | None:
     pencil_ = pencil_of(system)
     kernel = kernel_representation(recoverable_pair(pencil_).assignment.system)
-    shown = [comparison_certificate(pencil_.kernel, kernel), make.inversion_delay(kernel, known_state=False)]
-    fine = shown[0]["kind"] == "behaviour-equality" and shown[1]["statement"]["delay"] is not None
-    return None if fine else (str(system), shown)
+    certificates = [comparison_certificate(pencil_.kernel, kernel), make.inversion_delay(kernel, known_state=False)]
+    fine = certificates[0]["kind"] == "behaviour-equality" and certificates[1]["statement"]["delay"] is not None
+    return None if fine else (str(system), certificates)
 
 
-def _thick_bad_set(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
+def _thick_bad_set(system: ResidualSystem) -> Found | None:
     pencil_ = pencil_of(system)
     return _thick(system) if pencil_.observable and pencil_.columns >= 2 and pencil_.zeta >= 1 else None
 
 
-def _thick_seen(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
-    """The same without a word on r."""
+def _thick_seen(system: ResidualSystem) -> Found | None:
+    """Decides as `_thick_bad_set` does, without a word on r."""
     pencil_ = pencil_of(system)
     return _thick(system) if pencil_.observable and pencil_.columns and pencil_.zeta >= 1 else None
 
 
-def _range_lost(d: Dossier) -> bool:
-    """G = 0, rank CF = m, no finite zeros, and yet members of Z without feedthrough outside im F."""
+def _range_lost(d: Evidence) -> bool:
+    """Whether G = 0, rank CF = m, there are no finite zeros, and yet members of Z without feedthrough lie outside im F."""
     system = d.system
-    return system.G.is_zero() and rank(system.C @ system.F) == d.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
+    return (
+        system.G.is_zero() and rank(system.C @ system.F) == d.system.m and d.finite_zeros == 0 and d.without_feedthrough != rank(system.F)
+    )
 
 
-def _thick(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
-    """The bad set is a hypersurface iff the coefficients of D(q; P) share a polynomial in P: not where some line misses it."""
+def _thick(system: ResidualSystem) -> Found | None:
+    """Finds a bad set that is a hypersurface: the coefficients of D(q; P) share a polynomial in P, which they do not where some line misses
+    the set."""
     pencil_ = pencil_of(system)
     rows, cols = pencil_.n_z, pencil_.columns
     random = Random(str(system))
@@ -398,12 +406,16 @@ def _thick(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
     shared = sympy.gcd_list(list(bad_equations(pencil_).equations))
     if not shared.free_symbols:
         return None
-    shown = [make.fault_space(pencil_.kernel, pencil_.space), make.matrix_rank("observability", system), make.window_ranks(pencil_.kernel)]
-    return f"{system}: every coefficient of D(q; P) is a multiple of {shared}", shown
+    certificates = [
+        make.fault_space(pencil_.kernel, pencil_.space),
+        make.matrix_rank("observability", system),
+        make.window_ranks(pencil_.kernel),
+    ]
+    return f"{system}: every coefficient of D(q; P) is a multiple of {shared}", certificates
 
 
 def _common(pencil_: Exceptional, P: Matrix, Q: Matrix) -> fmpq_poly:
-    """The greatest common divisor in t of the coefficients of D(q; P + t Q), of degree r in t at most."""
+    """Returns the greatest common divisor in t of the coefficients of D(q; P + t Q), of degree r in t at most."""
     degree = P.ncols
     values = []
     for t in range(degree + 1):
@@ -416,7 +428,7 @@ def _common(pencil_: Exceptional, P: Matrix, Q: Matrix) -> fmpq_poly:
 
 
 def _through(values: Sequence[fmpq]) -> fmpq_poly:
-    """The polynomial with these values at 0, 1, 2, ..."""
+    """Returns the polynomial with these values at 0, 1, 2, ..."""
     result, basis = fmpq_poly([0]), fmpq_poly([1])
     for t, y in enumerate(values):
         result += basis * ((y - result(fmpq(t))) / basis(fmpq(t)))
@@ -424,8 +436,8 @@ def _through(values: Sequence[fmpq]) -> fmpq_poly:
     return result
 
 
-def _name_differs(system: ResidualSystem) -> tuple[str, list[Certificate]] | None:
-    """Against systems of other states, coordinates, faults: equal behaviours and equal Popov rows must go together."""
+def _name_differs(system: ResidualSystem) -> Found | None:
+    """Finds a system of other states, coordinates or faults such that equal behaviours and equal Popov rows do not go together."""
     kernel = kernel_representation(system)
     others = [with_feedback(system, [[1] * system.n] * system.m), with_feedback(system, [[i - 1 for i in range(system.n)]] * system.m)]
     others.append(recoverable_pair(pencil_of(system)).assignment.system)
@@ -433,7 +445,7 @@ def _name_differs(system: ResidualSystem) -> tuple[str, list[Certificate]] | Non
     others.append(ResidualSystem(system.A, system.F, system.C, Matrix.zero(system.field, system.p, system.m)))
     for other in others:
         compared = kernel_representation(other)
-        shown = [comparison_certificate(kernel, compared), make.window_ranks(kernel), make.window_ranks(compared)]
-        if (shown[0]["kind"] == "behaviour-equality") != (behavior_name(kernel) == behavior_name(compared)):
-            return f"{system} and {other}", shown
+        certificates = [comparison_certificate(kernel, compared), make.window_ranks(kernel), make.window_ranks(compared)]
+        if (certificates[0]["kind"] == "behaviour-equality") != (behavior_name(kernel) == behavior_name(compared)):
+            return f"{system} and {other}", certificates
     return None

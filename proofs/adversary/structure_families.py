@@ -31,7 +31,7 @@ Rows = list[list[Any]]
 
 @dataclass(frozen=True)
 class Tables:
-    """A system as numbers."""
+    """A system is given by four tables of numbers."""
 
     A: Rows
     F: Rows
@@ -43,14 +43,14 @@ Square = Callable[[Tables], Rows]
 
 
 def system_of(tables: Tables) -> ResidualSystem:
-    """The exact system."""
+    """Returns the exact system of these tables."""
     n, m, p = len(tables.A), len(tables.F[0]), len(tables.C)
     parts = ([[str(Fraction(x)) for x in row] for row in part] for part in (tables.A, tables.F, tables.C, tables.G))
     return ResidualSystem.of(*parts, n=n, m=m, p=p)
 
 
 def free_family(n: int, p: int, m: int, *, feedthrough: bool = True) -> Family:
-    """Every entry of A, F, C and, unless it is zero, G."""
+    """Returns a family in which every entry of A, F, C is free, and of G, unless it is zero."""
     count = n * n + n * m + p * n + (p * m if feedthrough else 0)
 
     def at(point: Sequence[Any]) -> Tables:
@@ -61,7 +61,7 @@ def free_family(n: int, p: int, m: int, *, feedthrough: bool = True) -> Family:
 
 
 def hidden_family(n: int, p: int, m: int, *, feedthrough: bool = True) -> Family:
-    """The first state moves alone and no output sees it: (A, C) is not observable."""
+    """Returns a family in which the first state moves alone and no output sees it: (A, C) is not observable."""
     free = free_family(n, p, m, feedthrough=feedthrough)
 
     def at(point: Sequence[Any]) -> Tables:
@@ -73,7 +73,7 @@ def hidden_family(n: int, p: int, m: int, *, feedthrough: bool = True) -> Family
 
 
 def idle_family(n: int, p: int, m: int) -> Family:
-    """The first state is reached by no fault: (A, F) is not controllable."""
+    """Returns a family in which the first state is reached by no fault: (A, F) is not controllable."""
     free = free_family(n, p, m)
 
     def at(point: Sequence[Any]) -> Tables:
@@ -85,7 +85,7 @@ def idle_family(n: int, p: int, m: int) -> Family:
 
 
 def rank_one_family(n: int, size: int) -> Family:
-    """p = m = size, G = g h': zeros at infinity."""
+    """Returns a family with p = m = size and G = g h': it has zeros at infinity."""
     count = n * n + 2 * n * size + 2 * size
 
     def at(point: Sequence[Any]) -> Tables:
@@ -97,7 +97,7 @@ def rank_one_family(n: int, size: int) -> Family:
 
 
 def rank_deficient_family() -> Family:
-    """n = p = m = 2, the second fault a multiple of the first, which the output cannot tell apart."""
+    """Returns a family with n = p = m = 2, in which the second fault is a multiple of the first: the output cannot tell them apart."""
     single = free_family(2, 2, 1)
 
     def at(point: Sequence[Any]) -> Tables:
@@ -108,7 +108,7 @@ def rank_deficient_family() -> Family:
 
 
 def pencil(z: int) -> Square:
-    """[[z I - A, -F], [C, G]], the first n + m rows."""
+    """Returns what takes the first n + m rows of [[z I - A, -F], [C, G]]."""
 
     def build(t: Tables) -> Rows:
         upper = [[*(z * int(i == j) - x for j, x in enumerate(a)), *(-x for x in f)] for i, (a, f) in enumerate(zip(t.A, t.F, strict=True))]
@@ -118,22 +118,22 @@ def pencil(z: int) -> Square:
 
 
 def feedthrough(t: Tables) -> Rows:
-    """The first m rows of G."""
+    """Returns the first m rows of G."""
     return t.G[: len(t.F[0])]
 
 
 def product(t: Tables) -> Rows:
-    """The first m rows of CF."""
+    """Returns the first m rows of CF."""
     return _product(t.C, t.F)[: len(t.F[0])]
 
 
 def later_product(t: Tables) -> Rows:
-    """The first m rows of CAF."""
+    """Returns the first m rows of CAF."""
     return _product(_product(t.C, t.A), t.F)[: len(t.F[0])]
 
 
 def seen(t: Tables) -> Rows:
-    """The first n rows of O_n."""
+    """Returns the first n rows of O_n."""
     block: Rows = t.C
     rows: Rows = []
     while len(rows) < len(t.A):
@@ -143,7 +143,7 @@ def seen(t: Tables) -> Rows:
 
 
 def reached(t: Tables) -> Rows:
-    """The first n columns of [F AF ...], as rows."""
+    """Returns the first n columns of [F AF ...], as rows."""
     block: Rows = t.F
     rows: Rows = []
     while len(rows) < len(t.A):
@@ -153,14 +153,14 @@ def reached(t: Tables) -> Rows:
 
 
 def crossed(t: Tables) -> Rows:
-    """What is left of CF on the kernel of a rank-one G and beside its range, for p = m = 2."""
+    """Returns what is left of CF on the kernel of a rank-one G and beside its range, for p = m = 2."""
     (a, b), (c, d) = _product(t.C, t.F)
     left, right = (-_one(t.G, 1), _one(t.G, 0)), (-t.G[0][1] or -t.G[1][1], t.G[0][0] or t.G[1][0])
     return [[left[0] * (a * right[0] + b * right[1]) + left[1] * (c * right[0] + d * right[1])]]
 
 
 def determinant(rows: Rows) -> Any:
-    """By expansion along the first row: small matrices, floats or Fractions."""
+    """Expands a determinant along the first row: small matrices, floats or Fractions."""
     if len(rows) == 1:
         return rows[0][0]
     total = 0
@@ -171,7 +171,7 @@ def determinant(rows: Rows) -> Any:
 
 
 def hadamard(family: Family, square: Square) -> Callable[[Floats], float]:
-    """The determinant of a point in floats, against Hadamard's bound, or against 1 for a single number."""
+    """Returns a function of a point in floats: the determinant against Hadamard's bound, or against 1 for a single number."""
 
     def value(point: Floats) -> float:
         matrix = np.array(square(family.at(point)), dtype=np.float64)
@@ -182,7 +182,7 @@ def hadamard(family: Family, square: Square) -> Callable[[Floats], float]:
 
 
 def exact_value(family: Family, square: Square) -> Callable[[Point], Fraction]:
-    """The same exactly, without the bound."""
+    """Returns the same function in exact arithmetic, without the bound."""
     return lambda point: Fraction(determinant(square(family.at(point))))
 
 
@@ -195,7 +195,7 @@ def _product(left: Rows, right: Rows) -> Rows:
 
 
 def _cut(point: Sequence[Any], *shapes: tuple[int, int]) -> list[Any]:
-    """Tables of these shapes, then what is left."""
+    """Cuts tables of these shapes off a list of numbers; what is left comes last."""
     values, found = list(point), []
     for rows, cols in shapes:
         found.append([values[i * cols : (i + 1) * cols] for i in range(rows)])

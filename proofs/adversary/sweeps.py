@@ -24,30 +24,30 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ..claims.common import delays, zeros
 from ..evidence.exhaustive import Orbit, orbits
 from ..trust import structure_certificates as make
-from ..trust.structure_certificates import Certificate, accept
+from ..trust.structure_certificates import accept
 from .structure_attacks import Decide, irrecoverable, misplaced, unlike, wrong_delay, wrong_signal, zeros_as_a_set
+from .witnesses import Found
 
 BOXES = ((2, 3, 1, 1), (3, 2, 1, 2))
 
 PARTNERS = ((2, 2, 2, 1), (2, 1, 3, 2), (2, 2, 3, 1), (3, 2, 2, 1))
 
 Case = tuple[Any, int]
-Judge = Callable[[Any], tuple[str, list[Certificate]] | None]
 
 
 @dataclass(frozen=True)
 class Sweep:
-    """`cases` yields (case, how many subjects it stands for); `judge` gives words and certificates of a counterexample, or None."""
+    """`cases` yields (case, how many subjects it stands for); `decide` gives words and certificates of a counterexample, or None."""
 
     target: str
     name: str
     words: str
     cases: Callable[[], Iterable[Case]]
-    judge: Judge
+    decide: Callable[[Any], Found | None]
 
     @property
     def id(self) -> str:
-        """What names it in the file of results."""
+        """The name of the sweep in the file of results."""
         return f"{self.target} by {self.name}"
 
 
@@ -60,11 +60,11 @@ class Swept:
     subjects: int
     complete: bool
     seconds: float
-    found: tuple[str, list[Certificate]] | None
+    found: Found | None
 
 
 def sweeps() -> Iterator[Sweep]:
-    """In the order of the ledger."""
+    """Yields the sweeps in the order of the ledger."""
     deciders: tuple[tuple[str, Decide], ...] = (
         ("trajectory-recovered.state-known", unlike(wrong_delay, delays)),
         ("trajectory-recovered.no-finite-zeros-as-a-set", unlike(zeros_as_a_set, lambda system: [*zeros(system), *delays(system)])),
@@ -84,7 +84,7 @@ def sweeps() -> Iterator[Sweep]:
 
 
 def sweep(one: Sweep, *, seconds: float) -> Swept:
-    """Until a counterexample, the end of the box, or the end of the time."""
+    """Goes through the box until a counterexample, the end of the box, or the end of the time."""
     started = time.process_time()
     cases = subjects = 0
     found = None
@@ -94,7 +94,7 @@ def sweep(one: Sweep, *, seconds: float) -> Swept:
             complete = False
             break
         cases, subjects = cases + 1, subjects + weight
-        found = one.judge(case)
+        found = one.decide(case)
         if found is not None:
             for certificate in found[1]:
                 accept(certificate)
@@ -108,8 +108,9 @@ def _systems(q: int, n: int, p: int, m: int) -> Iterator[Case]:
         yield orbit.system, orbit.size
 
 
-def _without_partner(system: Any) -> tuple[str, list[Certificate]] | None:
-    """Left-invertible, m >= 1, lag >= 1: no (F', G') of as many columns, left-invertible, agrees on lag samples and no more."""
+def _without_partner(system: Any) -> Found | None:
+    """Finds a left-invertible system with m >= 1 and lag >= 1 for which no left-invertible (F', G') of as many columns agrees on lag
+    samples and no more."""
     kernel = kernel_representation(system)
     if kernel.normal_rank < system.m or not system.m or not kernel.lag:
         return None
@@ -128,8 +129,8 @@ def _dimensions() -> Iterator[Case]:
         yield (n, p, m), 1
 
 
-def _common_factor(case: Any) -> tuple[str, list[Certificate]] | None:
-    """A factor that all cofactors share in Q[entries, q]; the check of the reading decides over Q(entries) alone."""
+def _common_factor(case: Any) -> Found | None:
+    """Finds a factor that all cofactors share in Q[entries, q]; the check of the reading decides over Q(entries) alone."""
     n, p, m = case
     found = generic_exceptional(n, p, m)
     common = found.cofactors[0].cofactor

@@ -1,1 +1,1 @@
-"""One file a claim, named as its id with underscores; one function a reading, from a Workbench to an Outcome."""
+"""The checks of the claims: one function a check, from a Workbench to an Outcome, in a file named as the claim with underscores."""

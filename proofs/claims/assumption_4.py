@@ -15,7 +15,7 @@ from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.structure.signals import excitation_matrix, hankel, persistency, simulate
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.families import adversarial, random_systems
 from ..evidence.search import Box, Facts, Flags, systems_in_order
 from ..trust import structure_certificates as make
@@ -26,44 +26,44 @@ from .common import GAP_BOX, delay_of, delays, gap_is_m_from, under_assumption_4
 
 
 def n_minus_1_known(bench: Workbench) -> Outcome:
-    """s >= max(l, n - 1), l the delay for known initial state."""
+    """The gap is claimed to be m for s >= max(l, n - 1), where l is the delay for a known initial state."""
     test = wrong_gap(lambda f: f.delay_known_state)
-    return bench.once("gap from n - 1", lambda: refute(bench, GAP_BOX, test, under_assumption_4(True), _from(True, -1), delays))
+    return refute(bench, GAP_BOX, test, under_assumption_4(True), _from(True, -1), delays)
 
 
 def n_minus_1_unknown(bench: Workbench) -> Outcome:
-    """s >= max(l, n - 1), l the delay for unknown initial state."""
+    """The gap is claimed to be m for s >= max(l, n - 1), where l is the delay for an unknown initial state."""
     return refute(bench, GAP_BOX, wrong_gap(lambda f: f.delay_unknown_state), under_assumption_4(False), _from(False, -1), delays)
 
 
 def n_known(bench: Workbench) -> Outcome:
-    """s >= max(l, n), l the delay for known initial state."""
+    """The gap is m for s >= max(l, n), where l is the delay for a known initial state."""
     return certify(bench, under_assumption_4(True), _from(True, 0), delays)
 
 
 def n_unknown(bench: Workbench) -> Outcome:
-    """s >= max(l, n), l the delay for unknown initial state."""
+    """The gap is m for s >= max(l, n), where l is the delay for an unknown initial state."""
     return certify(bench, under_assumption_4(False), _from(False, 0), delays)
 
 
 def lag(bench: Workbench) -> Outcome:
-    """gap(s) = m for every s >= lag and, unless p = m, for no s < lag; neither observability nor any delay is used."""
+    """The gap is m for every s >= lag and, unless p = m, for no s < lag; neither observability nor any delay is used."""
 
-    def holds(d: Dossier) -> bool:
-        return all((d.gap(s) == d.m) == (s >= d.lag) for s in range(0, d.n + 3))
+    def holds(e: Evidence) -> bool:
+        return all((e.kernel.gap(s) == e.system.m) == (s >= e.kernel.lag) for s in range(0, e.system.n + 3))
 
-    return certify(bench, lambda d: d.left_invertible and d.p > d.m, holds, delays)
+    return certify(bench, lambda e: e.left_invertible and e.system.p > e.system.m, holds, delays)
 
 
 def _from(known_state: bool, shift: int) -> Test:
-    return gap_is_m_from(lambda d: max(delay_of(d, known_state) or 0, d.n + shift))
+    return gap_is_m_from(lambda e: max(delay_of(e, known_state) or 0, e.system.n + shift))
 
 
 # -- the condition on the data ---------------------------------------------------------------------------------------------
 
 
 def excitation_at_s(bench: Workbench) -> Outcome:
-    """[X; V_s] of full row rank at the s of the statement only: the smallest trajectory on which the rank gap of R is wrong."""
+    """[X; V_s] of full row rank at the s of the statement is not enough: this finds the smallest trajectory whose gap of R is wrong."""
     box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
     samples = 5
     for system in systems_in_order(box, _valid):
@@ -73,21 +73,21 @@ def excitation_at_s(bench: Workbench) -> Outcome:
             s = 1
             full = rank(excitation_matrix(data, s)) == system.n + system.m * s
             if full and rank(hankel(data.residuals, s + 1)) - rank(hankel(data.residuals, s)) != system.m:
-                shown = [make.data_rank("excitation", system, x0, faults, s)]
-                shown += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
+                certificates = [make.data_rank("excitation", system, x0, faults, s)]
+                certificates += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
                 words = f"{system}, x(0) = {x}, v = {v}, s = {s}"
-                return counterexample(words, f"{box}, {samples} samples, entries of x(0) and v in {{-1, 0, 1}}", shown)
+                return counterexample(words, f"{box}, {samples} samples, entries of x(0) and v in {{-1, 0, 1}}", certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
 def _valid(facts: Facts) -> Flags:
-    """Observable, left-invertible, and n = s = 1 at least both delays."""
+    """Whether systems are observable and left-invertible, and n = s = 1 is at least both delays."""
     return facts.observable & facts.left_invertible & (facts.delay_unknown_state <= 1)
 
 
 def excitation_at_s_plus_1(bench: Workbench) -> Outcome:
-    """[X; V_(s+1)] of full row rank: rank R_s and rank R_(s+1) are the model's, so the gap is m for s >= lag."""
-    return bench.once("gap of excited data", lambda: _on_data(bench, excited=True))
+    """Where [X; V_(s+1)] has full row rank, R_s and R_(s+1) have the ranks of the model, so that the gap is m for s >= lag."""
+    return _on_data(bench, excited=True)
 
 
 def excitation_necessary(bench: Workbench) -> Outcome:
@@ -101,19 +101,19 @@ def excitation_necessary(bench: Workbench) -> Outcome:
             deficient = rank(excitation_matrix(data, s + 1)) < system.n + system.m * (s + 1)
             right = rank(hankel(data.residuals, s + 1)) - rank(hankel(data.residuals, s)) == system.m
             if deficient and right and persistency(faults) >= system.n + s + 1:
-                shown = [make.data_rank("excitation", system, x0, faults, s + 1)]
-                shown += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
-                return counterexample(f"{system}, x(0) = 0, v = {list(v)}, s = {s}: rank deficient, gap right", box, shown)
+                certificates = [make.data_rank("excitation", system, x0, faults, s + 1)]
+                certificates += [make.data_rank("residual-hankel", system, x0, faults, k) for k in (s, s + 1)]
+                return counterexample(f"{system}, x(0) = 0, v = {list(v)}, s = {s}: rank deficient, gap right", box, certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
 def persistency_suffices(bench: Workbench) -> Outcome:
-    """v persistently exciting of order n + s + 1 and s >= lag: the gap of R is m, whether or not [X; V_(s+1)] has full row rank."""
+    """Where v is persistently exciting of order n + s + 1 and s >= lag, the gap of R is m, whatever the rank of [X; V_(s+1)] is."""
     return _on_data(bench, excited=False)
 
 
 def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
-    """Random trajectories of left-invertible systems: rank R_(s+1) - rank R_s = m at s = max(lag, 1), with accepted rank certificates."""
+    """On random trajectories of left-invertible systems, rank R_(s+1) - rank R_s is m at s = max(lag, 1), by certificates of rank."""
     rng = random.Random(4)
     systems = [s for _, s in adversarial() if 0 < s.n <= 3] + list(
         islice(random_systems(QQ, 4000, seed=5, largest=3), 400 if bench.full else 90)
@@ -131,12 +131,12 @@ def _on_data(bench: Workbench, *, excited: bool) -> Outcome:
         full = rank(excitation_matrix(simulate(system, x0, v), s + 1)) == system.n + system.m * (s + 1)
         if (excited and not full) or (not excited and persistency(v) < system.n + s + 1):
             continue
-        shown = accepted(_gap_certificates(system, x0, v, s))
-        gap = shown[2]["statement"]["rank"] - shown[1]["statement"]["rank"]
+        certificates = accepted(_gap_certificates(system, x0, v, s))
+        gap = certificates[2]["statement"]["rank"] - certificates[1]["statement"]["rank"]
         if gap != system.m:
-            return Outcome(Verdict.REFUTED, f"fails on {system}, x(0) = {x0}, v = {v}, s = {s}", shown, len(shown))
-        tried, count, deficient = tried + 1, count + len(shown), deficient + (not full)
-        headline = headline or shown
+            return Outcome(Verdict.REFUTED, f"fails on {system}, x(0) = {x0}, v = {v}, s = {s}", certificates, len(certificates))
+        tried, count, deficient = tried + 1, count + len(certificates), deficient + (not full)
+        headline = headline or certificates
     if not tried:
         return Outcome(Verdict.ERROR, "no trajectory meets the hypotheses")
     note = "" if excited else f", {deficient} of them with [X; V_(s+1)] rank-deficient"

@@ -32,33 +32,33 @@ from .one_determinant import show, words
 
 
 def one_fault(bench: Workbench) -> Outcome:
-    """(A, C) observable, r = 1: every P other than 0 is good."""
-    records = [d for d in bench.judged if d.observable and d.normal_rank == 1 and d.full_column_rank]
-    return certify_records(records, [d for d in records if not d.equal], words, show)
+    """Where (A, C) is observable and r = 1, every P other than 0 is good."""
+    records = [e for e in bench.pairs_by_polynomial if e.observable and e.normal_rank == 1 and e.full_column_rank]
+    return certify_records(records, [e for e in records if not e.equal], words, show)
 
 
 def no_zeros(bench: Workbench) -> Outcome:
-    """zeta = 0: P is square, and good iff det P is not zero; the bad P are a hypersurface of degree r."""
-    records = [d for d in bench.judged if d.zeta == 0]
-    return certify_records(records, [d for d in records if d.equal != d.full_column_rank], words, show)
+    """Where zeta = 0, P is square, and it is good iff det P is not zero: the bad P are a hypersurface of degree r."""
+    records = [e for e in bench.pairs_by_polynomial if e.zeta == 0]
+    return certify_records(records, [e for e in records if e.equal != e.full_column_rank], words, show)
 
 
 def full_rank(bench: Workbench) -> Outcome:
     """A bad P of full column rank exists iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1."""
-    systems = {d.system: d for d in bench.judged}
-    with_one = {d.system for d in bench.judged if d.purpose == "bad" and d.full_column_rank and not d.equal}
+    systems = {e.system: e for e in bench.pairs_by_polynomial}
+    with_one = {e.system for e in bench.pairs_by_polynomial if e.purpose == "bad" and e.full_column_rank and not e.equal}
     failing = []
-    for system, d in systems.items():
-        predicted = (d.normal_rank >= 1 and not d.observable) or (d.normal_rank >= 2 and d.zeta >= 1)
-        # where none is predicted, every P of full column rank that was judged has to be good
-        contradicted = any(not e.equal and e.full_column_rank for e in bench.judged if e.system == system)
+    for system, e in systems.items():
+        predicted = (e.normal_rank >= 1 and not e.observable) or (e.normal_rank >= 2 and e.zeta >= 1)
+        # where none is predicted, every P of full column rank that was chosen has to be good
+        contradicted = any(not x.equal and x.full_column_rank for x in bench.pairs_by_polynomial if x.system == system)
         if predicted != (system in with_one) or (not predicted and contradicted):
-            failing.append(d)
-    return certify_records([d for d in bench.judged if d.purpose in ("good", "bad")], failing, words, show)
+            failing.append(e)
+    return certify_records([e for e in bench.pairs_by_polynomial if e.purpose in ("good", "bad")], failing, words, show)
 
 
 def codimension_two(bench: Workbench) -> Outcome:
-    """(A, C) observable, r >= 2, zeta >= 1: codimension at least two, by a line of P that meets no bad one, over any extension field."""
+    """Where (A, C) is observable, r >= 2 and zeta >= 1, the codimension is at least two: some line of P meets no bad one."""
     tried = [pencil for pencil in _pencils(bench) if pencil.observable and pencil.columns >= 2 and pencil.zeta >= 1]
     count, missed = 0, 0
     headline: tuple[Certificate, ...] = ()
@@ -66,8 +66,8 @@ def codimension_two(bench: Workbench) -> Outcome:
         bench.progress("lines without a bad P", done, len(tried))
         stated = bad_set(pencil).codimension
         if stated is not None and stated < 2:
-            shown = accepted(_kernel(pencil))
-            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", shown, len(shown))
+            certificates = accepted(_kernel(pencil))
+            return Outcome(Verdict.REFUTED, f"codimension {stated} for {pencil.system}", certificates, len(certificates))
         line = _line(pencil)
         if line is None:
             missed += 1
@@ -83,7 +83,7 @@ def codimension_two(bench: Workbench) -> Outcome:
 
 
 def codimension_unobservable(bench: Workbench) -> Outcome:
-    """Codimension at least two when zeta >= 1, (A, C) observable or not."""
+    """The codimension is claimed to be at least two when zeta >= 1, whether (A, C) is observable or not."""
     box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
     for system in systems_in_order(box, lambda f: np.asarray(~f.observable & f.left_invertible)):
         pencil = pencil_of(system)
@@ -92,9 +92,9 @@ def codimension_unobservable(bench: Workbench) -> Outcome:
             bad = bad_pair(pencil)
             if isinstance(bad, BadPair) and pencil.n_z == 2 and pencil.columns == 1:
                 pair = kernel_representation(with_pair(pencil.space, bad.verdict.P))
-                shown = [*_kernel(pencil), comparison_certificate(pencil.kernel, pair), make.left_invertible(pair)]
+                certificates = [*_kernel(pencil), comparison_certificate(pencil.kernel, pair), make.left_invertible(pair)]
                 text = f"{system}: P has two entries, and every multiple of {bad.verdict.P} is bad"
-                return counterexample(text, box, shown)
+                return counterexample(text, box, certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
@@ -113,7 +113,7 @@ def _pencils(bench: Workbench) -> Iterator[Exceptional]:
 
 
 def _line(pencil: Exceptional) -> Certificate | None:
-    """A line through two random P that meets no bad one: nearly every line does where the codimension is two or more."""
+    """A line through two random P that meets no bad one is sought; nearly every line does where the codimension is two or more."""
     rng, field = random.Random(str(pencil.system)), pencil.system.field
     shape = (pencil.n_z, pencil.columns)
     for _ in range(6):

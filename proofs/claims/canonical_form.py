@@ -10,7 +10,7 @@ from ...exact.pairs.canonical_form import behavior_name, fault_class, with_feedb
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.alternatives import PairDossier, RivalDossier, comparison_certificate
+from ..evidence.alternatives import AlternativeEvidence, PairEvidence, comparison_certificate
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -20,12 +20,12 @@ from ..verdict.workbench import Workbench, certify_records, counterexample
 
 def same_a_c(bench: Workbench) -> Outcome:
     """Two systems with the same (A, C) have the same behaviour iff their Z have the same reduced row echelon form."""
-    failing = [d for d in bench.rivals if d.equal != (_fault_class(d.system) == _fault_class(d.rival))]
-    return certify_records(bench.rivals, failing, lambda d: f"{d.system} and {d.rival}", _show_rival)
+    failing = [e for e in bench.alternatives if e.equal != (_fault_class(e.system) == _fault_class(e.alternative))]
+    return certify_records(bench.alternatives, failing, lambda e: f"{e.system} and {e.alternative}", _show_alternative)
 
 
 def any_a_c(bench: Workbench) -> Outcome:
-    """The same for systems with different (A, C): equal behaviours, so equal Z. The smallest system and feedback that say no."""
+    """The same is claimed for different (A, C): equal behaviours have equal Z. This finds the smallest system and feedback that say no."""
     box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
     for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
         kernel = kernel_representation(system)
@@ -33,30 +33,30 @@ def any_a_c(bench: Workbench) -> Outcome:
             for gain in (0, 1, -1):
                 other = kernel_representation(with_feedback(similar, [[gain]]))
                 if fault_space(other).basis != fault_space(kernel).basis:
-                    shown = [comparison_certificate(kernel, other), make.fault_space(kernel, fault_space(kernel))]
-                    shown.append(make.fault_space(other, fault_space(other)))
+                    certificates = [comparison_certificate(kernel, other), make.fault_space(kernel, fault_space(kernel))]
+                    certificates.append(make.fault_space(other, fault_space(other)))
                     text = f"{system} and {other.system}, made of it by a change of basis of the state and v + {gain} x for v"
-                    return counterexample(text, f"{box}, gain in {{0, 1, -1}}", shown)
+                    return counterexample(text, f"{box}, gain in {{0, 1, -1}}", certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
 def feedback(bench: Workbench) -> Outcome:
-    """B names (A, C): a system with other A and C by feedback of the state into the fault has the same behaviour."""
+    """B is claimed to name (A, C): but feedback of the state into the fault gives a system with other A and C and the same behaviour."""
     box = Box(total=4, largest_n=1, largest_m=1, largest_p=2)
     for system in systems_in_order(box, lambda f: np.asarray(f.observable & f.controllable & f.left_invertible)):
         kernel = kernel_representation(system)
         other = kernel_representation(with_feedback(system, [[1]]))
         if (other.system.A, other.system.C) != (system.A, system.C):
-            shown = [comparison_certificate(kernel, other)]
-            if shown[0]["kind"] == "behaviour-equality":
-                return counterexample(f"{system} and, with K = 1, {other.system}", box, shown)
+            certificates = [comparison_certificate(kernel, other)]
+            if certificates[0]["kind"] == "behaviour-equality":
+                return counterexample(f"{system} and, with K = 1, {other.system}", box, certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
 def popov_rows(bench: Workbench) -> Outcome:
-    """Whatever (A, C), n and m: the behaviours are equal iff the Popov rows of N(q) are."""
-    failing = [d for d in bench.pairs if (d.first_difference is None) != (_name(d.first) == _name(d.second))]
-    return certify_records(bench.pairs, failing, lambda d: f"{d.first} and {d.second}", _show_pair)
+    """Whatever (A, C), n and m are, the behaviours are equal iff the Popov rows of N(q) are."""
+    failing = [e for e in bench.pairs if (e.first_difference is None) != (_name(e.first) == _name(e.second))]
+    return certify_records(bench.pairs, failing, lambda e: f"{e.first} and {e.second}", _show_pair)
 
 
 def _fault_class(system: ResidualSystem) -> object:
@@ -67,14 +67,14 @@ def _name(system: ResidualSystem) -> object:
     return behavior_name(kernel_representation(system))
 
 
-def _show_rival(record: RivalDossier) -> Iterator[Certificate]:
-    kernels = kernel_representation(record.system), kernel_representation(record.rival)
+def _show_alternative(record: AlternativeEvidence) -> Iterator[Certificate]:
+    kernels = kernel_representation(record.system), kernel_representation(record.alternative)
     yield comparison_certificate(*kernels)
     for kernel in kernels:
         yield make.fault_space(kernel, fault_space(kernel))
 
 
-def _show_pair(record: PairDossier) -> Iterator[Certificate]:
+def _show_pair(record: PairEvidence) -> Iterator[Certificate]:
     kernels = kernel_representation(record.first), kernel_representation(record.second)
     yield comparison_certificate(*kernels)
     for kernel in kernels:

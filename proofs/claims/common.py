@@ -1,11 +1,13 @@
-"""What several claims share: how a system's certificates are shown, and the search for a gap that is not m.
+"""What several claims share: certificates about a system that show what they rest on, and tests of a system.
 
-ranks_and_inversion   window ranks, and left-invertible or not
-delays                both delays of left inversion
-zeros                 finite and infinite zeros
-spaces                the fault space at a window and in the limit
-gap_box, wrong_gap    where and how a window with rank gap other than m is sought
-identity              a parametric claim at several dimensions
+ranks_and_inversion    certificates of the window ranks, and of left-invertibility or its absence
+delays                 these, and certificates of both delays of left inversion
+zeros                  these, and certificates of the finite and the infinite zeros
+spaces                 these, and certificates of the fault space at a window and in the limit
+under_assumption_4     whether a system is observable and left-invertible with some delay; `delay_of` is that delay
+gap_is_m_from          whether the gap is m from a bound on
+GAP_BOX, wrong_gap     where and how a window with a gap other than m is sought
+identity               the outcome of a parametric claim at several dimensions
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ from ...exact.parametric.stratification import Stratification, stratify
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.search import Box, Facts, Flags, Integers
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -28,14 +30,14 @@ from ..verdict.workbench import Show, Test, Workbench
 
 
 def ranks_and_inversion(system: ResidualSystem) -> Iterator[Certificate]:
-    """Window ranks, and whether it is left-invertible."""
+    """Certificates of the window ranks, and of whether the system is left-invertible."""
     kernel = kernel_representation(system)
     yield make.window_ranks(kernel)
     yield make.left_invertible(kernel)
 
 
 def delays(system: ResidualSystem) -> Iterator[Certificate]:
-    """Window ranks, left-invertibility, observability and both delays."""
+    """Certificates of the window ranks, of left-invertibility, of observability and of both delays."""
     yield from ranks_and_inversion(system)
     yield make.matrix_rank("observability", system)
     kernel = kernel_representation(system)
@@ -44,17 +46,16 @@ def delays(system: ResidualSystem) -> Iterator[Certificate]:
 
 
 def zeros(system: ResidualSystem) -> Iterator[Certificate]:
-    """Window ranks, left-invertibility, finite and infinite zeros, observability and controllability."""
+    """Certificates of the window ranks, of left-invertibility, of the zeros, of observability and of controllability."""
     yield from ranks_and_inversion(system)
-    if system.n <= 4:
-        yield make.finite_zeros(system)
-        yield make.infinite_zeros(system)
+    yield make.finite_zeros(system)
+    yield make.infinite_zeros(system)
     yield make.matrix_rank("observability", system)
     yield make.matrix_rank("reachability", system)
 
 
 def spaces(window: Callable[[ResidualSystem], int]) -> Show:
-    """Window ranks, left-invertibility, the fault space at the window and in the limit."""
+    """A function that yields certificates of ranks, of left-invertibility, and of the fault space at the window and in the limit."""
 
     def show(system: ResidualSystem) -> Iterator[Certificate]:
         yield from ranks_and_inversion(system)
@@ -69,7 +70,7 @@ GAP_BOX = Box(total=5, largest_n=3, largest_m=2, largest_p=3)
 
 
 def wrong_gap(delay: Callable[[Facts], Integers]) -> Callable[[Facts], Flags]:
-    """Observable left-invertible systems with gap(s) != m for some s >= max(l, n - 1, 1)."""
+    """A test that finds observable left-invertible systems with gap(s) != m for some s >= max(l, n - 1, 1)."""
 
     def candidate(facts: Facts) -> Flags:
         bound = np.maximum(delay(facts), max(facts.n - 1, 1))
@@ -85,7 +86,7 @@ Dimensions = tuple[int, int, int]
 
 
 def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Sequence[Dimensions], full: Sequence[Dimensions]) -> Outcome:
-    """A parametric claim at all these (n, p, m): IDENTITY; it raises where a stratum or an expansion fails."""
+    """The outcome of a parametric claim at all these (n, p, m): IDENTITY, or what it raises where a stratum or an expansion fails."""
     dimensions = [*quick, *full] if bench.full else list(quick)
     strata = expanded = 0
     for done, (n, p, m) in enumerate(dimensions):
@@ -98,24 +99,24 @@ def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Se
 
 
 def under_assumption_4(known_state: bool) -> Test:
-    """Observable and left-invertible with some delay, for known or unknown initial state."""
+    """A test that asks whether a system is observable and left-invertible with some delay, for a known or unknown initial state."""
 
-    def applies(d: Dossier) -> bool:
-        return d.observable and d.left_invertible and delay_of(d, known_state) is not None
+    def applies(e: Evidence) -> bool:
+        return e.observable and e.left_invertible and delay_of(e, known_state) is not None
 
     return applies
 
 
-def delay_of(d: Dossier, known_state: bool) -> int | None:
+def delay_of(e: Evidence, known_state: bool) -> int | None:
     """The delay of left inversion in one of its two senses."""
-    return d.delay_known_state if known_state else d.delay_unknown_state
+    return e.delay_known_state if known_state else e.delay_unknown_state
 
 
-def gap_is_m_from(bound: Callable[[Dossier], int]) -> Test:
-    """gap(s) = m for every s >= max(bound, 1)."""
+def gap_is_m_from(bound: Callable[[Evidence], int]) -> Test:
+    """A test that asks whether gap(s) = m for every s >= max(bound, 1)."""
 
-    def holds(d: Dossier) -> bool:
-        start = max(bound(d), 1)
-        return all(d.gap(s) == d.m for s in range(start, max(start, d.n) + 2))
+    def holds(e: Evidence) -> bool:
+        start = max(bound(e), 1)
+        return all(e.kernel.gap(s) == e.system.m for s in range(start, max(start, e.system.n) + 2))
 
     return holds

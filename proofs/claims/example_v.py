@@ -21,7 +21,7 @@ SAMPLES = 24
 
 @cache
 def _certificates() -> dict[str, Certificate]:
-    """Everything about the example, accepted by the checker."""
+    """Everything about the example is certified here, and accepted by the checker."""
     system = paper_example().residual
     kernel = kernel_representation(system)
     found = {
@@ -49,12 +49,12 @@ def _certificates() -> dict[str, Certificate]:
 
 def _outcome(holds: bool, words: str, *names: str) -> Outcome:
     found = _certificates()
-    shown = tuple(found[name] for name in names)
-    return Outcome(Verdict.CERTIFIED if holds else Verdict.REFUTED, words, shown, len(shown))
+    certificates = tuple(found[name] for name in names)
+    return Outcome(Verdict.CERTIFIED if holds else Verdict.REFUTED, words, certificates, len(certificates))
 
 
 def one_fault(bench: Workbench) -> Outcome:
-    """Left-invertible, and the gap is 1 for every s >= lag."""
+    """The example is left-invertible, and its gap is 1 for every s >= lag."""
     says = _certificates()["ranks"]["statement"]
     indices, r = says["left_minimal_indices"], says["normal_rank"]
     words = f"window ranks {says['window_ranks']} for s = 1..6, left minimal indices {indices}, normal rank {r}"
@@ -62,7 +62,7 @@ def one_fault(bench: Workbench) -> Outcome:
 
 
 def two_columns(bench: Workbench) -> Outcome:
-    """n_z = 2 in the limit, reached at s = lag + 1."""
+    """The example has n_z = 2 in the limit, which is reached at s = lag + 1."""
     found = _certificates()
     sizes = [len(found[f"space {s}"]["statement"]["basis"]) for s in range(1, 7)]
     basis = found["limit"]["statement"]["basis"]
@@ -71,7 +71,7 @@ def two_columns(bench: Workbench) -> Outcome:
 
 
 def window_of_assumption_4(bench: Workbench) -> Outcome:
-    """Two columns already at s = max(l, n_x - 1)."""
+    """The example is claimed to have two columns already at s = max(l, n_x - 1)."""
     found = _certificates()
     s = max(found["known"]["statement"]["delay"], paper_example().residual.n - 1)
     size = len(found[f"space {s}"]["statement"]["basis"])
@@ -79,14 +79,14 @@ def window_of_assumption_4(bench: Workbench) -> Outcome:
 
 
 def not_controllable(bench: Workbench) -> Outcome:
-    """(A, F) is not controllable, (A, C) is observable."""
+    """In the example (A, F) is not controllable, and (A, C) is observable."""
     found = _certificates()
     reach, observe = (found[name]["statement"]["rank"] for name in ("reachability", "observability"))
     return _outcome(reach < 3 and observe == 3, f"rank of [F AF A^2F] is {reach}, of O_3 it is {observe}", "reachability", "observability")
 
 
 def zeros_and_delays(bench: Workbench) -> Outcome:
-    """One zero, at infinity; lag 2; delay 1 whether the initial state is known or not."""
+    """The example has one zero, at infinity; its lag is 2, and its delay is 1 whether the initial state is known or not."""
     found = _certificates()
     finite = len(found["finite"]["statement"]["invariant_zero_polynomial"]) - 1
     orders = found["infinite"]["statement"]["infinite_zero_orders"]
@@ -97,13 +97,13 @@ def zeros_and_delays(bench: Workbench) -> Outcome:
 
 
 def seventh_singular_value(bench: Workbench) -> Outcome:
-    """The review's sentence, read as a rank: the seventh singular value of R5 is negligible, so rank R5 = 6."""
+    """The review's sentence is read as a rank: the seventh singular value of R5 is negligible, so that rank R5 = 6."""
     r5, r6, words = _data_ranks()
     return _outcome(r5 == 6 and r6 == 7, words, "R5", "R6", "excitation 5", "excitation 6")
 
 
 def rank_difference(bench: Workbench) -> Outcome:
-    """The review's conclusion: rank R6 - rank R5 = 1."""
+    """The review concludes, rightly, that rank R6 - rank R5 = 1."""
     r5, r6, words = _data_ranks()
     return _outcome(r6 - r5 == 1, words, "R5", "R6", "excitation 6")
 

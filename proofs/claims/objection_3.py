@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier, examine
+from ..evidence.corpus import Evidence, examine
 from ..evidence.families import paper_example
 from ..evidence.search import Box, smallest
 from ..verdict.verdicts import Outcome, Verdict
@@ -19,8 +19,8 @@ def controllability_needed(bench: Workbench) -> Outcome:
     """'Without controllability the formula fails': the smallest system not controllable where it holds; the paper's example is another."""
 
     def holds(system: ResidualSystem) -> bool:
-        d = examine("search", system)
-        return not d.controllable and d.observable and d.left_invertible and gap_is_m_from(lambda d: d.n)(d)
+        e = examine("search", system)
+        return not e.controllable and e.observable and e.left_invertible and gap_is_m_from(lambda e: e.system.n)(e)
 
     found = smallest(BOX, lambda f: np.asarray(f.observable & f.left_invertible & ~f.controllable), holds)
     if found is None:
@@ -31,14 +31,14 @@ def controllability_needed(bench: Workbench) -> Outcome:
 
 
 def gap_without_controllability(bench: Workbench) -> Outcome:
-    """Not controllable, left-invertible, s >= n: the gap is m all the same."""
-    return certify(bench, lambda d: d.left_invertible and not d.controllable, gap_is_m_from(lambda d: d.n), zeros)
+    """Where a left-invertible system is not controllable and s >= n, the gap is m all the same."""
+    return certify(bench, lambda e: e.left_invertible and not e.controllable, gap_is_m_from(lambda e: e.system.n), zeros)
 
 
 def ranks_without_minimality(bench: Workbench) -> Outcome:
-    """Neither controllable nor observable, left-invertible: rank [O_s T_s] = n + s m - zeta for s >= lag, zeros of the pencil."""
+    """Without controllability or observability, rank [O_s T_s] = n + s m - zeta for s >= lag, with the zeros of the pencil."""
 
-    def holds(d: Dossier) -> bool:
-        return all(d.rank(s) == d.n + s * d.m - (d.zeta or 0) for s in range(d.lag, d.n + 4))
+    def holds(e: Evidence) -> bool:
+        return all(e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta for s in range(e.kernel.lag, e.system.n + 4))
 
-    return certify(bench, lambda d: d.left_invertible and d.zeta is not None and not (d.controllable and d.observable), holds, zeros)
+    return certify(bench, lambda e: e.left_invertible and not (e.controllable and e.observable), holds, zeros)

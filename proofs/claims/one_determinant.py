@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from ...exact.parametric.cofactors import generic_exceptional, generic_exceptional_without_feedthrough
 from ...exact.structure.kernel_rows import kernel_representation
 from ..evidence.alternatives import comparison_certificate
-from ..evidence.pairs_by_polynomial import JudgedPair
+from ..evidence.pairs_by_polynomial import PairByPolynomial
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
@@ -19,8 +19,8 @@ from ..verdict.workbench import Workbench, certify_records
 
 def formula(bench: Workbench) -> Outcome:
     """D(q; P), made monic, is the zero polynomial of the pair that the diagonal form of its pencil shows; zero where the rank falls."""
-    failing = [d for d in bench.judged if not agrees(d)]
-    return certify_records(bench.judged, failing, words, show)
+    failing = [e for e in bench.pairs_by_polynomial if not agrees(e)]
+    return certify_records(bench.pairs_by_polynomial, failing, words, show)
 
 
 def parametric(bench: Workbench) -> Outcome:
@@ -44,21 +44,21 @@ def parametric(bench: Workbench) -> Outcome:
     return Outcome(Verdict.IDENTITY, words)
 
 
-def agrees(pair: JudgedPair) -> bool:
-    """Whether D and the certificates tell the same of a pair."""
+def agrees(pair: PairByPolynomial) -> bool:
+    """Whether D and the certificates say the same of a pair."""
     if not pair.polynomial:
         return pair.pair_normal_rank < pair.normal_rank and not pair.equal
     zeros = len(pair.polynomial) - 1 + pair.infinite_zeros
     return pair.polynomial == pair.zero_polynomial and pair.pair_normal_rank == pair.normal_rank and pair.equal and zeros == pair.zeta
 
 
-def words(pair: JudgedPair) -> str:
-    """The pair for a reader."""
+def words(pair: PairByPolynomial) -> str:
+    """The pair as it stands in an outcome."""
     return f"{pair.system} with F' = {pair.pair.F}, G' = {pair.pair.G}"
 
 
-def show(pair: JudgedPair) -> Iterator[Certificate]:
-    """What the certificates of the pair say: equivalent or not, normal rank, zeros."""
+def show(pair: PairByPolynomial) -> Iterator[Certificate]:
+    """Certificates of what the pair is: equivalent or not, its normal rank, its zeros."""
     kernels = kernel_representation(pair.system), kernel_representation(pair.pair)
     yield comparison_certificate(*kernels)
     yield make.window_ranks(kernels[1])

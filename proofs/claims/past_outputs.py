@@ -13,30 +13,30 @@ from .proposition_1 import certify_limits, smallest_limit, smallest_seasonal
 
 
 def coloured_fault(bench: Workbench) -> Outcome:
-    """u white, v coloured and independent of u: the limit of PO-MOESP lies in the range of O_s, as that of PI-MOESP does."""
+    """With u white and v coloured and independent of u, the limit of PO-MOESP is claimed to lie in the range of O_s, as PI-MOESP's does."""
 
     def drive(system: dict[str, Any]) -> Experiment:
         return experiment_of(system, [[["1", "0"]]], [[["0", "1"]], [["0", "1"]]])
 
     return smallest_limit(
         [drive],
-        lambda d: d.controllable and d.observable and d.equal and not d.past_outputs_within,
+        lambda e: e.controllable and e.observable and e.equal and not e.past_outputs_within,
         "u white, v(k) = f(k) + f(k-1) of its own white f",
     )
 
 
 def white_fault(bench: Workbench) -> Outcome:
-    """u and v white and independent, no other noise: it does."""
-    return certify_limits([d for d in bench.limits if d.origin == "u and v white and independent"], lambda d: d.past_outputs_within)
+    """With u and v white and independent and no other noise, it does lie there."""
+    return certify_limits([e for e in bench.limits if e.origin == "u and v white and independent"], lambda e: e.past_outputs_within)
 
 
 def past_inputs(bench: Workbench) -> Outcome:
-    """Where PO-MOESP fails under a fault uncorrelated with u, PI-MOESP is right: some inputs of period 3 defeat both."""
+    """Where PO-MOESP fails under a fault uncorrelated with u, PI-MOESP is claimed to be right: some inputs of period 3 defeat both."""
     others = [name for name in WITHOUT_RANK if name.endswith("coloured-fault") or name.startswith("rational")]
-    return smallest_seasonal(lambda d: d.whole_range_expected and not d.past_outputs_within and not d.equal, taps=3, others=others)
+    return smallest_seasonal(lambda e: e.whole_range_expected and not e.past_outputs_within and not e.equal, taps=3, others=others)
 
 
 def past_inputs_long_past(bench: Workbench) -> Outcome:
     """It is right where past >= n + the order of the filter of u."""
-    records = [d for d in bench.limits if d.whole_range_expected and d.past_of_input and not d.past_outputs_within]
-    return certify_limits(records, lambda d: d.equal and d.inputs_right)
+    records = [e for e in bench.limits if e.whole_range_expected and e.past_of_input and not e.past_outputs_within]
+    return certify_limits(records, lambda e: e.equal and e.inputs_right)

@@ -10,7 +10,7 @@ import numpy as np
 from ...exact.algebra.matrices import Matrix
 from ...exact.structure.kernel_rows import column_conditions, kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.search import Box, Facts, Flags, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -22,43 +22,49 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def window_n(bench: Workbench) -> Outcome:
-    """At s = max(l, n) under assumption 4 the solutions are those of every longer window."""
+    """At s = max(l, n), under assumption 4, the solutions are claimed to be those of every longer window."""
 
     def candidate(facts: Facts) -> Flags:
         return np.asarray(facts.observable & facts.left_invertible & (facts.delay_known_state <= facts.n))
 
-    def holds(d: Dossier) -> bool:
-        return d.n == 0 or d.space_dimensions[max(d.n, d.delay_known_state or 0) - 1] == d.limit_dimension
+    def holds(e: Evidence) -> bool:
+        return e.system.n == 0 or e.space_dimensions[max(e.system.n, e.delay_known_state or 0) - 1] == e.fault_space.dimension
 
     return refute(bench, BOX, candidate, under_assumption_4(True), holds, spaces(lambda s: s.n))
 
 
 def window_n_plus_1(bench: Workbench) -> Outcome:
-    """At every s >= n + 1, no hypothesis at all, the solutions are the limit Z."""
+    """At every s >= n + 1 the solutions are the limit Z, without any hypothesis."""
     return certify(
-        bench, lambda d: True, lambda d: all(x == d.limit_dimension for x in d.space_dimensions[d.n :]), spaces(lambda s: s.n + 1)
+        bench,
+        lambda e: True,
+        lambda e: all(x == e.fault_space.dimension for x in e.space_dimensions[e.system.n :]),
+        spaces(lambda s: s.n + 1),
     )
 
 
 def lag_plus_1(bench: Workbench) -> Outcome:
     """The limit is reached exactly at s = lag + 1 where p > r; where p = r the solutions are all n + p columns at every s >= 1."""
 
-    def holds(d: Dossier) -> bool:
-        if d.p == d.normal_rank:
-            return all(x == d.n + d.p for x in (*d.space_dimensions, d.limit_dimension))
-        return all((x == d.limit_dimension) == (s >= d.lag + 1) for s, x in enumerate(d.space_dimensions, 1))
+    def holds(e: Evidence) -> bool:
+        if e.system.p == e.kernel.normal_rank:
+            return all(x == e.system.n + e.system.p for x in (*e.space_dimensions, e.fault_space.dimension))
+        return all((x == e.fault_space.dimension) == (s >= e.kernel.lag + 1) for s, x in enumerate(e.space_dimensions, 1))
 
-    return certify(bench, lambda d: True, holds, spaces(lambda s: kernel_representation(s).lag + 1))
+    return certify(bench, lambda e: True, holds, spaces(lambda s: kernel_representation(s).lag + 1))
 
 
 def dimension(bench: Workbench) -> Outcome:
-    """Left-invertible: the limit has dimension n_v + zeta, zeta the zeros of the pencil, finite and infinite."""
+    """The limit of a left-invertible system has dimension n_v + zeta, where zeta counts the zeros of the pencil, finite and infinite."""
 
     def show(system: ResidualSystem) -> Iterator[Certificate]:
         yield from zeros(system)
         yield from spaces(lambda s: s.n + 1)(system)
 
-    return certify(bench, lambda d: d.left_invertible and d.zeta is not None, lambda d: d.limit_dimension == d.m + (d.zeta or 0), show)
+    def holds(e: Evidence) -> bool:
+        return e.fault_space.dimension == e.system.m + e.zeta
+
+    return certify(bench, lambda e: e.left_invertible, holds, show)
 
 
 def first_block_column(bench: Workbench) -> Outcome:

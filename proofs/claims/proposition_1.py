@@ -19,13 +19,21 @@ from ...exact.limits.hidden_states import hides_a_state
 from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances
 from ...exact.parametric.leads import lead_identities
-from ..evidence.experiments import Drive, LimitDossier, certificates_of, examine_experiment, experiments_in_order, leading, nilpotent_points
+from ..evidence.experiments import (
+    Drive,
+    LimitEvidence,
+    certificates_of,
+    examine_experiment,
+    experiments_in_order,
+    leading,
+    nilpotent_points,
+)
 from ..evidence.kept_experiments import WITHOUT_RANK, kept
 from ..evidence.seasonal_inputs import BOX as BOX_OF_PERIOD
 from ..evidence.seasonal_inputs import in_order, seasonal
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Workbench, certify_records, counterexample
+from ..verdict.workbench import Workbench, certify_records, counterexample, witnessed
 
 WHITE = (["1"], ["1"])
 MOVING_AVERAGE = (["1", "1/2"], ["1"])
@@ -33,7 +41,7 @@ BOX = "n = m = nu = 1, F = 1, D = 0, p <= 2, A in {0, 1/2}, entries of B, C, G i
 
 
 def drives(inputs: Sequence[tuple[list[str], list[str]]], phis: Sequence[list[str]]) -> list[Drive]:
-    """v(k) = sum phi_j u(k+j) for each u and phi."""
+    """Functions that give a system the input u and the fault v(k) = sum phi_j u(k+j), for each u and phi."""
     return [partial(_lead, u=u, den=den, phi=phi) for u, den in inputs for phi in phis]
 
 
@@ -45,119 +53,131 @@ LEADS = [["0", "1"], ["0", "2"], ["0", "0", "1"]]
 
 
 def white_a_c(bench: Workbench) -> Outcome:
-    """u white, one-sided, (A, B) controllable, (A, C) observable: the limit has the range of O_s."""
-    return smallest_limit(drives([WHITE], LEADS), lambda d: _regular(d) and not d.equal, "v leads u by one or two samples")
+    """With u white and one-sided, (A, B) controllable and (A, C) observable, the limit is claimed to have the range of O_s."""
+    return smallest_limit(drives([WHITE], LEADS), lambda e: _regular(e) and not e.equal, "v leads u by one or two samples")
 
 
 def white_a_c_seen(bench: Workbench) -> Outcome:
-    """u white, v leads it: the limit lies in the range of O_s, and is all of it iff (A, B + sum A^j F phi_j) is controllable."""
-    records = [d for d in bench.limits if d.origin == "u white, v leads it" and d.observable and d.long_past]
-    return certify_limits(records, lambda d: d.within and d.equal == d.seen_controllable)
+    """With u white and v leading it, the limit lies in the range of O_s; it is all of it iff (A, B + sum A^j F phi_j) is controllable."""
+    records = [e for e in bench.limits if e.origin == "u white, v leads it" and e.observable and e.long_past]
+    return certify_limits(records, lambda e: e.within and e.equal == e.seen_controllable)
 
 
 def white_b_d(bench: Workbench) -> Outcome:
-    """u white, one-sided: B and D by regression with the true A and C are right. Refuted where the limit gives these A and C,
-    and both B and D are wrong."""
+    """With u white and one-sided, B and D by regression with the true A and C are claimed to be right.
 
-    def fails(d: LimitDossier) -> bool:
-        system, found = d.experiment.system, d.state_inputs
-        return _regular(d) and d.equal and found is not None and found[0] != system.B and found[1] != system.D
+    The claim is refuted where the limit gives these A and C, and both B and D are wrong.
+    """
+
+    def fails(e: LimitEvidence) -> bool:
+        system, found = e.experiment.system, e.state_inputs
+        return _regular(e) and e.equal and found is not None and found[0] != system.B and found[1] != system.D
 
     return smallest_limit(drives([WHITE], LEADS), fails, "v leads u by one or two samples, the limit having the range of O_s")
 
 
+def white_b_d_fails(bench: Workbench) -> Outcome:
+    """There is a fault that is uncorrelated with a white u at all l >= 0, leaves A and C right, and moves B and D."""
+    return witnessed(white_b_d(bench))
+
+
 def white_b_d_seen(bench: Workbench) -> Outcome:
-    """u white: with the true A, C output error gives B + sum A^j F phi_j and D + G phi_0 + sum over j >= 1 of C A^(j-1) F phi_j."""
-    records = [d for d in bench.limits if d.origin in ("u white, v leads it", "u white, v(k) = u(k)") and d.state_inputs is not None]
-    return certify_limits(records, lambda d: d.state_inputs == _seen(d))
+    """With u white and the true A, C, output error gives B + sum A^j F phi_j and D + G phi_0 + sum over j >= 1 of C A^(j-1) F phi_j."""
+    records = [e for e in bench.limits if e.origin in ("u white, v leads it", "u white, v(k) = u(k)") and e.state_inputs is not None]
+    return certify_limits(records, lambda e: e.state_inputs == _seen(e))
 
 
 def coloured_a_c(bench: Workbench) -> Outcome:
-    """u coloured, one-sided, (A, B) controllable, (A, C) observable: the limit lies in the range of O_s."""
+    """With u coloured and one-sided, (A, B) controllable and (A, C) observable, the limit is claimed to lie in the range of O_s."""
     return smallest_limit(
-        drives([MOVING_AVERAGE], [["0", "0", "1"]]), lambda d: _regular(d) and not d.within, "u = e(k) + e(k-1)/2, v(k) = u(k+2)"
+        drives([MOVING_AVERAGE], [["0", "0", "1"]]), lambda e: _regular(e) and not e.within, "u = e(k) + e(k-1)/2, v(k) = u(k+2)"
     )
 
 
 def autoregressive(bench: Workbench) -> Outcome:
-    """u autoregressive of order at most s, v leads it: the limit still lies in the range of O_s."""
-    return certify_limits([d for d in bench.limits if d.origin.startswith("u autoregressive")], lambda d: d.within)
+    """With u autoregressive of order at most s and v leading it, the limit still lies in the range of O_s."""
+    return certify_limits([e for e in bench.limits if e.origin.startswith("u autoregressive")], lambda e: e.within)
 
 
 def autoregressive_longer(bench: Workbench) -> Outcome:
-    """u autoregressive of order s + 1, v leads it."""
+    """With u autoregressive of order s + 1 and v leading it, the limit is claimed to lie there too."""
     den = ["1", "-1/2", "1/4", "-1/8"]
     inputs = drives([(["1"], den)], [["0", "1"], ["0", "0", "1"]])
-    return smallest_limit(inputs, lambda d: _observed(d) and not d.within, "u of order 3, s = 2")
+    return smallest_limit(inputs, lambda e: _observed(e) and not e.within, "u of order 3, s = 2")
 
 
 def lead_one(bench: Workbench) -> Outcome:
-    """G = 0 and v(k) = u(k+1), u of any colour: the limit still lies in the range of O_s."""
-    return certify_limits([d for d in bench.limits if d.origin == "u coloured, v(k) = u(k+1), G = 0"], lambda d: d.within)
+    """With G = 0, v(k) = u(k+1) and u of any colour, the limit still lies in the range of O_s."""
+    return certify_limits([e for e in bench.limits if e.origin == "u coloured, v(k) = u(k+1), G = 0"], lambda e: e.within)
 
 
 def lead_one_with_feedthrough(bench: Workbench) -> Outcome:
-    """The same with G other than 0."""
+    """The same is claimed with G other than 0."""
     return smallest_limit(
-        drives([MOVING_AVERAGE], [["0", "1"]]), lambda d: _observed(d) and not d.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
+        drives([MOVING_AVERAGE], [["0", "1"]]), lambda e: _observed(e) and not e.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
     )
 
 
 def two_sided(bench: Workbench) -> Outcome:
-    """u and v uncorrelated at all lags: the limit lies in the range of O_s; B and D are right by either regression."""
-    return certify_limits([d for d in bench.limits if d.uncorrelated], lambda d: d.within and d.inputs_right)
+    """With u and v uncorrelated at all lags, the limit lies in the range of O_s, and B and D are right by either regression."""
+    return certify_limits([e for e in bench.limits if e.uncorrelated], lambda e: e.within and e.inputs_right)
 
 
 def two_sided_output_error(bench: Workbench) -> Outcome:
-    """Output error with the true A and C gives the true B and D, u of any colour."""
-    return certify_limits([d for d in bench.limits if d.uncorrelated and d.state_inputs is not None], lambda d: d.output_error_right)
+    """Output error with the true A and C gives the true B and D, whatever the colour of u is."""
+    return certify_limits([e for e in bench.limits if e.uncorrelated and e.state_inputs is not None], lambda e: e.output_error_right)
 
 
 def two_sided_range(bench: Workbench) -> Outcome:
-    """It is all of that range, u of any colour, (A, B) controllable, past >= n: some inputs of period 3 refute it."""
-    return smallest_seasonal(lambda d: d.whole_range_expected and not d.equal, taps=1, others=WITHOUT_RANK)
+    """The limit is claimed to be all of that range for u of any colour, (A, B) controllable, past >= n: inputs of period 3 refute it."""
+    return smallest_seasonal(lambda e: e.whole_range_expected and not e.equal, taps=1, others=WITHOUT_RANK)
 
 
 def two_sided_one_state(bench: Workbench) -> Outcome:
-    """All of it with one state, B not 0, whatever the colour and the number of inputs, past >= 1."""
-    records = [d for d in bench.limits if d.whole_range_expected and d.experiment.system.residual.n == 1]
-    return certify_limits(records, lambda d: d.equal)
+    """It is all of that range with one state, B not 0 and past >= 1, whatever the colour and the number of inputs are."""
+    records = [e for e in bench.limits if e.whole_range_expected and e.experiment.system.residual.n == 1]
+    return certify_limits(records, lambda e: e.equal)
 
 
 def two_sided_two_states(bench: Workbench) -> Outcome:
-    """n = past = 2, one input: it is less than the range for exactly the A that a formula names. On inputs of both kinds."""
-    records = [d for d in bench.limits if d.whole_range_expected and _two_states(d)]
+    """With n = past = 2 and one input it is less than the range for exactly the A that a formula names; both kinds are tried."""
+    records = [e for e in bench.limits if e.whole_range_expected and _two_states(e)]
     records += [examine_experiment("kept in counterexamples/", kept(name)) for name in WITHOUT_RANK]
-    found = certify_limits(records, lambda d: d.equal != hides_a_state(d.experiment, covariances(d.experiment)))
-    lost = sum(not d.equal for d in records)
+    found = certify_limits(records, lambda e: e.equal != hides_a_state(e.experiment, covariances(e.experiment)))
+    lost = sum(not e.equal for e in records)
     if found.verdict == Verdict.CERTIFIED and lost in (0, len(records)):
         return replace(found, verdict=Verdict.ERROR, evidence="every experiment tried is of one kind")
     return replace(found, evidence=f"{found.evidence}; {lost} of them lose a state")
 
 
 def two_sided_autoregressive(bench: Workbench) -> Outcome:
-    """All of it where u is autoregressive of order at most s."""
-    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.autoregressive], lambda d: d.equal)
+    """It is all of that range where u is autoregressive of order at most s."""
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.autoregressive], lambda e: e.equal)
 
 
 def two_sided_nilpotent(bench: Workbench) -> Outcome:
-    """All of it where A is nilpotent, u of any colour."""
-    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.nilpotent], lambda d: d.equal)
+    """It is all of that range where A is nilpotent, whatever the colour of u is."""
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.nilpotent], lambda e: e.equal)
 
 
 def two_sided_long_past(bench: Workbench) -> Outcome:
-    """All of it where past >= n + the order of the filter of u, of any colour."""
-    return certify_limits([d for d in bench.limits if d.whole_range_expected and d.past_of_input], lambda d: d.equal)
+    """It is all of that range where past >= n + the order of the filter of u, whatever the colour of u is."""
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.past_of_input], lambda e: e.equal)
+
+
+def two_sided_long_past_inputs(bench: Workbench) -> Outcome:
+    """With such a past B and D are right as well, by either regression."""
+    return certify_limits([e for e in bench.limits if e.whole_range_expected and e.past_of_input], lambda e: e.equal and e.inputs_right)
 
 
 def two_sided_almost_every(bench: Workbench) -> Outcome:
     """For a fixed u the exceptional (A, B) are common zeros of rational functions; at one nilpotent A they do not all vanish."""
     records = [examine_experiment("at a nilpotent A, for one u, n and s each", experiment) for experiment in nilpotent_points()]
-    return certify_limits([d for d in records if d.whole_range_expected], lambda d: d.equal)
+    return certify_limits([e for e in records if e.whole_range_expected], lambda e: e.equal)
 
 
 def parametric(bench: Workbench) -> Outcome:
-    """All entries indeterminate: the response to a pulse of u is that of B + sum A^j F phi_j and D + G phi_0 + sum C A^(j-1) F phi_j."""
+    """With all entries indeterminate, a pulse of u is answered as by B + sum A^j F phi_j and D + G phi_0 + sum C A^(j-1) F phi_j."""
     largest = range(3) if bench.full else range(2)
     dimensions = list(product((1, 2), (1, 2), (1, 2), (1, 2), largest))
     found = [lead_identities(*sizes) for sizes in dimensions]
@@ -168,62 +188,62 @@ def parametric(bench: Workbench) -> Outcome:
     return Outcome(Verdict.IDENTITY, words)
 
 
-def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitDossier], bool], scope: str) -> Outcome:
-    """The first of the small experiments that fails, as the checker accepted it."""
+def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitEvidence], bool], scope: str) -> Outcome:
+    """REFUTED by the first of the small experiments that fails, as the checker has accepted it."""
     for experiment in experiments_in_order(inputs):
-        dossier = examine_experiment("search", experiment)
-        if fails(dossier):
-            return counterexample(show_words(dossier), f"{BOX}, {scope}", show(dossier))
+        evidence = examine_experiment("search", experiment)
+        if fails(evidence):
+            return counterexample(show_words(evidence), f"{BOX}, {scope}", show(evidence))
     return Outcome(Verdict.ERROR, "no counterexample among the small experiments")
 
 
-def smallest_seasonal(fails: Callable[[LimitDossier], bool], taps: int, others: Sequence[str]) -> Outcome:
-    """The smallest experiment with an input of period 3 that fails, with its two limits, and the `others`, kept in counterexamples/."""
+def smallest_seasonal(fails: Callable[[LimitEvidence], bool], taps: int, others: Sequence[str]) -> Outcome:
+    """REFUTED by the smallest experiment with an input of period 3 that fails, and by the `others`, which are kept in counterexamples/."""
     for one in in_order():
-        dossier = examine_experiment("search", seasonal(one, taps))
-        if not fails(dossier):
+        evidence = examine_experiment("search", seasonal(one, taps))
+        if not fails(evidence):
             continue
         wrong = [name for name in others if not fails(examine_experiment("kept", kept(name)))]
         if wrong:
             return Outcome(Verdict.ERROR, f"counterexamples/{wrong[0]}.json refutes nothing")
-        return counterexample(f"{show_words(dossier)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(dossier)[:2])
+        return counterexample(f"{show_words(evidence)}; and {', '.join(others)} of counterexamples/", BOX_OF_PERIOD, show(evidence)[:2])
     return Outcome(Verdict.ERROR, "no counterexample in the family")
 
 
-def show(dossier: LimitDossier) -> list[Certificate]:
-    """Both limits and the regressions."""
-    return certificates_of(limit(dossier.experiment))
+def show(evidence: LimitEvidence) -> list[Certificate]:
+    """Certificates of both limits and of the regressions."""
+    return certificates_of(limit(evidence.experiment))
 
 
-def show_words(dossier: LimitDossier) -> str:
-    """The experiment for a reader."""
-    e = dossier.experiment
+def show_words(evidence: LimitEvidence) -> str:
+    """The experiment as it stands in an outcome."""
+    e = evidence.experiment
     u, v = e.u_filter.to_json(), e.v_filter.to_json()
     return f"{e.system.residual}, B={e.system.B}, D={e.system.D}, s = {e.s}, past = {e.past}, u = {u}, v = {v}".replace("'", "")
 
 
-def certify_limits(records: Sequence[LimitDossier], holds: Callable[[LimitDossier], bool]) -> Outcome:
-    """`holds` on all of these experiments."""
-    return certify_records(records, [d for d in records if not holds(d)], show_words, show, unit="experiments")
+def certify_limits(records: Sequence[LimitEvidence], holds: Callable[[LimitEvidence], bool]) -> Outcome:
+    """The outcome of the statement `holds` on all of these experiments."""
+    return certify_records(records, [e for e in records if not holds(e)], show_words, show, unit="experiments")
 
 
-def _observed(d: LimitDossier) -> bool:
-    return d.controllable and d.observable
+def _observed(e: LimitEvidence) -> bool:
+    return e.controllable and e.observable
 
 
-def _two_states(d: LimitDossier) -> bool:
-    return (d.experiment.system.residual.n, d.experiment.past, d.experiment.system.nu) == (2, 2, 1)
+def _two_states(e: LimitEvidence) -> bool:
+    return (e.experiment.system.residual.n, e.experiment.past, e.experiment.system.nu) == (2, 2, 1)
 
 
-def _regular(d: LimitDossier) -> bool:
-    return d.one_sided and d.controllable and d.observable and d.long_past
+def _regular(e: LimitEvidence) -> bool:
+    return e.one_sided and e.controllable and e.observable and e.long_past
 
 
-def _seen(d: LimitDossier) -> tuple[Matrix, Matrix]:
-    """B and D as the lead of v makes them look."""
-    residual, B, D = d.experiment.system.residual, d.experiment.system.B, d.experiment.system.D
-    delay = len(d.experiment.u_filter.numerator) - 1
-    phi = [d.experiment.v_filter.numerator[delay - j] for j in range(delay + 1)]
+def _seen(e: LimitEvidence) -> tuple[Matrix, Matrix]:
+    """The B and D that output error sees where v leads u."""
+    residual, B, D = e.experiment.system.residual, e.experiment.system.B, e.experiment.system.D
+    delay = len(e.experiment.u_filter.numerator) - 1
+    phi = [e.experiment.v_filter.numerator[delay - j] for j in range(delay + 1)]
     column = residual.F
     D = D + residual.G @ phi[0]
     for j, weight in enumerate(phi):

@@ -4,57 +4,51 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.parametric import gap_claim
 from ..evidence.search import Box
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench, certify, refute
-from .assumption_4 import n_minus_1_known
 from .common import gap_is_m_from, identity, ranks_and_inversion
 
 
-def as_printed(bench: Workbench) -> Outcome:
-    """Under assumption 4 with s >= max(l, n - 1)."""
-    return n_minus_1_known(bench)
-
-
 def n_alone(bench: Workbench) -> Outcome:
-    """Left-invertible and s >= n: nothing else."""
-    return certify(bench, lambda d: d.left_invertible, gap_is_m_from(lambda d: d.n), ranks_and_inversion)
+    """The gap is m where the system is left-invertible and s >= n; nothing else is asked."""
+    return certify(bench, lambda e: e.left_invertible, gap_is_m_from(lambda e: e.system.n), ranks_and_inversion)
 
 
 def lag_exactly(bench: Workbench) -> Outcome:
-    """Left-invertible: the gap is m for all s >= lag, and never before unless p = m."""
+    """The gap of a left-invertible system is m for all s >= lag, and never before unless p = m."""
 
-    def holds(d: Dossier) -> bool:
-        return all((d.gap(s) == d.m) == (s >= d.lag or d.p == d.m) for s in range(0, d.n + 3))
+    def holds(e: Evidence) -> bool:
+        return all((e.kernel.gap(s) == e.system.m) == (s >= e.kernel.lag or e.system.p == e.system.m) for s in range(0, e.system.n + 3))
 
-    return certify(bench, lambda d: d.left_invertible, holds, ranks_and_inversion)
+    return certify(bench, lambda e: e.left_invertible, holds, ranks_and_inversion)
 
 
 def without_left_invertibility(bench: Workbench) -> Outcome:
-    """Without left-invertibility the gap is not m, for any window."""
+    """The gap is claimed to be m without left-invertibility too; it is not, for any window."""
     return refute(
         bench,
         Box(total=4, largest_n=2, largest_m=2, largest_p=2),
         lambda f: np.asarray(~f.left_invertible & f.observable),
-        lambda d: d.observable,
-        gap_is_m_from(lambda d: d.n),
+        lambda e: e.observable,
+        gap_is_m_from(lambda e: e.system.n),
         ranks_and_inversion,
     )
 
 
 def normal_rank(bench: Workbench) -> Outcome:
-    """No hypothesis at all: for s >= n the gap is the normal rank, as certified on a diagonal form of the pencil."""
+    """For s >= n the gap is the normal rank, as certified on a diagonal form of the pencil, without any hypothesis."""
 
-    def holds(d: Dossier) -> bool:
-        return d.infinite_zero_orders is not None and all(d.gap(s) == len(d.infinite_zero_orders) for s in range(d.n, d.n + 3))
+    def holds(e: Evidence) -> bool:
+        return all(e.kernel.gap(s) == len(e.infinite_zero_orders) for s in range(e.system.n, e.system.n + 3))
 
-    return certify(bench, lambda d: d.infinite_zero_orders is not None, holds, ranks_and_inversion)
+    return certify(bench, lambda e: True, holds, ranks_and_inversion)
 
 
 def parametric(bench: Workbench) -> Outcome:
-    """All entries indeterminate: on every stratum of the parameter space the gap is the normal rank from n on."""
+    """With all entries indeterminate, the gap is the normal rank from n on, on every stratum of the parameter space."""
     return identity(
         bench, gap_claim, [(1, 1, 1), (1, 2, 1), (1, 1, 2), (1, 2, 2), (2, 1, 1), (2, 2, 1)], [(1, 3, 1), (2, 1, 2), (1, 3, 2), (2, 2, 2)]
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from ...exact.limits.moesp import PopulationLimits, limit
-from ..evidence.experiments import LimitDossier, certificates_of, examine_experiment, following
+from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment, following
 from ..evidence.kept_experiments import kept
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, accepted, witnessed
@@ -15,45 +15,45 @@ NOT_ALL = ("following-fault", "following-fault-regression", "following-fault-two
 
 
 def biased(bench: Workbench) -> Outcome:
-    """One such fault: A and C are right, the limit having the range of O_s; B or D are wrong by either regression."""
+    """There is such a fault with A and C right, as the limit has the range of O_s, and B or D wrong by either regression."""
     return witnessed(
         smallest_limit(
             [partial(following, gain="1")],
-            lambda d: _regular(d) and d.equal and not d.output_error_right and not d.inputs_right,
+            lambda e: _regular(e) and e.equal and not e.output_error_right and not e.inputs_right,
             "v(k) = u(k-1), u white",
         )
     )
 
 
 def for_every_system(bench: Workbench) -> Outcome:
-    """A, C of order n, B or D come out wrong in every case: the leading left singular vectors of a limit of rank n + 1 can span O_s."""
-    certificates, words = [], []
+    """Every case is claimed to give wrong A, C, B or D; but the leading left singular vectors of a limit of rank n + 1 can span O_s."""
+    made, words = [], []
     for name in NOT_ALL:
         found = limit(kept(name))
-        dossier = examine_experiment("kept", found.experiment)
+        evidence = examine_experiment("kept", found.experiment)
         larger = found.past_inputs.rank == found.experiment.system.residual.n + 1
         right = _regressions_right(found)
-        if not (_regular(dossier) and larger and found.leading_vectors_right(found.past_inputs) and right):
+        if not (_regular(evidence) and larger and found.leading_vectors_right(found.past_inputs) and right):
             return Outcome(Verdict.ERROR, f"counterexamples/{name}.json refutes nothing")
-        certificates += certificates_of(found)
-        words.append(f"{show_words(dossier)}: B and D right by {' and by '.join(right)}")
-    told = "; ".join(words) + (
+        made += certificates_of(found)
+        words.append(f"{show_words(evidence)}: B and D right by {' and by '.join(right)}")
+    message = "; ".join(words) + (
         "; all limits of rank n + 1; that the n leading left singular vectors, outputs unscaled, span the range of O_s is decided in "
         "rational arithmetic beside the certificates"
     )
-    shown = accepted(certificates)
-    return Outcome(Verdict.REFUTED, told, shown, len(shown))
+    certificates = accepted(made)
+    return Outcome(Verdict.REFUTED, message, certificates, len(certificates))
 
 
 def a_c_wrong(bench: Workbench) -> Outcome:
-    """A and C themselves come out wrong, the limit having rank n + 1: not where a zero of the fault at 0 cancels the delay."""
-    return smallest_limit([partial(following, gain="1")], lambda d: _regular(d) and d.equal, "v(k) = u(k-1), u white")
+    """A and C are claimed to come out wrong, the limit having rank n + 1; but a zero of the fault at 0 can cancel the delay."""
+    return smallest_limit([partial(following, gain="1")], lambda e: _regular(e) and e.equal, "v(k) = u(k-1), u white")
 
 
 def not_both(bench: Workbench) -> Outcome:
-    """Not both: the limit has the range of O_s, and output error gives the true B and D."""
-    records = [d for d in bench.limits if d.origin.startswith("u white, v(k) = K u(k-1)") and d.observable and _seen(d)]
-    return certify_limits(records, lambda d: not (d.equal and d.output_error_right))
+    """It never is so that the limit has the range of O_s and output error gives the true B and D."""
+    records = [e for e in bench.limits if e.origin.startswith("u white, v(k) = K u(k-1)") and e.observable and _seen(e)]
+    return certify_limits(records, lambda e: not (e.equal and e.output_error_right))
 
 
 def _regressions_right(found: PopulationLimits) -> list[str]:
@@ -62,11 +62,11 @@ def _regressions_right(found: PopulationLimits) -> list[str]:
     return [name for name, one in both.items() if one is not None and found.bias(one).B.is_zero() and found.bias(one).D.is_zero()]
 
 
-def _regular(d: LimitDossier) -> bool:
-    return _seen(d) and d.controllable and d.observable and d.long_past
+def _regular(e: LimitEvidence) -> bool:
+    return _seen(e) and e.controllable and e.observable and e.long_past
 
 
-def _seen(d: LimitDossier) -> bool:
-    """K is not 0 and [F; G] K is not 0."""
-    residual, K = d.experiment.system.residual, d.experiment.v_filter.numerator[1]
+def _seen(e: LimitEvidence) -> bool:
+    """Whether neither K nor [F; G] K is 0."""
+    residual, K = e.experiment.system.residual, e.experiment.v_filter.numerator[1]
     return not ((residual.F @ K).is_zero() and (residual.G @ K).is_zero())

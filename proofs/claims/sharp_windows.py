@@ -13,41 +13,29 @@ from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.families import adversarial, random_systems
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, accepted, certify
 from .common import ranks_and_inversion
-from .problem_11 import lag_plus_1
 
 
 def gap(bench: Workbench) -> Outcome:
     """gap(s) is the normal rank for exactly the s >= lag; where p = r the lag is 0, and it is so for every s."""
 
-    def holds(d: Dossier) -> bool:
-        return all((d.gap(s) == d.normal_rank) == (s >= d.lag) for s in range(0, d.n + 3))
+    def holds(e: Evidence) -> bool:
+        return all((e.kernel.gap(s) == e.kernel.normal_rank) == (s >= e.kernel.lag) for s in range(0, e.system.n + 3))
 
-    return certify(bench, lambda d: True, holds, ranks_and_inversion)
-
-
-def solutions(bench: Workbench) -> Outcome:
-    """The solutions of problem (11) are Z for exactly the s >= lag + 1."""
-    return lag_plus_1(bench)
-
-
-def equality(bench: Workbench) -> Outcome:
-    """Some system with the same (A, C) agrees on lag samples and differs on lag + 1: shown with as many faults."""
-    return equality_as_many_faults(bench)
+    return certify(bench, lambda e: True, holds, ranks_and_inversion)
 
 
 def equality_as_many_faults(bench: Workbench) -> Outcome:
-    """Left-invertible, m >= 1, lag >= 1: the partner has as many faults and is left-invertible."""
-    return bench.once("partners that differ late", lambda: _partners(bench))
+    """A left-invertible system with m >= 1 and lag >= 1 has a partner that agrees with it on lag samples and differs on lag + 1.
 
-
-def _partners(bench: Workbench) -> Outcome:
+    The partner has the same (A, C) and as many faults, and is left-invertible too.
+    """
     systems = [s for _, s in adversarial() if s.n <= 6] + list(islice(random_systems(QQ, 4000, seed=13), 400 if bench.full else 80))
     headline: tuple[Certificate, ...] = ()
     tried = count = 0
@@ -59,20 +47,20 @@ def _partners(bench: Workbench) -> Outcome:
         partner = _partner(kernel)
         if partner is None:
             return Outcome(Verdict.REFUTED, f"no partner found for {system}", accepted(ranks_and_inversion(system)), count)
-        shown = tuple(_show(kernel, partner))
-        for certificate in shown:
+        certificates = tuple(_show(kernel, partner))
+        for certificate in certificates:
             accept(certificate)
-        alike = all(certificate["kind"] == "left-invertible" for certificate in shown[2:])
-        if shown[1]["statement"]["window"] != kernel.lag + 1 or partner.system.m != system.m or not alike:
+        alike = all(certificate["kind"] == "left-invertible" for certificate in certificates[2:])
+        if certificates[1]["statement"]["window"] != kernel.lag + 1 or partner.system.m != system.m or not alike:
             return Outcome(Verdict.ERROR, f"the partner of {system} is not as it was to be")
-        tried, count = tried + 1, count + len(shown)
-        headline = headline or shown
+        tried, count = tried + 1, count + len(certificates)
+        headline = headline or certificates
     words = f"no counterexample found: one partner each for {tried} systems, named and random over Q"
     return Outcome(Verdict.CERTIFIED, words, headline, count)
 
 
 def _partner(kernel: KernelRepresentation) -> KernelRepresentation | None:
-    """Fault columns moved by solutions of problem (11) on lag samples that are none on lag + 1."""
+    """A system whose fault columns are moved by solutions of problem (11) on lag samples that are none on lag + 1."""
     system: ResidualSystem = kernel.system
     space, rng = fault_space(kernel, kernel.lag), random.Random(str(system))
     for _ in range(60):

@@ -12,7 +12,7 @@ from ...exact.algebra.matrices import column_basis
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..evidence.alternatives import PairDossier, comparison_certificate
+from ..evidence.alternatives import PairEvidence, comparison_certificate
 from ..evidence.families import shift_registers
 from ..evidence.parametric import inclusion_claim
 from ..evidence.search import Box, systems_in_order
@@ -26,12 +26,12 @@ BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 
 
 def n_samples(bench: Workbench) -> Outcome:
-    """n samples, both systems with n states, observable, controllable, left-invertible."""
+    """n samples are claimed to decide, both systems having n states and being observable, controllable and left-invertible."""
     return _smallest_pair(same_A_and_C=False)
 
 
 def n_samples_same_a_c(bench: Workbench) -> Outcome:
-    """n samples, both with the same (A, C)."""
+    """n samples are claimed to decide where both systems have the same (A, C)."""
     return _smallest_pair(same_A_and_C=True)
 
 
@@ -41,53 +41,53 @@ def n_plus_1_samples(bench: Workbench) -> Outcome:
     Pair by pair, and by grouping on kernel rows: the rows of degree at most n, which n + 1 samples show, name the behaviour where no
     row has a larger degree; systems that share them are equal for ever. So one look at the degrees decides all pairs at once.
     """
-    failing = [d for d in bench.pairs if d.first_difference is not None and d.first_difference > max(d.first.n, d.second.n) + 1]
+    failing = [e for e in bench.pairs if e.first_difference is not None and e.first_difference > max(e.first.n, e.second.n) + 1]
     outcome = certify_records(bench.pairs, failing, _words, _show)
-    longer = [d for d in bench.corpus.dossiers if d.lag > d.n]
+    longer = [e for e in bench.corpus if e.kernel.lag > e.system.n]
     if longer:
-        words = f"{longer[0].system} has a kernel row of degree {longer[0].lag}"
-        shown = accepted(_of_one(longer[0].system))
-        return Outcome(Verdict.REFUTED, words, shown, len(shown))
-    total, count = sum(d.weight for d in bench.corpus.dossiers), sum(d.accepted for d in bench.corpus.dossiers)
+        words = f"{longer[0].system} has a kernel row of degree {longer[0].kernel.lag}"
+        certificates = accepted(_of_one(longer[0].system))
+        return Outcome(Verdict.REFUTED, words, certificates, len(certificates))
+    total, count = sum(e.weight for e in bench.corpus), sum(e.accepted for e in bench.corpus)
     words = f"{outcome.evidence}; by kernel rows, none of degree above n, every pair of the {total} systems of the corpus"
     return replace(outcome, evidence=words, accepted=outcome.accepted + count)
 
 
 def lag_plus_1(bench: Workbench) -> Outcome:
-    """One sample more than the larger of the two lags."""
-    failing = [d for d in bench.pairs if d.first_difference is not None and d.first_difference > max(d.lags) + 1]
+    """One sample more than the larger of the two lags decides."""
+    failing = [e for e in bench.pairs if e.first_difference is not None and e.first_difference > max(e.lags) + 1]
     return certify_records(bench.pairs, failing, _words, _show)
 
 
 def either_lag(bench: Workbench) -> Outcome:
-    """Equal normal ranks: one sample more than either of the lags."""
-    records = [d for d in bench.pairs if d.normal_ranks[0] == d.normal_ranks[1]]
-    failing = [d for d in records if d.first_difference is not None and d.first_difference > min(d.lags) + 1]
+    """One sample more than either of the lags decides where the normal ranks are equal."""
+    records = [e for e in bench.pairs if e.normal_ranks[0] == e.normal_ranks[1]]
+    failing = [e for e in records if e.first_difference is not None and e.first_difference > min(e.lags) + 1]
     return certify_records(records, failing, _words, _show)
 
 
 def sharp(bench: Workbench) -> Outcome:
-    """For every n tried, two left-invertible systems with the same (A, C) that agree on n samples and differ on n + 1."""
+    """For every n tried, two left-invertible systems with the same (A, C) agree on n samples and differ on n + 1."""
     largest = 12 if bench.full else 8
-    shown: list[Certificate] = []
+    certificates: list[Certificate] = []
     for n in range(1, largest + 1):
         idle, driven = (kernel_representation(system) for system in shift_registers(n))
         pair = [make.window_equality(idle, driven, n), comparison_certificate(idle, driven)]
         if pair[1]["statement"]["window"] != n + 1:
             return Outcome(Verdict.REFUTED, f"the shift registers of length {n} differ elsewhere", accepted(pair), 2)
-        shown += [*pair, make.left_invertible(idle), make.left_invertible(driven)]
+        certificates += [*pair, make.left_invertible(idle), make.left_invertible(driven)]
     words = f"by one witness for every n = 1..{largest}: the shift register of length n with F = 0 against F = e_n"
-    return Outcome(Verdict.CERTIFIED, words, accepted(shown)[:8], len(shown))
+    return Outcome(Verdict.CERTIFIED, words, accepted(certificates)[:8], len(certificates))
 
 
 def parametric(bench: Workbench) -> Outcome:
-    """All entries of both systems indeterminate: inclusion on n + 1 samples is inclusion on every window."""
+    """With all entries of both systems indeterminate, inclusion on n + 1 samples is inclusion on every window."""
     quick = [(1, 1, 1), (1, 2, 1), (1, 1, 2), (1, 2, 2), (2, 1, 1), (2, 2, 1)]
     return identity(bench, inclusion_claim, quick, [(1, 3, 1), (2, 1, 2), (1, 3, 2), (2, 2, 2)])
 
 
 def _smallest_pair(*, same_A_and_C: bool) -> Outcome:
-    """The first system of the box that has a partner equal on n samples but not on n + 1; with its first partner."""
+    """REFUTED by the first system of the box that has a partner equal on n samples but not on n + 1, with its first partner."""
     for dimensions in BOX.dimensions():
         n, m, p = dimensions
         box = Box(total=sum(dimensions), largest_n=n, largest_m=m, largest_p=p, least_m=m)
@@ -120,7 +120,7 @@ def _pair_certificates(first: ResidualSystem, second: ResidualSystem) -> Iterato
         yield make.matrix_rank("reachability", kernel.system)
 
 
-def _words(record: PairDossier) -> str:
+def _words(record: PairEvidence) -> str:
     return f"{record.first} against {record.second}, first difference on {record.first_difference} samples"
 
 
@@ -128,7 +128,7 @@ def _of_one(system: ResidualSystem) -> Iterator[Certificate]:
     yield make.window_ranks(kernel_representation(system))
 
 
-def _show(record: PairDossier) -> Iterator[Certificate]:
+def _show(record: PairEvidence) -> Iterator[Certificate]:
     kernels = kernel_representation(record.first), kernel_representation(record.second)
     yield comparison_certificate(*kernels)
     yield make.window_ranks(kernels[0])

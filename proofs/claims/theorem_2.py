@@ -9,7 +9,7 @@ import numpy as np
 from ...exact.algebra.matrices import column_basis, solve_left
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import reachability_matrix
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.parametric import zero_count_claim
 from ..evidence.search import Box, Facts, Flags, smallest
 from ..trust import structure_certificates as make
@@ -22,17 +22,17 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def finite_zeros_only(bench: Workbench) -> Outcome:
-    """zeta counts finite zeros; minimal, left-invertible, s >= n."""
+    """The formula is claimed with zeta counting finite zeros, for minimal left-invertible systems and s >= n."""
 
     def with_infinite_zeros(facts: Facts) -> Flags:
         deficient = facts.rank_from_rest(facts.n + 1) < (facts.n + 1) * facts.m
         return np.asarray(deficient & facts.observable & facts.controllable & facts.left_invertible)
 
-    return refute(bench, BOX, with_infinite_zeros, _minimal, lambda d: _formula(d, d.finite_zeros, d.n), zeros)
+    return refute(bench, BOX, with_infinite_zeros, _minimal, lambda e: _formula(e, e.finite_zeros, e.system.n), zeros)
 
 
 def transfer_function_zeros(bench: Workbench) -> Outcome:
-    """zeta counts the zeros, finite and infinite, of the transfer function; observable and left-invertible, not controllable."""
+    """The formula is claimed with the zeros of the transfer function, for observable left-invertible systems, controllable or not."""
 
     def confirm(system: ResidualSystem) -> bool:
         statements = {c["kind"]: c["statement"] for c in _with_reachable_part(system)}
@@ -43,50 +43,52 @@ def transfer_function_zeros(bench: Workbench) -> Outcome:
 
     found = smallest(BOX, lambda f: np.asarray(f.observable & f.left_invertible & ~f.controllable), confirm)
     if found is None:
-        return certify(bench, lambda d: d.observable and d.left_invertible and d.controllable, lambda d: _formula(d, d.zeta, d.n), zeros)
+        return certify(
+            bench, lambda e: e.observable and e.left_invertible and e.controllable, lambda e: _formula(e, e.zeta, e.system.n), zeros
+        )
     return counterexample(f"{found}, whose transfer function is that of its reachable part", BOX, _with_reachable_part(found))
 
 
 def every_window(bench: Workbench) -> Outcome:
-    """zeta counts the zeros of the pencil, finite and infinite; minimal, left-invertible, any s >= 1."""
+    """The formula is claimed with the zeros of the pencil for minimal left-invertible systems and any s >= 1."""
 
     def short_window(facts: Facts) -> Flags:
         late = facts.gap(facts.n + 1)
         return np.asarray((facts.gap(1) != late) & facts.observable & facts.controllable & facts.left_invertible)
 
     box = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
-    return refute(bench, box, short_window, _minimal, lambda d: _formula(d, d.zeta, 1), zeros)
+    return refute(bench, box, short_window, _minimal, lambda e: _formula(e, e.zeta, 1), zeros)
 
 
 def pencil_zeros_minimal(bench: Workbench) -> Outcome:
-    """zeta counts the zeros of the pencil, finite and infinite; minimal, left-invertible, s >= n."""
-    return certify(bench, _minimal, lambda d: _formula(d, d.zeta, d.n), zeros)
+    """The formula holds with the zeros of the pencil, finite and infinite, for minimal left-invertible systems and s >= n."""
+    return certify(bench, _minimal, lambda e: _formula(e, e.zeta, e.system.n), zeros)
 
 
 def pencil_zeros(bench: Workbench) -> Outcome:
-    """The same without observability and controllability, for s >= lag and no other s."""
+    """It holds without observability and controllability, for s >= lag and no other s."""
 
-    def holds(d: Dossier) -> bool:
-        return all((d.rank(s) == d.n + s * d.m - (d.zeta or 0)) == (s >= d.lag) for s in range(0, d.n + 4))
+    def holds(e: Evidence) -> bool:
+        return all((e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta) == (s >= e.kernel.lag) for s in range(0, e.system.n + 4))
 
-    return certify(bench, lambda d: d.left_invertible and d.zeta is not None, holds, zeros)
+    return certify(bench, lambda e: e.left_invertible, holds, zeros)
 
 
 def parametric(bench: Workbench) -> Outcome:
-    """All entries indeterminate: the formula on every stratum with r = m, zeros counted on the pencil."""
+    """With all entries indeterminate the formula holds on every stratum with r = m, where the zeros are counted on the pencil."""
     return identity(bench, zero_count_claim, [(1, 1, 1), (1, 2, 1), (1, 2, 2), (2, 1, 1)], [(2, 2, 1), (1, 3, 1), (2, 1, 2), (1, 3, 2)])
 
 
-def _minimal(d: Dossier) -> bool:
-    return d.left_invertible and d.observable and d.controllable and d.zeta is not None
+def _minimal(e: Evidence) -> bool:
+    return e.left_invertible and e.observable and e.controllable
 
 
-def _formula(d: Dossier, zeta: int | None, start: int) -> bool:
-    return zeta is not None and all(d.rank(s) == d.n + s * d.m - zeta for s in range(max(start, 1), max(start, d.n) + 3))
+def _formula(e: Evidence, zeta: int, start: int) -> bool:
+    return all(e.kernel.rank(s) == e.system.n + s * e.system.m - zeta for s in range(max(start, 1), max(start, e.system.n) + 3))
 
 
 def _with_reachable_part(system: ResidualSystem) -> Iterator[Certificate]:
-    """Window ranks of the system, and the zeros of its reachable part, a minimal realisation where the system is observable."""
+    """Certificates of the window ranks, and of the zeros of the reachable part, which is minimal where the system is observable."""
     yield from zeros(system)
     basis = column_basis(reachability_matrix(system))
     coordinates = [solve_left(basis.transposed(), part.transposed()) for part in (system.A @ basis, system.F)]

@@ -1,4 +1,7 @@
-"""theorem-3 (ii): almost every full-column-rank P gives an equivalent pair; decided for each P: equivalent iff the normal rank is m."""
+"""theorem-3: (i) every equivalent pair is (Fhat P, Ghat P); (ii) almost every P of full column rank gives an equivalent pair.
+
+Part (ii) is decided for each P: the pair is equivalent iff its normal rank is that of the system, m where that is left-invertible.
+"""
 
 from __future__ import annotations
 
@@ -10,49 +13,60 @@ import numpy as np
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
-from ..evidence.alternatives import RivalDossier, comparison_certificate
+from ..evidence.alternatives import AlternativeEvidence, comparison_certificate
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
-from ..verdict.workbench import Workbench, certify_records, counterexample
-from .one_determinant import show as show_judged
-from .one_determinant import words as judged_words
+from ..verdict.workbench import Workbench, certify_records, counterexample, witnessed
+from .one_determinant import show as show_pair
+from .one_determinant import words as pair_words
 
 BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
 
 
 def every_p(bench: Workbench) -> Outcome:
-    """Every P of full column rank gives an equivalent pair, at s = lag + 1, observable and left-invertible."""
+    """Every P of full column rank is claimed to give an equivalent pair at s = lag + 1, for observable left-invertible systems."""
     return _smallest_bad_pair(
-        lambda kernel: kernel.lag + 1, lambda rival: True, "s = lag + 1, P with entries in {-1, 0, 1} and full column rank"
+        lambda kernel: kernel.lag + 1, lambda alternative: True, "s = lag + 1, P with entries in {-1, 0, 1} and full column rank"
     )
 
 
+def not_every_p(bench: Workbench) -> Outcome:
+    """There is a P of full column rank whose pair is not equivalent, at s = lag + 1."""
+    return witnessed(every_p(bench))
+
+
+def columns_in_space(bench: Workbench) -> Outcome:
+    """Part (i): every (F', G') with the same behaviour for the same (A, C) has its columns in Z."""
+    records = [e for e in bench.alternatives if e.equal]
+    return certify_records(records, [e for e in records if not e.in_space], words, show)
+
+
 def almost_every(bench: Workbench) -> Outcome:
-    """D(q; P) is no zero polynomial in P: one good P a system, and the bad ones are zeros of polynomials that do not all vanish."""
-    records = [d for d in bench.judged if d.purpose == "good"]
-    return certify_records(records, [d for d in records if not d.equal], judged_words, show_judged, unit="systems")
+    """D(q; P) is no zero polynomial in P: each system has a good P, and the bad ones are zeros of polynomials that do not all vanish."""
+    records = [e for e in bench.pairs_by_polynomial if e.purpose == "good"]
+    return certify_records(records, [e for e in records if not e.equal], pair_words, show_pair, unit="systems")
 
 
 def criterion(bench: Workbench) -> Outcome:
-    """s >= lag + 1: the pair is equivalent iff its normal rank is that of the system; left-invertible: iff it is m."""
-    records = [d for d in bench.rivals if d.in_space]
-    failing = [d for d in records if d.equal != (d.rival_normal_rank == kernel_representation(d.system).normal_rank)]
+    """For s >= lag + 1 the pair is equivalent iff its normal rank is that of the system, which is m where that is left-invertible."""
+    records = [e for e in bench.alternatives if e.in_space]
+    failing = [e for e in records if e.equal != (e.alternative_normal_rank == kernel_representation(e.system).normal_rank)]
     return certify_records(records, failing, words, show)
 
 
 def criterion_left_invertible(bench: Workbench) -> Outcome:
-    """The same among left-invertible systems, where the criterion is normal rank m."""
-    records = [d for d in bench.rivals if d.in_space and d.left_invertible]
-    return certify_records(records, [d for d in records if d.equal != (d.rival_normal_rank == d.system.m)], words, show)
+    """Among left-invertible systems the criterion is that the pair has normal rank m."""
+    records = [e for e in bench.alternatives if e.in_space and e.left_invertible]
+    return certify_records(records, [e for e in records if e.equal != (e.alternative_normal_rank == e.system.m)], words, show)
 
 
 def criterion_window_n(bench: Workbench) -> Outcome:
-    """The criterion with Fhat, Ghat taken at s = n."""
+    """The criterion is claimed with Fhat and Ghat taken at s = n."""
     return _smallest_bad_pair(
         lambda kernel: kernel.system.n,
-        lambda rival: rival.normal_rank == rival.system.m,
+        lambda alternative: alternative.normal_rank == alternative.system.m,
         "s = n, P with entries in {-1, 0, 1} and full column rank, pair of normal rank m",
     )
 
@@ -60,7 +74,7 @@ def criterion_window_n(bench: Workbench) -> Outcome:
 def _smallest_bad_pair(
     window: Callable[[KernelRepresentation], int], counts: Callable[[KernelRepresentation], bool], scope: str
 ) -> Outcome:
-    """The first system and P of full column rank whose pair counts and is not equivalent."""
+    """REFUTED by the first system and P of full column rank whose pair counts and is not equivalent."""
     for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
         kernel = kernel_representation(system)
         space = fault_space(kernel, window(kernel))
@@ -70,21 +84,21 @@ def _smallest_bad_pair(
             )
             if rank(P) < system.m:
                 continue
-            rival = kernel_representation(with_pair(space, P))
-            verdict = comparison_certificate(kernel, rival) if counts(rival) else {"kind": "left out"}
+            alternative = kernel_representation(with_pair(space, P))
+            verdict = comparison_certificate(kernel, alternative) if counts(alternative) else {"kind": "left out"}
             if verdict["kind"] == "behaviour-difference":
-                shown = [verdict, make.fault_space(kernel, space), make.left_invertible(kernel), make.left_invertible(rival)]
-                shown.append(make.matrix_rank("observability", system))
-                return counterexample(f"{system}, P = {P}", f"{BOX}, {scope}", shown)
+                certificates = [verdict, make.fault_space(kernel, space), make.left_invertible(kernel), make.left_invertible(alternative)]
+                certificates.append(make.matrix_rank("observability", system))
+                return counterexample(f"{system}, P = {P}", f"{BOX}, {scope}", certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
-def words(record: RivalDossier) -> str:
-    return f"{record.system} with F' = {record.rival.F}, G' = {record.rival.G}"
+def words(record: AlternativeEvidence) -> str:
+    return f"{record.system} with F' = {record.alternative.F}, G' = {record.alternative.G}"
 
 
-def show(record: RivalDossier) -> Iterator[Certificate]:
-    kernels = kernel_representation(record.system), kernel_representation(record.rival)
+def show(record: AlternativeEvidence) -> Iterator[Certificate]:
+    kernels = kernel_representation(record.system), kernel_representation(record.alternative)
     yield comparison_certificate(*kernels)
     yield make.fault_space(kernels[0], fault_space(kernels[0]))
     yield make.window_ranks(kernels[1])

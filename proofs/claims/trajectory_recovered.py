@@ -11,7 +11,7 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.structure.record import analyze
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.search import Box
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench, certify, refute
@@ -21,45 +21,45 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def state_known(bench: Workbench) -> Outcome:
-    """x(0) known: v is determined iff the system is left-invertible, with a delay of the largest infinite zero order at most."""
+    """With x(0) known, v is determined iff the system is left-invertible; the delay is at most the largest order of an infinite zero."""
 
-    def holds(d: Dossier) -> bool:
-        if not d.left_invertible:
-            return d.delay_known_state is None
-        return d.delay_known_state == max(d.infinite_zero_orders or (), default=0)
+    def holds(e: Evidence) -> bool:
+        if not e.left_invertible:
+            return e.delay_known_state is None
+        return e.delay_known_state == max(e.infinite_zero_orders, default=0)
 
-    return certify(bench, lambda d: d.infinite_zero_orders is not None, holds, delays)
+    return certify(bench, lambda e: True, holds, delays)
 
 
 def state_unknown(bench: Workbench) -> Outcome:
-    """x(0) unknown: left-invertible and observable, so v is determined."""
+    """With x(0) unknown, v is claimed to be determined where the system is left-invertible and observable."""
     return refute(
         bench,
         BOX,
         lambda f: np.asarray(f.observable & f.left_invertible & (f.delay_unknown_state > f.n)),
-        lambda d: d.observable and d.left_invertible,
-        lambda d: d.delay_unknown_state is not None,
+        lambda e: e.observable and e.left_invertible,
+        lambda e: e.delay_unknown_state is not None,
         delays,
     )
 
 
 def no_finite_zeros(bench: Workbench) -> Outcome:
-    """x(0) unknown: v is determined iff left-invertible and all finite zeros are unobservable modes, none where (A, C) is observable."""
+    """With x(0) unknown, v is determined iff the system is left-invertible and its finite zeros are the unobservable modes, counted."""
 
-    def holds(d: Dossier) -> bool:
-        hidden = d.n - rank(observability_matrix(d.system, d.n))
-        return (d.delay_unknown_state is not None) == (d.left_invertible and d.finite_zeros == hidden)
+    def holds(e: Evidence) -> bool:
+        hidden = e.system.n - rank(observability_matrix(e.system, e.system.n))
+        return (e.delay_unknown_state is not None) == (e.left_invertible and e.finite_zeros == hidden)
 
-    return certify(bench, lambda d: d.finite_zeros is not None, holds, lambda s: [*zeros(s), *delays(s)])
+    return certify(bench, lambda e: True, holds, lambda s: [*zeros(s), *delays(s)])
 
 
 def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:
-    """x(0) unknown: v is determined iff left-invertible and every finite zero is an unobservable mode, multiplicities not counted."""
+    """The same is claimed with multiplicities not counted: that every finite zero is an unobservable mode."""
 
-    def holds(d: Dossier) -> bool:
-        return (d.delay_unknown_state is not None) == (d.left_invertible and zeros_are_hidden_modes(d.system))
+    def holds(e: Evidence) -> bool:
+        return (e.delay_unknown_state is not None) == (e.left_invertible and zeros_are_hidden_modes(e.system))
 
-    return certify(bench, lambda d: d.finite_zeros is not None and d.n <= 4, holds, lambda s: [*zeros(s), *delays(s)])
+    return certify(bench, lambda e: True, holds, lambda s: [*zeros(s), *delays(s)])
 
 
 def zeros_are_hidden_modes(system: ResidualSystem) -> bool:
@@ -73,11 +73,11 @@ def zeros_are_hidden_modes(system: ResidualSystem) -> bool:
 
 
 def zero_feedthrough_signal(bench: Workbench) -> Outcome:
-    """G = 0: v is the same in all equivalent pairs, up to a basis, iff rank CF = m and the finite zeros are the unobservable modes."""
+    """With G = 0, v is the same in all equivalent pairs up to a basis iff rank CF = m and the finite zeros are the unobservable modes."""
 
-    def holds(d: Dossier) -> bool:
-        found = zero_feedthrough(kernel_representation(d.system))
-        hidden = d.n - rank(observability_matrix(d.system, d.n))
-        return found.pins_v == (rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == hidden)
+    def holds(e: Evidence) -> bool:
+        found = zero_feedthrough(kernel_representation(e.system))
+        hidden = e.system.n - rank(observability_matrix(e.system, e.system.n))
+        return found.pins_v == (rank(e.system.C @ e.system.F) == e.system.m and e.finite_zeros == hidden)
 
-    return certify(bench, lambda d: d.left_invertible and d.m > 0 and d.finite_zeros is not None and d.system.G.is_zero(), holds, zeros)
+    return certify(bench, lambda e: e.left_invertible and e.system.m > 0 and e.system.G.is_zero(), holds, zeros)

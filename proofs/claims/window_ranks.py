@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome
@@ -15,36 +15,39 @@ from .common import spaces, zeros
 
 
 def ranks(bench: Workbench) -> Outcome:
-    """rank [O_s T_s] = s r + sum of min(s, eta_i) against the rank of each window by itself, s = 1..n + 2."""
-    return certify(bench, lambda d: True, lambda d: all(d.rank(s) == rank for s, rank in enumerate(d.window_ranks, 1)), _windows)
+    """rank [O_s T_s] = s r + sum of min(s, eta_i), which is compared with the rank of each window by itself for s = 1, ..., n + 2."""
+    return certify(bench, lambda e: True, lambda e: all(e.kernel.rank(s) == rank for s, rank in enumerate(e.window_ranks, 1)), _windows)
 
 
 def indices(bench: Workbench) -> Outcome:
-    """n = sum eta + sum eps + n_f + n_inf: left and right minimal indices, finite and infinite zeros, each from certificates of its own."""
+    """n = sum eta + sum eps + n_f + n_inf, where indices and zeros are each from certificates of their own."""
 
-    def holds(d: Dossier) -> bool:
-        return d.n == sum(d.left_minimal_indices) + sum(d.right_minimal_indices) + (d.zeta or 0)
+    def holds(e: Evidence) -> bool:
+        return e.system.n == sum(e.kernel.left_minimal_indices) + sum(e.right_minimal_indices) + e.zeta
 
-    return certify(bench, lambda d: d.zeta is not None, holds, _all_indices)
+    return certify(bench, lambda e: True, holds, _all_indices)
 
 
 def solutions(bench: Workbench) -> Outcome:
     """Problem (11) at window s has dimension n + p - sum of (eta_i + 1) over eta_i <= s - 1."""
 
-    def holds(d: Dossier) -> bool:
-        predicted = [d.n + d.p - sum(eta + 1 for eta in d.left_minimal_indices if eta < s) for s in range(1, len(d.space_dimensions) + 1)]
-        return list(d.space_dimensions) == predicted
+    def holds(e: Evidence) -> bool:
+        predicted = [
+            e.system.n + e.system.p - sum(eta + 1 for eta in e.kernel.left_minimal_indices if eta < s)
+            for s in range(1, len(e.space_dimensions) + 1)
+        ]
+        return list(e.space_dimensions) == predicted
 
-    return certify(bench, lambda d: True, holds, spaces(lambda s: s.n + 1))
+    return certify(bench, lambda e: True, holds, spaces(lambda s: s.n + 1))
 
 
 def limit(bench: Workbench) -> Outcome:
-    """n_z = r + zeta + sum eps: so n_v + zeta where the system is left-invertible."""
+    """The limit has n_z = r + zeta + sum eps, which is n_v + zeta where the system is left-invertible."""
 
-    def holds(d: Dossier) -> bool:
-        return d.limit_dimension == d.normal_rank + (d.zeta or 0) + sum(d.right_minimal_indices)
+    def holds(e: Evidence) -> bool:
+        return e.fault_space.dimension == e.kernel.normal_rank + e.zeta + sum(e.right_minimal_indices)
 
-    return certify(bench, lambda d: d.zeta is not None, holds, _all_indices)
+    return certify(bench, lambda e: True, holds, _all_indices)
 
 
 def _windows(system: ResidualSystem) -> Iterator[Certificate]:

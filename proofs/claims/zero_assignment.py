@@ -12,7 +12,7 @@ from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.families import adversarial, random_systems
-from ..evidence.pairs_by_polynomial import JudgedPair, pencil_of
+from ..evidence.pairs_by_polynomial import PairByPolynomial, pencil_of
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
@@ -22,24 +22,24 @@ from .one_determinant import show, words
 
 
 def every_polynomial(bench: Workbench) -> Outcome:
-    """(A, C) observable: for every monic polynomial of degree at most zeta there is a P whose pair has exactly these finite zeros."""
+    """Where (A, C) is observable, every monic polynomial of degree at most zeta is the zero polynomial of the pair of some P."""
     return _placed(bench, lambda pair: pair.observable)
 
 
 def unobservable(bench: Workbench) -> Outcome:
-    """Observable or not: every multiple, of degree at most zeta, of the characteristic polynomial of the unobservable modes."""
+    """Observable or not, so is every multiple, of degree at most zeta, of the characteristic polynomial of the unobservable modes."""
     return _placed(bench, lambda pair: True)
 
 
 def without_observability(bench: Workbench) -> Outcome:
-    """Every polynomial of degree at most zeta, (A, C) not observable: the unobservable mode is a zero of every pair."""
+    """The same is claimed without observability; but an unobservable mode is a zero of every pair."""
     box = Box(total=3, largest_n=1, largest_m=1, largest_p=1)
     for system in systems_in_order(box, lambda f: ~f.observable & f.left_invertible):
         pencil = pencil_of(system)
         if pencil.zeta:
-            shown = [make.finite_zeros(system), make.matrix_rank("observability", system), *_space(pencil)]
+            certificates = [make.finite_zeros(system), make.matrix_rank("observability", system), *_space(pencil)]
             note = f"{system}: no pair is without finite zeros, its unobservable mode is a zero of each"
-            return counterexample(note, box, shown)
+            return counterexample(note, box, certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 
 
@@ -59,17 +59,17 @@ def recoverable(bench: Workbench) -> Outcome:
         if certificates[0]["kind"] != "behaviour-equality" or certificates[1]["statement"]["delay"] is None:
             return Outcome(Verdict.REFUTED, f"fails on {system}", accepted(certificates), count)
         headline = headline if headline or not (system.n and system.m) else certificates
-    told = f"no counterexample found: one pair each for {len(systems)} systems, named and random"
-    return Outcome(Verdict.CERTIFIED, told, headline, count)
+    message = f"no counterexample found: one pair each for {len(systems)} systems, named and random"
+    return Outcome(Verdict.CERTIFIED, message, headline, count)
 
 
 def _placed(bench: Workbench, applies: object) -> Outcome:
-    records = [d for d in bench.judged if d.wanted is not None and applies(d)]  # type: ignore[operator]
-    failing = [d for d in records if not (d.equal and d.zero_polynomial == d.wanted)]
+    records = [e for e in bench.pairs_by_polynomial if e.wanted is not None and applies(e)]  # type: ignore[operator]
+    failing = [e for e in records if not (e.equal and e.zero_polynomial == e.wanted)]
     return certify_records(records, failing, _words, show)
 
 
-def _words(pair: JudgedPair) -> str:
+def _words(pair: PairByPolynomial) -> str:
     return f"{words(pair)}, wanted zero polynomial {list(pair.wanted or ())}"
 
 

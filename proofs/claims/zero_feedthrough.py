@@ -10,7 +10,7 @@ from ...exact.algebra.matrices import rank
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier
+from ..evidence.corpus import Evidence
 from ..evidence.search import Box
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -22,33 +22,33 @@ BOX = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
 
 
 def fault_matrices(bench: Workbench) -> Outcome:
-    """Left-invertible and observable, G = 0 known: every member of Z without feedthrough lies in im F."""
+    """With G = 0 known, every member of Z without feedthrough is claimed to lie in im F, for left-invertible observable systems."""
     return refute(
         bench,
         BOX,
         lambda f: np.asarray(f.observable & f.left_invertible & ~f.G.any(axis=(1, 2))),
-        lambda d: _applies(d) and d.observable,
+        lambda e: _applies(e) and e.observable,
         _pinned,
         _show,
     )
 
 
 def exactly_when(bench: Workbench) -> Outcome:
-    """G = 0, left-invertible: im F is determined iff zeta = m, that is iff rank CF = m and there are no finite zeros."""
+    """With G = 0 and a left-invertible system, im F is determined iff zeta = m, that is iff rank CF = m and there are no finite zeros."""
 
-    def holds(d: Dossier) -> bool:
-        condition = rank(d.system.C @ d.system.F) == d.m and d.finite_zeros == 0
-        return _pinned(d) == condition == (d.zeta == d.m)
+    def holds(e: Evidence) -> bool:
+        condition = rank(e.system.C @ e.system.F) == e.system.m and e.finite_zeros == 0
+        return _pinned(e) == condition == (e.zeta == e.system.m)
 
-    return certify(bench, lambda d: _applies(d) and d.zeta is not None, holds, _show)
-
-
-def _applies(d: Dossier) -> bool:
-    return d.left_invertible and d.system.G.is_zero()
+    return certify(bench, _applies, holds, _show)
 
 
-def _pinned(d: Dossier) -> bool:
-    return d.without_feedthrough == rank(d.system.F)
+def _applies(e: Evidence) -> bool:
+    return e.left_invertible and e.system.G.is_zero()
+
+
+def _pinned(e: Evidence) -> bool:
+    return e.without_feedthrough == rank(e.system.F)
 
 
 def _show(system: ResidualSystem) -> Iterator[Certificate]:

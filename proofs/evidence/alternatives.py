@@ -1,9 +1,11 @@
 """Pairs of systems whose behaviours are compared, each with certificates that the checker has accepted.
 
-PairDossier     two systems: equal, or the first window on which they differ; their lags and normal ranks
-RivalDossier    a system and other fault matrices for the same (A, C): equal or not, inside the fault space or not
-pair_dossiers   exhaustive over GF(2), shift registers, perturbed and equivalent systems over Q
-rival_dossiers  every pair (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
+PairEvidence              two systems: equal, or the first window on which they differ; their lags and normal ranks
+AlternativeEvidence       a system and other fault matrices for the same (A, C): equal or not, inside the fault space or not
+compared_pairs            all pairs over GF(2) at small dimensions, shift registers, perturbed and equivalent systems over Q
+alternatives              every (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
+examine_pair, examine_alternative    the evidence on one of each
+comparison_certificate    the certificate of equality or of the first difference, whichever is so
 """
 
 from __future__ import annotations
@@ -30,8 +32,8 @@ from .families import adversarial, random_systems, shift_registers
 
 
 @dataclass(frozen=True)
-class PairDossier:
-    """What accepted certificates say of two systems; `first_difference` None: the behaviours are equal."""
+class PairEvidence:
+    """What accepted certificates say of two systems; `first_difference` is None where the behaviours are equal."""
 
     origin: str
     first: ResidualSystem
@@ -44,23 +46,23 @@ class PairDossier:
 
 
 @dataclass(frozen=True)
-class RivalDossier:
-    """A system, other fault matrices for its (A, C), and how they compare; `in_space`: every column solves problem (11) in the limit."""
+class AlternativeEvidence:
+    """A system, other fault matrices for its (A, C), and how they compare; `in_space` says that every column solves problem (11)."""
 
     origin: str
     system: ResidualSystem
-    rival: ResidualSystem
+    alternative: ResidualSystem
     weight: int
     equal: bool
     in_space: bool
-    rival_normal_rank: int
+    alternative_normal_rank: int
     full_column_rank: bool
     left_invertible: bool
     accepted: int
 
 
 def comparison_certificate(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
-    """Equality, or the difference on the shortest window, whichever is so."""
+    """The certificate of equality, or of the difference on the shortest window, whichever is so."""
     found = compare(first, second)
     if found.first_difference is None:
         return make.behaviour_equality(first, second)
@@ -70,8 +72,8 @@ def comparison_certificate(first: KernelRepresentation, second: KernelRepresenta
     return make.behaviour_difference(second.system, first)
 
 
-def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, weight: int = 1) -> PairDossier:
-    """Certify equality or the first difference of two systems, and their lags."""
+def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, weight: int = 1) -> PairEvidence:
+    """The evidence on two systems: equality or the first difference, and their lags, each certified."""
     kernels = kernel_representation(first), kernel_representation(second)
     verdict = comparison_certificate(*kernels)
     certificates = [verdict, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
@@ -83,40 +85,40 @@ def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, wei
     etas = [certificate["statement"]["left_minimal_indices"] for certificate in certificates[1:3]]
     ranks = [certificate["statement"]["normal_rank"] for certificate in certificates[1:3]]
     lags = (max(etas[0], default=0), max(etas[1], default=0))
-    return PairDossier(origin, first, second, weight, window, lags, (ranks[0], ranks[1]), len(certificates))
+    return PairEvidence(origin, first, second, weight, window, lags, (ranks[0], ranks[1]), len(certificates))
 
 
-def examine_rival(origin: str, system: ResidualSystem, rival: ResidualSystem, weight: int = 1) -> RivalDossier:
-    """Certify whether other fault matrices make the same outputs, and whether they lie in the fault space."""
-    kernels = kernel_representation(system), kernel_representation(rival)
+def examine_alternative(origin: str, system: ResidualSystem, alternative: ResidualSystem, weight: int = 1) -> AlternativeEvidence:
+    """The evidence on other fault matrices: whether they make the same outputs, and whether they lie in the fault space."""
+    kernels = kernel_representation(system), kernel_representation(alternative)
     space = make.fault_space(kernels[0], fault_space(kernels[0]))
     certificates = [comparison_certificate(*kernels), space, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
     for certificate in certificates:
         accept(certificate)
     basis = Matrix.of(space["statement"]["basis"], system.field, shape=(len(space["statement"]["basis"]), system.n + system.p))
-    columns = stacked(rival.F, rival.G)
-    return RivalDossier(
+    columns = stacked(alternative.F, alternative.G)
+    return AlternativeEvidence(
         origin=origin,
         system=system,
-        rival=rival,
+        alternative=alternative,
         weight=weight,
         equal=certificates[0]["kind"] == "behaviour-equality",
         in_space=rank(stacked(basis, columns.transposed())) == basis.nrows,
-        rival_normal_rank=certificates[3]["statement"]["normal_rank"],
-        full_column_rank=rank(columns) == rival.m,
+        alternative_normal_rank=certificates[3]["statement"]["normal_rank"],
+        full_column_rank=rank(columns) == alternative.m,
         left_invertible=certificates[2]["statement"]["normal_rank"] == system.m,
         accepted=len(certificates),
     )
 
 
-def pair_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[PairDossier, ...]:
-    """All pairs of the effort."""
+def compared_pairs(effort: str, jobs: int, progress: Progress) -> tuple[PairEvidence, ...]:
+    """All pairs of systems of the effort, made on `jobs` processes."""
     return tuple(_in_parallel(examine_pair, list(_pairs(effort == "full")), jobs, progress, "comparing pairs"))
 
 
-def rival_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[RivalDossier, ...]:
-    """All systems with rival fault matrices of the effort."""
-    return tuple(_in_parallel(examine_rival, list(_rivals(effort == "full")), jobs, progress, "trying other fault matrices"))
+def alternatives(effort: str, jobs: int, progress: Progress) -> tuple[AlternativeEvidence, ...]:
+    """All systems of the effort with other fault matrices, made on `jobs` processes."""
+    return tuple(_in_parallel(examine_alternative, list(_alternatives(effort == "full")), jobs, progress, "trying other fault matrices"))
 
 
 def _in_parallel(examine: Any, items: list[tuple[Any, ...]], jobs: int, progress: Progress, stage: str) -> Iterator[Any]:
@@ -155,7 +157,9 @@ def _pairs(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, in
 
 
 def _relatives(system: ResidualSystem, rng: random.Random) -> Iterator[ResidualSystem]:
-    """Feedback of the state into the fault, another basis of the state (both with the same outputs), an entry changed, a state more."""
+    """Systems made of one: by feedback of the state into the fault and by another basis (with the same outputs), by a changed entry, by a
+    state more.
+    """
     K = Matrix.of([[rng.choice([-1, 0, 1]) for _ in range(system.n)] for _ in range(system.m)], QQ, shape=(system.m, system.n))
     yield ResidualSystem(system.A + system.F @ K, system.F, system.C + system.G @ K, system.G)
     if system.n:
@@ -174,7 +178,7 @@ def _relatives(system: ResidualSystem, rng: random.Random) -> Iterator[ResidualS
     yield ResidualSystem(A, stacked(system.F, Matrix.zero(QQ, 1, system.m)), beside(system.C, edge), system.G)
 
 
-def _rivals(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
+def _alternatives(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
     named = [system for _, system in adversarial() if system.n <= 4]
     for system in [*named, *random_systems(QQ, 600 if full else 60, seed=3)]:
         space = fault_space(kernel_representation(system))
@@ -196,7 +200,7 @@ def _rivals(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, i
 
 
 def _choices(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
-    """Generic, sparse, unit and rank-deficient P."""
+    """P of several kinds: generic, sparse, of unit columns and rank-deficient."""
     for density in (1.0, 0.5, 0.3):
         yield Matrix.of(
             [[rng.randint(-3, 3) if rng.random() < density else 0 for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)

@@ -25,9 +25,12 @@ Point = tuple[Fraction, ...]
 
 
 class Aim(StrEnum):
-    """SIGN: the statement says that a quantity has no zero, and it has one where its sign changes. ZERO: several quantities together
-    have no common zero. NONZERO: a quantity is identically zero. STRATUM: ranks drop where a quantity vanishes, and the statement, which
-    says nothing of the quantity, is decided there."""
+    """What an attack looks for.
+
+    SIGN: the statement says that a quantity has no zero, and it has one where its sign changes. ZERO: several quantities together have no
+    common zero. NONZERO: a quantity is identically zero. STRATUM: ranks drop where a quantity vanishes, and the statement, which says
+    nothing of the quantity, is decided there.
+    """
 
     SIGN = "a change of sign"
     ZERO = "a common zero"
@@ -37,7 +40,9 @@ class Aim(StrEnum):
 
 @dataclass(frozen=True)
 class Family:
-    """`box`: the bounds of each parameter; inside, `at` gives a subject that meets the hypotheses, or fails the exact test for them.
+    """A family of subjects with parameters in a box.
+
+    `box` has the bounds of each parameter; inside, `at` gives a subject that meets the hypotheses, or fails the exact test for them.
 
     `at` takes floats or Fractions and uses nothing but field operations, so that both see the same subject. `order`: the parameters along
     which zeros are sought, those first in which the quantity has the least degree; all where it is empty.
@@ -68,11 +73,13 @@ class Block:
 
 @dataclass(frozen=True)
 class Attack:
-    """`target`: "claim.reading", "without EXPERIMENT: HYPOTHESIS", or a statement withdrawn; `name` tells attacks on one target apart.
+    """One attack on one statement.
+
+    `target` is "claim.reading", "without ABLATION: HYPOTHESIS", or a statement withdrawn; `name` tells attacks on one target apart.
 
     `quantity` of the aim SIGN and NONZERO is one number, of ZERO a vector; `measured` says in words what it is and what it is compared
-    with. `exact` is the same up to a positive factor, exactly, for SIGN and STRATUM; `blocks` are solved in turn for the aim ZERO.
-    `decide` certifies: a Witness where the point is a counterexample, None where it is not.
+    with. `exact` is the same up to a positive factor, exactly, for SIGN and STRATUM; `blocks` are solved in turn for the aim ZERO. `decide`
+    certifies: a Witness where the point is a counterexample, None where it is not.
     """
 
     target: str
@@ -88,14 +95,17 @@ class Attack:
 
     @property
     def id(self) -> str:
-        """What names it in the file of results."""
+        """The name that it has in the file of results."""
         return f"{self.target} by {self.name}"
 
 
 @dataclass(frozen=True)
 class Trial:
-    """`nearest` is the least absolute value seen (of NONZERO: the largest), at `point`. `bracket`: two exact points of the family whose
-    quantities have opposite signs, where no rational zero between them was found. `decided` counts exact decisions."""
+    """How an attack ended.
+
+    `nearest` is the least absolute value seen (of NONZERO: the largest), at `point`. `bracket`: two exact points of the family whose
+    quantities have opposite signs, where no rational zero between them was found. `decided` counts exact decisions.
+    """
 
     attack: Attack
     starts: int

@@ -34,7 +34,7 @@ class Orbit:
 
 
 def all_systems(q: int, n: int, p: int, m: int) -> Iterator[ResidualSystem]:
-    """All q^((n+p)(n+m)) systems over GF(q)."""
+    """All q^((n+p)(n+m)) systems over GF(q), one after the other."""
     digits = _all_digits(q, (n + p) * (n + m))
     for row in digits:
         yield _system(row, q, n, p, m)

@@ -1,10 +1,11 @@
 """Experiments whose population limits are known exactly, with certificates that the checker accepted: proposition-1 rests on these.
 
-    LimitDossier     an experiment, what its signals are like, and what accepted certificates say of both methods and both regressions
-    limit_dossiers   of an effort, in families named after how v and u belong together
-    FAMILIES         family: how an experiment of it is drawn
-    nilpotent_points   one (A, B) for each of several spectra of u, at which the limit of PI-MOESP is to have full rank
-    experiments_in_order   small experiments, for the smallest counterexample
+    LimitEvidence           an experiment, what its signals are like, and what certificates say of both methods and both regressions
+    certified_limits        those of an effort, in families named after how v and u belong together
+    examine_experiment      the evidence on one experiment
+    FAMILIES                the name of a family, and how an experiment of it is drawn
+    nilpotent_points        one (A, B) for each of several spectra of u, at which the limit of PI-MOESP is to have full rank
+    experiments_in_order    small experiments, for the smallest counterexample
 
 Correlations of v and u are decided for all lags: beyond the size of the joint state they are combinations of those before
 (Cayley-Hamilton).
@@ -23,7 +24,7 @@ from joblib import Parallel, delayed
 
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
-from ...exact.algebra.stability import characteristic_polynomial, is_stable
+from ...exact.algebra.stability import is_stable, rational_characteristic_polynomial
 from ...exact.limits.experiments import Experiment, read_experiment
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
@@ -37,12 +38,14 @@ Rows = list[list[str]]
 
 
 @dataclass(frozen=True)
-class LimitDossier:
-    """`past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
+class LimitEvidence:
+    """What accepted certificates say of an experiment and of its signals.
+
+    `past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
 
     `observable`: on s - 1 samples already, which shift invariance takes; `long_past`: past >= n. `within`: the limit of PI-MOESP lies in
-    the range of O_s; `equal`: is that range; the same for PO-MOESP. `inputs_right`: every regression that has a unique limit gives the
-    true B and D. `weight` is 1.
+    the range of O_s; `equal`: is that range; the same for PO-MOESP. `inputs_right`: every regression that has a unique limit gives the true
+    B and D. `weight` is 1.
     """
 
     origin: str
@@ -67,7 +70,7 @@ class LimitDossier:
 
     @property
     def uncorrelated(self) -> bool:
-        """At all lags of both signs."""
+        """Whether u and v are uncorrelated at all lags of both signs."""
         return self.past_lags and self.same_time and self.leads
 
     @property
@@ -77,33 +80,33 @@ class LimitDossier:
 
     @property
     def whole_range_expected(self) -> bool:
-        """(A, B) controllable, (A, C) observable on s - 1 samples, past >= n, u and v uncorrelated."""
+        """Whether (A, B) is controllable, (A, C) observable on s - 1 samples, past >= n, and u and v are uncorrelated."""
         return self.uncorrelated and self.controllable and self.observable and self.long_past
 
     @property
     def autoregressive(self) -> bool:
-        """u is autoregressive of order at most s."""
+        """Whether u is autoregressive of order at most s."""
         u = self.experiment.u_filter
         return len(u.numerator) == 1 and u.memory <= self.experiment.s
 
     @property
     def nilpotent(self) -> bool:
-        """A^n = 0."""
-        return not any(characteristic_polynomial(self.experiment.system.residual.A)[:-1])
+        """Whether A^n = 0."""
+        return not any(rational_characteristic_polynomial(self.experiment.system.residual.A)[:-1])
 
     @property
     def past_of_input(self) -> bool:
-        """past >= n + the order of the filter of u, from which on a longer past brings nothing new."""
+        """Whether past >= n + the order of the filter of u, from which on a longer past brings nothing new."""
         return self.experiment.past >= self.experiment.system.residual.n + self.experiment.u_filter.memory
 
     @property
     def one_sided(self) -> bool:
-        """At l >= 0, as the assumption is printed."""
+        """Whether u and v are uncorrelated at all lags l >= 0, as the assumption is printed."""
         return self.past_lags and self.same_time
 
 
 def certificates_of(found: PopulationLimits) -> list[Certificate]:
-    """Both limits, and each regression with a unique limit."""
+    """Certificates of both limits, and of each regression that has a unique limit."""
     made = [make.past_input_limit(found), make.past_input_and_output_limit(found)]
     for regression in (make.output_error_inputs, make.moesp_inputs):
         try:
@@ -113,8 +116,8 @@ def certificates_of(found: PopulationLimits) -> list[Certificate]:
     return made
 
 
-def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
-    """Certify the limits of an experiment and say what its signals are like."""
+def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
+    """The evidence on an experiment: its limits certified, and what its signals are like."""
     found = limit(experiment)
     certificates = certificates_of(found)
     for certificate in certificates:
@@ -127,7 +130,7 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
     true = experiment.system.B.to_json(), experiment.system.D.to_json()
     state_inputs = None if found.true_AC is None else (found.true_AC.B, found.true_AC.D)
     inside, outside = (certificate["statement"] for certificate in certificates[:2])
-    return LimitDossier(
+    return LimitEvidence(
         origin=origin,
         experiment=experiment,
         past_lags=all(c.is_zero() for lag, c in lags.items() if lag >= 1),
@@ -150,11 +153,11 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitDossier:
     )
 
 
-def limit_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[LimitDossier, ...]:
-    """All experiments of the effort."""
+def certified_limits(effort: str, jobs: int, progress: Progress) -> tuple[LimitEvidence, ...]:
+    """All experiments of the effort with certified limits, made on `jobs` processes."""
     count = 400 if effort == "full" else 40
     sources = [(name, seed) for name in FAMILIES for seed in range(3 * count if name == "v independent of u" else count)]
-    found: list[LimitDossier] = []
+    found: list[LimitEvidence] = []
     batches = [sources[i : i + 10] for i in range(0, len(sources), 10)]
     for batch in Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(b) for b in batches):
         found += batch
@@ -162,7 +165,7 @@ def limit_dossiers(effort: str, jobs: int, progress: Progress) -> tuple[LimitDos
     return tuple(found)
 
 
-def _all(batch: list[tuple[str, int]]) -> list[LimitDossier]:
+def _all(batch: list[tuple[str, int]]) -> list[LimitEvidence]:
     return [examine_experiment(name, FAMILIES[name](Random(f"{name} {seed}"))) for name, seed in batch]
 
 
@@ -192,14 +195,14 @@ def _system(random: Random, m: int, nu: int) -> dict[str, Any]:
 
 
 def experiment_of(system: dict[str, Any], u: object, v: object, w: object = None, past: int | None = None) -> Experiment:
-    """s = n + 1 block rows, and as many of the past where nothing else is said."""
+    """The experiment with s = n + 1 block rows, and as many of the past where nothing else is said."""
     n = len(system["A"])
     given = system | {"s": n + 1, "past": past or n + 1, "u_filter": u, "v_filter": v}
     return read_experiment(given if w is None else given | {"w_filter": w})
 
 
 def leading(system: dict[str, Any], u: Sequence[str], den: Sequence[str], phi: Sequence[str], past: int | None = None) -> Experiment:
-    """One input u = (sum u_j q^-j / den) e and one fault v(k) = sum_j phi_j u(k+j): all of it delayed by the largest lead."""
+    """The experiment with u = (sum u_j q^-j / den) e and v(k) = sum_j phi_j u(k+j), all of it delayed by the largest lead."""
     delay = len(phi) - 1
     product = [Fraction(0)] * (len(u) + delay)
     for j, weight in enumerate(phi):
@@ -222,7 +225,7 @@ def _independent(random: Random) -> Experiment:
 
 
 def _independent_autoregressive(random: Random) -> Experiment:
-    """nu = 1, 2; F and G as they come, D = 0; u of order 0 to s."""
+    """One or two inputs of order 0 to s, with F and G as they come and D = 0."""
     m, nu = 1, random.randint(1, 2)
     system = _system(random, m, nu)
     n = len(system["A"])
@@ -260,7 +263,7 @@ _COLOURS: tuple[tuple[list[str], list[str]], ...] = (
 
 
 def _degenerate(random: Random) -> Experiment:
-    """C = I, the last state driven or all of them, past from 1 to n + the order of the filter of u, s from 2 to n + 1."""
+    """C = I; the last state is driven or all are; past goes from 1 to n + the order of the filter of u, and s from 2 to n + 1."""
     A, (num, den) = random.choice(_POLES), random.choice(_COLOURS)
     n, order = len(A), max(len(num), len(den)) - 1
     B = random.choice(([["1"]] * n, [["0"]] * (n - 1) + [["1"]], [["1"]] + [["0"]] * (n - 1)))
@@ -273,7 +276,7 @@ def _degenerate(random: Random) -> Experiment:
 
 
 def _period(random: Random) -> Experiment:
-    """Of those that lose a rank, and beside them; with a longer past as well."""
+    """Members of the family of period three that lose a rank, and some beside them; with a longer past as well."""
     one = random.choice(in_order(7))
     near = replace(one, a=one.a * random.choice((1, 1, Fraction(99, 100))))
     return seasonal(near, random.choice((1, 3)), random.choice((2, 2, 3, 8)))
@@ -305,12 +308,12 @@ def _autoregressive(random: Random) -> Experiment:
 
 
 def following(system: dict[str, Any], gain: str) -> Experiment:
-    """u white, v(k) = gain u(k-1)."""
+    """The experiment in which u is white and v(k) = gain u(k-1)."""
     return experiment_of(system, [[["1"]]], [[["0"]], [[gain]]])
 
 
 def independent_white(system: dict[str, Any]) -> Experiment:
-    """u and v white, each of its own."""
+    """The experiment in which u and v are white, each of its own noise."""
     return experiment_of(system, [[["1", "0"]]], [[["0", "1"]]])
 
 
@@ -319,7 +322,7 @@ def _feedback(random: Random) -> Experiment:
 
 
 def _feedback_hidden(random: Random) -> Experiment:
-    """F K = A z and G K = C z: the fault moves the state by z one sample earlier, and no column is added to those of O_s."""
+    """With F K = A z and G K = C z the fault moves the state by z one sample earlier, and adds no column to those of O_s."""
     system = _system(random, 1, 1)
     A, C = Matrix.of(system["A"]), Matrix.of(system["C"])
     z = Matrix.of(_rows(random, A.nrows, 1))
@@ -327,7 +330,7 @@ def _feedback_hidden(random: Random) -> Experiment:
 
 
 def _feedback_unseen_in_inputs(random: Random) -> Experiment:
-    """C'G = -A'Q F, Q the observability gramian: output error gives the true B and D."""
+    """With C'G = -A'Q F, where Q is the observability gramian, output error gives the true B and D."""
     a, f = Fraction(random.randint(-4, 4), 5), random.randint(1, 3)
     g = -a * f / (1 - a * a)
     b = random.choice((Fraction(1), a**3 * f / (1 - a**4)))  # with the second the rest of the limit is orthogonal to O_s for s = 2

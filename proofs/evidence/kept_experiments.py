@@ -1,7 +1,7 @@
 """The experiments of counterexamples/, which refute what one might expect of population limits; its README says what each shows.
 
-kept       the experiment of a name
-WITHOUT_RANK   those in which PI-MOESP loses a rank though v is uncorrelated with u at all lags
+kept            the experiment of a name
+WITHOUT_RANK    those in which PI-MOESP loses a rank though v is uncorrelated with u at all lags
 """
 
 from __future__ import annotations
@@ -23,6 +23,6 @@ WITHOUT_RANK = (
 
 
 def kept(name: str) -> Experiment:
-    """The experiment in counterexamples/NAME.json."""
+    """The experiment that stands in counterexamples/NAME.json."""
     text = resources.files("faultspace.proofs").joinpath("counterexamples", f"{name}.json").read_text(encoding="utf-8")
     return read_experiment(json.loads(text), where=name)

@@ -1,8 +1,9 @@
-"""Pairs (Fhat P, Ghat P) judged by the polynomial D(q; P) beforehand, and by accepted certificates afterwards: what both say.
+"""Pairs (Fhat P, Ghat P): what the polynomial D(q; P) says of each beforehand, and what accepted certificates say of it afterwards.
 
-JudgedPair       a system, a P, D(q; P) by its determinant; normal rank, zeros and equivalence of the pair by certificates
-judged_pairs     for each system: a good P, a bad P of full column rank where there is one, a placed zero polynomial, random P
-pencil_of        the exceptional pencil of a system, found once
+PairByPolynomial         a system, a P, D(q; P) by its determinant; normal rank, zeros and equivalence of the pair by certificates
+pairs_by_polynomial      for each system a good P, a bad P of full column rank where there is one, a P for given zeros, random P
+examine_by_polynomial    the record of one P, with its certificates made and accepted
+pencil_of                the pencil [P | q b - a] of a system, found once
 """
 
 from __future__ import annotations
@@ -35,10 +36,12 @@ MOST_STATES = 3
 
 
 @dataclass(frozen=True)
-class JudgedPair:
-    """`polynomial`: D(q; P), monic, ascending, as written; () for a bad P. The rest is what accepted certificates say.
+class PairByPolynomial:
+    """A pair (Fhat P, Ghat P), by its polynomial and by accepted certificates.
 
-    `purpose` is how P was chosen: good, bad, placed, random. `zeta` is n less the left minimal indices of the system.
+    `polynomial` is D(q; P), monic, ascending, as written, and () for a bad P. The rest is what accepted certificates say.
+
+    `purpose` says how P was chosen: good, bad, given zeros, random. `zeta` is n less the left minimal indices of the system.
     """
 
     origin: str
@@ -61,12 +64,15 @@ class JudgedPair:
 
 @lru_cache(maxsize=1 << 16)
 def pencil_of(system: ResidualSystem) -> Exceptional:
-    """[P | q b - a] of the system's fault space."""
+    """The pencil [P | q b - a] of the system's fault space."""
     return exceptional(kernel_representation(system))
 
 
-def examine_judged(origin: str, purpose: str, system: ResidualSystem, P: Matrix, wanted: object, weight: int) -> JudgedPair:
-    """Judge a P (n_z x r) and certify what its pair is: zeros, normal rank, equivalence, beside the system's own zeros and fault space."""
+def examine_by_polynomial(origin: str, purpose: str, system: ResidualSystem, P: Matrix, wanted: object, weight: int) -> PairByPolynomial:
+    """The record of a P (n_z x r): D(q; P), and the certified zeros, normal rank and equivalence of its pair, with the system's own zeros.
+
+    Raises checker.Rejected or checker.Malformed where the checker does not accept a certificate.
+    """
     pencil = pencil_of(system)
     field = system.field
     pair = with_pair(pencil.space, P)
@@ -84,7 +90,7 @@ def examine_judged(origin: str, purpose: str, system: ResidualSystem, P: Matrix,
         accept(certificate)
     says = [certificate["statement"] for certificate in certificates]
 
-    return JudgedPair(
+    return PairByPolynomial(
         origin=origin,
         purpose=purpose,
         system=system,
@@ -104,29 +110,29 @@ def examine_judged(origin: str, purpose: str, system: ResidualSystem, P: Matrix,
     )
 
 
-def judged_pairs(effort: str, jobs: int, progress: Progress) -> tuple[JudgedPair, ...]:
-    """All judged pairs of the effort."""
+def pairs_by_polynomial(effort: str, jobs: int, progress: Progress) -> tuple[PairByPolynomial, ...]:
+    """All pairs of the effort, made on `jobs` processes."""
     sources = list(_systems(effort == "full"))
     batches = [sources[i : i + 20] for i in range(0, len(sources), 20)]
-    found: list[JudgedPair] = []
+    found: list[PairByPolynomial] = []
     done = 0
     for batch, made in zip(batches, Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(b) for b in batches), strict=True):
         found += made
         done += len(batch)
-        progress("judging pairs", done, len(sources))
+        progress("pairs and their polynomials", done, len(sources))
     return tuple(found)
 
 
-def _all(batch: list[tuple[str, ResidualSystem, int]]) -> list[JudgedPair]:
+def _all(batch: list[tuple[str, ResidualSystem, int]]) -> list[PairByPolynomial]:
     found = []
     for origin, system, weight in batch:
         for purpose, P, wanted in _choices(system):
-            found.append(examine_judged(origin, purpose, system, P, wanted, weight))
+            found.append(examine_by_polynomial(origin, purpose, system, P, wanted, weight))
     return found
 
 
 def _choices(system: ResidualSystem) -> Iterator[tuple[str, Matrix, object]]:
-    """(purpose, P, wanted polynomial or None)."""
+    """Triples of a purpose, a P, and the polynomial wanted or None."""
     pencil, rng = pencil_of(system), random.Random(str(system))
     field, shape = system.field, (pencil.n_z, pencil.columns)
     yield "good", good_columns(pencil).verdict.P, None
@@ -138,7 +144,7 @@ def _choices(system: ResidualSystem) -> Iterator[tuple[str, Matrix, object]]:
         free = (*(field.element(rng.randint(-2, 2)) for _ in range(degree - len(pencil.fixed) + 1)), field.element(1))
         if pencil.columns or len(free) == 1:
             wanted = multiply(free, pencil.fixed)
-            yield "placed", assign_zeros(pencil, [field.write(x) for x in wanted]).P, wanted
+            yield "given zeros", assign_zeros(pencil, [field.write(x) for x in wanted]).P, wanted
     for _ in range(2):
         yield "random", Matrix.of([[rng.randint(-2, 2) for _ in range(shape[1])] for _ in range(shape[0])], field, shape=shape), None
 
@@ -158,5 +164,5 @@ def _systems(full: bool) -> Iterator[tuple[str, ResidualSystem, int]]:
 
 
 def _hashable(coefficients: object) -> tuple[object, ...]:
-    """Written coefficients as a tuple: entries of Q(a) are lists, made tuples."""
+    """Written coefficients as a tuple; entries of Q(a), which are lists, become tuples."""
     return tuple(tuple(c) if isinstance(c, list) else c for c in coefficients)  # type: ignore[attr-defined]

@@ -253,7 +253,7 @@ def zero_count_claim(stratification: Stratification) -> ZeroCountClaim:
 
 
 def _verify_within(branch: Branch, stratum: Stratum) -> None:
-    """The branch is part of the stratum."""
+    """Raises IdentityFailure unless the branch is part of the stratum."""
     decisions = stratum.branch.decisions
     if branch.decisions[: len(decisions)] != decisions:
         raise IdentityFailure("a branch is not part of the stratum it belongs to")

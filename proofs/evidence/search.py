@@ -2,6 +2,7 @@
 
     Box                bounds on n, p, m, their sum, and the entries
     systems_in_order   by n + m + p, then n, m, p, then the largest numerator or denominator, then lexicographically (A, F, C, G by rows)
+    chunks             the same systems in batches, as Facts
     Facts              window ranks, rank of T_s, observability, controllability of many systems at once, by definition
     smallest           the first system that a vectorised test on Facts lets through and an exact test confirms
 
@@ -45,7 +46,7 @@ class Box:
         )
 
     def dimensions(self) -> list[tuple[int, int, int]]:
-        """(n, m, p) in the order of the search."""
+        """The (n, m, p) of the box in the order of the search."""
         ranges = (range(1, self.largest_n + 1), range(self.least_m, self.largest_m + 1), range(1, self.largest_p + 1))
         found = [(n, m, p) for n, m, p in product(*ranges) if n + m + p <= self.total]
         return sorted(found, key=lambda d: (sum(d), *d))
@@ -62,20 +63,20 @@ class Facts:
 
     @property
     def n(self) -> int:
-        """States."""
+        """The number of states."""
         return int(self.A.shape[1])
 
     @property
     def m(self) -> int:
-        """Faults."""
+        """The number of faults."""
         return int(self.F.shape[2])
 
     def system(self, index: int) -> ResidualSystem:
-        """One of the systems, exact."""
+        """One of the systems, as an exact one."""
         return ResidualSystem.of(*(part[index].tolist() for part in (self.A, self.F, self.C, self.G)))
 
     def window(self, s: int) -> Integers:
-        """[O_s T_s] of every system."""
+        """The matrix [O_s T_s] of every system."""
         count, p = len(self.A), self.C.shape[1]
         built = np.zeros((count, p * s, self.n + self.m * s), dtype=np.int64)
         row, markov = self.C, [self.G]
@@ -88,25 +89,29 @@ class Facts:
         return built
 
     def rank(self, s: int) -> Integers:
-        """rank [O_s T_s] of every system."""
-        return ranks(self.window(s))
+        """The rank of [O_s T_s] of every system."""
+        if s not in self._ranks:
+            self._ranks[s] = ranks(self.window(s))
+        return self._ranks[s]
 
     def rank_from_rest(self, s: int) -> Integers:
-        """rank T_s of every system."""
-        return ranks(self.window(s)[:, :, self.n :])
+        """The rank of T_s of every system."""
+        if s not in self._ranks_from_rest:
+            self._ranks_from_rest[s] = ranks(self.window(s)[:, :, self.n :])
+        return self._ranks_from_rest[s]
 
     def gap(self, s: int) -> Integers:
-        """rank [O_(s+1) T_(s+1)] - rank [O_s T_s]."""
+        """The difference rank [O_(s+1) T_(s+1)] - rank [O_s T_s] of every system."""
         return self.rank(s + 1) - self.rank(s)
 
     @cached_property
     def observable(self) -> Flags:
-        """(A, C) observable."""
+        """Whether (A, C) is observable, for every system."""
         return np.asarray(ranks(self.window(self.n)[:, :, : self.n]) == self.n)
 
     @cached_property
     def controllable(self) -> Flags:
-        """(A, F) controllable."""
+        """Whether (A, F) is controllable, for every system."""
         blocks, column = [], self.F
         for _ in range(self.n):
             blocks.append(column)
@@ -115,17 +120,17 @@ class Facts:
 
     @cached_property
     def left_invertible(self) -> Flags:
-        """rank T_(n+1) - rank T_n = m."""
+        """Whether rank T_(n+1) - rank T_n = m, for every system."""
         return np.asarray(self.rank_from_rest(self.n + 1) - self.rank_from_rest(self.n) == self.m)
 
     @cached_property
     def delay_known_state(self) -> Integers:
-        """Least l with rank T_(l+1) - rank T_l = m; n + 1 where there is none."""
+        """The least l with rank T_(l+1) - rank T_l = m for every system; n + 1 where there is none."""
         return self._least(lambda s: np.asarray(self.rank_from_rest(s + 1) - self.rank_from_rest(s) == self.m))
 
     @cached_property
     def delay_unknown_state(self) -> Integers:
-        """Least l with rank [O_(l+1) T_(l+1)] = m + the rank without the columns of v(0); n + 1 where there is none."""
+        """The least l with rank [O_(l+1) T_(l+1)] = m + the rank without the columns of v(0); n + 1 where there is none."""
 
         def determined(s: int) -> Flags:
             built = self.window(s + 1)
@@ -133,6 +138,14 @@ class Facts:
             return np.asarray(ranks(built) == ranks(rest) + self.m)
 
         return self._least(determined)
+
+    @cached_property
+    def _ranks(self) -> dict[int, Integers]:
+        return {}  # window -> ranks, since several conditions ask for the same
+
+    @cached_property
+    def _ranks_from_rest(self) -> dict[int, Integers]:
+        return {}
 
     def _least(self, test: Callable[[int], Flags]) -> Integers:
         found = np.full(len(self.A), self.n + 1, dtype=np.int64)

@@ -28,7 +28,7 @@ BOX = (
 
 @dataclass(frozen=True)
 class Seasonal:
-    """The four numbers; A and the recursion of u are stable."""
+    """The four numbers of a member of the family; A and the recursion of u are stable."""
 
     t: Fraction
     d: Fraction
@@ -37,7 +37,7 @@ class Seasonal:
 
     @property
     def size(self) -> int:
-        """What orders the family."""
+        """The number by which the family is ordered."""
         return sum(abs(x.numerator) + x.denominator for x in (self.t, self.d, self.a, self.b))
 
 
@@ -58,7 +58,7 @@ def in_order(largest: int = LARGEST_DENOMINATOR) -> tuple[Seasonal, ...]:
 
 
 def seasonal(one: Seasonal, taps: int = 1, past: int = 2) -> Experiment:
-    """v(k) = f(k) + ... + f(k - taps + 1) of its own white f, F = e1, G = 0."""
+    """The experiment of a member, with v(k) = f(k) + ... + f(k - taps + 1) of its own white f, F = e1 and G = 0."""
     return read_experiment(
         {
             "A": [[str(one.t), str(-one.d)], ["1", "0"]],

@@ -1,14 +1,14 @@
 """The hypotheses of each claim, as tests on certified subjects: what `ablation` drops, one file a kind of subject.
 
-experiments     all of them, in the order of the claims
+ablations     all of them, in the order of the claims
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from ..verdict.ablation import Experiment
-from .experiments import consistency, consistency_coloured
+from ..verdict.ablation import Ablation
+from .consistency import consistency, consistency_coloured
 from .fault_matrices import theorem_3_ii
 from .pairs import same_model, theorem_1, theorem_3_i
 from .pencils import bad_of_full_rank, codimension, determinant, placement, zeros_of_pair
@@ -28,8 +28,8 @@ from .systems import (
 from .trajectories import excited, persistently_excited
 
 
-def experiments() -> tuple[Experiment[Any], ...]:
-    """Every experiment, by the order of its claim."""
+def ablations() -> tuple[Ablation[Any], ...]:
+    """Every ablation, by the order of its claim."""
     return (
         consistency(),
         consistency_coloured(),

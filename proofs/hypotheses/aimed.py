@@ -2,7 +2,7 @@
 
     aimed_systems     as many for each of the four hypotheses: observable, controllable, left-invertible, A stable
     other_columns     one of them with other fault columns of its Z
-    aimed_dossiers    the same with accepted certificates, and HIDDEN_ZEROS, made once a run
+    aimed_evidence    the same with accepted certificates, and HIDDEN_ZEROS, made once a run
     HIDDEN_ZEROS      two systems all of whose finite zeros are unobservable modes, the zeros being more than the modes
 
 Most are without feedthrough and with more outputs than faults, so that they have zeros, at infinity and rarely finite ones: that is where
@@ -18,7 +18,7 @@ from ...exact.algebra.matrices import Matrix, beside
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Dossier, examine
+from ..evidence.corpus import Evidence, examine
 from ..verdict.workbench import Workbench
 from .facets import of_system
 
@@ -35,13 +35,13 @@ HIDDEN_ZEROS = (
 Table = list[list[str]]
 
 
-def aimed_dossiers(bench: Workbench) -> list[Dossier]:
-    """The aimed systems of the effort, certified."""
+def aimed_evidence(bench: Workbench) -> list[Evidence]:
+    """The evidence on the aimed systems of the effort."""
     return bench.records("aimed systems", lambda: [examine("aimed", s) for s in (*HIDDEN_ZEROS, *aimed_systems(400 if bench.full else 80))])
 
 
 def aimed_systems(count: int) -> Iterator[ResidualSystem]:
-    """`count` systems over Q for each hypothesis, which lack it and no other."""
+    """`count` systems over Q for each hypothesis; they lack it and no other."""
     for lacked in HYPOTHESES:
         random, found = Random(lacked), 0
         while found < count:
@@ -68,14 +68,14 @@ def _drawn(random: Random, lacked: str) -> ResidualSystem:
 
 
 def other_columns(system: ResidualSystem) -> ResidualSystem:
-    """(A, Fhat P, C, Ghat P) with a random P of m columns."""
+    """The system (A, Fhat P, C, Ghat P) with a random P of m columns."""
     random, space = Random(str(system)), fault_space(kernel_representation(system))
     rows = [[random.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
     return with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))
 
 
 def _with_a_column_more(random: Random, system: ResidualSystem) -> ResidualSystem:
-    """A member of Z as one more fault: the outputs are the same, and the faults are not determined by them."""
+    """The system with a member of Z as one more fault: the outputs are the same, and they do not determine the faults."""
     basis = fault_space(kernel_representation(system)).basis
     weights = Matrix.of([[random.choice((-1, 0, 1, 2)) for _ in range(basis.nrows)]], shape=(1, basis.nrows))
     column = (weights @ basis).transposed()

@@ -58,7 +58,7 @@ UNREAD = experiment(_READ_LATE | {"C": ONE_OUTPUT}, 2, 2, WHITE, INDEPENDENT)
 
 
 def aimed_experiments(count: int) -> Iterator[Experiment]:
-    """`count` of each family over Q."""
+    """`count` experiments of each family over Q, then the fixed ones."""
     for family in FAMILIES:
         random = Random(family)
         for _ in range(count):
@@ -92,7 +92,9 @@ def _drawn(random: Random, family: str) -> Experiment:
 
 
 def _signals(random: Random, family: str, s: int) -> tuple[Filter, Filter]:
-    """u and v: the same noise where they are to be correlated, each its own elsewhere; v coloured in half of the independent ones."""
+    """The filters of u and v: of the same noise where they are to be correlated, else each of its own; half of the independent v are
+    coloured.
+    """
     gain = random.choice(("1", "-1", "2", "1/2"))
     delayed: Filter = {"num": [[["0", "0"]], [["1", "0"]]], "den": ["1"]}
     match family:

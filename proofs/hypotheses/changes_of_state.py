@@ -129,7 +129,7 @@ def _entries(random: Random, nrows: int, ncols: int, scale: int = 1) -> Matrix:
 
 
 def _solution(matrix: Matrix, right_side: Matrix) -> Matrix | None:
-    """Some X with M X = R, or None."""
+    """Some X with M X = R, or None where there is none."""
     found = solve_left(matrix.transposed(), right_side.transposed())
     return None if found is None else found.transposed()
 
@@ -159,7 +159,7 @@ def _of_sum_at_most(total: int, length: int) -> Iterator[tuple[int, ...]]:
 
 
 def _complement(columns: Matrix) -> Matrix:
-    """Unit columns that complete independent ones to a basis."""
+    """Unit columns that complete independent columns to a basis."""
     unit = Matrix.identity(columns.field, columns.nrows)
     chosen: list[int] = []
     for j in range(columns.nrows):

@@ -1,10 +1,11 @@
 """What is asked of one system alone, exactly and found once, and the same of many integer systems at a first look.
 
-Facets   observable, controllable, left-invertible, stable, normal rank, lag, number of unobservable modes
-facets   those of a system
-degenerate   why a system would be a poor witness; "" where it would not
-of_system   the hypotheses about one system, of subjects that have one
-flags    which of many systems meet all of some hypotheses about one system
+Facets        observable, controllable, left-invertible, stable, normal rank, lag, number of unobservable modes
+facets        those of a system
+degenerate    why a system would be a poor witness; "" where it would not
+of_system     the hypotheses about one system, of subjects that have one
+nilpotent     which of many integer systems have a stable A
+flags         which of many systems meet all of some hypotheses about one system
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ class Facets:
 
 @lru_cache(maxsize=1 << 18)
 def facets(system: ResidualSystem) -> Facets:
-    """What is asked of the system."""
+    """What the hypotheses ask of a system, found once."""
     kernel = kernel_representation(system)
     seen = rank(observability_matrix(system, system.n))
     return Facets(

@@ -17,11 +17,11 @@ from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.alternatives import RivalDossier, comparison_certificate, examine_rival
+from ..evidence.alternatives import AlternativeEvidence, comparison_certificate, examine_alternative
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
 from .facets import degenerate, facets, flags, of_system
@@ -31,10 +31,13 @@ BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
 
 @dataclass(frozen=True)
 class Pair:
-    """`rival` has the (A, C) of `system` and columns [F'; G'] that solve its problem (11) at the window."""
+    """A system and other fault matrices for its (A, C), as a subject.
+
+    `alternative` has the (A, C) of `system` and columns [F'; G'] that solve its problem (11) at the window.
+    """
 
     system: ResidualSystem
-    rival: ResidualSystem
+    alternative: ResidualSystem
     window: int
     equal: bool
     weight: int
@@ -42,35 +45,35 @@ class Pair:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p, then n, m, p, then the window."""
+        """The numbers n + m + p, then n, m, p, then the window."""
         return (*size(self.system), self.window)
 
     @property
     def field(self) -> str:
-        """The field in words."""
+        """The field in words, as it is printed."""
         return str(self.system.field)
 
     @property
     def degenerate(self) -> str:
-        """Why it would be a poor witness: the system is, or P is not of full column rank."""
-        return degenerate(self.system) or degenerate(self.rival)
+        """Why it would be a poor witness: the system is one, or P is not of full column rank."""
+        return degenerate(self.system) or degenerate(self.alternative)
 
     def __str__(self) -> str:
-        return f"{self.system} with F' = {self.rival.F}, G' = {self.rival.G}, s = {self.window}"
+        return f"{self.system} with F' = {self.alternative.F}, G' = {self.alternative.G}, s = {self.window}"
 
 
 GOOD = "P good: normal rank r"
 HYPOTHESES: dict[str, Callable[[Pair], bool]] = {
     **of_system(lambda x: x.system),
     "s >= lag + 1": lambda x: x.window >= facets(x.system).lag + 1,
-    "P of full column rank": lambda x: rank(stacked(x.rival.F, x.rival.G)) == x.rival.m,
-    GOOD: lambda x: facets(x.rival).normal_rank == facets(x.system).normal_rank,
+    "P of full column rank": lambda x: rank(stacked(x.alternative.F, x.alternative.G)) == x.alternative.m,
+    GOOD: lambda x: facets(x.alternative).normal_rank == facets(x.system).normal_rank,
 }
 
 
-def theorem_3_ii() -> Experiment[Pair]:
-    """The pair is equivalent to the system."""
-    return Experiment(
+def theorem_3_ii() -> Ablation[Pair]:
+    """The ablation of the claim that the pair is equivalent to the system."""
+    return Ablation(
         name="equivalent-pair",
         claim="theorem-3-ii",
         conclusion="(A, Fhat P, C, Ghat P) has the same output behaviour",
@@ -87,26 +90,26 @@ def theorem_3_ii() -> Experiment[Pair]:
 
 
 def _subjects(bench: Workbench) -> Iterator[Pair]:
-    """Every rival with columns in Z, at lag + 1; the others at the longest window whose solutions they are, if there is one."""
-    for d in (*bench.rivals, *bench.records("aimed rivals", partial(_aimed, 150 if bench.full else 40))):
-        window = facets(d.system).lag + 1 if d.in_space else _longest(d.system, d.rival)
+    """Every alternative with columns in Z, at lag + 1; the others stand at the longest window whose solutions they are, if there is one."""
+    for d in (*bench.alternatives, *bench.records("aimed alternatives", partial(_aimed, 150 if bench.full else 40))):
+        window = facets(d.system).lag + 1 if d.in_space else _longest(d.system, d.alternative)
         if window:
-            yield Pair(d.system, d.rival, window, d.equal, d.weight, d.accepted)
+            yield Pair(d.system, d.alternative, window, d.equal, d.weight, d.accepted)
 
 
-def _aimed(count: int) -> list[RivalDossier]:
-    """Two random P for each aimed system, with m columns: bad for some, good for most."""
+def _aimed(count: int) -> list[AlternativeEvidence]:
+    """Two random P of m columns for each aimed system; they are bad for some and good for most."""
     found = []
     for system in aimed_systems(count):
         space, rng = fault_space(kernel_representation(system)), Random(str(system))
         for _ in range(2):
             rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
-            found.append(examine_rival("aimed", system, with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))))
+            found.append(examine_alternative("aimed", system, with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))))
     return found
 
 
-def _longest(system: ResidualSystem, rival: ResidualSystem) -> int:
-    columns = stacked(rival.F, rival.G).transposed()
+def _longest(system: ResidualSystem, alternative: ResidualSystem) -> int:
+    columns = stacked(alternative.F, alternative.G).transposed()
     kernel = kernel_representation(system)
     for s in range(kernel.lag, 0, -1):
         basis = fault_space(kernel, s).basis
@@ -137,14 +140,14 @@ def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
 
 
 def _differs(pair: Pair) -> bool:
-    return compare(kernel_representation(pair.system), kernel_representation(pair.rival)).first_difference is not None
+    return compare(kernel_representation(pair.system), kernel_representation(pair.alternative)).first_difference is not None
 
 
 def _show(pair: Pair) -> Iterator[Certificate]:
-    kernel, rival = kernel_representation(pair.system), kernel_representation(pair.rival)
-    yield comparison_certificate(kernel, rival)
+    kernel, alternative = kernel_representation(pair.system), kernel_representation(pair.alternative)
+    yield comparison_certificate(kernel, alternative)
     yield make.fault_space(kernel, fault_space(kernel, pair.window))
     yield make.window_ranks(kernel)
-    yield make.window_ranks(rival)
+    yield make.window_ranks(alternative)
     yield make.matrix_rank("observability", pair.system)
     yield make.matrix_rank("reachability", pair.system)

@@ -19,11 +19,11 @@ from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..evidence.alternatives import PairDossier, comparison_certificate, examine_pair
+from ..evidence.alternatives import PairEvidence, comparison_certificate, examine_pair
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench
 from .aimed import aimed_systems, other_columns
 from .changes_of_state import columns_moved, equivalent_pairs, moved, similarity
@@ -35,7 +35,7 @@ SMALLER = Box(total=4, largest_n=1, largest_m=2, largest_p=2)
 
 @dataclass(frozen=True)
 class Compared:
-    """Two systems whose behaviours agree on `window` samples; None: for ever. `equal`: they do for ever."""
+    """Two systems whose behaviours agree on `window` samples, for ever where it is None; `equal` says whether they do for ever."""
 
     first: ResidualSystem
     second: ResidualSystem
@@ -46,23 +46,23 @@ class Compared:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """Both n + m + p, then the first's n, m, p, then the window."""
+        """The sum of both n + m + p, then the first's n, m, p, then the window."""
         one, two = self.first, self.second
         return (one.n + one.m + one.p + two.n + two.m + two.p, one.n, one.m, one.p, self.window or 0)
 
     @property
     def field(self) -> str:
-        """The field in words."""
+        """The field in words, as it is printed."""
         return str(self.first.field)
 
     @property
     def both(self) -> tuple[ResidualSystem, ResidualSystem]:
-        """The two systems."""
+        """The two systems, the first one first."""
         return self.first, self.second
 
     @cached_property
     def degenerate(self) -> str:
-        """Why it would be a poor witness: one of the systems is, or all outputs are possible and all columns lie in Z."""
+        """Why it would be a poor witness: one of the systems is one, or all outputs are possible and all columns lie in Z."""
         everything = "every output is possible" if facets(self.first).normal_rank == self.first.p else ""
         return degenerate(self.first) or degenerate(self.second) or everything
 
@@ -91,13 +91,13 @@ MODEL: dict[str, Callable[[Compared], bool]] = {
 }
 
 
-def theorem_1() -> Experiment[Compared]:
-    """Equal restricted behaviours on a window of n + 1 samples."""
+def theorem_1() -> Ablation[Compared]:
+    """The ablation of the claim that behaviours equal on a window of n + 1 samples are equal for ever."""
 
     def long_enough(pair: Compared) -> bool:
         return pair.window is not None and pair.window >= max(pair.first.n, pair.second.n) + 1
 
-    return Experiment(
+    return Ablation(
         name="equal-on-a-window",
         claim="theorem-1",
         conclusion="behaviours equal on the window are equal for ever",
@@ -110,21 +110,21 @@ def theorem_1() -> Experiment[Compared]:
     )
 
 
-def theorem_3_i() -> Experiment[Compared]:
-    """Equal output behaviours of two systems with as many states: where the columns of the second lie."""
+def theorem_3_i() -> Ablation[Compared]:
+    """The ablation of the claim that the columns of an equivalent system with as many states lie in Z after some change of its state."""
     words = "the columns [T F'; G'] of an equivalent system lie in Z, for some change T of its state"
     return _of_equivalent("columns-in-Z", words, _columns_in_space, Proof(("columns_after_change_of_state",)))
 
 
-def same_model() -> Experiment[Compared]:
-    """The same, with (A, C) as well: the outputs alone do not tell them."""
+def same_model() -> Ablation[Compared]:
+    """The ablation of the claim that (A, C) is the same as well, which the outputs alone do not tell."""
     words = "an equivalent system is (A, Fhat P, C, Ghat P), after some change of its state"
     # The theorem is about the second system in the coordinates where it has the (A, C) of the first.
     return _of_equivalent("same-model", words, _same_model, Proof(("theorem_3_part_i",), frozenset({SIMILAR})))
 
 
-def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool], proof: Proof) -> Experiment[Compared]:
-    return Experiment(
+def _of_equivalent(name: str, words: str, holds: Callable[[Compared], bool], proof: Proof) -> Ablation[Compared]:
+    return Ablation(
         name=name,
         claim="theorem-3-i",
         conclusion=words,
@@ -154,7 +154,7 @@ def columns_in_space(first: ResidualSystem, second: ResidualSystem) -> bool:
 
 
 def _agreeing(bench: Workbench) -> Iterator[Compared]:
-    """Every pair that agrees on s samples, for each s it is so up to n + 2; certificates are told once a pair."""
+    """Every pair that agrees on s samples, for each s where it does up to n + 2; its certificates count once."""
     for d in (*bench.pairs, *_made(bench)):
         last = max(d.first.n, d.second.n) + 2 if d.first_difference is None else d.first_difference - 1
         for s in range(1, last + 1):
@@ -162,20 +162,20 @@ def _agreeing(bench: Workbench) -> Iterator[Compared]:
 
 
 def _equivalent(bench: Workbench) -> Iterator[Compared]:
-    """Pairs with equal behaviours and as many states: other fault matrices for the same (A, C), and other (A, C)."""
-    for rival in bench.rivals:
-        if rival.equal:
-            yield Compared(rival.system, rival.rival, None, True, rival.weight, rival.accepted)
+    """Pairs with equal behaviours and as many states, with other fault matrices for the same (A, C) or with other (A, C)."""
+    for alternative in bench.alternatives:
+        if alternative.equal:
+            yield Compared(alternative.system, alternative.alternative, None, True, alternative.weight, alternative.accepted)
     for pair in (*bench.pairs, *_made(bench)):
         if pair.first_difference is None and pair.first.n == pair.second.n:
             yield Compared(pair.first, pair.second, None, True, pair.weight, pair.accepted)
 
 
-def _made(bench: Workbench) -> list[PairDossier]:
-    """Equivalent pairs whose (A, C) are not the same, and aimed systems with other fault columns of Z for the same (A, C), certified."""
+def _made(bench: Workbench) -> list[PairEvidence]:
+    """Certified pairs: equivalent ones whose (A, C) differ, and aimed systems with other fault columns of Z for the same (A, C)."""
     others, aimed = (800, 100) if bench.full else (120, 25)
 
-    def made() -> list[PairDossier]:
+    def made() -> list[PairEvidence]:
         pairs = chain(equivalent_pairs(others), ((system, other_columns(system)) for system in aimed_systems(aimed)))
         return [examine_pair("made on purpose", *two) for two in pairs]
 

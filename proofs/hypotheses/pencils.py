@@ -1,6 +1,13 @@
 """The hypotheses of the claims about all P at once: size of the bad set, bad P of full column rank, zero assignment; and about one P.
 
-The size of the bad set is counted from the degrees of L(q) by exact/bad_set, which certificates of lines confirm in the claim itself.
+Chosen              a pair (Fhat P, Ghat P) with a chosen P, as a subject
+codimension         the bad P have codimension at least two
+bad_of_full_rank    some P of full column rank is bad
+placement           every polynomial of degree at most zeta is the zero polynomial of a pair
+determinant         D(q; P) is the zero polynomial of the pair
+zeros_of_pair       a pair has as many zeros as its system
+
+The size of the bad set is counted from the degrees of L(q) by exact/pairs, which certificates of lines confirm in the claim itself.
 """
 
 from __future__ import annotations
@@ -24,15 +31,15 @@ from ...exact.system.systems import ResidualSystem
 from ..claims.one_determinant import agrees
 from ..claims.one_determinant import show as show_pair
 from ..evidence.alternatives import comparison_certificate
-from ..evidence.pairs_by_polynomial import JudgedPair, examine_judged, pencil_of
+from ..evidence.pairs_by_polynomial import PairByPolynomial, examine_by_polynomial, pencil_of
 from ..evidence.search import Box, Facts, Integers, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
 from .facets import degenerate, flags, of_system
-from .placed import every_polynomial_is_reached
+from .given_zeros import every_polynomial_is_reached
 from .systems import MODEL
 from .windowed import NO_WINDOW, Condition, Windowed, windowed
 
@@ -46,17 +53,17 @@ def _normal_rank(facts: Facts) -> Integers:
 
 
 def _zeta(facts: Facts) -> Integers:
-    """n less the left minimal indices, read off a late window."""
+    """The number n less the left minimal indices, read off a late window."""
     late = facts.n + 1
     return facts.n - facts.rank(late) + late * _normal_rank(facts)
 
 
-TWO_FAULTS = Condition(lambda w: w.dossier.normal_rank >= 2, lambda f, s: np.asarray(_normal_rank(f) >= 2))
-SOME_ZERO = Condition(lambda w: pencil_of(w.dossier.system).zeta >= 1, lambda f, s: np.asarray(_zeta(f) >= 1))
+TWO_FAULTS = Condition(lambda w: w.evidence.kernel.normal_rank >= 2, lambda f, s: np.asarray(_normal_rank(f) >= 2))
+SOME_ZERO = Condition(lambda w: pencil_of(w.evidence.system).zeta >= 1, lambda f, s: np.asarray(_zeta(f) >= 1))
 SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
 
 
-def codimension() -> Experiment[Windowed]:
+def codimension() -> Ablation[Windowed]:
     """bad-set: codimension at least two.
 
     Why r, controllability and left-invertibility play no part: a hypersurface of bad P is f(P) = 0 with f irreducible, and f divides every
@@ -66,44 +73,44 @@ def codimension() -> Experiment[Windowed]:
     """
 
     def at_least_two(subject: Windowed) -> bool:
-        size = bad_set(pencil_of(subject.dossier.system)).codimension
+        size = bad_set(pencil_of(subject.evidence.system)).codimension
         return size is None or size >= 2
 
     conclusion = Condition(at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
     return _of_pencils("codimension", "the bad P have codimension at least 2", conclusion, None)
 
 
-def bad_of_full_rank() -> Experiment[Windowed]:
-    """bad-set: full column rank is not enough."""
+def bad_of_full_rank() -> Ablation[Windowed]:
+    """The ablation of the claim, in bad-set, that some P of full column rank is bad."""
 
     def exists(subject: Windowed) -> bool:
-        return isinstance(bad_pair(pencil_of(subject.dossier.system)), BadPair)
+        return isinstance(bad_pair(pencil_of(subject.evidence.system)), BadPair)
 
     conclusion = Condition(exists, lambda f, s: np.asarray((_normal_rank(f) >= 2) & (_zeta(f) >= 1)))
     proof = Proof(("bad_set_full_rank",), frozenset({"r >= 2", "zeta >= 1"}))
     return _of_pencils("bad-of-full-rank", "some P of full column rank is bad", conclusion, proof)
 
 
-def placement() -> Experiment[Windowed]:
-    """zero-assignment: polynomials of every degree up to zeta, each assigned and looked for in the pair; at least one column for P."""
+def placement() -> Ablation[Windowed]:
+    """The ablation of zero-assignment: polynomials of every degree up to zeta are each assigned and looked for in the pair."""
 
     def reached(subject: Windowed) -> bool:
-        return every_polynomial_is_reached(pencil_of(subject.dossier.system))
+        return every_polynomial_is_reached(pencil_of(subject.evidence.system))
 
     words = "where r >= 1, every nonzero polynomial of degree at most zeta is the zero polynomial of some pair"
     conclusion = Condition(reached, lambda f, s: np.asarray(f.observable | (_zeta(f) == 0)))
-    some_column = Condition(lambda w: w.dossier.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
+    some_column = Condition(lambda w: w.evidence.kernel.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
     proof = Proof(("zero_assignment_observable",), frozenset({"observable"}))
     made = ("placement", "zero-assignment", words, MODEL, conclusion, _show, some_column, lambda n: NO_WINDOW, LONGER)
     return windowed(*made, proof=proof)
 
 
-def _of_pencils(name: str, words: str, conclusion: Condition, proof: Proof | None) -> Experiment[Windowed]:
+def _of_pencils(name: str, words: str, conclusion: Condition, proof: Proof | None) -> Ablation[Windowed]:
     return windowed(name, "bad-set", words, SIZES, conclusion, _show, windows=lambda n: NO_WINDOW, box=WIDER, proof=proof)
 
 
 def _show(system: ResidualSystem) -> Iterator[Certificate]:
-    """Z, the indices, and a bad P of full column rank where there is one."""
+    """Certificates of Z, of the indices, and of a bad P of full column rank where there is one."""
     pencil = pencil_of(system)
     yield make.fault_space(pencil.kernel, pencil.space)
     yield make.window_ranks(pencil.kernel)
@@ -116,102 +123,105 @@ def _show(system: ResidualSystem) -> Iterator[Certificate]:
 
 
 @dataclass(frozen=True)
-class Judged:
-    """A judged pair as a subject."""
+class Chosen:
+    """A pair (Fhat P, Ghat P), with a P that was chosen, is here a subject."""
 
-    record: JudgedPair
+    record: PairByPolynomial
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p, then n, m, p."""
+        """The numbers n + m + p, then n, m, p."""
         return size(self.record.system)
 
     @property
     def weight(self) -> int:
-        """Systems of the orbit."""
+        """The number of systems in the orbit."""
         return self.record.weight
 
     @property
     def field(self) -> str:
-        """The field in words."""
+        """The field in words, as it is printed."""
         return str(self.record.system.field)
 
     @property
     def accepted(self) -> int:
-        """Accepted certificates."""
+        """The number of accepted certificates."""
         return self.record.accepted
 
     @property
     def degenerate(self) -> str:
-        """Why it would be a poor witness: the system is, or P is not of full column rank."""
+        """Why it would be a poor witness: the system is one, or P is not of full column rank."""
         return degenerate(self.record.system) or ("" if self.record.full_column_rank else "P is not of full column rank")
 
     def __str__(self) -> str:
         return f"{self.record.system} with F' = {self.record.pair.F}, G' = {self.record.pair.G}"
 
 
-OF_SYSTEM: dict[str, Callable[[Judged], bool]] = of_system(lambda j: j.record.system)
+OF_SYSTEM: dict[str, Callable[[Chosen], bool]] = of_system(lambda pair: pair.record.system)
 GOOD = "P good: normal rank r"
 
 
-def _judged(bench: Workbench) -> Iterator[Judged]:
-    for record in (*bench.judged, *bench.records("aimed judged", partial(_aimed, 60 if bench.full else 15))):
-        yield Judged(record)
+def _subjects(bench: Workbench) -> Iterator[Chosen]:
+    for record in (*bench.pairs_by_polynomial, *bench.records("aimed pairs", partial(_aimed, 60 if bench.full else 15))):
+        yield Chosen(record)
 
 
-def _aimed(count: int) -> list[JudgedPair]:
-    """Random P for each aimed system."""
+def _aimed(count: int) -> list[PairByPolynomial]:
+    """Pairs of random P, two for each aimed system."""
     found = []
     for system in aimed_systems(count):
         pencil, rng = pencil_of(system), Random(str(system))
         for _ in range(2):
             rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(pencil.columns)] for _ in range(pencil.n_z)]
             P = Matrix.of(rows, shape=(pencil.n_z, pencil.columns))
-            found.append(examine_judged("aimed", "random", system, P, None, 1))
+            found.append(examine_by_polynomial("aimed", "random", system, P, None, 1))
     return found
 
 
-def determinant() -> Experiment[Judged]:
-    """one-determinant: what D(q; P) says is what the certificates say; there is nothing to search for where no pair tried disagrees."""
-    return Experiment(
+def determinant() -> Ablation[Chosen]:
+    """The ablation of one-determinant; there is nothing to search for where D(q; P) and the certificates agree on every pair tried."""
+    return Ablation(
         name="determinant",
         claim="one-determinant",
         conclusion="D(q; P) is the zero polynomial of the pair, and 0 iff P is bad",
         hypotheses=OF_SYSTEM,
         holds=lambda subject: agrees(subject.record),
-        subjects=_judged,
+        subjects=_subjects,
         over_q=lambda bench, dropped: Found(None, "the pairs judged"),
         show=lambda subject: show_pair(subject.record),
         proof=Proof(("one_determinant", "one_determinant_exists", "theorem_3_criterion")),
     )
 
 
-def zeros_of_pair() -> Experiment[Judged]:
-    """zeros-of-pairs: as many zeros as the system has."""
-    hypotheses: dict[str, Callable[[Judged], bool]] = {**OF_SYSTEM, GOOD: lambda j: j.record.pair_normal_rank == j.record.normal_rank}
-    return Experiment(
+def zeros_of_pair() -> Ablation[Chosen]:
+    """The ablation of zeros-of-pairs: a pair has as many zeros as the system."""
+    hypotheses: dict[str, Callable[[Chosen], bool]] = {
+        **OF_SYSTEM,
+        GOOD: lambda pair: pair.record.pair_normal_rank == pair.record.normal_rank,
+    }
+    return Ablation(
         name="zeros-of-pair",
         claim="zeros-of-pairs",
         conclusion="the pair has zeta zeros, finite and infinite",
         hypotheses=hypotheses,
         holds=_as_many,
-        subjects=_judged,
+        subjects=_subjects,
         over_q=partial(_smallest_pair, hypotheses),
         show=lambda subject: show_pair(subject.record),
         proof=Proof(("zeros_of_pairs", "theorem_3_criterion", "left_invertible_transfer", "zeros_exist"), frozenset({GOOD})),
     )
 
 
-def _as_many(subject: Judged) -> bool:
+def _as_many(subject: Chosen) -> bool:
     d = subject.record
     return len(d.zero_polynomial) - 1 + d.infinite_zeros == d.zeta
 
 
-def _smallest_pair(hypotheses: Mapping[str, Callable[[Judged], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Judged]:
+def _smallest_pair(hypotheses: Mapping[str, Callable[[Chosen], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Chosen]:
     """The first system and P, in this order, that meets what is kept and has another number of zeros."""
     kept = [test for name, test in hypotheses.items() if name not in dropped]
 
-    def counterexamples(poor: bool) -> Iterator[Judged]:
+    def counterexamples(poor: bool) -> Iterator[Chosen]:
         for system in systems_in_order(BOX, flags(set(hypotheses) - set(dropped))):
             if degenerate(system) and not poor:
                 continue
@@ -224,7 +234,7 @@ def _smallest_pair(hypotheses: Mapping[str, Callable[[Judged], bool]], bench: Wo
                 pair = kernel_representation(with_pair(pencil.space, P))
                 count = len(polynomial_at(pencil, P)) - 1 + sum(infinite_zero_orders(pair))
                 if pair.normal_rank < cols or count != pencil.zeta:
-                    subject = Judged(examine_judged("search", "search", system, P, None, 1))
+                    subject = Chosen(examine_by_polynomial("search", "search", system, P, None, 1))
                     if bool(subject.degenerate) == poor and all(test(subject) for test in kept) and not _as_many(subject):
                         yield subject
 

@@ -1,4 +1,13 @@
-"""The hypotheses of the claims about one system: rank formula, rank gap, problem (11), the number of fault columns, zero feedthrough."""
+"""The hypotheses of the claims about one system, each as an ablation on windows of systems.
+
+rank_formula                        theorem-2
+gap, gap_from_lag                   proposition-3, as the paper bounds s and with the sharp bound
+solutions, solutions_from_lag       problem (11) at a window, with both bounds
+columns                             the number of columns of (Fhat, Ghat)
+range_of_f                          zero-feedthrough
+signal_from_known_state, signal_from_unknown_state    trajectory-recovered
+every_window, sharp_gap             window-ranks and sharp-windows
+"""
 
 from __future__ import annotations
 
@@ -9,7 +18,7 @@ import numpy as np
 from ...exact.algebra.matrices import rank
 from ..claims.common import delays, spaces, zeros
 from ..evidence.search import Box, Facts, Flags
-from ..verdict.ablation import Experiment, Proof
+from ..verdict.ablation import Ablation, Proof
 from .facets import facets
 from .windowed import (
     CONTROLLABLE,
@@ -30,91 +39,90 @@ INVERTIBLE = "left-invertible"
 
 
 def _formula(subject: Windowed) -> bool:
-    d, s = subject.dossier, subject.window
-    return d.zeta is not None and d.rank(s) == d.n + s * d.m - d.zeta
+    e, s = subject.evidence, subject.window
+    return e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta
 
 
 def _formula_look(facts: Facts, s: int) -> Flags:
-    """Left-invertible systems: zeta read off a late rank. Others stay open."""
+    """Whether the formula surely holds: of left-invertible systems, whose zeta is read off a late rank; others stay open."""
     late = facts.n + 1
     zeta = facts.n + late * facts.m - facts.rank(late)
     return np.asarray(facts.left_invertible & (facts.rank(s) == facts.n + s * facts.m - zeta))
 
 
 def _settled(facts: Facts, s: int) -> Flags:
-    """No left minimal index above s - 1."""
+    """Whether no left minimal index is above s - 1."""
     return np.asarray(facts.gap(s - 1) == facts.gap(facts.n + 1))
 
 
-ZEROS_KNOWN = Condition(lambda w: w.dossier.zeta is not None, lambda f, s: np.full(len(f.A), True))
-GAP_IS_M = Condition(lambda w: w.dossier.gap(w.window) == w.dossier.m, lambda f, s: np.asarray(f.gap(s) == f.m))
-LIMIT_REACHED = Condition(lambda w: w.dossier.space_dimensions[w.window - 1] == w.dossier.limit_dimension, _settled)
+GAP_IS_M = Condition(lambda w: w.evidence.kernel.gap(w.window) == w.evidence.system.m, lambda f, s: np.asarray(f.gap(s) == f.m))
+LIMIT_REACHED = Condition(lambda w: w.evidence.space_dimensions[w.window - 1] == w.evidence.fault_space.dimension, _settled)
 
 
-def rank_formula() -> Experiment[Windowed]:
-    """theorem-2, zeros of the pencil counted."""
+def rank_formula() -> Ablation[Windowed]:
+    """The ablation of theorem-2 with the zeros of the pencil."""
     hypotheses = {**MODEL, "s >= n": from_n()}
     conclusion = Condition(_formula, _formula_look)
     proof = _proof("theorem_2", "lag_at_most_n", uses={INVERTIBLE, "s >= n"})
-    return windowed("rank-formula", "theorem-2", "rank [O_s T_s] = n + s m - zeta", hypotheses, conclusion, zeros, ZEROS_KNOWN, proof=proof)
+    return windowed("rank-formula", "theorem-2", "rank [O_s T_s] = n + s m - zeta", hypotheses, conclusion, zeros, proof=proof)
 
 
-def gap() -> Experiment[Windowed]:
-    """proposition-3 as the paper bounds s."""
+def gap() -> Ablation[Windowed]:
+    """The ablation of proposition-3 as the paper bounds s."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= n": from_n()}
     proof = _proof("proposition_3", uses={INVERTIBLE, "s >= n"})
     implied = {"s >= l": "a left-invertible system is inverted with delay n at most (theorem left_invertible_delay), so l <= n <= s"}
     return windowed("gap", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays, proof=proof, implied=implied)
 
 
-def gap_from_lag() -> Experiment[Windowed]:
-    """proposition-3 with the sharp bound."""
+def gap_from_lag() -> Ablation[Windowed]:
+    """The ablation of proposition-3 with the sharp bound on s."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= lag": from_lag()}
     proof = _proof("proposition_3_lag", uses={INVERTIBLE, "s >= lag"})
     return windowed("gap-from-lag", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays, proof=proof)
 
 
-def solutions() -> Experiment[Windowed]:
-    """problem (11) at a window: are its solutions those of every longer one?"""
+def solutions() -> Ablation[Windowed]:
+    """The ablation of problem (11) at a window: its solutions are those of every longer one."""
     hypotheses = {**MODEL, "s >= n + 1": from_n(1)}
     words = "the solutions of problem (11) at s are Z"
     proof = _proof("problem_11", uses={"s >= n + 1"})
     return windowed("solutions", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n), proof=proof)
 
 
-def solutions_from_lag() -> Experiment[Windowed]:
-    """The same with the sharp bound."""
+def solutions_from_lag() -> Ablation[Windowed]:
+    """The same ablation with the sharp bound on s."""
     hypotheses = {**MODEL, "s >= lag + 1": from_lag(1)}
     words = "the solutions of problem (11) at s are Z"
     proof = _proof("problem_11_lag", uses={"s >= lag + 1"})
     return windowed("solutions-from-lag", "problem-11", words, hypotheses, LIMIT_REACHED, spaces(lambda s: s.n), proof=proof)
 
 
-def columns() -> Experiment[Windowed]:
-    """The number of columns of (Fhat, Ghat)."""
-    conclusion = Condition(lambda w: w.dossier.limit_dimension == w.dossier.m + (w.dossier.zeta or 0), lambda f, s: f.left_invertible)
+def columns() -> Ablation[Windowed]:
+    """The ablation of the claim on the number of columns of (Fhat, Ghat)."""
+    conclusion = Condition(
+        lambda w: w.evidence.fault_space.dimension == w.evidence.system.m + w.evidence.zeta, lambda f, s: f.left_invertible
+    )
     words = "Z has dimension n_z = m + zeta"
     proof = _proof("problem_11_dimension", "zeros_exist", "lag_at_most_n", uses={INVERTIBLE})
-    return windowed("columns", "problem-11", words, MODEL, conclusion, zeros, ZEROS_KNOWN, windows=lambda n: NO_WINDOW, proof=proof)
+    return windowed("columns", "problem-11", words, MODEL, conclusion, zeros, windows=lambda n: NO_WINDOW, proof=proof)
 
 
-NO_FEEDTHROUGH = Condition(
-    lambda w: w.dossier.zeta is not None and w.dossier.system.G.is_zero(), lambda f, s: np.asarray(~f.G.any(axis=(1, 2)))
-)
+NO_FEEDTHROUGH = Condition(lambda w: w.evidence.system.G.is_zero(), lambda f, s: np.asarray(~f.G.any(axis=(1, 2))))
 RELATIVE_DEGREE_ONE = Condition(
-    lambda w: rank(w.dossier.system.C @ w.dossier.system.F) == w.dossier.m,
+    lambda w: rank(w.evidence.system.C @ w.evidence.system.F) == w.evidence.system.m,
     lambda f, s: np.asarray(f.rank_from_rest(2) == f.m),
 )
-NO_FINITE_ZEROS = Condition(lambda w: w.dossier.finite_zeros == 0, lambda f, s: np.full(len(f.A), True))
+NO_FINITE_ZEROS = Condition(lambda w: w.evidence.finite_zeros == 0, lambda f, s: np.full(len(f.A), True))
 ONLY_UNOBSERVABLE = Condition(
-    lambda w: w.dossier.finite_zeros == facets(w.dossier.system).unobservable_modes, lambda f, s: np.full(len(f.A), True)
+    lambda w: w.evidence.finite_zeros == facets(w.evidence.system).unobservable_modes, lambda f, s: np.full(len(f.A), True)
 )
 
 
-def range_of_f() -> Experiment[Windowed]:
-    """zero-feedthrough: with G = 0 known, is im F determined by the outputs?"""
+def range_of_f() -> Ablation[Windowed]:
+    """The ablation of zero-feedthrough: with G = 0 known, im F is determined by the outputs."""
     hypotheses = {**MODEL, "rank CF = m": RELATIVE_DEGREE_ONE, "no finite zeros": NO_FINITE_ZEROS}
-    conclusion = Condition(lambda w: w.dossier.without_feedthrough == rank(w.dossier.system.F), lambda f, s: np.full(len(f.A), False))
+    conclusion = Condition(lambda w: w.evidence.without_feedthrough == rank(w.evidence.system.F), lambda f, s: np.full(len(f.A), False))
     words = "the members of Z without feedthrough are im F"
     box = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
     proof = _proof("zero_feedthrough", "theorem_3_part_i", "zeros_exist", uses={INVERTIBLE, "rank CF = m", "no finite zeros"})
@@ -126,40 +134,40 @@ def range_of_f() -> Experiment[Windowed]:
     return windowed(*made, proof=proof, implied=implied)
 
 
-def signal_from_known_state() -> Experiment[Windowed]:
-    """trajectory-recovered: v from the outputs and x(0)."""
-    conclusion = Condition(lambda w: w.dossier.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n))
+def signal_from_known_state() -> Ablation[Windowed]:
+    """The ablation of trajectory-recovered where v is found from the outputs and x(0)."""
+    conclusion = Condition(lambda w: w.evidence.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n))
     words = "the outputs and x(0) determine v"
     proof = _proof("trajectory_state_known", uses={INVERTIBLE})
     made = ("signal-known-state", "trajectory-recovered", words, MODEL, conclusion, delays)
     return windowed(*made, windows=lambda n: NO_WINDOW, proof=proof)
 
 
-def signal_from_unknown_state() -> Experiment[Windowed]:
-    """trajectory-recovered: v from the outputs alone."""
+def signal_from_unknown_state() -> Ablation[Windowed]:
+    """The ablation of trajectory-recovered where v is found from the outputs alone."""
     zeros_hidden = "as many finite zeros as unobservable modes"
     hypotheses = {**MODEL, zeros_hidden: ONLY_UNOBSERVABLE}
-    conclusion = Condition(lambda w: w.dossier.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n))
+    conclusion = Condition(lambda w: w.evidence.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n))
     words = "the outputs alone determine v"
     proof = _proof("trajectory_no_finite_zeros", "zeros_exist", uses={INVERTIBLE, zeros_hidden})
-    made = ("signal-unknown-state", "trajectory-recovered", words, hypotheses, conclusion, delays, ZEROS_KNOWN)
-    return windowed(*made, lambda n: NO_WINDOW, proof=proof)
+    made = ("signal-unknown-state", "trajectory-recovered", words, hypotheses, conclusion, delays)
+    return windowed(*made, windows=lambda n: NO_WINDOW, proof=proof)
 
 
-def every_window() -> Experiment[Windowed]:
-    """window-ranks: the formula of the indices against the rank of the window by itself."""
+def every_window() -> Ablation[Windowed]:
+    """The ablation of window-ranks: the formula of the indices gives the rank of each window."""
     conclusion = Condition(
-        lambda w: w.dossier.rank(w.window) == w.dossier.window_ranks[w.window - 1], lambda f, s: np.full(len(f.A), False)
+        lambda w: w.evidence.kernel.rank(w.window) == w.evidence.window_ranks[w.window - 1], lambda f, s: np.full(len(f.A), False)
     )
     words = "rank [O_s T_s] = s r + sum of min(s, eta_i)"
     proof = _proof("window_ranks", "window_ranks_left_indices", "zeros_exist")
     return windowed("every-window", "window-ranks", words, MODEL, conclusion, spaces(lambda s: s.n + 1), proof=proof)
 
 
-def sharp_gap() -> Experiment[Windowed]:
-    """sharp-windows: the gap is r for exactly the s >= lag."""
+def sharp_gap() -> Ablation[Windowed]:
+    """The ablation of sharp-windows: the gap is r for exactly the s >= lag."""
     conclusion = Condition(
-        lambda w: (w.dossier.gap(w.window) == w.dossier.normal_rank) == (w.window >= w.dossier.lag),
+        lambda w: (w.evidence.kernel.gap(w.window) == w.evidence.kernel.normal_rank) == (w.window >= w.evidence.kernel.lag),
         lambda f, s: np.full(len(f.A), False),
     )
     words = "gap(s) = r iff s >= lag"

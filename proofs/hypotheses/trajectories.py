@@ -1,6 +1,6 @@
 """The hypotheses of the rank gap read off data: which trajectories show m = rank R_(s+1) - rank R_s?
 
-Record                 a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
+Simulated              a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
 excited                with [X; V_(s+1)] of full row rank
 persistently_excited   with v persistently exciting of order n + s + 1
 """
@@ -22,7 +22,7 @@ from ..evidence.families import adversarial, random_systems
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
-from ..verdict.ablation import Experiment, Found, Proof, first_found
+from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Workbench, size
 from .aimed import aimed_systems
 from .facets import degenerate, facets, flags, of_system
@@ -31,8 +31,11 @@ BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 
 
 @dataclass(frozen=True)
-class Record:
-    """`gap` is rank R_(s+1) - rank R_s, `excitation` the rank of [X; V_(s+1)], both of certificates; `order` that of persistency of v."""
+class Simulated:
+    """A trajectory of a system, as a subject.
+
+    `gap` is rank R_(s+1) - rank R_s, `excitation` the rank of [X; V_(s+1)], both of certificates; `order` that of persistency of v.
+    """
 
     system: ResidualSystem
     x0: Matrix
@@ -46,24 +49,24 @@ class Record:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p, then n, m, p, then the window, then the number of samples."""
+        """The numbers n + m + p, then n, m, p, then the window, then the number of samples."""
         return (*size(self.system), self.window, self.v.nrows)
 
     @property
     def field(self) -> str:
-        """The field in words."""
+        """The field in words, as it is printed."""
         return str(self.system.field)
 
     @property
     def degenerate(self) -> str:
-        """Why it would be a poor witness."""
+        """Why the system would be a poor witness."""
         return degenerate(self.system)
 
     def __str__(self) -> str:
         return f"{self.system}, x(0) = {self.x0}, v = {self.v}, s = {self.window}"
 
 
-MODEL: dict[str, Callable[[Record], bool]] = {
+MODEL: dict[str, Callable[[Simulated], bool]] = {
     **of_system(lambda r: r.system),
     "s >= lag": lambda r: r.window >= facets(r.system).lag,
 }
@@ -71,26 +74,26 @@ FULL_ROW_RANK = "[X; V_(s+1)] of full row rank"
 PERSISTENT = "v persistently exciting of order n + s + 1"
 
 
-def excited() -> Experiment[Record]:
-    """Full row rank of [X; V_(s+1)], in which the paper's assumption has s."""
+def excited() -> Ablation[Simulated]:
+    """The ablation with full row rank of [X; V_(s+1)], where the paper's assumption has s."""
 
-    def full(record: Record) -> bool:
+    def full(record: Simulated) -> bool:
         return record.excitation == record.system.n + record.system.m * (record.window + 1)
 
-    return _experiment("gap-on-data", {**MODEL, FULL_ROW_RANK: full}, "assumption_4_excitation_at_s_plus_1")
+    return _ablation("gap-on-data", {**MODEL, FULL_ROW_RANK: full}, "assumption_4_excitation_at_s_plus_1")
 
 
-def persistently_excited() -> Experiment[Record]:
-    """Persistency of v of order n + s + 1, whatever the modes that F does not reach do."""
+def persistently_excited() -> Ablation[Simulated]:
+    """The ablation with persistency of v of order n + s + 1, whatever the modes that F does not reach do."""
 
-    def persistent(record: Record) -> bool:
+    def persistent(record: Simulated) -> bool:
         return record.order >= record.system.n + record.window + 1
 
-    return _experiment("gap-on-persistent-data", {**MODEL, PERSISTENT: persistent}, "assumption_4_persistency_suffices")
+    return _ablation("gap-on-persistent-data", {**MODEL, PERSISTENT: persistent}, "assumption_4_persistency_suffices")
 
 
-def _experiment(name: str, hypotheses: Mapping[str, Callable[[Record], bool]], theorem: str) -> Experiment[Record]:
-    return Experiment(
+def _ablation(name: str, hypotheses: Mapping[str, Callable[[Simulated], bool]], theorem: str) -> Ablation[Simulated]:
+    return Ablation(
         name=name,
         claim="assumption-4",
         conclusion="rank R_(s+1) - rank R_s = m",
@@ -104,7 +107,7 @@ def _experiment(name: str, hypotheses: Mapping[str, Callable[[Record], bool]], t
 
 
 def signals(system: ResidualSystem, s: int, count: int) -> Iterator[tuple[Matrix, Matrix]]:
-    """(x0, v): zero state with constant v, with v1 = v2 = ... = 1, 0, 0, ..., and `count` random ones, entries in {-1, 0, 1}."""
+    """Pairs (x0, v): the zero state with a constant v and with a pulse, then `count` random ones, with entries in {-1, 0, 1}."""
     rng = random.Random(f"{system} {s}")
     samples = (system.m + 1) * (system.n + s + 1) + system.n + 2
     field: Field = system.field
@@ -121,9 +124,9 @@ def signals(system: ResidualSystem, s: int, count: int) -> Iterator[tuple[Matrix
         yield made(start, [[rng.choice((-1, 0, 1)) for _ in range(system.m)] for _ in range(samples)])
 
 
-def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int = 1) -> Record:
-    """A record, with its ranks certified."""
-    bare = Record(system, x0, v, s, 0, 0, persistency(v), weight, 0)
+def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int = 1) -> Simulated:
+    """The subject of this trajectory, with its ranks certified."""
+    bare = Simulated(system, x0, v, s, 0, 0, persistency(v), weight, 0)
     ranks = []
     for certificate in _data_ranks(bare):
         accept(certificate)
@@ -131,11 +134,11 @@ def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int 
     return replace(bare, gap=ranks[1] - ranks[0], excitation=ranks[2], accepted=len(ranks))
 
 
-def _subjects(bench: Workbench) -> Iterator[Record]:
+def _subjects(bench: Workbench) -> Iterator[Simulated]:
     return iter(bench.records("trajectories", partial(_made, bench.full)))
 
 
-def _made(full: bool) -> list[Record]:
+def _made(full: bool) -> list[Simulated]:
     sources = [(system, 1) for _, system in adversarial() if 0 < system.n <= 3 and system.m]
     sources += [(s, 1) for s in islice(random_systems(QQ, 400, seed=5, largest=3), 300 if full else 60) if s.n and s.m]
     for n, p, m in ((1, 1, 1), (1, 2, 1), *(((2, 2, 1), (1, 2, 2)) if full else ())):
@@ -149,12 +152,12 @@ def _made(full: bool) -> list[Record]:
     return found
 
 
-def _smallest(hypotheses: Mapping[str, Callable[[Record], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Record]:
+def _smallest(hypotheses: Mapping[str, Callable[[Simulated], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Simulated]:
     """The first system and window, in this order, with one of the signals that meets what is kept and shows another gap."""
     kept = {name: test for name, test in hypotheses.items() if name not in dropped}
     excitation_kept = FULL_ROW_RANK in kept or PERSISTENT in kept
 
-    def counterexamples(poor: bool) -> Iterator[Record]:
+    def counterexamples(poor: bool) -> Iterator[Simulated]:
         for system in systems_in_order(BOX, flags(kept)):
             lag = facets(system).lag
             if bool(degenerate(system)) != poor or (excitation_kept and facets(system).left_invertible and lag <= 1):
@@ -168,13 +171,13 @@ def _smallest(hypotheses: Mapping[str, Callable[[Record], bool]], bench: Workben
     return first_found(counterexamples, f"{BOX}, v constant, a pulse, or one of ten random signals, entries in {{-1, 0, 1}}")
 
 
-def _data_ranks(record: Record) -> Iterator[Certificate]:
+def _data_ranks(record: Simulated) -> Iterator[Certificate]:
     for k in (record.window, record.window + 1):
         yield make.data_rank("residual-hankel", record.system, record.x0, record.v, k)
     yield make.data_rank("excitation", record.system, record.x0, record.v, record.window + 1)
 
 
-def _certificates(record: Record) -> Iterator[Certificate]:
+def _certificates(record: Simulated) -> Iterator[Certificate]:
     yield from _data_ranks(record)
     yield make.matrix_rank("observability", record.system)
     yield make.matrix_rank("reachability", record.system)

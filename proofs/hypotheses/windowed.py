@@ -1,8 +1,8 @@
 """Claims about one system and a window: their hypotheses, and the search for the smallest system where dropping one lets them fail.
 
-    Windowed      a dossier and a window
+    Windowed      a system by its evidence, and a window
     Condition     a test on a Windowed, and its vectorised first look at many systems at once
-    windowed      an experiment made of conditions
+    windowed      an ablation made of conditions
 
 A first look never decides: it only leaves out what surely violates a hypothesis or surely meets the conclusion; what is left is decided
 by the certificates of the system.
@@ -16,12 +16,12 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ..evidence.corpus import Dossier, examine
+from ..evidence.corpus import Evidence, examine
 from ..evidence.search import Box, Facts, Flags, chunks
 from ..trust.structure_certificates import Certificate
-from ..verdict.ablation import Experiment, Found, Proof, first_found
-from ..verdict.workbench import Show, Workbench
-from .aimed import aimed_dossiers
+from ..verdict.ablation import Ablation, Found, Proof, first_found
+from ..verdict.workbench import Show, Workbench, size
+from .aimed import aimed_evidence
 from .facets import degenerate, facets, nilpotent
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
@@ -31,72 +31,74 @@ BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 class Windowed:
     """A system by its accepted certificates, and a number of samples; 0 where the claim is about no window."""
 
-    dossier: Dossier
+    evidence: Evidence
     window: int
 
     @property
     def size(self) -> tuple[int, ...]:
-        """n + m + p, then n, m, p, then the window."""
-        d = self.dossier
-        return (d.n + d.m + d.p, d.n, d.m, d.p, self.window)
+        """The numbers n + m + p, then n, m, p, then the window."""
+        return (*size(self.evidence.system), self.window)
 
     @property
     def weight(self) -> int:
-        """Systems of the orbit; windows are not counted as more of them."""
-        return self.dossier.weight
+        """The number of systems in the orbit; windows are not counted as more of them."""
+        return self.evidence.weight
 
     @cached_property
     def field(self) -> str:
-        """The field in words."""
-        return str(self.dossier.system.field)
+        """The field in words, as it is printed."""
+        return str(self.evidence.system.field)
 
     @property
     def accepted(self) -> int:
-        """Accepted certificates, told once a system: at its first window."""
-        return self.dossier.accepted if self.window <= 1 else 0
+        """The number of accepted certificates, which count once a system, at its first window."""
+        return self.evidence.accepted if self.window <= 1 else 0
 
     @cached_property
     def degenerate(self) -> str:
-        """Why it would be a poor witness."""
-        return degenerate(self.dossier.system)
+        """Why the system would be a poor witness."""
+        return degenerate(self.evidence.system)
 
     def __str__(self) -> str:
-        return f"{self.dossier.system}, s = {self.window}" if self.window else str(self.dossier.system)
+        return f"{self.evidence.system}, s = {self.window}" if self.window else str(self.evidence.system)
 
 
 @dataclass(frozen=True)
 class Condition:
-    """`holds` decides on certificates. `first_look` at integer systems leaves out what surely violates it (of a hypothesis) or surely
-    meets it (of a conclusion)."""
+    """A hypothesis or a conclusion about a system and a window.
+
+    `holds` decides on certificates. `first_look` at integer systems leaves out what surely violates it (of a hypothesis) or surely meets it
+    (of a conclusion).
+    """
 
     holds: Callable[[Windowed], bool]
     first_look: Callable[[Facts, int], Flags]
 
 
-OBSERVABLE = Condition(lambda w: w.dossier.observable, lambda f, s: f.observable)
-CONTROLLABLE = Condition(lambda w: w.dossier.controllable, lambda f, s: f.controllable)
-LEFT_INVERTIBLE = Condition(lambda w: w.dossier.left_invertible, lambda f, s: f.left_invertible)
-STABLE = Condition(lambda w: facets(w.dossier.system).stable, lambda f, s: nilpotent(f))
+OBSERVABLE = Condition(lambda w: w.evidence.observable, lambda f, s: f.observable)
+CONTROLLABLE = Condition(lambda w: w.evidence.controllable, lambda f, s: f.controllable)
+LEFT_INVERTIBLE = Condition(lambda w: w.evidence.left_invertible, lambda f, s: f.left_invertible)
+STABLE = Condition(lambda w: facets(w.evidence.system).stable, lambda f, s: nilpotent(f))
 
 
 def from_n(extra: int = 0) -> Condition:
-    """s >= n + extra."""
-    return Condition(lambda w: w.window >= w.dossier.n + extra, lambda f, s: np.full(len(f.A), s >= f.n + extra))
+    """The condition s >= n + extra."""
+    return Condition(lambda w: w.window >= w.evidence.system.n + extra, lambda f, s: np.full(len(f.A), s >= f.n + extra))
 
 
 def from_lag(extra: int = 0) -> Condition:
-    """s >= lag + extra."""
+    """The condition s >= lag + extra."""
 
     def first_look(facts: Facts, s: int) -> Flags:
         reached = facts.gap(s - extra) == facts.gap(facts.n + 1) if s > extra else np.zeros(len(facts.A), dtype=np.bool_)
         return np.asarray(reached | (facts.gap(0) == facts.gap(facts.n + 1)))
 
-    return Condition(lambda w: w.window >= w.dossier.lag + extra, first_look)
+    return Condition(lambda w: w.window >= w.evidence.kernel.lag + extra, first_look)
 
 
 def _from_delay(subject: Windowed) -> bool:
-    """s >= l, the delay of left inversion with known initial state; no bound where there is no delay."""
-    delay = subject.dossier.delay_known_state
+    """Whether s >= l, the delay of left inversion with known initial state; there is no bound where there is no delay."""
+    delay = subject.evidence.delay_known_state
     return delay is None or subject.window >= delay
 
 
@@ -122,19 +124,19 @@ def windowed(
     box: Box = BOX,
     proof: Proof | None = None,
     implied: Mapping[str, str] | None = None,
-) -> Experiment[Windowed]:
-    """The experiment on every system of the corpus, and every aimed one, in the scope, at every window."""
+) -> Ablation[Windowed]:
+    """The ablation on every system of the corpus and every aimed one that is in the scope, at every window."""
 
     def subjects(bench: Workbench) -> Iterator[Windowed]:
-        for dossier in (*bench.corpus.dossiers, *aimed_dossiers(bench)):
-            for s in windows(dossier.n):
-                if scope.holds(subject := Windowed(dossier, s)):
+        for evidence in (*bench.corpus, *aimed_evidence(bench)):
+            for s in windows(evidence.system.n):
+                if scope.holds(subject := Windowed(evidence, s)):
                     yield subject
 
     def certificates(subject: Windowed) -> Iterator[Certificate]:
-        yield from show(subject.dossier.system)
+        yield from show(subject.evidence.system)
 
-    return Experiment(
+    return Ablation(
         name=name,
         claim=claim,
         conclusion=words,
@@ -173,9 +175,9 @@ def _smallest(
                 system = facts.system(int(index))
                 if bool(degenerate(system)) != poor:
                     continue
-                dossier = examine("search", system)
+                evidence = examine("search", system)
                 for s in windows(facts.n):
-                    subject = Windowed(dossier, s)
+                    subject = Windowed(evidence, s)
                     if looks[s][index] and all(c.holds(subject) for c in kept) and not conclusion.holds(subject):
                         yield subject
 

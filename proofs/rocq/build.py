@@ -1,22 +1,23 @@
-"""The theory in rocq/ compiled by Rocq (coqc), kept in the user's cache under the hash of its sources.
+"""The theory compiled by Rocq (coqc), kept in the user's cache under the hash of its sources.
 
     found             the coqc on the path and its version, or None
+    Rocq              that compiler: its path and its version
     compiled_theory   the folder with the compiled files; compiles what is not in the cache
     kept_theory       that folder if it is there already
-    forget            removes it, and what was said of it
+    forget            removes it, and the answers that were kept about it
     installation      a digest of the Rocq and the MathComp that a compilation would use
     compile_file      compiles one more file against them; its output
     compiled_again    the compiled form of a few sources, made from them now and not taken from the cache
     NoRocq            raised where there is no coqc, or MathComp is missing; says what to install
-    CLOSED, NotProved what Rocq says of a proof without axioms, and what is raised where it does not
+    CLOSED, NotProved what Rocq prints of a proof without axioms, and what is raised where it does not
     BrokenTheory      raised where a file does not compile; the compiler's own words
     Poisoned          a BrokenTheory: the cache holds something else than our sources compiled, or others can write into it
 
 A folder of the cache is complete or not there: files are compiled in a folder beside it that is renamed at the end, with a list of their
-digests. Its name tells sources, compiler and MathComp apart. Before each use its sources are compared with ours, the digests are
-computed again, and it must belong to the user, nobody else being able to write into it or to enter it. This notices what was damaged and
-what was exchanged by others, or without much care. Who can write as the user and takes the care to forge compiled files, digests and
-answers is not noticed here, but by compiling anew (`rocq_recheck`).
+digests. It is flat, whatever the folders of the sources. Its name tells sources, compiler and MathComp apart. Before each use its sources
+are compared with ours, the digests are computed again, and it must belong to the user, nobody else being able to write into it or to
+enter it. This notices what was damaged and what was exchanged by others, or without much care. Who can write as the user and takes the
+care to forge compiled files, digests and answers is not noticed here, but by compiling anew (`rocq_recheck`).
 
 coqc runs under limits of time, memory and output, and with a home of its own that is removed.
 """
@@ -37,19 +38,19 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import cache
 from graphlib import TopologicalSorter
-from importlib import resources
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import IO
 
 from filelock import FileLock
 from platformdirs import user_cache_path
 
+from .sources import needs, sources
+
 Progress = Callable[[str, int, int], None]
 INSTALL = "install Rocq with MathComp, on Debian or Ubuntu: apt install coq libcoq-mathcomp-algebra libcoq-mathcomp-zify"
 OPTIONS = ("-q", "-Q", ".", "faultspace", "-w", "-all")
 FILE_SECONDS = 600
-MOST_MEMORY, MOST_WRITTEN, MOST_SAID = 8 * 2**30, 256 * 2**20, 8 * 2**20
+MOST_MEMORY, MOST_WRITTEN, MOST_PRINTED = 8 * 2**30, 256 * 2**20, 8 * 2**20
 # Words of Rocq that write, load or run something outside: in no file that is written here for it to compile.
 OUTSIDE = re.compile(r"\b(?:Redirect|Extraction|Load|Cd|Drop|Declare\s+ML|Add\s+(?:Rec\s+)?(?:LoadPath|ML))\b")
 LIMITED = 'ulimit -t "$1"; ulimit -v "$2" 2>/dev/null; ulimit -f "$3"; shift 3; exec "$@"'
@@ -64,24 +65,24 @@ Check [fieldType of rat].
 
 
 class NoRocq(Exception):
-    """There is no coqc here, or it finds no MathComp."""
+    """Raised where there is no coqc, or where it finds no MathComp."""
 
 
 class BrokenTheory(Exception):
-    """A file does not compile."""
+    """Raised where a file does not compile."""
 
 
 class Poisoned(BrokenTheory):
-    """The compiled theory in the cache is not believed; says why, and what to do."""
+    """Raised where the compiled theory in the cache is not believed; it says why, and what to do."""
 
 
 class NotProved(Exception):
-    """A theorem is missing, not accepted by the kernel, or rests on more than it."""
+    """Raised where a theorem is missing, is not accepted by the kernel, or rests on more than it."""
 
 
 @dataclass(frozen=True)
 class Rocq:
-    """The compiler: its path and its version."""
+    """A compiler has a path and a version."""
 
     path: str
     version: str
@@ -89,22 +90,17 @@ class Rocq:
 
 @cache
 def found() -> Rocq | None:
-    """The coqc on the path."""
+    """Returns the coqc on the path with its version, or None."""
     path = shutil.which("coqc")
     if path is None:
         return None
-    told = subprocess.run([path, "--print-version"], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-    return Rocq(path, told.stdout.split()[0]) if told.returncode == 0 and told.stdout.strip() else None
-
-
-def sources() -> dict[str, str]:
-    """File name -> text, of all files of the theory."""
-    folder: Traversable = resources.files("faultspace.proofs").joinpath("theory")
-    return {one.name: one.read_text("utf-8") for one in sorted(folder.iterdir(), key=lambda one: one.name) if one.name.endswith(".v")}
+    run = subprocess.run([path, "--print-version"], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    return Rocq(path, run.stdout.split()[0]) if run.returncode == 0 and run.stdout.strip() else None
 
 
 def installation() -> str:
-    """Of the compiler's version and of MathComp's outermost files, which name those below them by their digests. Raises NoRocq."""
+    """Returns a digest of the compiler's version and of MathComp's outermost files, which name those below them by their digests. Raises
+    NoRocq."""
     compiler = found()
     if compiler is None:
         raise NoRocq(f"coqc is not on the path; {INSTALL}")
@@ -116,27 +112,27 @@ def _probed(compiler: Rocq, probe: str) -> str:
     with tempfile.TemporaryDirectory() as scratch:
         (Path(scratch) / "Probe.v").write_text(probe, "utf-8")
         try:
-            said = _coqc(Path(scratch) / "Probe.v", OPTIONS, FILE_SECONDS)
+            printed = _coqc(Path(scratch) / "Probe.v", OPTIONS, FILE_SECONDS)
         except BrokenTheory as error:
             raise NoRocq(f"Rocq {compiler.version} does not find MathComp 1 with its zify ({error}); {INSTALL}") from None
-    told = hashlib.sha256(compiler.version.encode())
-    for place in re.findall(r"has been loaded from file\s+(\S+\.vo)", said):
-        told.update(Path(place).read_bytes())
-    return told.hexdigest()
+    digest = hashlib.sha256(compiler.version.encode())
+    for place in re.findall(r"has been loaded from file\s+(\S+\.vo)", printed):
+        digest.update(Path(place).read_bytes())
+    return digest.hexdigest()
 
 
 def content_hash(texts: dict[str, str]) -> str:
-    """Of the sources and the installation. Raises NoRocq."""
-    told = hashlib.sha256(installation().encode())
+    """Returns a hash of the sources and of the installation. Raises NoRocq."""
+    digest = hashlib.sha256(installation().encode())
     for name, text in texts.items():
-        told.update(f"\0{name}\0{text}".encode())
-    return told.hexdigest()[:20]
+        digest.update(f"\0{name}\0{text}".encode())
+    return digest.hexdigest()[:20]
 
 
 def compiled_theory(progress: Progress = lambda name, done, total: None, *, texts: dict[str, str] | None = None) -> Path:
-    """The folder that holds the sources and compiled files. Raises NoRocq, BrokenTheory.
+    """Returns the folder that holds the sources and the compiled files. Raises NoRocq, BrokenTheory.
 
-    `texts`: other sources than ours, file name -> text. `progress(file, done, total)` is told before each file.
+    `texts`: other sources than ours, file name -> text. `progress(words, done, total)` is called before each file.
     """
     texts = sources() if texts is None else texts
     place = _place(texts)
@@ -162,7 +158,7 @@ def compiled_theory(progress: Progress = lambda name, done, total: None, *, text
 
 
 def _made_private(folder: Path) -> None:
-    """The folder of our cache and the one above it, made where they are not there, that nobody else can write into. Raises OSError."""
+    """Makes the folder of our cache and the one above it, so that nobody else can write into them. Raises OSError."""
     for one in (folder.parent, folder):
         one.mkdir(parents=True, exist_ok=True, mode=0o700)
         status = one.stat()
@@ -173,7 +169,7 @@ def _made_private(folder: Path) -> None:
 
 
 def _digests(folder: Path) -> dict[str, str]:
-    """Of the sources and the compiled files."""
+    """Returns the digests of the sources and of the compiled files, by name."""
     return {one.name: hashlib.sha256(one.read_bytes()).hexdigest() for one in sorted(folder.glob("*.v*")) if one.suffix in (".v", ".vo")}
 
 
@@ -217,7 +213,7 @@ def _own(folder: Path) -> bool:
 
 
 def forget() -> None:
-    """Removes the compiled theory of our sources from the cache, with all that was said of it. Raises NoRocq."""
+    """Removes the compiled theory of our sources from the cache, with all answers that were kept about it. Raises NoRocq."""
     place = _place(sources())
     shutil.rmtree(place, ignore_errors=True)
     for one in place.parent.glob(f"{place.name}.*"):
@@ -225,7 +221,7 @@ def forget() -> None:
 
 
 def kept_theory() -> Path | None:
-    """The folder with all of our theory, if it has been compiled before. Raises NoRocq."""
+    """Returns the folder with all of our theory, if it has been compiled before. Raises NoRocq."""
     texts = sources()
     place = _place(texts)
     return place if _whole(place, texts) else None
@@ -236,7 +232,7 @@ def _place(texts: dict[str, str]) -> Path:
 
 
 def compile_file(theory: Path, name: str, text: str, *, seconds: float = FILE_SECONDS) -> str:
-    """What coqc prints for this file, compiled beside the theory and forgotten. Raises BrokenTheory.
+    """Returns what coqc prints for this file, which is compiled beside the theory and forgotten. Raises BrokenTheory.
 
     It is refused where it has a word that would make Rocq write or load something outside.
     """
@@ -248,7 +244,7 @@ def compile_file(theory: Path, name: str, text: str, *, seconds: float = FILE_SE
 
 
 def compiled_again(texts: Mapping[str, str]) -> dict[str, bytes]:
-    """File -> what coqc makes of it, for sources that need no others, compiled in a folder that is removed. Raises BrokenTheory.
+    """Returns for each file what coqc makes of it; these sources need no others. Raises BrokenTheory.
 
     The same version of Rocq makes the same bytes of the same sources.
     """
@@ -260,18 +256,8 @@ def compiled_again(texts: Mapping[str, str]) -> dict[str, bytes]:
         return {name: (folder / name).with_suffix(".vo").read_bytes() for name in texts}
 
 
-def needs(texts: Mapping[str, str]) -> dict[str, set[str]]:
-    """File -> files of ours that it requires."""
-    known = {name.removesuffix(".v") for name in texts}
-    result = {}
-    for name, text in texts.items():
-        lines = re.findall(r"From\s+faultspace\s+Require\s+(?:Import|Export)?([\s\w]*)\.", text)
-        result[name] = {f"{module}.v" for line in lines for module in line.split() if module in known}
-    return result
-
-
 def _compile_all(place: Path, texts: Mapping[str, str], progress: Progress) -> None:
-    """Two at a time where one does not need the other: a compilation takes about a gigabyte."""
+    """Compiles two files at a time where one does not need the other: a compilation takes about a gigabyte."""
     order = TopologicalSorter(needs(texts))
     order.prepare()
     running: dict[Future[str], str] = {}
@@ -293,35 +279,35 @@ def _compile_all(place: Path, texts: Mapping[str, str], progress: Progress) -> N
 
 
 def _coqc(file: Path, options: tuple[str, ...], seconds: float) -> str:
-    """What coqc prints for the file, in its folder. Raises BrokenTheory where it fails or goes beyond the limits."""
+    """Returns what coqc prints for the file, in its folder. Raises BrokenTheory where it fails or goes beyond the limits."""
     compiler = found()
     assert compiler is not None
     limits = (str(int(seconds) + 1), str(MOST_MEMORY // 1024), str(MOST_WRITTEN // 512))
-    with tempfile.TemporaryDirectory() as home, tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as complained:
+    with tempfile.TemporaryDirectory() as home, tempfile.TemporaryFile() as printed, tempfile.TemporaryFile() as complaints:
         try:
-            told = subprocess.run(
+            run = subprocess.run(
                 ["/bin/sh", "-c", LIMITED, "sh", *limits, compiler.path, *options, file.name],
                 cwd=file.parent,
                 env={**os.environ, "HOME": home, "TMPDIR": home, "XDG_CONFIG_HOME": home, "XDG_DATA_HOME": home},
-                stdout=said,
-                stderr=complained,
+                stdout=printed,
+                stderr=complaints,
                 timeout=seconds,
                 check=False,
                 stdin=subprocess.DEVNULL,
             )
         except subprocess.TimeoutExpired:
             raise BrokenTheory(f"{file.name}: Rocq took more than {seconds:g} s") from None
-        output, errors = (_beginning(one) for one in (said, complained))
-    if told.returncode == 0 and len(output) < MOST_SAID:
+        output, errors = (_beginning(one) for one in (printed, complaints))
+    if run.returncode == 0 and len(output) < MOST_PRINTED:
         return output
-    if told.returncode < 0 or len(output) == MOST_SAID or "out of memory" in errors.lower():
+    if run.returncode < 0 or len(output) == MOST_PRINTED or "out of memory" in errors.lower():
         raise BrokenTheory(
             f"{file.name}: Rocq was stopped: it may take {seconds:g} s, {MOST_MEMORY >> 30} GB of memory, files of {MOST_WRITTEN >> 20} MB "
-            f"and print {MOST_SAID >> 20} MB"
+            f"and print {MOST_PRINTED >> 20} MB"
         )
     raise BrokenTheory(f"{file.name} does not compile: {' '.join(errors.split())[-600:]}")
 
 
 def _beginning(stream: IO[bytes]) -> str:
     stream.seek(0)
-    return stream.read(MOST_SAID).decode("utf-8", "replace")
+    return stream.read(MOST_PRINTED).decode("utf-8", "replace")

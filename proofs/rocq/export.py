@@ -1,4 +1,4 @@
-"""A certificate as a file of Rocq: its system, statement and witness as terms, the checks of theory/Check*.v recomputed by the kernel.
+"""A certificate as a file of Rocq: its system, statement and witness as terms, the checks of theory/checks recomputed by the kernel.
 
     COVERED      kind -> what writes it
     exported     the terms of a certificate that the checker has verified just now; raises NotCovered, checker.Rejected, checker.Malformed
@@ -43,12 +43,12 @@ Local Open Scope ring_scope.
 
 
 class NotCovered(Exception):
-    """The checks in Rocq do not speak of this kind or this field."""
+    """Raised where the checks in Rocq do not speak of this kind or this field."""
 
 
 @dataclass(frozen=True)
 class Terms:
-    """What a file of Rocq says about one certificate. `definitions`: (name, type, term), numbers in them are integers."""
+    """A file of Rocq says this about one certificate. `definitions`: (name, type, term), numbers in them are integers."""
 
     definitions: tuple[tuple[str, str, str], ...]
     check: str
@@ -56,12 +56,12 @@ class Terms:
     lemma: str
 
     def opening(self) -> str:
-        """The definitions."""
+        """Returns the definitions as text."""
         lines = [f"Definition {name} : {kind} := {term}." for name, kind, term in self.definitions]
         return "\n".join(["Local Open Scope Z_scope.", *lines, "Local Close Scope Z_scope."])
 
     def theorem(self) -> str:
-        """All of it, proved by computation."""
+        """Returns the definitions, and the theorem that is proved from them by computation."""
         return f"""{self.opening()}
 Lemma checked : {self.check} = true.
 Proof. vm_cast_no_check (erefl true). Qed.
@@ -71,7 +71,7 @@ Proof. exact: ({self.lemma} checked). Qed.
 
 
 class Listed:
-    """A SYSTEM over Q with matrices transposed and multiplied by their common denominator."""
+    """A SYSTEM over Q is listed with matrices transposed and multiplied by their common denominator."""
 
     def __init__(self, data: Json) -> None:
         system = checker.System(data)
@@ -85,7 +85,7 @@ class Listed:
         )
 
     def bounded(self, samples: int) -> None:
-        """Charge for simulating all states and faults on so many samples, and for eliminating in the windows that they make."""
+        """Charges for simulating all states and faults on so many samples, and for eliminating in the windows that they make."""
         height, width = self.n + self.m * samples, self.p * samples
         checker.charge((self.n + self.m) * samples * (self.n + self.p + 1) * (self.n + self.m + 1) * 60)
         checker.charge(height * (width + height) * (100 + 2 * min(height, width)), 100 * height * (width + height))
@@ -96,11 +96,11 @@ class Listed:
         return f"Listed {whole(self.den)} {' '.join(map(table, (self.A, self.F, self.C, self.G)))}"
 
     def named(self, name: str) -> str:
-        """The system in the theory that the list of that name means."""
+        """Returns the system in the theory that the list of that name means."""
         return f"(meant {natural(self.n)} {natural(self.m)} {natural(self.p)} {name})"
 
     def response(self, state: list[int], fault: list[int], samples: int, prime: int) -> list[int]:
-        """Outputs modulo the prime, one after the other, of a state and a fault at time 0."""
+        """Returns the outputs modulo the prime, one after the other, of a state and a fault at time 0."""
         found = list[int]()
         for _ in range(samples):
             found += added(times(state, self.C, self.p), times(fault, self.G, self.p), prime)
@@ -108,7 +108,7 @@ class Listed:
         return found
 
     def trajectory(self, state: list[int], faults: Integers, prime: int) -> tuple[Integers, Integers, Integers]:
-        """States, faults and outputs of the integer system modulo the prime, the k-th fault times the k-th power of the denominator."""
+        """Returns states, faults and outputs of the integer system modulo the prime, fault k times the k-th power of the denominator."""
         states, weighted, outputs = [state], Integers(), Integers()
         for k, fault in enumerate(faults):
             weighted.append([self.den**k * x for x in fault])
@@ -117,7 +117,7 @@ class Listed:
         return states, weighted, outputs
 
     def words(self, samples: int, prime: int) -> str:
-        """A basis of the words modulo the prime, reduced: initial state, faults, sample and output of the leading one."""
+        """Returns a basis of the words modulo the prime, reduced: initial state, faults, sample and output of the leading one."""
         n, m, p = self.n, self.m, self.p
         self.bounded(samples)
         rows = [self.response(unit(n, i), [0] * m, samples, prime) for i in range(n)]
@@ -131,7 +131,7 @@ class Listed:
         return sequence(found)
 
     def demands(self, row: Integers) -> Integers:
-        """The condition rows [X_(k+1), c_k] of a kernel row, times powers of the denominator."""
+        """Returns the condition rows [X_(k+1), c_k] of a kernel row, times powers of the denominator."""
         state, found, weight = [0] * self.n, Integers(), 1
         for c in reversed(row):
             scaled = [weight * x for x in c]
@@ -142,7 +142,7 @@ class Listed:
 
 
 def exported(certificate: Json) -> Terms:
-    """The terms of a certificate, once the checker has verified it. Raises what `verify` raises, and NotCovered."""
+    """Returns the terms of a certificate, once the checker has verified it. Raises what `verify` raises, and NotCovered."""
     checker.verify(certificate)
     try:
         return translated(certificate)
@@ -151,10 +151,10 @@ def exported(certificate: Json) -> Terms:
 
 
 def translated(certificate: Json) -> Terms:
-    """The terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
+    """Returns the terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
     write = COVERED.get(certificate["kind"])
     if write is None:
-        raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shown(certificate['kind'])}")
+        raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shorten(certificate['kind'])}")
     checker.begin()
     try:
         terms = write(certificate["statement"], certificate["witness"])
@@ -166,7 +166,7 @@ def translated(certificate: Json) -> Terms:
 
 
 def written(terms: Sequence[Terms]) -> str:
-    """A file with all theorems, which ends by asking what they rest on."""
+    """Returns a file with all theorems, which ends by asking what they rest on."""
     parts = [f"Module C{i}.\n{t.theorem()}End C{i}.\n" for i, t in enumerate(terms)]
     names = ", ".join(f"C{i}.certified" for i in range(len(terms)))
     return f"{HEAD}{''.join(parts)}Definition certified := ({names or 'I'}).\nPrint Assumptions certified.\n"
@@ -451,26 +451,26 @@ def _modulus(prime: int) -> tuple[str, str, str]:
 
 
 def _scaled(values: Json, factor: int) -> list[int]:
-    """RATIONALs times a factor that all denominators divide."""
+    """Returns RATIONALs times a factor that all denominators divide."""
     checker.charge(len(values) * (200 + factor.bit_length() ** 2 // 500), len(values) * factor.bit_length() // 4)
     return [top * factor // bottom for top, bottom in (checker.rational(x, "a number") for x in values)]
 
 
 def _cleared(rows: Json) -> tuple[Integers, int]:
-    """Rows of RATIONALs as integers over their common denominator."""
+    """Returns rows of RATIONALs as integers over their common denominator."""
     den = checker.common_denominator(checker.rational(x, "a number")[1] for row in rows for x in row)
     return [_scaled(row, den) for row in rows], den
 
 
 def _integral_word(system: Listed, word: Json) -> tuple[list[int], Integers]:
-    """A word of the integer system: v(k) times the k-th power of its denominator, all of it times what clears the fractions."""
+    """Returns a word of the integer system: v(k) times the k-th power of its denominator, all times what clears fractions."""
     _, scale = _cleared([word["x0"], *word["v"]])
     checker.charge((len(word["v"]) ** 3 + 1) * system.den.bit_length() ** 2 // 2000)
     return _scaled(word["x0"], scale), [_scaled(v, scale * system.den**k) for k, v in enumerate(word["v"])]
 
 
 def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[int]]]:
-    """Reduced row echelon form modulo a prime, first `width` columns: pivots, and the combinations of the rows that lead there."""
+    """Reduces rows modulo a prime, in their first `width` columns; returns pivots, and the combinations that lead there."""
     if not rows or not width:
         return []
     height = len(rows)
@@ -486,15 +486,15 @@ def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[
 
 
 def unit(size: int, i: int) -> list[int]:
-    """A row of the identity."""
+    """Returns a row of the identity."""
     return [int(i == j) for j in range(size)]
 
 
 def times(x: list[int], M: Integers, width: int) -> list[int]:
-    """A row times a matrix."""
+    """Returns a row times a matrix."""
     return [sum(a * row[j] for a, row in zip(x, M, strict=True)) for j in range(width)]
 
 
 def added(u: Iterable[int], v: Iterable[int], prime: int) -> list[int]:
-    """The sum modulo the prime."""
+    """Returns the sum modulo the prime."""
     return [(a + b) % prime for a, b in zip(u, v, strict=True)]

@@ -23,23 +23,23 @@ import json
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from importlib import resources
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
 from ..verdict.ledger import Claim, load
-from .build import NotProved, sources
+from .build import NotProved
+from .sources import THEORY, sources
 from .statements import Headline, Statements, read, refusals
 
 LOCKS, STATEMENTS = "locks.json", "STATEMENTS.md"
 COMMAND = "python -m faultspace.proofs.rocq.locks"
-MOST_TOLD = 4
+MOST_LISTED = 4
 
 
 @dataclass(frozen=True)
 class Lock:
-    """What one headline says. `words`: the keys of all words that it reaches; `sha256`: of the text that they make together."""
+    """A lock holds what one headline says. `words`: the keys of all words that it reaches; `sha256`: of the text that they make
+    together."""
 
     file: str
     statement: str
@@ -47,13 +47,13 @@ class Lock:
     sha256: str
 
     def to_json(self) -> dict[str, Any]:
-        """The object of one theorem in the file."""
+        """Returns the object of one theorem in the file."""
         return {"file": self.file, "sha256": self.sha256, "statement": self.statement, "words": list(self.words)}
 
 
 @dataclass(frozen=True)
 class Locks:
-    """`theorems` by name; `words` by key, `openings` by file, `far`: the texts that the locks are made of."""
+    """The locks hold `theorems` by name, and the texts that they are made of: `words` by key, `openings` by file, `far`."""
 
     theorems: Mapping[str, Lock]
     words: Mapping[str, str]
@@ -61,7 +61,7 @@ class Locks:
     far: tuple[str, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """The object that the file holds."""
+        """Returns the object that the file holds."""
         return {
             "about": f"The statements of the Rocq theory as they were last read. {COMMAND} writes this file.",
             "theorems": {name: lock.to_json() for name, lock in self.theorems.items()},
@@ -72,7 +72,7 @@ class Locks:
 
 
 def made(texts: Mapping[str, str]) -> Locks:
-    """The locks of these sources, file name -> text. Raises NotProved where a file breaks the rules of `rocq_statements`."""
+    """Returns the locks of these sources, file name -> text. Raises NotProved where a file breaks the rules of `statements`."""
     statements = read(texts)
     theorems: dict[str, Lock] = {}
     words: dict[str, str] = {}
@@ -97,9 +97,9 @@ def _digest(headline: Headline, reached: Mapping[str, str], statements: Statemen
 
 
 def kept() -> Locks:
-    """The locks in theory/locks.json. Raises NotProved where the file is not there or not what this module writes."""
+    """Returns the locks in theory/locks.json. Raises NotProved where the file is not there or not what this module writes."""
     try:
-        data = json.loads(_folder().joinpath(LOCKS).read_text("utf-8"))
+        data = json.loads(THEORY.joinpath(LOCKS).read_text("utf-8"))
         theorems = {
             str(name): Lock(str(one["file"]), str(one["statement"]), tuple(one["words"]), str(one["sha256"]))
             for name, one in data["theorems"].items()
@@ -110,21 +110,21 @@ def kept() -> Locks:
 
 
 def held(texts: Mapping[str, str], against: Locks | None = None) -> Locks:
-    """The locks of these sources. Raises NotProved where they are not those kept, or where a source assumes something."""
+    """Returns the locks of these sources. Raises NotProved where they are not those kept, or where a source assumes something."""
     if refused := refusals(texts):
-        told = "; ".join(f"{name} has {', '.join(found)}" for name, found in refused.items())
-        raise NotProved(f"the sources of the theory assume something or switch a check off: {told}")
+        listed = "; ".join(f"{name} has {', '.join(found)}" for name, found in refused.items())
+        raise NotProved(f"the sources of the theory assume something or switch a check off: {listed}")
     now, before = made(texts), kept() if against is None else against
     found = list(differences(before, now))
     if found or before != now:
-        more = f"; and {len(found) - MOST_TOLD} more" if len(found) > MOST_TOLD else ""
-        told = f"{'; '.join(found[:MOST_TOLD]) or f'{LOCKS} has more than they need, or in another order'}{more}"
-        raise NotProved(f"the statements are not as locked: {told}. If that is wanted, {COMMAND} locks them anew")
+        more = f"; and {len(found) - MOST_LISTED} more" if len(found) > MOST_LISTED else ""
+        listed = f"{'; '.join(found[:MOST_LISTED]) or f'{LOCKS} has more than they need, or in another order'}{more}"
+        raise NotProved(f"the statements are not as locked: {listed}. If that is wanted, {COMMAND} locks them anew")
     return now
 
 
 def differences(before: Locks, now: Locks) -> Iterator[str]:
-    """What is different, one sentence for each headline, word or opening that is."""
+    """Yields what is different, one sentence for each headline, word or opening that is."""
     for name in sorted({*before.theorems, *now.theorems}):
         old, new = before.theorems.get(name), now.theorems.get(name)
         if old is None:
@@ -157,14 +157,14 @@ def _changed(text: str, before: str) -> str:
 
 
 def _around(text: str, other: str, width: int = 60) -> str:
-    """The part of the text where it differs from the other, with some words before it."""
+    """Returns the part of the text where it differs from the other, with some words before it."""
     first = next((k for k, (a, b) in enumerate(zip(text, other, strict=False)) if a != b), min(len(text), len(other)))
     start = max(0, text.rfind(" ", 0, max(0, first - 15)) + 1)
     return f"'{'...' if start else ''}{text[start : first + width]}{'...' if first + width < len(text) else ''}'"
 
 
 def page(locks: Locks, claims: list[Claim]) -> str:
-    """The table of readings, theorems and locks, and below it the words, in Markdown."""
+    """Returns the table of readings, theorems and locks, and below it the words, in Markdown."""
     lines = [
         "# What is claimed, what is proved, and the locks of the statements",
         "",
@@ -176,17 +176,17 @@ def page(locks: Locks, claims: list[Claim]) -> str:
         "| reading | in words | theorem | SHA-256 |",
         "|---|---|---|---|",
     ]
-    told = set[str]()
+    named = set[str]()
     for claim in claims:
         for reading in claim.readings:
             met = f" If: {'; '.join(reading.hypotheses)}." if reading.hypotheses else ""
             first = f"{claim.id}: {reading.id}", f"{_cell(reading.statement + met)} ({reading.proved})"
             for name in reading.theorems:
-                told.add(name)
+                named.add(name)
                 if name in locks.theorems:
                     lines.append(_row(*first, locks.theorems[name]))
                     first = "", "and"
-    for name in sorted({*locks.theorems} - told):
+    for name in sorted({*locks.theorems} - named):
         lines.append(_row("", "what others rest on, or part of a reading", locks.theorems[name]))
     lines += ["", "## The words", "", "Each as its vocabulary defines it, with the variables of its section.", ""]
     lines += ["| word | definition |", "|---|---|"]
@@ -202,7 +202,7 @@ def _row(reading: str, words: str, lock: Lock) -> str:
 
 
 def _code(text: str) -> str:
-    """As code in a cell of a table, where a bar would end it."""
+    """Writes a text as code in a cell of a table, where a bar would end it."""
     mark = "``" if "`" in text else "`"
     pad = " " if "`" in text else ""
     return mark + pad + text.replace("|", "\\|") + pad + mark
@@ -212,17 +212,13 @@ def _cell(text: str) -> str:
     return " ".join(text.split()).replace("|", "\\|")
 
 
-def _folder() -> Traversable:
-    return resources.files("faultspace.proofs").joinpath("theory")
-
-
 def written(locks: Locks) -> str:
-    """The text of theory/locks.json."""
+    """Returns the text of theory/locks.json."""
     return json.dumps(locks.to_json(), indent=1, ensure_ascii=False) + "\n"
 
 
 def main() -> int:
-    """Locks the statements of the sources as they are now; says what is different."""
+    """Locks the statements of the sources as they are now, and prints what is different."""
     try:
         now = made(sources())
     except NotProved as error:
@@ -232,7 +228,7 @@ def main() -> int:
         found = list(differences(kept(), now))
     except NotProved as error:
         found = [str(error)]
-    place = Path(str(_folder()))
+    place = Path(str(THEORY))
     (place / LOCKS).write_text(written(now), "utf-8")
     (place / STATEMENTS).write_text(page(now, list(load())), "utf-8")
     for one in found or ["nothing is different"]:

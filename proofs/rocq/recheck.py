@@ -1,7 +1,7 @@
 """The theory compiled anew whatever the cache holds, and read once more by the second checker, coqchk.
 
-    recheck     removes the compiled theory from the cache, compiles it from our sources, has coqchk read it where coqchk is there
-    second_check   what coqchk says of all files of a compiled theory; raises NotProved where one rests on anything
+    recheck        removes the compiled theory from the cache, compiles it from our sources, has coqchk read it where coqchk is there
+    second_check   has coqchk read all files of a compiled theory; raises NotProved where one rests on anything
 
 This is what `faultspace verify --recheck` does first: it believes nothing that was compiled before.
 """
@@ -16,7 +16,7 @@ from pathlib import Path
 from .build import NotProved, Progress, compiled_theory, forget
 
 SECONDS = 1800
-# What coqchk tells that a theory rests on; each must be nothing.
+# What coqchk lists that a theory rests on; each must be nothing.
 HEADINGS = (
     "Axioms",
     "Constants/Inductives relying on type-in-type",
@@ -26,7 +26,7 @@ HEADINGS = (
 
 
 def recheck(progress: Progress = lambda name, done, total: None) -> str:
-    """What was done, in words. Raises NoRocq, BrokenTheory, NotProved."""
+    """Returns what was done, in words. Raises NoRocq, BrokenTheory, NotProved."""
     forget()
     theory = compiled_theory(progress)
     if shutil.which("coqchk") is None:
@@ -37,19 +37,19 @@ def recheck(progress: Progress = lambda name, done, total: None) -> str:
 
 
 def second_check(theory: Path, seconds: float = SECONDS) -> None:
-    """Raises NotProved where coqchk does not accept all compiled files of this folder as resting on nothing."""
+    """Has coqchk read all compiled files of this folder. Raises NotProved where it does not accept them as resting on nothing."""
     path = shutil.which("coqchk")
     assert path is not None
     names = [f"faultspace.{one.stem}" for one in sorted(theory.glob("*.vo"))]
     command = [path, "-silent", "-o", "-Q", str(theory), "faultspace", *names]
     try:
-        told = subprocess.run(command, capture_output=True, text=True, check=False, timeout=seconds, stdin=subprocess.DEVNULL)
+        run = subprocess.run(command, capture_output=True, text=True, check=False, timeout=seconds, stdin=subprocess.DEVNULL)
     except subprocess.TimeoutExpired:
         raise NotProved(f"coqchk took more than {seconds:g} s") from None
-    said = told.stdout + told.stderr  # with -silent it tells its summary on standard error
-    if told.returncode != 0:
-        raise NotProved(f"coqchk does not accept the theory: {' '.join(said.split())[-600:]}")
+    printed = run.stdout + run.stderr  # with -silent the summary goes to standard error
+    if run.returncode != 0:
+        raise NotProved(f"coqchk does not accept the theory: {' '.join(printed.split())[-600:]}")
     for heading in HEADINGS:
-        if f"* {heading}: <none>" not in said:
-            rests = re.search(rf"\* {re.escape(heading)}:(.*?)(?:\n\s*\*|\Z)", said, re.DOTALL)
-            raise NotProved(f"coqchk: {heading}: {' '.join(rests[1].split())[:300] if rests else 'nothing was said'}")
+        if f"* {heading}: <none>" not in printed:
+            rests = re.search(rf"\* {re.escape(heading)}:(.*?)(?:\n\s*\*|\Z)", printed, re.DOTALL)
+            raise NotProved(f"coqchk: {heading}: {' '.join(rests[1].split())[:300] if rests else 'nothing was printed'}")

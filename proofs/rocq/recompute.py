@@ -29,15 +29,16 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ..trust import checker
-from .build import CLOSED, BrokenTheory, NotProved, Progress, compile_file, compiled_theory, kept_theory, needs, sources
+from .build import CLOSED, BrokenTheory, NotProved, Progress, compile_file, compiled_theory, kept_theory
 from .export import HEAD, MODULES, NotCovered, Terms, exported, written
+from .sources import needs, sources
 
 AT_ONCE, SECONDS = 100, 120.0
 
 
 @dataclass(frozen=True)
 class Recomputed:
-    """What Rocq says of one certificate."""
+    """Rocq says this of one certificate."""
 
     result: Literal["accepted", "rejected", "not covered", "undecided"]
     reason: str
@@ -50,10 +51,8 @@ REJECTED = Recomputed("rejected", "the check computes to false")
 def recomputed(
     certificates: Sequence[Any], progress: Progress = lambda stage, done, total: None, *, seconds: float = SECONDS
 ) -> list[Recomputed]:
-    """One for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected here.
-
-    Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself).
-    """
+    """Returns one answer for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected
+    here. Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself)."""
     compiled = theory(progress)
     results: dict[int, Recomputed] = {}
     terms: dict[int, Terms] = {}
@@ -69,12 +68,12 @@ def recomputed(
     for start in range(0, len(waiting), AT_ONCE):
         progress("Rocq: recomputing certificates", start, len(waiting))
         some = waiting[start : start + AT_ONCE]
-        results |= zip(some, _judged([terms[i] for i in some], compiled, seconds), strict=True)
+        results |= zip(some, _answers([terms[i] for i in some], compiled, seconds), strict=True)
     return [results[i] for i in range(len(certificates))]
 
 
 def theory(progress: Progress = lambda stage, done, total: None) -> Path:
-    """Raises NoRocq, BrokenTheory."""
+    """Returns the folder with the compiled files that the checks need. Raises NoRocq, BrokenTheory."""
     if (whole := kept_theory()) is not None:
         return whole
     texts, wanted = sources(), set[str]()
@@ -87,7 +86,7 @@ def theory(progress: Progress = lambda stage, done, total: None) -> Path:
 
 
 def decided(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) -> list[bool]:
-    """Raises BrokenTheory, also when it takes longer."""
+    """Returns what the boolean check of each computes to. Raises BrokenTheory, also when it takes longer."""
     parts = [f"Module C{i}.\n{t.opening()}\nEval vm_compute in {t.check}.\nEnd C{i}.\n" for i, t in enumerate(terms)]
     said = compile_file(compiled, "Recomputed.v", HEAD + "".join(parts), seconds=seconds)
     verdicts = [word == "true" for word in re.findall(r"= (true|false)\s+: bool", said)]
@@ -97,7 +96,7 @@ def decided(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) ->
 
 
 def proved(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) -> None:
-    """Raises NotProved, also when it takes longer."""
+    """Has the kernel accept the theorem of each. Raises NotProved, also when it takes longer."""
     try:
         said = compile_file(compiled, "Certified.v", written(terms), seconds=seconds)
     except BrokenTheory as error:
@@ -106,13 +105,13 @@ def proved(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) -> 
         raise NotProved(f"the theorem rests on more than the kernel: {' '.join(said.split())}")
 
 
-def _judged(terms: list[Terms], compiled: Path, seconds: float) -> list[Recomputed]:
-    """All at once, since starting Rocq takes seconds; one by one where that fails."""
+def _answers(terms: list[Terms], compiled: Path, seconds: float) -> list[Recomputed]:
+    """Asks for all at once, since starting Rocq takes seconds, and for one after the other where that fails."""
     try:
         verdicts = decided(terms, compiled, seconds)
         proved([t for t, true in zip(terms, verdicts, strict=True) if true], compiled, seconds)
         return [ACCEPTED if true else REJECTED for true in verdicts]
     except (BrokenTheory, NotProved) as error:
         if len(terms) > 1:
-            return [one for t in terms for one in _judged([t], compiled, seconds)]
+            return [one for t in terms for one in _answers([t], compiled, seconds)]
         return [Recomputed("undecided", str(error))]

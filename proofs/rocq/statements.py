@@ -48,7 +48,8 @@ SECTIONS = re.compile(
 
 @dataclass(frozen=True)
 class Headline:
-    """A theorem as its file states it. `statement` is binders and proposition with their colon, `tactics` the sentences of its proof."""
+    """A headline is a theorem as its file states it. `statement` is binders and proposition with their colon, `tactics` the sentences of
+    its proof."""
 
     name: str
     statement: str
@@ -58,7 +59,8 @@ class Headline:
 
 @dataclass(frozen=True)
 class Word:
-    """What a name of a vocabulary means. `name` has its module before it, `text` the variables of its sections; `place` orders a file."""
+    """A word is what a name of a vocabulary means. `name` has its module before it, `text` the variables of its sections; `place` orders a
+    file."""
 
     name: str
     text: str
@@ -68,7 +70,7 @@ class Word:
 
     @property
     def key(self) -> str:
-        """The name with its file, which tells it from all other words."""
+        """The name of the word with its file, which tells it from all other words."""
         return f"{self.file.removesuffix('.v')}.{self.name}"
 
 
@@ -89,7 +91,8 @@ class Statements:
         return {word.key: self._named(word.text, word.file, word) for words in self.words.values() for word in words.values()}
 
     def reached(self, headline: Headline) -> list[Word]:
-        """The words that the statement uses, and those that these use, by their keys. Raises NotProved where one is of no vocabulary."""
+        """Returns the words that the statement uses, and those that these use, by their keys. Raises NotProved where one is of no
+        vocabulary."""
         found: dict[str, Word] = {}
         waiting = [*self._named(headline.statement, headline.file, None)]
         while waiting:
@@ -100,7 +103,7 @@ class Statements:
         return [found[key] for key in sorted(found)]
 
     def uses(self, word: Word) -> tuple[Word, ...]:
-        """The words that the definition of a word names."""
+        """Returns the words that the definition of a word names."""
         return self._uses[word.key]
 
     def _named(self, text: str, file: str, inside: Word | None) -> tuple[Word, ...]:
@@ -108,7 +111,7 @@ class Statements:
         return tuple({word.key: word for name in names if (word := self._meant(name, file, inside)) is not None}.values())
 
     def _meant(self, name: str, file: str, inside: Word | None) -> Word | None:
-        """The word that this name stands for in that file, or in that word of it."""
+        """Returns the word that this name stands for in that file, or in that word of it."""
         first, _, rest = name.partition(".")
         if rest and f"{first}.v" in self.openings:
             return self.words.get(f"{first}.v", {}).get(rest)
@@ -124,7 +127,7 @@ class Statements:
 
 
 def read(texts: Mapping[str, str]) -> Statements:
-    """The statements of these sources, file name -> text. Raises NotProved where a file breaks the rules."""
+    """Reads the statements of these sources, file name -> text. Raises NotProved where a file breaks the rules."""
     parted = {name: sentences(text) for name, text in texts.items()}
     files = sorted(name for name in texts if HEADLINES.fullmatch(name))
     vocabularies = sorted(name for name in texts if VOCABULARY.fullmatch(name))
@@ -151,13 +154,13 @@ def read(texts: Mapping[str, str]) -> Statements:
 
 
 def refusals(texts: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
-    """File -> what assumes something or leaves a proof open, switches a check of the kernel off, or writes and loads files."""
+    """Returns file -> what assumes something or leaves a proof open, switches a check of the kernel off, or writes and loads files."""
     return {name: found for name, text in texts.items() if (found := assumptions(text))}
 
 
 @cache
 def assumptions(text: str) -> tuple[str, ...]:
-    """What `refusals` finds in one text."""
+    """Returns what `refusals` finds in one text."""
     bare = without_comments(text)
     found: list[str] = ASSUMES.findall(bare)
     sections = 0
@@ -172,7 +175,7 @@ def assumptions(text: str) -> tuple[str, ...]:
 
 
 def without_comments(text: str) -> str:
-    """The text without its comments, which may be nested, and without its strings."""
+    """Returns the text without its comments, which may be nested, and without its strings."""
     kept, depth = [], 0
     for piece in re.split(r'("[^"]*"|\(\*|\*\))', text):
         depth += {"(*": 1, "*)": -1}.get(piece, 0)
@@ -183,7 +186,7 @@ def without_comments(text: str) -> str:
 
 @cache
 def sentences(text: str) -> tuple[str, ...]:
-    """The sentences of a source, each to its full stop, without comments and with single spaces."""
+    """Returns the sentences of a source, each to its full stop, without comments and with single spaces."""
     return tuple(_sentences(text))
 
 
@@ -214,7 +217,7 @@ def _only_required(sentence: str) -> bool:
 
 
 def _imported(name: str, texts: Mapping[str, str], parted: Mapping[str, Sequence[str]]) -> tuple[str, ...]:
-    """The vocabularies that a file imports, with those that they import, the last one first."""
+    """Returns the vocabularies that a file imports, with those that they import, the last one first."""
     order = list[str]()
     for one in parted[name]:
         m = REQUIRE.fullmatch(one)
@@ -229,7 +232,7 @@ def _imported(name: str, texts: Mapping[str, str], parted: Mapping[str, Sequence
 
 
 def _headlines(name: str, found: Sequence[str]) -> Iterator[Headline]:
-    """The theorems of a file that holds nothing else."""
+    """Returns the theorems of a file that holds nothing else."""
     waiting = iter(found)
     begun = False
     for one in waiting:
@@ -252,7 +255,7 @@ def _headlines(name: str, found: Sequence[str]) -> Iterator[Headline]:
 
 
 def _words(name: str, found: Sequence[str]) -> dict[str, Word]:
-    """The words of a file that defines and does nothing else, by each name that stands for one: of a record its fields too."""
+    """Returns the words of a file that defines and does nothing else, by each name that stands for one: of a record its fields too."""
     words: dict[str, Word] = {}
     around: list[tuple[str, str, list[str]]] = []
     for place, one in enumerate(found):
@@ -278,7 +281,7 @@ def _words(name: str, found: Sequence[str]) -> dict[str, Word]:
 
 
 def _fields(sentence: str) -> list[str]:
-    """Of a record, its constructor and its fields; of an inductive type, its constructors."""
+    """Returns the constructor and the fields of a record, or the constructors of an inductive type."""
     if sentence.startswith("Record"):
         record = re.fullmatch(rf".*?:=\s*({NAME})?\s*\{{(.*)\}}\.", sentence)
         if record is None:

@@ -6,7 +6,7 @@
     naturals, pivoted    natural numbers; pairs of a pivot and a vector
     call                 a function and its arguments
 
-Rocq executes what it reads: it opens and writes files when told to. So nothing becomes text here but what has the type of an integer.
+Rocq executes what it reads: it opens and writes files where they say so. So nothing becomes text here but what has the type of an integer.
 """
 
 from __future__ import annotations
@@ -25,38 +25,38 @@ def whole(number: int) -> str:
 
 
 def natural(number: int) -> str:
-    """A natural number, likewise."""
+    """Writes a natural number as a term, likewise."""
     if type(number) is not int or number < 0:
         raise TypeError(f"got a {type(number).__name__}, expected a natural number")
     return str(number)
 
 
 def sequence(terms: Iterable[str]) -> str:
-    """A list of terms."""
+    """Writes a list of terms as a term."""
     inside = "; ".join(terms)
     return f"[:: {inside}]" if inside else "[::]"
 
 
 def vector(entries: Iterable[int]) -> str:
-    """A list of integers as a term."""
+    """Writes a list of integers as a term."""
     return sequence(map(whole, entries))
 
 
 def table(rows: Iterable[Iterable[int]]) -> str:
-    """A list of lists of integers as a term."""
+    """Writes a list of lists of integers as a term."""
     return sequence(map(vector, rows))
 
 
 def call(function: str, *arguments: int | str) -> str:
-    """A function and its arguments, numbers being natural ones."""
+    """Writes a function and its arguments, numbers being natural ones."""
     return " ".join([function, *(one if isinstance(one, str) else f"{natural(one)}%N" for one in arguments)])
 
 
 def pivoted(vectors: Iterable[tuple[int, list[int]]]) -> str:
-    """A list of pivots with their vectors as a term."""
+    """Writes a list of pivots with their vectors as a term."""
     return sequence(f"({natural(pivot)}%N, {vector(u)})" for pivot, u in vectors)
 
 
 def naturals(numbers: Iterable[int]) -> str:
-    """A list of natural numbers as a term."""
+    """Writes a list of natural numbers as a term."""
     return sequence(f"{natural(number)}%N" for number in numbers)

@@ -3,7 +3,7 @@
     Theorems       what was checked: Rocq's version, each theorem's statement as Rocq prints it, and its lock
     check          compares the sources with the locks, compiles the theory (or takes it from the cache) and asks Rocq for each name
 
-The theorems are in theory/Headlines*.v, the words they speak of in theory/*Vocabulary.v. NotProved of `rocq_build` is raised where a
+The theorems are in theory/headlines, the words that they speak of in theory/vocabulary. NotProved of `rocq_build` is raised where a
 statement is not the one that is locked, a name is not there, or rests on an axiom or on an admitted proof; NoRocq and BrokenTheory go
 through, and Poisoned where the compiled files in the cache do not say what the sources say.
 
@@ -33,9 +33,9 @@ from .build import (
     compiled_again,
     compiled_theory,
     found,
-    sources,
 )
 from .locks import held
+from .sources import sources
 from .statements import VOCABULARY, Headline, read
 
 MARK = "== "
@@ -52,7 +52,7 @@ class Theorems:
 
 
 def check(names: Iterable[str], progress: Progress = lambda name, done, total: None) -> Theorems:
-    """The statements of these headlines. Raises NotProved, NoRocq, BrokenTheory, Poisoned."""
+    """Returns the statements of these headlines. Raises NotProved, NoRocq, BrokenTheory, Poisoned."""
     wanted, texts = sorted(set(names)), sources()
     locks = held(texts)
     statements = asked(wanted, texts, compiled_theory(progress), progress)
@@ -63,17 +63,17 @@ def check(names: Iterable[str], progress: Progress = lambda name, done, total: N
 
 
 def asked(wanted: list[str], texts: Mapping[str, str], theory: Path, progress: Progress = lambda name, done, total: None) -> dict[str, str]:
-    """name -> statement, as Rocq says with the compiled theory of these sources. Raises NotProved, BrokenTheory, Poisoned."""
+    """Returns name -> statement, as Rocq prints it with the compiled theory of these sources. Raises NotProved, BrokenTheory, Poisoned."""
     statements = read(texts)
     missing = [name for name in wanted if name not in statements.headlines]
     if missing:
-        raise NotProved(f"the ledger names the theorem {missing[0]}, which is in no file theory/Headlines*.v")
+        raise NotProved(f"the ledger names the theorem {missing[0]}, which is in no file theory/headlines/Headlines*.v")
     lines = question([statements.headlines[name] for name in wanted], statements.openings)
-    return answers(wanted, _said(theory, texts, lines, progress))
+    return answers(wanted, _answer(theory, texts, lines, progress))
 
 
-def _said(theory: Path, texts: Mapping[str, str], lines: list[str], progress: Progress) -> str:
-    """What Rocq prints, kept beside the compiled theory: the same question to the same files has the same answer."""
+def _answer(theory: Path, texts: Mapping[str, str], lines: list[str], progress: Progress) -> str:
+    """Returns what Rocq prints. It is kept beside the compiled theory: the same question to the same files has the same answer."""
     text = "\n".join(lines) + "\n"
     about = {"asked": _sha256(text.encode()), "files": _sha256((theory / DIGESTS).read_bytes())}
     place = theory.with_suffix(f".{about['asked'][:12]}.json")
@@ -110,7 +110,7 @@ def _same_vocabulary(theory: Path, texts: Mapping[str, str]) -> None:
 
 
 def _unlike(error: str, lines: list[str]) -> str:
-    """What a question that Rocq does not accept says of the compiled theory."""
+    """Says what a question that Rocq does not accept tells of the compiled theory."""
     place = re.search(r"line (\d+)", error)
     stated = lines[int(place[1]) - 1 if place else -1]
     of = re.search(r"@Headlines\.(\w+)", stated)
@@ -138,13 +138,13 @@ def question(about: list[Headline], openings: Mapping[str, str]) -> list[str]:
 
 
 def proposition(statement: str) -> str:
-    """Of binders and a proposition, with a colon between, the proposition for all of these binders."""
+    """Returns, of binders and a proposition with a colon between, the proposition for all of these binders."""
     binders, stated = parted(statement)
     return f"forall {binders}, {stated}" if binders else stated
 
 
 def parted(statement: str) -> tuple[str, str]:
-    """The binders of a statement, and what it states."""
+    """Returns the binders of a statement, and what it states."""
     depth = 0
     for k, sign in enumerate(statement):
         depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(sign, 0)
@@ -154,7 +154,7 @@ def parted(statement: str) -> tuple[str, str]:
 
 
 def answers(names: Iterable[str], said: str) -> dict[str, str]:
-    """name -> statement. Raises NotProved unless every name is there and all together rest on nothing."""
+    """Returns name -> statement. Raises NotProved unless every name is there and all together rest on nothing."""
     parts: dict[str, str] = {}
     _, *marked = re.split(rf"^{MARK}([\w ]+)$", said, flags=re.MULTILINE)
     for name, rest in zip(marked[::2], marked[1::2], strict=True):

@@ -1,33 +1,29 @@
-"""Certificates by the name of their kind, and the checker's word on them: what `faultspace.certify` and `faultspace.check` are.
+"""Certificates by the name of their kind: what `faultspace.certify` is.
 
 KINDS      kind of a certificate -> what it needs to know besides the system, and the function that makes it
 certify    the certificate of a kind about a system, a pair of systems, or an experiment
-Checked    what the checker has verified, with a summary
-check      puts a certificate before the checker
 
 Nothing here is trusted: `certify` may be wrong, and the checker then rejects what it made.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 from ...base.errors import InvalidInput, shorten
-from ...base.sheets import Shown
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
-from ...exact.system.systems import FaultySystem, ResidualSystem
-from . import checker
+from ...exact.system.systems import ResidualSystem, System
 from . import limit_certificates as limits
 from . import structure_certificates as structure
 from .structure_certificates import Certificate, Unprovable
 
 
 class _Kind(NamedTuple):
-    """What a kind asks for beside its subject, what it may be told, and its maker, which gets subject and options."""
+    """What a kind needs to know beside its subject, what it may be given, and its maker, which gets subject and options."""
 
     needed: tuple[str, ...]
     optional: tuple[str, ...]
@@ -97,7 +93,7 @@ KINDS: dict[str, _Kind] = {
 OF_LIMITS = ("input-limit", "moesp-limit")
 
 
-def certify(subject: ResidualSystem | FaultySystem | Experiment | Mapping[str, Any], kind: str, **options: Any) -> Certificate:
+def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **options: Any) -> Certificate:
     """The certificate of this kind about a system: a statement with a witness, as a JSON-ready dict that `check` can decide.
 
     `subject` is an exact system (its inputs play no part), or, for "moesp-limit" and "input-limit", an Experiment or the dict of an
@@ -146,49 +142,8 @@ def certify(subject: ResidualSystem | FaultySystem | Experiment | Mapping[str, A
         raise InvalidInput(f"{kind}: {error}") from None
 
 
-class Checked(Shown, checker.Verified):
-    """What the checker has verified: `statement`, in words, and `assumes`, a list of what it took for granted, empty in most cases."""
-
-    @property
-    def title(self) -> str:
-        """Whether the statement holds without an assumption."""
-        return "verified under an assumption" if self.assumes else "verified"
-
-    def sheet(self) -> list[tuple[str, str]]:
-        """The statement and the assumptions, as (name, value) pairs."""
-        return [("statement", self.statement), *(("assumed, not verified", text) for text in self.assumes)]
-
-    def to_json(self) -> dict[str, Any]:
-        """The statement and the assumptions."""
-        return {"statement": self.statement, "assumes": self.assumes}
-
-
-def check(certificate: Mapping[str, Any], systems: Iterable[Any] = ()) -> Checked:
-    """What a certificate proves, decided by the checker, which trusts nothing that the certificate says.
-
-    `certificate` is the JSON-ready dict that `certify` returns or that a certificate's file holds (a file is best read by
-    `faultspace.proofs.trust.checker.load`, which keeps the limits of the format). Each of `systems`, JSON-ready dicts or systems, must be
-    one that the statement is about. The result has `statement`, in words, and `assumes`, the list of what was not verified.
-
-    Raises `faultspace.proofs.Rejected` where the witness does not prove the statement, and `faultspace.proofs.Malformed` for what is no
-    certificate. The format is in proofs/trust/FORMAT.md.
-
-    >>> import faultspace as fs
-    >>> certificate = fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "schur-stable")
-    >>> fs.check(certificate)
-    <Checked: verified>
-    >>> certificate["statement"]["system"]["A"] = [["2"]]
-    >>> fs.check(certificate)
-    Traceback (most recent call last):
-      ...
-    faultspace.proofs.trust.checker.Rejected: an eigenvalue is not inside the unit circle
-    """
-    insisted = [one.to_json() if isinstance(one, (ResidualSystem, FaultySystem, Experiment)) else one for one in systems]
-    return Checked(*checker.verify(certificate, insisted))
-
-
 def _system(given: Any, name: str) -> ResidualSystem:
-    if not isinstance(given, (ResidualSystem, FaultySystem)):
+    if not isinstance(given, System):
         raise InvalidInput(f"{name}: got {shorten(given)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
     return given.residual
 

@@ -197,7 +197,7 @@ def inside_circle(f: list[int]) -> bool:
     return len(f) == 1
 
 
-def shown(value: Json) -> str:
+def shorten(value: Json) -> str:
     """JSON for a reader; a long one is cut and named by its digest, so that no two look alike."""
     text = json.dumps(value, separators=(",", ":")).replace('"', "")
     return text if len(text) <= 240 else f"{text[:200]}... [{len(text)} characters, SHA-256 {hashlib.sha256(text.encode()).hexdigest()}]"
@@ -458,8 +458,8 @@ class System:
         self.nu, self.inputs = sizes.get("nu", 0), blocks[4:]
         self.key: tuple[Any, ...] = (self.field.key, self.n, self.m, self.p, blocks[:4])
         dimensions = "" if self.n and self.m and self.p else f" (n={self.n}, m={self.m}, p={self.p})"
-        over = "" if self.field.key == "Q" else f" over {shown(data['field'])}"
-        self.words = f"({', '.join(f'{name}={shown(data[name])}' for name in 'AFCG')}){dimensions}{over}"
+        over = "" if self.field.key == "Q" else f" over {shorten(data['field'])}"
+        self.words = f"({', '.join(f'{name}={shorten(data[name])}' for name in 'AFCG')}){dimensions}{over}"
 
     def window(self, s: int, states: bool = True, faults: bool = True) -> Mat:
         """[O_s T_s], or one of the two."""
@@ -688,7 +688,7 @@ class Experiment(System):
             (a, c), (b, d), (g, h) = (one[i] if i < len(one) else (one[0][0].times(0), one[0][1].times(0)) for one in (u, v, w))
             self.chain.append((self.field.diagonal(self.field.assembled([[a], [b]], a.nc), g), self.field.diagonal(c, d, h)))
         self.key += ([self.nu, self.s, self.past, len(self.chain), u[0][0].nc, w[0][0].nc], self.inputs, self.chain)
-        self.words += f" with nu={self.nu}, {', '.join(f'{name}={shown(data[name])}' for name in ('B', 'D', *self.OWN) if name in data)}"
+        self.words += f" with nu={self.nu}, {', '.join(f'{name}={shorten(data[name])}' for name in ('B', 'D', *self.OWN) if name in data)}"
 
     def filter(self, value: Json, height: int, where: str, width: int | None = None) -> list[tuple[Mat, Mat]]:
         """N_i and -d_i of a FILTER, i = 0, 1, ..."""
@@ -899,12 +899,13 @@ def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified
     proven = about[0].field.irreducible(w)
     for system in insisted:
         require(any(system.key == other.key[: len(system.key)] for other in about), f"the statement is not about {system.words}")
-    words = kind.words.format_map({key: shown(value) for key, value in s.items()})
-    words += "".join(f", {key[:-1]} = {shown(s[key[:-1]])}" for key in kind.statement.split() if key[-1] == "?" and key[:-1] in s)
+    words = kind.words.format_map({key: shorten(value) for key, value in s.items()})
+    words += "".join(f", {key[:-1]} = {shorten(s[key[:-1]])}" for key in kind.statement.split() if key[-1] == "?" and key[:-1] in s)
     words += f"; for {' and '.join(system.words for system in about)}"
     if proven:
         return Verified(words, [])
-    return Verified(f"assuming f irreducible: {words}", [f"f is irreducible, with the coefficients {shown(about[0].field.f)} (ascending)"])
+    assumed = f"f is irreducible, with the coefficients {shorten(about[0].field.f)} (ascending)"
+    return Verified(f"assuming f irreducible: {words}", [assumed])
 
 
 def content(path: str) -> bytes:
@@ -961,7 +962,7 @@ def sha256(certificate: Json) -> str:
 CODES = {"verified": 0, "verified under an assumption": 3, "rejected": 1, "malformed": 2}  # from the best to the worst
 
 
-def judged(path: str, systems: Sequence[System]) -> dict[str, Json]:
+def result_of(path: str, systems: Sequence[System]) -> dict[str, Json]:
     """What is printed about a file."""
     try:
         statement, assumes = verify(certificate := load(path), systems)
@@ -979,7 +980,7 @@ def worst(results: Iterable[str]) -> int:
     return CODES[max(results, key=[*CODES].index, default="verified")]
 
 
-def printable(name: str) -> str:
+def quote_path(name: str) -> str:
     """The name where it can be mistaken for nothing else on a terminal, else quoted."""
     return name if name.isprintable() and re.fullmatch(r"[^\s:'\"\\]+", name) else ascii(name)
 
@@ -1003,13 +1004,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         try:
             systems.append(subject(load(path)))
         except (Malformed, Rejected, MemoryError) as error:
-            parser.error(f"--system {printable(path)}: {error}")
+            parser.error(f"--system {quote_path(path)}: {error}")
     results = list[dict[str, Json]]()
     for path in options.certificates:
-        results.append(one := judged(path, systems))
+        results.append(one := result_of(path, systems))
         if not options.json:
-            told = one.get("reason") or "{kind}: {statement} (SHA-256 {sha256})".format(**one)
-            print(f"{printable(path)}: {one['result']}: {told}", flush=True)
+            message = one.get("reason") or "{kind}: {statement} (SHA-256 {sha256})".format(**one)
+            print(f"{quote_path(path)}: {one['result']}: {message}", flush=True)
     if options.json:
         print(json.dumps(results, indent=1), flush=True)
     return worst(one["result"] for one in results)

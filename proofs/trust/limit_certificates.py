@@ -17,7 +17,7 @@ from flint import fmpq, fmpq_poly, fmpz
 
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, beside, rank, row_profile, solve_left, stacked
-from ...exact.algebra.stability import characteristic_polynomial
+from ...exact.algebra.stability import rational_characteristic_polynomial
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.lyapunov import solve, stein
 from ...exact.limits.moesp import PopulationLimits
@@ -37,17 +37,17 @@ class Chain:
     annihilator: tuple[Any, ...]
 
     def covariance(self) -> Matrix:
-        """Of s."""
+        """The stationary covariance of s."""
         return stein(self.a, self.a, self.b @ self.b.transposed(), self.annihilator)
 
     def with_states(self, A: Matrix, into: Matrix, own: Matrix) -> Matrix:
-        """Cov(x, s) for x(k+1) = A x(k) + into f(k), `own` the covariance of s."""
+        """The covariance Cov(x, s) for x(k+1) = A x(k) + into f(k), where `own` is the covariance of s."""
         source = into @ (self.c @ own @ self.a.transposed() + self.first @ self.b.transposed())
         return stein(A, self.a, source, self.annihilator)
 
 
 def past_input_limit(limits: PopulationLimits) -> Certificate:
-    """The ranks of the limit of PI-MOESP."""
+    """The certificate of the ranks of the limit of PI-MOESP."""
     experiment, blocks, found = limits.experiment, limits.blocks, limits.past_inputs
     chain = _chain(experiment)
     into, own = _into(experiment, experiment.system.B), chain.covariance()
@@ -56,7 +56,7 @@ def past_input_limit(limits: PopulationLimits) -> Certificate:
 
 
 def past_input_and_output_limit(limits: PopulationLimits) -> Certificate:
-    """The ranks of the limit of PO-MOESP."""
+    """The certificate of the ranks of the limit of PO-MOESP."""
     experiment, blocks, found = limits.experiment, limits.blocks, limits.past_outputs
     A, chain = experiment.system.residual.A, _chain(experiment)
     into, own = _into(experiment, experiment.system.B), chain.covariance()
@@ -99,7 +99,7 @@ def output_error_inputs(limits: PopulationLimits) -> Certificate:
 
 
 def moesp_inputs(limits: PopulationLimits) -> Certificate:
-    """B and D of MOESP's regression with the true A and C. Raises Unprovable when they are not unique."""
+    """The certificate of B and D of MOESP's regression with the true A and C. Raises Unprovable when they are not unique."""
     if limits.moesp is None:
         raise Unprovable("the regression has more than one solution")
     experiment, blocks, chain = limits.experiment, limits.blocks, _chain(limits.experiment)
@@ -170,7 +170,7 @@ def _diagonal(entries: list[Any]) -> Matrix:
 
 
 def _ascending(A: Matrix) -> list[Any]:
-    return [fmpq(c.numerator, c.denominator) for c in characteristic_polynomial(A)]
+    return [fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)]
 
 
 def _rank_certificate(

@@ -44,7 +44,7 @@ class Unprovable(ValueError):
 
 
 def sha256(certificate: Certificate) -> str:
-    """The SHA-256 over sorted keys without white space, in UTF-8."""
+    """The name of a certificate: the SHA-256 over sorted keys without white space, in UTF-8."""
     text = json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -57,7 +57,7 @@ def accept(certificate: Certificate) -> None:
 
 
 def window_ranks(kernel: KernelRepresentation) -> Certificate:
-    """rank [O_s T_s] for every s."""
+    """The certificate of rank [O_s T_s] for every s."""
     system = kernel.system
     statement = {
         "system": system.to_json(),
@@ -69,7 +69,7 @@ def window_ranks(kernel: KernelRepresentation) -> Certificate:
 
 
 def left_invertible(kernel: KernelRepresentation) -> Certificate:
-    """Left-invertible or not, whichever is so."""
+    """The certificate that the system is left-invertible, or that it is not, whichever is so."""
     system = kernel.system
     statement = {"system": system.to_json()}
     if kernel.normal_rank == system.m:
@@ -95,7 +95,7 @@ def left_invertible_line(first: ResidualSystem, second: ResidualSystem) -> Certi
 
 
 def inversion_delay(kernel: KernelRepresentation, *, known_state: bool) -> Certificate:
-    """The delay of left inversion with the initial state known or unknown, or that there is none."""
+    """The certificate of the delay of left inversion with the initial state known or unknown, or that there is none."""
     system = kernel.system
     delay = delay_known_state(kernel) if known_state else delay_unknown_state(kernel)
     statement = {"system": system.to_json(), "initial_state": "known" if known_state else "unknown", "delay": delay}
@@ -114,7 +114,7 @@ def inversion_delay(kernel: KernelRepresentation, *, known_state: bool) -> Certi
 
 
 def behaviour_inclusion(inner: ResidualSystem, outer: KernelRepresentation) -> Certificate:
-    """B(inner) in B(outer) on every window. Raises Unprovable when it is not."""
+    """The certificate that B(inner) lies in B(outer) on every window. Raises Unprovable when it does not."""
     if separation(inner, outer) is not None:
         raise Unprovable("the inner behaviour has a word that the outer one has not")
     statement = {"inner": inner.to_json(), "outer": outer.system.to_json()}
@@ -122,7 +122,7 @@ def behaviour_inclusion(inner: ResidualSystem, outer: KernelRepresentation) -> C
 
 
 def behaviour_equality(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
-    """B(first) = B(second). Raises Unprovable when they differ."""
+    """The certificate that B(first) = B(second). Raises Unprovable when they differ."""
     if separation(first.system, second) is not None or separation(second.system, first) is not None:
         raise Unprovable("the behaviours differ")
     statement = {"first": first.system.to_json(), "second": second.system.to_json()}
@@ -130,7 +130,7 @@ def behaviour_equality(first: KernelRepresentation, second: KernelRepresentation
 
 
 def window_equality(first: KernelRepresentation, second: KernelRepresentation, window: int) -> Certificate:
-    """Equal restricted behaviours on `window` samples. Raises Unprovable when they differ there."""
+    """The certificate of equal restricted behaviours on `window` samples. Raises Unprovable when they differ there."""
     for maker, other in ((first.system, second), (second.system, first)):
         found = separation(maker, other)
         if found is not None and found.window <= window:
@@ -141,7 +141,7 @@ def window_equality(first: KernelRepresentation, second: KernelRepresentation, w
 
 
 def behaviour_difference(first: ResidualSystem, second: KernelRepresentation) -> Certificate:
-    """The shortest word of the first system that the second cannot make. Raises Unprovable when there is none."""
+    """The certificate of the shortest word of the first system that the second cannot make. Raises Unprovable when there is none."""
     found: Separation | None = separation(first, second)
     if found is None:
         raise Unprovable("every word of the first system is one of the second")
@@ -151,19 +151,19 @@ def behaviour_difference(first: ResidualSystem, second: KernelRepresentation) ->
 
 
 def fault_space(kernel: KernelRepresentation, space: FaultSpace) -> Certificate:
-    """The solution space of problem (11) at the window of `space`, or its limit."""
+    """The certificate of the solution space of problem (11) at the window of `space`, or of its limit."""
     statement = {"system": kernel.system.to_json(), "window": space.window, "basis": space.basis.to_json()}
     return _certificate("fault-space", statement, _kernel_witness(kernel, kernel.rows_within(space.window)))
 
 
 def first_column_only(kernel: KernelRepresentation, window: int, column: Matrix) -> Certificate:
-    """N_s annihilates the first block column of T_s(z), z = column ((n + p) x 1), but not all of T_s(z)."""
+    """The certificate that N_s annihilates the first block column of T_s(z), z = column ((n + p) x 1), but not all of T_s(z)."""
     statement = {"system": kernel.system.to_json(), "window": window, "column": _column(column)}
     return _certificate("first-column-only", statement, _kernel_witness(kernel, kernel.rows_within(window)))
 
 
 def matrix_rank(name: str, system: ResidualSystem, *, window: int | None = None) -> Certificate:
-    """The rank of a matrix of the system: "observability", "reachability", "toeplitz" or "window"."""
+    """The certificate of the rank of a matrix of the system: "observability", "reachability", "toeplitz" or "window"."""
     statement: dict[str, Any] = {"matrix": name, "system": system.to_json()}
     if name in ("toeplitz", "window"):
         statement["window"] = window
@@ -177,7 +177,7 @@ def matrix_rank(name: str, system: ResidualSystem, *, window: int | None = None)
 
 
 def data_rank(name: str, system: ResidualSystem, x0: Matrix, v: Matrix, window: int) -> Certificate:
-    """The rank of "residual-hankel" (R_s) or "excitation" ([X; V_s]) of the trajectory from x0 under v."""
+    """The certificate of the rank of "residual-hankel" (R_s) or "excitation" ([X; V_s]) of the trajectory from x0 under v."""
     statement = {"matrix": name, "system": system.to_json(), "x0": _column(x0), "v": v.to_json(), "window": window}
     trajectory = simulate(system, x0, v)
     built = hankel(trajectory.residuals, window) if name == "residual-hankel" else excitation_matrix(trajectory, window)
@@ -195,7 +195,7 @@ def schur_stable(system: ResidualSystem) -> Certificate:
 
 
 def finite_zeros(system: ResidualSystem) -> Certificate:
-    """The invariant zero polynomial by a diagonal form of the pencil. For pencils of a few states."""
+    """The certificate of the invariant zero polynomial, by a diagonal form of the pencil. It is for pencils of a few states."""
     form = finite_diagonal(system)
     nonzero = [f for f in form.diagonal if f]
     product: Poly = (system.field.element(1),)
@@ -210,7 +210,7 @@ def finite_zeros(system: ResidualSystem) -> Certificate:
 
 
 def infinite_zeros(system: ResidualSystem) -> Certificate:
-    """The orders of the infinite zeros by a diagonal form of the reversed pencil. For pencils of a few states."""
+    """The certificate of the orders of the infinite zeros, by a diagonal form of the reversed pencil. It is for pencils of a few states."""
     form = infinite_diagonal(system)
     powers = [next(k for k, c in enumerate(f) if c != 0) for f in form.diagonal if f]
     orders = sorted(power - 1 for power in powers if power > 0)

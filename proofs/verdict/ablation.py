@@ -2,15 +2,15 @@
 
     Subject       what a claim is about, certified: a system with a window, a pair of systems, a trajectory
     Proof         theorems of Rocq that prove the conclusion, and the hypotheses they prove it from
-    Experiment    a conclusion, the hypotheses it is said to rest on, the subjects tried, and the search over Q
-    ablate        all rows of an experiment: every hypothesis alone, and every two; REFUTED: needed, CERTIFIED: no counterexample found
+    Ablation      a conclusion, the hypotheses it is said to rest on, the subjects tried, and the search over Q
+    ablate        all rows of an ablation: every hypothesis alone, and every two; REFUTED: needed, CERTIFIED: no counterexample found
 
 One pass over the subjects notes, for each, which hypotheses it violates and whether the conclusion holds. The claim without the set D is
 refuted by whatever violates nothing outside D and fails the conclusion. So a subject that violates nothing and fails refutes the claim
-itself: then the experiment is in error, and says so. The smallest over Q is sought where some subject failed, over whatever field; among
+itself: then the ablation is in error, and says so. The smallest over Q is sought where some subject failed, over whatever field; among
 the smallest, one that fails for a reason of its own comes before one that is `degenerate`.
 
-A hypothesis that no subject lacks which meets the others may follow from them. That is told where the experiment gives the reason, in
+A hypothesis that no subject lacks which meets the others may follow from them. That is told where the ablation gives the reason, in
 `implied`; a reason that a subject contradicts is an error, and so is a counterexample to what a Proof says.
 """
 
@@ -51,17 +51,19 @@ S = TypeVar("S", bound=Subject)
 
 @dataclass(frozen=True)
 class Proof:
-    """`theorems` of theory/Headlines.v that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
+    """`theorems` of theory/headlines that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
 
     theorems: tuple[str, ...]
     hypotheses: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)
-class Experiment(Generic[S]):
-    """`claim` is the id in the ledger. `over_q(bench, dropped)`: the smallest subject over Q that meets the hypotheses not dropped and
-    fails, or None, and in words where it was sought. `show` gives certificates of a subject. `implied`: hypotheses that follow from the
-    others, and why.
+class Ablation(Generic[S]):
+    """What a claim is when hypotheses of it are dropped: its conclusion, its hypotheses, and where it is tried.
+
+    `claim` is the id in the ledger. `over_q(bench, dropped)`: the smallest subject over Q that meets the hypotheses not dropped and fails,
+    or None, and in words where it was sought. `show` gives certificates of a subject. `implied`: hypotheses that follow from the others,
+    and why.
     """
 
     name: str
@@ -86,7 +88,7 @@ class Experiment(Generic[S]):
 
 @dataclass(frozen=True)
 class Found(Generic[S]):
-    """The end of a search: a subject or None, and the box in words."""
+    """The end of a search: a subject or None, and in words where it was sought."""
 
     subject: S | None
     box: str
@@ -130,27 +132,27 @@ class _Count:
     accepted: int
 
 
-def ablate(bench: Workbench, experiment: Experiment[S], expected: Mapping[str, str]) -> tuple[Row, ...]:
-    """Rows for each hypothesis alone, in order, then for each two. `expected` has the ledger's entry for each alone."""
-    tally = _tally(bench, experiment)
+def ablate(bench: Workbench, ablation: Ablation[S], expected: Mapping[str, str]) -> tuple[Row, ...]:
+    """The rows of an ablation: for each hypothesis alone, in order, then for each two. `expected` has the ledger's entry for each alone."""
+    tally = _tally(bench, ablation)
     flawed = tally.smallest(frozenset())
     if flawed:
         subject = min(flawed.values(), key=_order)
         words = f"nothing is dropped, and the conclusion fails on {subject}"
-        shown = accepted(experiment.show(subject))
-        return (Row(experiment.name, experiment.claim, experiment.conclusion, (), Verdict.ERROR, words, None, shown, subject.accepted),)
-    names = list(experiment.hypotheses)
-    alone = [_without(bench, experiment, tally, (name,), expected.get(name)) for name in names]
+        certificates = accepted(ablation.show(subject))
+        return (Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, certificates, subject.accepted),)
+    names = list(ablation.hypotheses)
+    alone = [_without(bench, ablation, tally, (name,), expected.get(name)) for name in names]
     refuted = {row.dropped[0]: row for row in alone if row.verdict == Verdict.REFUTED}
     rows = list(alone)
     for two in combinations(names, 2):
         already = next((name for name in two if name in refuted), None)
         if already is None:
-            rows.append(_without(bench, experiment, tally, two, None))
+            rows.append(_without(bench, ablation, tally, two, None))
         else:
             row, count = refuted[already], tally.count(frozenset(two))
             words = f"it falls without {already} alone"
-            made = (experiment.name, experiment.claim, experiment.conclusion, two, Verdict.REFUTED, words, already)
+            made = (ablation.name, ablation.claim, ablation.conclusion, two, Verdict.REFUTED, words, already)
             rows.append(Row(*made, row.certificates, row.accepted, tried=count.tried, lacking=count.lacking))
     return tuple(rows)
 
@@ -159,40 +161,40 @@ def _order(subject: Subject) -> tuple[bool, tuple[int, ...]]:
     return bool(subject.degenerate), subject.size
 
 
-def _tally(bench: Workbench, experiment: Experiment[S]) -> _Tally[S]:
+def _tally(bench: Workbench, ablation: Ablation[S]) -> _Tally[S]:
     tally: _Tally[S] = _Tally(Counter(), Counter(), {})
-    for subject in experiment.subjects(bench):
-        violated = experiment.violated(subject)
+    for subject in ablation.subjects(bench):
+        violated = ablation.violated(subject)
         tally.tried[violated] += subject.weight
         tally.accepted[violated] += subject.accepted
-        if not experiment.holds(subject):
+        if not ablation.holds(subject):
             key = (violated, subject.field)
             if key not in tally.failing or _order(subject) < _order(tally.failing[key]):
                 tally.failing[key] = subject
     return tally
 
 
-def _without(bench: Workbench, experiment: Experiment[S], tally: _Tally[S], dropped: tuple[str, ...], expected: str | None) -> Row:
+def _without(bench: Workbench, ablation: Ablation[S], tally: _Tally[S], dropped: tuple[str, ...], expected: str | None) -> Row:
     """One row: refuted over Q where that can be, else over the field where it was; certified where nothing fails."""
     elsewhere = tally.smallest(frozenset(dropped))
     count = tally.count(frozenset(dropped))
-    reason = experiment.implied.get(dropped[0]) if len(dropped) == 1 else None
+    reason = ablation.implied.get(dropped[0]) if len(dropped) == 1 else None
 
     def row(verdict: Verdict, words: str, certificates: tuple[Certificate, ...], number: int) -> Row:
         return Row(
-            experiment.name, experiment.claim, experiment.conclusion, dropped, verdict, words, None, certificates, number,
-            ledger=expected, theorems=experiment.theorems_without(dropped), tried=count.tried, lacking=count.lacking, implied=reason,
+            ablation.name, ablation.claim, ablation.conclusion, dropped, verdict, words, None, certificates, number,
+            ledger=expected, theorems=ablation.theorems_without(dropped), tried=count.tried, lacking=count.lacking, implied=reason,
         )  # fmt: skip
 
     if elsewhere:
-        subject, where = _witness(bench, experiment, dropped, elsewhere)
-        shown = accepted(experiment.show(subject))
+        subject, where = _witness(bench, ablation, dropped, elsewhere)
+        certificates = accepted(ablation.show(subject))
         poor = f"; every counterexample found is degenerate: {subject.degenerate}" if subject.degenerate else ""
         words = f"{subject}; {where}{poor}"
-        if experiment.theorems_without(dropped):
-            words = f"{', '.join(experiment.theorems_without(dropped))} prove it without, and yet it fails on {words}"
-            return row(Verdict.ERROR, words, shown, len(shown))
-        return row(Verdict.REFUTED, words, shown, len(shown))
+        if ablation.theorems_without(dropped):
+            words = f"{', '.join(ablation.theorems_without(dropped))} prove it without, and yet it fails on {words}"
+            return row(Verdict.ERROR, words, certificates, len(certificates))
+        return row(Verdict.REFUTED, words, certificates, len(certificates))
     if not count.tried:
         return row(Verdict.ERROR, "no subject that was tried meets the others", (), 0)
     if reason is not None and count.lacking:
@@ -210,9 +212,9 @@ def _found_none(count: _Count, dropped: Sequence[str], reason: str | None) -> st
     return f"no counterexample among {count.tried} tried that meet the others, {count.lacking} of which lack {what}"
 
 
-def _witness(bench: Workbench, experiment: Experiment[S], dropped: tuple[str, ...], elsewhere: Mapping[str, S]) -> tuple[S, str]:
+def _witness(bench: Workbench, ablation: Ablation[S], dropped: tuple[str, ...], elsewhere: Mapping[str, S]) -> tuple[S, str]:
     """The counterexample to show, and in words how small it is and where else there are some."""
-    found = experiment.over_q(bench, dropped)
+    found = ablation.over_q(bench, dropped)
     tried = elsewhere.get("Q")
     if found.subject is not None and (tried is None or _order(found.subject)[0] <= _order(tried)[0]):
         others = sorted(name for name in elsewhere if name != "Q")

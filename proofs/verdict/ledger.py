@@ -3,7 +3,7 @@
     Claim       id, reference in the review, statement as printed, readings, expected verdict
     Reading     one precise statement; `repair` marks those that are ours and not the paper's; `check` names the function in claims/
     load        the claims of the ledger, in its order
-    expected_without   for each experiment of `hypotheses`, the verdict expected when one of its hypotheses is dropped
+    expected_without   for each ablation of `hypotheses`, the verdict expected when one of its hypotheses is dropped
 
 The verdict itself is never in the ledger: it is computed by each run and compared with the expected one.
 """
@@ -11,17 +11,32 @@ The verdict itself is never in the ledger: it is computed by each run and compar
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
 from importlib import resources
 from typing import Any
 
+from ...base.sheets import Shown
 
-@dataclass(frozen=True)
-class Reading:
-    """One way to read a claim, precise enough to be decided.
 
-    `theorems` of theory/Headlines.v say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
-    proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any.
+@dataclass(frozen=True, repr=False)
+class Reading(Shown):
+    """One way to read a claim, precise enough to be decided; the ledger states it, and a run of `verify` decides it.
+
+    `id` names it within its claim. `statement` and `hypotheses` are in words. `expected` is the verdict that a run is compared with, a
+    string of the closed list of `Verdict`; `repair` says that the reading is ours and not the paper's.
+    `theorems` of theory/headlines say it for all systems; of a refuted reading they are its counterexample. `missing`: what a
+    proof for all systems lacks, where the reading holds and has none. `part` names the part of the claim that it reads, if any. `check` is
+    the function in claims/ that decides it, as "file.function". The statements are those of [G25] and of its review, or ours.
+
+    Raises nothing.
+
+    >>> from faultspace.proofs.verdict.ledger import load
+    >>> reading = load()[0].readings[0]
+    >>> reading
+    <Reading: one-sided, REFUTED is expected>
+    >>> reading.hypotheses
+    ('u white', 'l >= 0')
     """
 
     id: str
@@ -32,19 +47,53 @@ class Reading:
     theorems: tuple[str, ...] = ()
     missing: str = ""
     part: str = ""
+    check: str = ""
 
     @property
     def proved(self) -> str:
         """The verdict expected where Rocq has checked the theorems: what holds is PROVED, what is refuted stays so."""
         return "PROVED" if self.theorems and self.expected != "REFUTED" else self.expected
 
+    @property
+    def title(self) -> str:
+        """Its name and the verdict that the ledger expects where there is Rocq."""
+        return f"{self.id}, {self.proved} is expected"
 
-@dataclass(frozen=True)
-class Claim:
-    """A claim of the paper or of its review. `module` is its file in claims/: the id with underscores.
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """What the ledger says of it, as (name, value) pairs."""
+        yield "statement", self.statement
+        yield "hypotheses", "; ".join(self.hypotheses) or "none"
+        yield "whose", "a repair of ours" if self.repair else "as printed"
+        if self.theorems:
+            yield "theorems in Rocq", ", ".join(self.theorems)
+        if self.missing:
+            yield "a proof lacks", self.missing
+        yield "decided by", self.check
+
+    def to_json(self) -> dict[str, Any]:
+        """An object with the fields of the record."""
+        return asdict(self)
+
+
+@dataclass(frozen=True, repr=False)
+class Claim(Shown):
+    """A claim of the paper, of its review or of ours, with the ways to read it; the ledger states it, and `verify` decides it.
+
+    `id` is what `verify` takes, `reference` says where the claim stands, `statement` gives it as printed there, and `uses` names the claims
+    that it rests on. `readings` is a tuple, and the number of its `Reading` is at least one; `expected` is the verdict on the whole, with
+    which a run is compared.
 
     The readings of a claim are alternatives, or those of each `part` are; where it is made `in_parts`, each that is not ours is a part of
-    its own. Of every part one must hold.
+    its own. Of every part one must hold. The claims are those of [G25] and of its public review.
+
+    Raises nothing.
+
+    >>> from faultspace.proofs.verdict.ledger import load
+    >>> claim = load()[0]
+    >>> claim
+    <Claim: assumption-2 (review, major comment 1; [G25] Assumption 2)>
+    >>> [reading.id for reading in claim.readings]
+    ['one-sided', 'without-lag-zero', 'two-sided']
     """
 
     id: str
@@ -56,9 +105,20 @@ class Claim:
     readings: tuple[Reading, ...]
 
     @property
-    def module(self) -> str:
-        """The module in `claims` that checks it."""
-        return self.id.replace("-", "_").replace("(", "").replace(")", "")
+    def title(self) -> str:
+        """Its name, and where it stands."""
+        return f"{self.id} ({self.reference})"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The statement as printed and the readings, as (name, value) pairs."""
+        yield "as printed", self.statement
+        yield "verdict that the ledger expects", self.expected
+        yield "readings", ""
+        yield from ((reading.id, f"{reading.statement} {reading.proved} is expected.") for reading in self.readings)
+
+    def to_json(self) -> dict[str, Any]:
+        """An object with the fields of the record, the readings as objects."""
+        return asdict(self)
 
 
 def load() -> tuple[Claim, ...]:
@@ -67,7 +127,7 @@ def load() -> tuple[Claim, ...]:
 
 
 def expected_without() -> dict[str, dict[str, str]]:
-    """{experiment: {hypothesis: verdict on the claim without it}}: REFUTED where it is needed."""
+    """A dict {ablation: {hypothesis: verdict on the claim without it}}; the verdict is REFUTED where the hypothesis is needed."""
     return {name: {str(key): str(value) for key, value in entry.items()} for name, entry in _contents()["without"].items()}
 
 
@@ -96,6 +156,7 @@ def _claim(name: str, entry: dict[str, object]) -> Claim:
                 theorems=tuple(value.get("theorems", ())),
                 missing=str(value.get("missing", "")),
                 part=str(value.get("part", "")),
+                check=str(value.get("check", f"{name}.{key}".replace("-", "_"))),
             )
             for key, value in readings.items()
         ),

@@ -4,6 +4,8 @@ Verdict          PROVED, IDENTITY, CERTIFIED, REFUTED, AMENDED, ERROR
 Outcome          what one check found: verdict, evidence in words, certificates
 ReadingResult    an outcome with the reading it belongs to, the verdict the ledger expects, and the seconds it took
 ClaimResult      the readings of one claim and the verdict on the claim as a whole
+Row              a claim without one or two of its hypotheses
+of_readings      the verdict on a claim from those on its readings
 Report           all claims of a run; `as_expected` decides the exit code
 """
 
@@ -20,14 +22,20 @@ from ...base.sheets import Shown
 from ..evidence.attacks import Attacked
 from ..trust.structure_certificates import Certificate, sha256
 from .ledger import Claim, Reading
+from .picture import Line, draw
 
 
 class Verdict(StrEnum):
-    """The closed list, from the strongest to a check that did not finish.
+    """The closed list of verdicts, from the strongest to that of a check which did not finish.
 
-    PROVED: for all systems, by Rocq. IDENTITY: for all values of the entries at the dimensions named. CERTIFIED: of a statement on all
-    systems, no counterexample was found among those tried; of a statement that something exists, it is there; by certificates that the
-    checker accepted. REFUTED: by a counterexample. AMENDED: of a claim, refuted as printed, and a repair of it is not.
+    Each is a string, and `meaning` says in a sentence what it stands for. A run computes verdicts; none is ever stored by hand.
+    The type is StrEnum, so that a verdict is written to JSON as it is.
+
+    Raises ValueError for a word that is none of them.
+
+    >>> from faultspace.proofs import Verdict
+    >>> Verdict("CERTIFIED").meaning
+    'no counterexample was found among the systems tried, or what is said to exist is there, by certificates that the checker accepted'
     """
 
     PROVED = "PROVED"
@@ -37,6 +45,22 @@ class Verdict(StrEnum):
     AMENDED = "AMENDED"
     ERROR = "ERROR"
 
+    @property
+    def meaning(self) -> str:
+        """What the verdict says of a statement."""
+        return _MEANINGS[self]
+
+
+_MEANINGS = {
+    Verdict.PROVED: "it holds for all systems and dimensions, by theorems that Rocq has checked, without axioms",
+    Verdict.IDENTITY: "it holds for all values of the entries at the dimensions named, by polynomial identities expanded twice",
+    Verdict.CERTIFIED: (
+        "no counterexample was found among the systems tried, or what is said to exist is there, by certificates that the checker accepted"
+    ),
+    Verdict.REFUTED: "it fails, by a counterexample with certificates that the checker accepted",
+    Verdict.AMENDED: "the claim is refuted as printed, or a part of it is, and a repair of it is not",
+    Verdict.ERROR: "the check did not finish",
+}
 
 IMPLIED = "IMPLIED"  # the ledger's word for a hypothesis that follows from the others
 
@@ -54,8 +78,8 @@ class Outcome:
     accepted: int = 0
 
 
-@dataclass(frozen=True)
-class ReadingResult:
+@dataclass(frozen=True, repr=False)
+class ReadingResult(Shown):
     """One reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
 
     reading: Reading
@@ -74,6 +98,17 @@ class ReadingResult:
     def as_expected(self) -> bool:
         """Whether the computed verdict is the expected one."""
         return self.outcome.verdict == self.expected
+
+    @property
+    def title(self) -> str:
+        """Its name and verdict."""
+        return f"{self.reading.id}: {self.outcome.verdict}" + ("" if self.as_expected else f", expected {self.expected}")
+
+    def sheet(self) -> list[tuple[str, str]]:
+        """The statement, and what its verdict rests on, as (name, value) pairs."""
+        attacks = [("attacked by", attack.words) for attack in self.attacks]
+        certificates = ("certificates accepted", str(self.outcome.accepted))
+        return [("statement", self.reading.statement), ("evidence", self.outcome.evidence), certificates, *attacks]
 
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
@@ -95,8 +130,8 @@ class ReadingResult:
         }
 
 
-@dataclass(frozen=True)
-class ClaimResult:
+@dataclass(frozen=True, repr=False)
+class ClaimResult(Shown):
     """A claim with its readings checked. AMENDED: every reading as printed of the claim, or of one of its parts, is refuted, and a repair
     is not."""
 
@@ -124,6 +159,16 @@ class ClaimResult:
     def as_expected(self) -> bool:
         """Whether every verdict, the claim's own included, is the expected one."""
         return self.verdict == self.expected and all(r.as_expected for r in self.readings)
+
+    @property
+    def title(self) -> str:
+        """Its name and verdict."""
+        return f"{self.claim.id}: {self.verdict}" + ("" if self.verdict == self.expected else f", expected {self.expected}")
+
+    def sheet(self) -> list[tuple[str, str]]:
+        """The statement as printed, and the verdict on each reading, as (name, value) pairs."""
+        readings = [(one.reading.id, f"{one.outcome.verdict}. {one.reading.statement}") for one in self.readings]
+        return [("as printed", self.claim.statement), ("readings", ""), *readings]
 
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
@@ -165,7 +210,7 @@ class Row:
     expected, unless it is told why there is none.
     """
 
-    experiment: str
+    ablation: str
     claim: str
     conclusion: str
     dropped: tuple[str, ...]
@@ -211,7 +256,7 @@ class Row:
     def to_json(self) -> dict[str, Any]:
         """The object in `verify --json`."""
         return {
-            "experiment": self.experiment,
+            "experiment": self.ablation,
             "claim": self.claim,
             "conclusion": self.conclusion,
             "dropped": list(self.dropped),
@@ -233,7 +278,21 @@ class Row:
 
 @dataclass(frozen=True, repr=False)
 class Report(Shown):
-    """The result of a run."""
+    """The verdicts of a run on every claim that was asked for; `verify` returns it.
+
+    `claims` is a tuple with a ClaimResult a claim, whose `readings` hold the outcomes, and `hypotheses` has a Row for each hypothesis that
+    was dropped. `corpus` says in words on which systems the run rests, `seconds` is how long it took, and `machine` is what there is to say
+    of Rocq. `certificates()` gives the list of all headline certificates. The claims are those of [G25].
+
+    Raises nothing; `plot` raises ImportError where there is no matplotlib.
+
+    >>> import faultspace as fs
+    >>> report = fs.verify(["example-v"], jobs=1)
+    >>> [reading.title for reading in report.claims[0].readings][:3]
+    ['one-fault: CERTIFIED', 'two-columns: CERTIFIED', 'window-of-assumption-4: REFUTED']
+    >>> len(report.certificates()), report.as_expected
+    (15, True)
+    """
 
     effort: str
     claims: tuple[ClaimResult, ...]
@@ -266,7 +325,18 @@ class Report(Shown):
         """Every headline certificate once, in the order of the claims."""
         readings = (reading.outcome.certificates for claim in self.claims for reading in claim.readings)
         rows = (row.certificates for row in self.hypotheses)
-        return list({sha256(certificate): certificate for shown in (*readings, *rows) for certificate in shown}.values())
+        return list({sha256(certificate): certificate for several in (*readings, *rows) for certificate in several}.values())
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws a line a claim and a square a reading into the matplotlib axes `ax`, new ones where None are given, and returns them.
+
+        Raises ImportError where there is no matplotlib.
+        """
+        lines = []
+        for one in self.claims:
+            printed, ours = (tuple(str(r.outcome.verdict) for r in one.readings if r.reading.repair == repair) for repair in (False, True))
+            lines.append(Line(one.claim.id, str(one.verdict), printed, ours))
+        return draw(lines, ax)
 
     def to_json(self) -> dict[str, Any]:
         """The object that `verify --json` prints."""

@@ -1,9 +1,10 @@
-"""What a check of a claim has at hand, and the two ways it comes to a verdict.
+"""What a check of a claim has at hand, and the ways in which it comes to a verdict.
 
-Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, rivals
-certify       the statement on every dossier that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
+Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, alternatives, limits
+certify       the statement on every system of the corpus that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
 refute        the smallest counterexample in a box, found by search: REFUTED, or what `certify` says when there is none
 witnessed     the opposite of a statement, by the counterexample to it
+counterexample, certify_records    the outcome of a search, and of a statement on pairs, alternatives or experiments
 accepted      certificates, each put before the checker once more: headline certificates are never shown unchecked
 """
 
@@ -15,71 +16,61 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 from ...exact.system.systems import ResidualSystem
-from ..evidence.alternatives import PairDossier, RivalDossier, pair_dossiers, rival_dossiers
-from ..evidence.corpus import Corpus, Dossier, Progress, build, describe, examine
-from ..evidence.experiments import LimitDossier, limit_dossiers
-from ..evidence.pairs_by_polynomial import JudgedPair, judged_pairs
+from ..evidence.alternatives import AlternativeEvidence, PairEvidence, alternatives, compared_pairs
+from ..evidence.corpus import Evidence, Progress, corpus, describe, examine
+from ..evidence.experiments import LimitEvidence, certified_limits
+from ..evidence.pairs_by_polynomial import PairByPolynomial, pairs_by_polynomial
 from ..evidence.search import Box, Facts, Flags, smallest
 from ..trust.structure_certificates import Certificate, accept
 from .verdicts import Outcome, Verdict
 
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
-Test = Callable[[Dossier], bool]
-Record = TypeVar("Record", PairDossier, RivalDossier, JudgedPair, LimitDossier)
+Test = Callable[[Evidence], bool]
+Item = TypeVar("Item", PairEvidence, AlternativeEvidence, PairByPolynomial, LimitEvidence)
 Made = TypeVar("Made")
 
 
 @dataclass
 class Workbench:
-    """The effort ("quick" or "full"), the number of processes, and where progress goes."""
+    """The effort ("quick" or "full"), the number of processes, where progress goes, and the certified material of a run."""
 
     effort: str
     jobs: int
     progress: Progress
 
     @cached_property
-    def corpus(self) -> Corpus:
-        """Single systems with accepted certificates."""
-        return build(self.effort, self.jobs, self.progress)
+    def corpus(self) -> tuple[Evidence, ...]:
+        """Single systems, with the structure that accepted certificates state."""
+        return corpus(self.effort, self.jobs, self.progress)
 
     @cached_property
-    def pairs(self) -> tuple[PairDossier, ...]:
+    def pairs(self) -> tuple[PairEvidence, ...]:
         """Pairs of systems with accepted certificates."""
-        return pair_dossiers(self.effort, self.jobs, self.progress)
+        return compared_pairs(self.effort, self.jobs, self.progress)
 
     @cached_property
-    def rivals(self) -> tuple[RivalDossier, ...]:
+    def alternatives(self) -> tuple[AlternativeEvidence, ...]:
         """Systems with other fault matrices for the same (A, C)."""
-        return rival_dossiers(self.effort, self.jobs, self.progress)
+        return alternatives(self.effort, self.jobs, self.progress)
 
     @cached_property
-    def judged(self) -> tuple[JudgedPair, ...]:
+    def pairs_by_polynomial(self) -> tuple[PairByPolynomial, ...]:
         """Pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
-        return judged_pairs(self.effort, self.jobs, self.progress)
+        return pairs_by_polynomial(self.effort, self.jobs, self.progress)
 
     @cached_property
-    def limits(self) -> tuple[LimitDossier, ...]:
+    def limits(self) -> tuple[LimitEvidence, ...]:
         """Experiments with certified population limits."""
-        return limit_dossiers(self.effort, self.jobs, self.progress)
-
-    def once(self, name: str, find: Callable[[], Outcome]) -> Outcome:
-        """An outcome that several readings share, found the first time it is asked for."""
-        if name not in self._shared:
-            self._shared[name] = find()
-        return self._shared[name]
+        return certified_limits(self.effort, self.jobs, self.progress)
 
     def records(self, name: str, make: Callable[[], list[Made]]) -> list[Made]:
-        """Certified material that several experiments share, made the first time it is asked for."""
+        """Certified material that several ablations share, made the first time it is asked for."""
         if name not in self._made:
             self._made[name] = make()
         return self._made[name]
 
     @cached_property
     def _made(self) -> dict[str, list[Any]]:
-        return {}
-
-    @cached_property
-    def _shared(self) -> dict[str, Outcome]:
         return {}
 
     @property
@@ -97,23 +88,23 @@ def accepted(certificates: Iterable[Certificate]) -> tuple[Certificate, ...]:
 
 
 def size(system: ResidualSystem) -> tuple[int, ...]:
-    """n + m + p, then n, m, p: the order in which the smallest is sought."""
+    """The numbers n + m + p, then n, m, p: the order in which the smallest is sought."""
     return (system.n + system.m + system.p, system.n, system.m, system.p)
 
 
 def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome:
-    """`holds` on every dossier of the corpus to which the statement applies."""
-    tried = [d for d in bench.corpus.dossiers if applies(d)]
-    failing = sorted((d for d in tried if not holds(d)), key=lambda d: size(d.system))
+    """The outcome of the statement `holds` on every system of the corpus to which it applies: CERTIFIED, or REFUTED by the smallest."""
+    tried = [e for e in bench.corpus if applies(e)]
+    failing = sorted((e for e in tried if not holds(e)), key=lambda e: size(e.system))
     if failing:
         system = failing[0].system
         return Outcome(Verdict.REFUTED, f"fails on {system}, the smallest of the corpus", accepted(show(system)), failing[0].accepted)
     if not tried:
         return Outcome(Verdict.ERROR, "no system of the corpus meets the hypotheses")
-    total = sum(d.weight for d in tried)
-    representative = next((d for d in tried if d.n), tried[0]).system
+    total = sum(e.weight for e in tried)
+    representative = next((e for e in tried if e.system.n), tried[0]).system
     evidence = f"no counterexample found in {total} systems: {describe(tried)}"
-    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(d.accepted for d in tried))
+    return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(e.accepted for e in tried))
 
 
 def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], applies: Test, holds: Test, show: Show) -> Outcome:
@@ -123,8 +114,8 @@ def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], appl
     """
 
     def confirm(system: ResidualSystem) -> bool:
-        dossier = examine("search", system)
-        return applies(dossier) and not holds(dossier)
+        evidence = examine("search", system)
+        return applies(evidence) and not holds(evidence)
 
     found = smallest(box, candidate, confirm)
     if found is None:
@@ -144,22 +135,22 @@ def witnessed(found: Outcome) -> Outcome:
 
 
 def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:
-    """REFUTED by these certificates."""
-    shown = accepted(certificates)
-    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", shown, len(shown))
+    """The outcome REFUTED, by these certificates."""
+    checked = accepted(certificates)
+    return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", checked, len(checked))
 
 
 def certify_records(
-    records: Sequence[Record],
-    failing: Sequence[Record],
-    words: Callable[[Record], str],
-    show: Callable[[Record], Iterable[Certificate]],
+    records: Sequence[Item],
+    failing: Sequence[Item],
+    words: Callable[[Item], str],
+    show: Callable[[Item], Iterable[Certificate]],
     unit: str = "pairs",
 ) -> Outcome:
-    """The same for pairs and rivals: `records` meet the hypotheses, `failing` are those among them that refute the statement."""
+    """The same for pairs and alternatives: `records` meet the hypotheses, `failing` are those among them that refute the statement."""
     if failing:
-        shown = accepted(show(failing[0]))
-        return Outcome(Verdict.REFUTED, f"fails on {words(failing[0])}", shown, failing[0].accepted)
+        certificates = accepted(show(failing[0]))
+        return Outcome(Verdict.REFUTED, f"fails on {words(failing[0])}", certificates, failing[0].accepted)
     if not records:
         return Outcome(Verdict.ERROR, f"none of the {unit} meets the hypotheses")
     totals: dict[str, int] = {}

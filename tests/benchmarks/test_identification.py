@@ -9,18 +9,19 @@ import numpy as np
 import pytest
 
 from benchmarks.identification_bounds import Rates, bound, exponent, flops
-from benchmarks.identification_cells import RESULT, Cell, Limits, measure
+from benchmarks.identification_cells import RESULT, Cell, measure
 from benchmarks.identification_data import FAULT_POLE, ORDER, POLES, Setting, errors, read, record, system, write
 from benchmarks.identification_methods import METHODS, PREPARATIONS, Method
 from benchmarks.identification_run import OURS, Run, aims
 from benchmarks.identification_study import Comparison, sections
 from benchmarks.identification_tables import MODELS, notes, sheets
 from benchmarks.sheets import markdown
+from faultspace.base.processes import Limits
 from faultspace.numeric.model.models import StateSpaceModel
 
 SETTING = Setting(2, 3, 5, 20_000)
 NOISY = replace(SETTING, noise=0.01)
-QUICK = Limits(seconds=60, megabytes=6000)
+QUICK = Limits(seconds=60, memory=6000 << 20)
 PEERS = [method for method in METHODS if method.needs and method.name not in ("fault-id", "nfoursid")]
 
 
@@ -95,12 +96,12 @@ def test_every_python_method_has_its_preparation() -> None:
 
 def test_a_cell_is_stopped_at_the_limits_and_failures_are_told(tmp_path: Path) -> None:
     def cell(code: str) -> Cell:
-        return measure([sys.executable, "-c", code], SETTING, tmp_path, Limits(seconds=1, megabytes=500))
+        return measure([sys.executable, "-c", code], SETTING, tmp_path, Limits(seconds=1, memory=500 << 20))
 
     assert cell("while True: pass").outcome == "limit"
     assert cell("x = bytearray(2**30)").outcome == "memory"
-    told = cell("raise ValueError('no such window')")
-    assert told.outcome == "failed" and "no such window" in told.why
+    failed = cell("raise ValueError('no such window')")
+    assert failed.outcome == "failed" and "no such window" in failed.why
     assert cell("print('something else')").outcome == "failed"
     finished = cell(f"print('{RESULT}' + '{{\"seconds\": 2.5}}')")
     assert (finished.outcome, finished.seconds, finished.megabytes) == ("finished", 2.5, None)
@@ -142,12 +143,12 @@ def test_the_fastest_peer_of_the_same_kind_counts(peer: float, met: bool) -> Non
 def test_memory_the_bounds_and_the_cholesky_are_judged(megabytes: float, met: bool) -> None:
     big, small = Setting(2, 3, 20, 1000), Setting(1, 1, 10, 1000)
     least = bound("ours-qr", big, Rates(1e9, 1e9))
-    judged = aims(run_of(big, {"ours": done(1.0, megabytes), "ours-qr": done(3.9 * least)}), MODELS)
-    assert [aim.met for aim in judged if "memory" in aim.words] == [met]
-    assert [aim.met for aim in judged if "ours-qr within" in aim.words] == [True]
+    found = aims(run_of(big, {"ours": done(1.0, megabytes), "ours-qr": done(3.9 * least)}), MODELS)
+    assert [aim.met for aim in found if "memory" in aim.words] == [met]
+    assert [aim.met for aim in found if "ours-qr within" in aim.words] == [True]
     cells = {"ours": done(2.0), "ours-gram": done(1.0), "ours-moesp": done(1.2), "ctrlsys-C": done(1.1), "ctrlsys": done(3.0)}
-    judged = aims(run_of(small, cells), MODELS)
-    assert [aim.met for aim in judged if "no slower" in aim.words] == [True, False, True]
+    found = aims(run_of(small, cells), MODELS)
+    assert [aim.met for aim in found if "no slower" in aim.words] == [True, False, True]
 
 
 def test_the_study_is_judged_and_absent_peers_have_a_row() -> None:

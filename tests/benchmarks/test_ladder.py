@@ -7,9 +7,9 @@ import sys
 
 import pytest
 
-from benchmarks.ladder_cells import Cell, Limits, measure, ranks_from_indices, read_lines
+from benchmarks.ladder_cells import Budget, Cell, measure, ranks_from_indices, read_lines
 from benchmarks.ladder_methods import METHODS, RUNNERS, Method
-from benchmarks.ladder_run import Record, Run, aims, disagreements, exponent, ratio
+from benchmarks.ladder_run import Run, SystemCells, aims, disagreements, exponent, ratio
 from benchmarks.ladder_systems import FAMILIES, Family
 from benchmarks.ladder_tables import notes, sheets
 from benchmarks.sheets import markdown
@@ -17,10 +17,10 @@ from faultspace.exact.algebra.matrices import Matrix, beside, rank, stacked
 from faultspace.exact.structure.inversion import largest_output_nulling
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.exact.system.windows import rank_of_every_window
+from faultspace.exact.system.windows import window_matrix
 
 PLANTED = [family for family in FAMILIES if family.kind != "dense"]
-QUICK = Limits(seconds=20, setup=20, repeats=1)
+QUICK = Budget(seconds=20, setup=20, repeats=1)
 
 
 def system_of(family: Family, n: int) -> ResidualSystem:
@@ -75,13 +75,13 @@ def test_every_method_agrees_with_the_built_windows(method: Method, capsys: pyte
     else:
         cell = measure(method, system, QUICK)
     assert cell.outcome == "finished", cell.why
-    assert tuple(cell.ranks[s] for s in range(1, 6)) == rank_of_every_window(system_of(family, 4), 5)
+    assert tuple(cell.ranks[s] for s in range(1, 6)) == tuple(rank(window_matrix(system_of(family, 4), s)) for s in range(1, 6))
 
 
 def test_a_method_over_the_limit_is_stopped_and_keeps_what_it_told() -> None:
     endless = "print('ready 0.0')\nprint('rank 1 2', flush=True)\nwhile True: pass"
     method = Method("endless", "never ends", sys.executable, lambda system: endless)
-    cell = measure(method, FAMILIES[0].specimen(4).to_json(), Limits(seconds=0.3))
+    cell = measure(method, FAMILIES[0].specimen(4).to_json(), Budget(seconds=0.3))
     assert cell.outcome == "limit"
     assert cell.ranks == {1: 2}
     assert 0 < cell.seconds < 5
@@ -96,8 +96,8 @@ def test_a_method_that_breaks_is_told_apart_from_one_without_memory() -> None:
 
 def made_up(cells: list[dict[str, Cell]]) -> Run:
     family = Family("planted", "wide")
-    records = tuple(Record(family, n, 8, 3, row) for n, row in zip((10, 20, 40, 80), cells, strict=False))
-    return Run({"cores": "1", "ours": "1", "flint": "1"}, Limits(), {}, records)
+    records = tuple(SystemCells(family, n, 8, 3, row) for n, row in zip((10, 20, 40, 80), cells, strict=False))
+    return Run({"cores": "1", "ours": "1", "flint": "1"}, Budget(), {}, records)
 
 
 def test_exponents_ratios_and_aims_are_computed_from_the_cells() -> None:

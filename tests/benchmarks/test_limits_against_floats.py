@@ -128,9 +128,9 @@ def test_the_prediction_is_that_of_the_other_tests(outputs: bool) -> None:
 
 
 def test_a_free_order_models_the_fault_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
-    told = free_order(benchmark_limits())
-    assert (told.rank, told.contains, told.shift_invariant) == (5, True, True)
-    assert told.poles_are_system_and_fault and told.markov_exact
+    order = free_order(benchmark_limits())
+    assert (order.rank, order.contains, order.shift_invariant) == (5, True, True)
+    assert order.poles_are_system_and_fault and order.markov_exact
     monkeypatch.setattr(past_outputs_bias, "FAULT_POLE", 0.8)
     assert not free_order(benchmark_limits()).poles_are_system_and_fault
 

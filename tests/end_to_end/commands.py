@@ -17,6 +17,7 @@ import re
 import subprocess
 import sys
 from dataclasses import dataclass
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -35,7 +36,7 @@ _SCHEMAS = {"certificate": "faultspace.proofs"}
 
 @dataclass(frozen=True)
 class Run:
-    """What a run left behind."""
+    """This is what a run left behind."""
 
     code: int
     out: str
@@ -70,14 +71,15 @@ def call(*arguments: str) -> Run:
     return Run(code, out.getvalue(), err.getvalue())
 
 
-def validator(name: str) -> jsonschema.Draft202012Validator:
-    """Of `NAME.schema.json`, which is itself checked first."""
-    package = _SCHEMAS.get(name, "faultspace.exact")
+@cache
+def validator(name: str, package: str | None = None) -> jsonschema.Draft202012Validator:
+    """The validator of `NAME.schema.json` in the package. The schema is itself checked first, which takes longer than its use."""
+    package = package or _SCHEMAS.get(name, "faultspace.exact")
     schema = json.loads(resources.files(package).joinpath("schemas", f"{name}.schema.json").read_text("utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
 
 
 def example(name: str) -> Any:
-    """The document of a packaged system."""
+    """This is the document of a packaged system."""
     return json.loads(EXAMPLES.joinpath(f"{name}.json").read_text("utf-8"))

@@ -9,15 +9,11 @@ valid           a document that the schema of that name in the package accepts
 
 from __future__ import annotations
 
-import json
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import jsonschema
-
 from faultspace import example_data as made
-from tests.end_to_end.commands import Run, call
+from tests.end_to_end.commands import Run, call, validator
 
 CHANNELS = ("--inputs", ",".join(made.INPUTS), "--outputs", ",".join(made.OUTPUTS))
 
@@ -29,12 +25,12 @@ def small_csv(folder: Path, text: str, name: str = "data.csv") -> Path:
 
 
 def identified(path: Path, out: Path, *options: str, channels: tuple[str, ...] = CHANNELS) -> Run:
-    """A run with the packaged record's channels unless others are given."""
+    """Run with the packaged record's channels unless others are given."""
     return call("identify", str(path), *channels, "--out", str(out), *options)
 
 
 def refused(run: Run, *parts: str) -> None:
-    """One line on standard error with these parts; nothing on standard output; exit code 2."""
+    """Assert one line on standard error with these parts, nothing on standard output, and exit code 2."""
     assert (run.code, run.out) == (2, ""), run
     (line,) = run.err.strip().splitlines()
     assert line.startswith("faultspace: "), run.err
@@ -43,8 +39,6 @@ def refused(run: Run, *parts: str) -> None:
 
 
 def valid(name: str, document: Any) -> Any:
-    """The document, which the schema NAME.schema.json accepts."""
-    schema = json.loads(resources.files("faultspace.numeric").joinpath("schemas", f"{name}.schema.json").read_text("utf-8"))
-    jsonschema.Draft202012Validator.check_schema(schema)
-    jsonschema.Draft202012Validator(schema).validate(document)
+    """Return the document, which the schema NAME.schema.json accepts."""
+    validator(name, "faultspace.numeric").validate(document)
     return document

@@ -1,7 +1,7 @@
-"""What `faultspace audit` prints: with records made here in place of a run, at every width.
+"""What `faultspace audit` prints: with results made here in place of a run, at every width.
 
-record     of a function, with its kind, verdict and ratio
-made       puts records in the place of the run
+result     of a check of a function, with its kind, verdict and ratio
+made       puts results in the place of the run
 """
 
 from __future__ import annotations
@@ -15,36 +15,37 @@ import pytest
 
 from faultspace.cli import auditing
 from faultspace.cli.command_line import main
-from faultspace.numeric.audit.records import Kind, Record, Severity, Verdict
+from faultspace.numeric.audit.outcome import Audit
+from faultspace.numeric.audit.records import CheckResult, Demand, Severity, Status
 from tests.end_to_end.commands import call
 
 
-def record(function: str, vector: str, kind: Kind, verdict: Verdict, ratio: float | None) -> Record:
+def result(function: str, vector: str, kind: Demand, verdict: Status, ratio: float | None) -> CheckResult:
     """A check of the slug "exact-recovery" with this outcome; its bound is 1e-9."""
     got = None if ratio is None else ratio * 1e-9
     asked = ("exact-recovery", function, vector, "proposition-1", "the model is wrong", str(Severity.SILENT), str(kind), str(verdict))
-    return Record(*asked, "relative error of A", got, 1e-9, ratio, "", 0.1)
+    return CheckResult(*asked, "relative error of A", got, 1e-9, ratio, "", 0.1)
 
 
-RECORDS = (
-    record("identify", "n2-u1-p1", Kind.MUST_HOLD, Verdict.PASS, 0.25),
-    record("identify", "n3-u1-p2-with-a-very-long-name-of-a-vector", Kind.MUST_HOLD, Verdict.PASS, 0.5),
-    record("fault_space", "delayed", Kind.MUST_HOLD, Verdict.FAIL, 300.0),
-    record("fault_space", "zero-outside", Kind.MUST_HOLD, Verdict.FAIL, 20.0),
-    record("fault_space", "one-fault", Kind.FREE, Verdict.FAIL, 1e6),
-    record("fault_space", "two-faults", Kind.MUST_HOLD, Verdict.NOT_OFFERED, None),
+RESULTS = (
+    result("identify", "n2-u1-p1", Demand.MUST_HOLD, Status.PASS, 0.25),
+    result("identify", "n3-u1-p2-with-a-very-long-name-of-a-vector", Demand.MUST_HOLD, Status.PASS, 0.5),
+    result("fault_space", "delayed", Demand.MUST_HOLD, Status.FAIL, 300.0),
+    result("fault_space", "zero-outside", Demand.MUST_HOLD, Status.FAIL, 20.0),
+    result("fault_space", "one-fault", Demand.FREE, Status.FAIL, 1e6),
+    result("fault_space", "two-faults", Demand.MUST_HOLD, Status.NOT_OFFERED, None),
 )
-Made = Callable[[tuple[Record, ...]], None]
+Made = Callable[[tuple[CheckResult, ...]], None]
 
 
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> Made:
-    """Call it with the records of the run."""
-    return lambda records: monkeypatch.setattr(auditing, "audit_named", lambda name, **settings: records)
+    """The test calls it with the results of the run."""
+    return lambda results: monkeypatch.setattr(auditing, "audit", lambda name, **settings: Audit(str(name), results))
 
 
 def test_a_function_has_a_line_and_failures_are_told_in_words(made: Made) -> None:
-    made(RECORDS)
+    made(RESULTS)
     run = call("audit")
     assert (run.code, run.err) == (1, "")
     lines = [" ".join(line.split()) for line in run.out.splitlines()]
@@ -56,22 +57,22 @@ def test_a_function_has_a_line_and_failures_are_told_in_words(made: Made) -> Non
 
 
 def test_without_a_failure_the_code_is_0(made: Made) -> None:
-    made(RECORDS[:2])
+    made(RESULTS[:2])
     run = call("audit")
     assert run.code == 0 and "!" not in run.out
     assert run.out.endswith("2 checks of identify: 0 failed\n")
 
 
 def test_every_check_is_printed_when_asked_for(made: Made) -> None:
-    made(RECORDS)
+    made(RESULTS)
     short, long = call("audit").out, call("audit", "-v").out
-    assert all(one.name in long for one in RECORDS) and RECORDS[1].name not in short
+    assert all(one.name in long for one in RESULTS) and RESULTS[1].name not in short
     assert long.splitlines()[-1] == short.splitlines()[-1]
     assert call("audit", "--json").json == call("audit", "-v", "--json").json
 
 
 class Window(io.StringIO):
-    """A terminal."""
+    """It says that it is a terminal."""
 
     def isatty(self) -> bool:
         return True
@@ -79,14 +80,14 @@ class Window(io.StringIO):
 
 @pytest.mark.parametrize("width", [60, 80, 140, 200])
 def test_nothing_is_cut_on_a_terminal_of_any_width(made: Made, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
-    made(RECORDS)
+    made(RESULTS)
     for name, value in (("TERM", "xterm"), ("COLUMNS", str(width))):
         monkeypatch.setenv(name, value)
     window = Window()
     with contextlib.redirect_stdout(window):
         assert main(["audit", "-v"]) == 1
-    shown = re.sub(r"\x1b\[[0-9;?]*m", "", window.getvalue())
-    assert max(map(len, shown.splitlines())) <= width and "…" not in shown
-    together = re.sub(r"\s", "", shown)
-    wanted = [*(one.name for one in RECORDS), "proposition-1", "not offered", "ratio", "largest ratio", "3e+02", "2 failed"]
+    printed = re.sub(r"\x1b\[[0-9;?]*m", "", window.getvalue())
+    assert max(map(len, printed.splitlines())) <= width and "…" not in printed
+    together = re.sub(r"\s", "", printed)
+    wanted = [*(one.name for one in RESULTS), "proposition-1", "not offered", "ratio", "largest ratio", "3e+02", "2 failed"]
     assert [text for text in wanted if re.sub(r"\s", "", text) not in together] == []

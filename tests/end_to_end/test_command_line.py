@@ -287,7 +287,7 @@ def test_systems_that_cannot_be_compared_are_bad_input() -> None:
 
 @pytest.fixture
 def certificate() -> Any:
-    """A certificate about the paper's example."""
+    """The certificate is about the paper's example."""
     return certificates.window_ranks(kernel_representation(read_system(example("paper")).residual))
 
 

@@ -50,7 +50,7 @@ def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
 
 
 def response(A: Any, F: Any, C: Any, G: Any, count: int = 8) -> Array:
-    """G, CF, CAF, ... of each column, stacked (count p, m)."""
+    """Return G, CF, CAF, ... of each column, stacked (count p, m)."""
     columns = np.asarray(F, dtype=float).shape[1]
     return StateSpaceModel(A, F, C, G).markov(count).reshape(-1, columns)
 
@@ -95,8 +95,8 @@ def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path
     run = command("identify", str(csv_file), *CHANNELS, "--out", str(out))
     assert run.code == 0, run.err
     assert "order **3**, by the gap" in run.out and "n_v: **1**" in run.out and run.err == ""
-    for told in ("poles: ", "stable, largest modulus", "fit", "why: ", "5 independent ones for the 6", "meaning: ", "delay until"):
-        assert told in run.out, told
+    for part in ("poles: ", "stable, largest modulus", "fit", "why: ", "5 independent ones for the 6", "meaning: ", "delay until"):
+        assert part in run.out, part
     assert "determined: " in run.out and "## What to try next" in run.out and "given" not in run.out
     text = (out / report.SUMMARY).read_text("utf-8")
     assert "## Fault space" in text and "n_v: **1**" in text
@@ -205,7 +205,7 @@ def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: P
     assert "undecided" in (out / report.SUMMARY).read_text("utf-8")
 
 
-def test_faults_given_override_the_count_and_are_told(csv_file: Path, tmp_path: Path) -> None:
+def test_faults_given_override_the_count_and_are_reported(csv_file: Path, tmp_path: Path) -> None:
     run = identified(csv_file, tmp_path / "out", "--json", "--faults", "3")
     assert (run.code, run.json["n_v"], run.json["n_v_given"]) == (0, 3, True)
     valid("identify", run.json)
@@ -215,7 +215,7 @@ def test_faults_given_override_the_count_and_are_told(csv_file: Path, tmp_path: 
 
 
 def late_faults(folder: Path, loudness: float, number: int) -> Path:
-    """1500 samples without fault, then 1500 with so many, under noise of very unequal and coloured levels."""
+    """Return 1500 samples without fault, then 1500 with so many, under noise of very unequal and coloured levels."""
     draw = np.random.default_rng(8)
     truth = StateSpaceModel(made.A, np.hstack([made.B, np.eye(3)[:, :number]]), made.C, np.zeros((3, 2 + number)))
     u, v = draw.standard_normal((3000, 2)), loudness * draw.standard_normal((3000, number))
@@ -251,7 +251,7 @@ def test_without_a_fault_nothing_stands_out_of_healthy_samples(tmp_path: Path) -
     valid("identify", answer)
 
 
-def test_healthy_samples_that_are_too_few_are_told(tmp_path: Path, csv_file: Path) -> None:
+def test_healthy_samples_that_are_too_few_are_reported(tmp_path: Path, csv_file: Path) -> None:
     answer = identified(csv_file, tmp_path / "out", "--json", "--healthy-until", "200", "--order", "3").json
     assert (answer["n_v_from"], answer["healthy_until"]) in ((None, 200), ("residual alone", 200)) and answer["n_v"] != 0
     assert any("not counted against samples 0 to 199: healthy has 200 samples" in note for note in answer["notes"])
@@ -292,7 +292,7 @@ def test_an_order_that_leaves_the_model_open_is_not_taken() -> None:
     assert any("at 3" in line for line in advice(answer))
 
 
-def test_an_unstable_model_is_answered_and_told() -> None:
+def test_an_unstable_model_is_answered_and_reported() -> None:
     draw = np.random.default_rng(6)
     A = np.diag([1.02, 0.5])
     u, v = draw.standard_normal((1200, 1)), draw.standard_normal((1200, 1))

@@ -1,4 +1,4 @@
-"""Records made to mislead `identify --healthy-until`: no fault is told as a bold 0, and no healthy record as a fault.
+"""Records made to mislead `identify --healthy-until`: no fault is counted as a bold 0, and no healthy record as a fault.
 
 record      the packaged plant with a fault that begins at a sample, under unequal, coloured noise; the healthy part is what is stated
 FAULTS      what is added to the outputs from the sample START on, in units of each sensor's noise
@@ -44,7 +44,7 @@ def clean(u: Array, A: Array = made.A) -> Array:
 def answered(
     y: Array, u: Array, *, until: int = START, outputs: tuple[str, ...] = made.OUTPUTS, **options: Any
 ) -> tuple[Identification, dict[str, Any], str]:
-    """The answer, its document, which the schema accepts, and what people read."""
+    """Return the answer, its document, which the schema accepts, and what people read."""
     answer = identify(recorded(y, u, outputs=outputs, inputs=made.INPUTS), order=3, healthy=until, **options)
     document = valid("identify", report.document(answer, "record") | {"files": []})
     space = answer.fault_space
@@ -81,15 +81,15 @@ FAULTS: dict[str, Callable[[NDArray[np.int_], np.random.Generator], Array]] = {
 
 @pytest.mark.parametrize("means", [False, True], ids=["", "means removed"])
 @pytest.mark.parametrize("name", FAULTS)
-def test_no_fault_is_told_as_zero(name: str, means: bool) -> None:
+def test_no_fault_is_counted_as_zero(name: str, means: bool) -> None:
     draw = np.random.default_rng(list(name.encode()))
     u = draw.standard_normal((N, 2)) + 3.0 * means
     y = clean(u) + noise(draw, N)
     y[START:] += FAULTS[name](np.arange(N - START), draw) * LEVELS
     units = np.array([1e-6, 1.0, 1e6])
-    answer, document, told = answered(y * units + 100.0 * units * means, u, remove_means=means)
-    assert answer.n_v != 0 and answer.at_least >= 1, told
-    assert document["n_v_at_least"] >= 1 and "n_v: **0**" not in told
+    answer, document, words = answered(y * units + 100.0 * units * means, u, remove_means=means)
+    assert answer.n_v != 0 and answer.at_least >= 1, words
+    assert document["n_v_at_least"] >= 1 and "n_v: **0**" not in words
 
 
 def _plain(draw: np.random.Generator) -> tuple[Array, Array]:
@@ -140,12 +140,12 @@ HEALTHY = {
 
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("name", HEALTHY)
-def test_no_healthy_record_is_told_as_faulty(name: str, seed: int) -> None:
+def test_no_healthy_record_is_called_faulty(name: str, seed: int) -> None:
     y, u = HEALTHY[name](np.random.default_rng((seed, *name.encode())))
-    answer, document, told = answered(y * [1e6, 1.0, 1e-6], u)
-    assert answer.at_least == 0 and answer.n_v in (0, None), told
+    answer, document, words = answered(y * [1e6, 1.0, 1e-6], u)
+    assert answer.at_least == 0 and answer.n_v in (0, None), words
     if answer.n_v == 0:
-        assert document["visible"]["constant"] is not None and "seen with a chance of 0.9" in told
+        assert document["visible"]["constant"] is not None and "seen with a chance of 0.9" in words
 
 
 # What neither spectra nor means show
@@ -157,8 +157,8 @@ def test_a_dead_sensor_that_was_mostly_noise_is_no_zero(noise_level: float) -> N
     u = draw.standard_normal((N, 2))
     y = clean(u) + noise(draw, N) / LEVELS * [0.3, 0.1, noise_level]
     y[START:, 2] = 0.0
-    answer, _, told = answered(y, u)
-    assert answer.n_v is None and "stuck or dead" in told, told
+    answer, _, words = answered(y, u)
+    assert answer.n_v is None and "stuck or dead" in words, words
 
 
 def test_a_sensor_that_only_hums_since_it_died_is_no_zero() -> None:
@@ -166,8 +166,8 @@ def test_a_sensor_that_only_hums_since_it_died_is_no_zero() -> None:
     u = draw.standard_normal((N, 2))
     y = clean(u) + noise(draw, N) / LEVELS * [0.3, 0.1, 20.0]
     y[START:, 2] = 0.01 * draw.standard_normal(N - START)
-    answer, _, told = answered(y, u)
-    assert answer.n_v is None and "smaller than while healthy" in told, told
+    answer, _, words = answered(y, u)
+    assert answer.n_v is None and "smaller than while healthy" in words, words
 
 
 @pytest.mark.parametrize("length", [1, 3])
@@ -176,8 +176,8 @@ def test_a_short_spike_in_a_long_record_is_no_zero(length: int) -> None:
     u = draw.standard_normal((20000, 2))
     y = clean(u) + noise(draw, 20000)
     y[15000 : 15000 + length, 1] += 20.0 * LEVELS[1]
-    answer, _, told = answered(y, u, until=2000)
-    assert answer.n_v is None and "times its healthy peak" in told, told
+    answer, _, words = answered(y, u, until=2000)
+    assert answer.n_v is None and "times its healthy peak" in words, words
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -185,8 +185,8 @@ def test_much_louder_inputs_make_no_fault_of_the_error_of_the_model(seed: int) -
     draw = np.random.default_rng((14, seed))
     u = draw.standard_normal((N, 2))
     u[START:] *= 30.0
-    answer, _, told = answered(clean(u) + noise(draw, N), u)
-    assert answer.at_least == 0 and "the error of the model can look like a fault" in told, told
+    answer, _, words = answered(clean(u) + noise(draw, N), u)
+    assert answer.at_least == 0 and "the error of the model can look like a fault" in words, words
 
 
 @pytest.mark.parametrize("sample", [300, 900])
@@ -220,22 +220,22 @@ def biased(seed: int, first: int, samples: int = N) -> tuple[Array, Array]:
 @pytest.mark.parametrize("until", [20, 30, 50, 64, 150, 255, N - 64, N - 5, N - 2, N - 1])
 def test_a_bias_beside_few_samples_is_seen_or_undecided(until: int) -> None:
     y, u = biased(until, until)
-    answer, _, told = answered(y, u, until=until)
-    assert answer.n_v != 0, told
+    answer, _, words = answered(y, u, until=until)
+    assert answer.n_v != 0, words
     if 50 <= until <= N - 2:
-        assert answer.moved and answer.at_least == 1, told
+        assert answer.moved and answer.at_least == 1, words
 
 
 @pytest.mark.parametrize("first", [100, 400, 700])
 def test_a_fault_among_the_healthy_samples_gives_no_zero(first: int) -> None:
-    answer, _, told = answered(*biased(first, first))
-    assert answer.n_v != 0, told
+    answer, _, words = answered(*biased(first, first))
+    assert answer.n_v != 0, words
 
 
 def test_a_drift_through_all_samples_gives_no_zero() -> None:
     y, u = biased(5, N)
-    answer, _, told = answered(y + np.outer(np.linspace(0.0, 5.0, N), LEVELS), u)
-    assert answer.n_v != 0 and "mean" in answer.reason, told
+    answer, _, words = answered(y + np.outer(np.linspace(0.0, 5.0, N), LEVELS), u)
+    assert answer.n_v != 0 and "mean" in answer.reason, words
 
 
 @pytest.mark.parametrize("value", ["stuck", "dead"])
@@ -260,9 +260,9 @@ def test_without_noise_what_the_healthy_samples_do_not_show_is_a_fault(kind: str
     y = clean(u)
     if kind != "none":
         y[START:, 0] += 1.0 if kind == "bias" else draw.standard_normal(N - START)
-    answer, _, told = answered(y, u)
-    assert (answer.n_v == 0) == (kind == "none"), told
-    assert answer.at_least == (0 if kind == "none" else 1), told
+    answer, _, words = answered(y, u)
+    assert (answer.n_v == 0) == (kind == "none"), words
+    assert answer.at_least == (0 if kind == "none" else 1), words
 
 
 def test_numbers_of_single_precision_are_answered() -> None:
@@ -270,7 +270,7 @@ def test_numbers_of_single_precision_are_answered() -> None:
     assert answered(y.astype(np.float32), u.astype(np.float32))[0].at_least == 1
 
 
-def test_without_healthy_samples_a_mean_is_told_and_not_judged() -> None:
+def test_without_healthy_samples_a_mean_is_reported_and_decides_nothing() -> None:
     y, u = biased(9, 0)
     answer = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
     assert answer.n_v is None and any("an operating point, or a constant fault" in note for note in answer.notes)

@@ -1,4 +1,4 @@
-"""What `faultspace identify` reads: every format, and every refusal told in one line with nothing written.
+"""What `faultspace identify` reads: every format, and every refusal heard in one line with nothing written.
 
 write_tables    the same record in every way of writing it
 TABLES          bad text tables and what is said of them
@@ -46,7 +46,7 @@ def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
 
 
 def write_tables(folder: Path, u: Array, y: Array) -> dict[str, tuple[Path, str, str]]:
-    """The same record in every way of writing it: path, inputs, outputs."""
+    """Write the same record in every way of writing it, and return path, inputs and outputs of each."""
     rows = np.hstack([u, y]).tolist()
     names = ["a", "b", "p", "q", "r"]
     ways = {}
@@ -100,10 +100,10 @@ def test_parquet_reads_the_same(tmp_path: Path, record: made.FaultyRecord) -> No
     columns = dict(zip(names, np.hstack([record.u, record.y]).T, strict=True))
     path = tmp_path / "d.parquet"
     parquet.write_table(pyarrow.table(columns | {"when": ["now"] * len(record.y)}), path, row_group_size=700)
-    told: list[tuple[int, int]] = []
-    got = read_record(str(path), inputs=made.INPUTS, outputs=made.OUTPUTS, tell=lambda *pair: told.append(pair))
+    heard: list[tuple[int, int]] = []
+    got = read_record(str(path), inputs=made.INPUTS, outputs=made.OUTPUTS, on_progress=lambda stage, *pair: heard.append(pair))
     assert np.array_equal(got.u, record.u) and np.array_equal(got.y, record.y)
-    assert told[-1] == (made.SAMPLES, made.SAMPLES)
+    assert heard[-1] == (made.SAMPLES, made.SAMPLES)
     for name, part in (("when", "type string"), ("nothing", "no column 'nothing'")):
         with pytest.raises(InvalidInput, match=part):
             read_record(str(path), inputs=[name], outputs=made.OUTPUTS)
@@ -127,13 +127,13 @@ def test_commas_in_brackets_do_not_separate() -> None:
     assert split_names(["a, b[:,1:3]", "c[0,2],d"]) == ["a", "b[:,1:3]", "c[0,2]", "d"]
 
 
-def test_long_tables_are_read_in_pieces_and_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_long_tables_are_read_in_pieces_and_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("faultspace.numeric.data.text_tables.PIECE", 64)
     path = small_csv(tmp_path, "u,y\n" + "".join(f"{k},{k * 0.5}\n" for k in range(1000)))
-    told: list[tuple[int, int]] = []
-    got = read_record(str(path), inputs=["u"], outputs=["y"], tell=lambda *pair: told.append(pair))
+    heard: list[tuple[int, int]] = []
+    got = read_record(str(path), inputs=["u"], outputs=["y"], on_progress=lambda stage, *pair: heard.append(pair))
     assert np.array_equal(got.u[:, 0], np.arange(1000.0)) and np.array_equal(got.y, got.u / 2)
-    assert len(told) == 16 and told[-1] == (path.stat().st_size,) * 2
+    assert len(heard) == 16 and heard[-1] == (path.stat().st_size,) * 2
 
 
 # Bad input
@@ -172,7 +172,7 @@ TABLES: dict[str, tuple[str, tuple[str, ...]]] = {
 
 
 @pytest.mark.parametrize("name", TABLES)
-def test_bad_tables_are_told_in_one_line(name: str, tmp_path: Path) -> None:
+def test_bad_tables_are_reported_in_one_line(name: str, tmp_path: Path) -> None:
     text, parts = TABLES[name]
     path = small_csv(tmp_path, text)
     refused(identified(path, tmp_path / "out", channels=("--inputs", "u", "--outputs", "y")), str(path), *parts)
@@ -204,7 +204,7 @@ SELECTORS: dict[str, tuple[str, str, tuple[str, ...]]] = {
 
 
 @pytest.mark.parametrize("name", SELECTORS)
-def test_bad_selectors_are_told_in_one_line(name: str, tmp_path: Path) -> None:
+def test_bad_selectors_are_reported_in_one_line(name: str, tmp_path: Path) -> None:
     inputs, outputs, parts = SELECTORS[name]
     refused(identified(arrays(tmp_path), tmp_path / "out", channels=("--inputs", inputs, "--outputs", outputs)), *parts)
 
@@ -275,7 +275,7 @@ def test_bad_numbers(options: tuple[str, str], part: str, csv_file: Path, tmp_pa
     refused(identified(csv_file, tmp_path / "out", *options), part)
 
 
-def test_a_wrong_sample_far_into_the_record_is_told_by_its_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_wrong_sample_far_into_the_record_is_reported_by_its_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("faultspace.numeric.data.text_tables.PIECE", 64)
     path = small_csv(tmp_path, "u,y\n" + "".join(f"{k},{'inf' if k == 777 else k}\n" for k in range(1000)))
     with pytest.raises(InvalidInput, match="'y' is infinite at sample 777 "):
@@ -340,12 +340,12 @@ def test_block_rows_at_or_below_the_lag(tmp_path: Path) -> None:
     assert open_order.code == 2 or open_order.json["order"] is None, open_order
 
 
-def test_windows_too_long_for_the_record_are_told_with_those_that_fit(csv_file: Path, tmp_path: Path) -> None:
+def test_windows_too_long_for_the_record_are_reported_with_those_that_fit(csv_file: Path, tmp_path: Path) -> None:
     refused(identified(csv_file, tmp_path / "out", "--block-rows", "500"), "got 4000 samples", "need at least 4499", "--block-rows 444")
     assert identified(csv_file, tmp_path / "out", "--block-rows", "60", "--order", "3").code == 0
 
 
-def test_a_full_disk_is_told(csv_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_is_reported(csv_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     class Full:
         def seek(self, *_: object) -> None: ...
 

@@ -77,12 +77,12 @@ def test_what_is_known_of_channels_is_that_of_the_arrays(long_record: tuple[Arra
 def test_model_and_residual_are_those_of_the_arrays(long_record: tuple[Array, Array, Record]) -> None:
     y, u, record = long_record
     whole = pi_moesp(y, u, block_rows=15)
-    told: list[str] = []
-    data = Passes(record, "model", lambda stage, done, total: told.append(f"{stage} {done}/{total}"))
+    messages: list[str] = []
+    data = Passes(record, "model", lambda stage, done, total: messages.append(f"{stage} {done}/{total}"))
     found = pi_moesp(data, block_rows=15)
     assert found.order == whole.order == 3
     assert all(np.array_equal(getattr(found, name), getattr(whole, name)) for name in ("A", "B", "C", "D", "x0", "singular_values"))
-    assert f"model, pass 1 {N}/{N}" in told and f"model, pass 3 {N}/{N}" in told
+    assert f"model, pass 1 {N}/{N}" in messages and f"model, pass 3 {N}/{N}" in messages
     rest, wanted = residual(record, None, found.model, x0=found.x0), residual(y, u, whole.model)
     assert np.array_equal(residual(y, u, found.model, x0=found.x0).r, rest.r)
     assert np.array_equal(residual(record, None, found.model).r, wanted.r)
@@ -148,7 +148,7 @@ def test_faults_of_a_part_of_the_record_are_looked_for_there() -> None:
     assert loudest(energies, 40 * PART - 7, 2 * PART + 5)[1] == 40 * PART - 7
 
 
-def test_a_late_fault_is_counted_and_the_stretch_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_late_fault_is_counted_and_the_stretch_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     draw = np.random.default_rng(4)
     u, v = draw.standard_normal((N, 2)), np.zeros((N, 1))
     v[30_000:36_000] = draw.standard_normal((6000, 1))

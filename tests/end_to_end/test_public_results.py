@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable
 from fractions import Fraction
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,12 +15,14 @@ import sympy
 import faultspace as fs
 from faultspace.base.sheets import Shown
 from faultspace.exact import PrimeField, ResidualSystem, read_system
-from faultspace.proofs import Malformed, Rejected, Report, Unprovable
+from faultspace.proofs import Malformed, Rejected, Report, Unprovable, Verdict
+from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult
 from tests.end_to_end.commands import call
 
 
 def example(name: str) -> Any:
-    """The dict of an example's file."""
+    """This is the dict of an example's file."""
     return json.loads(files("faultspace").joinpath("examples", f"{name}.json").read_text("utf-8"))
 
 
@@ -51,19 +54,51 @@ def test_the_summary_of_a_comparison_is_what_compare_prints(names: tuple[str, st
     assert call("compare", *(f"example:{name}" for name in names), "--word", "--json").json == found.to_json()
 
 
+class Counts:
+    """An implementation that always counts two faults."""
+
+    def fault_dimension(self, r: object) -> int:
+        return 2
+
+
+def test_the_summary_of_an_audit_has_the_numbers_and_the_failures_that_the_command_prints(tmp_path: Path) -> None:
+    only = ["fault-dimension[one-fault]", "fault-dimension[two-faults]"]
+    mine = tmp_path / "mine.py"
+    mine.write_text("def fault_dimension(r):\n    return 2\n", "utf-8")
+    printed = call("audit", str(mine), *(part for name in only for part in ("--check", name))).out.splitlines()
+    found = fs.audit(str(mine), only=only)
+    title, counts, failure = found.summary().splitlines()
+    assert title == printed[-1] == "2 checks of fault_dimension: 1 failed"
+    assert counts.split() == ["fault_dimension", "1", "of", "2", "passed,", "1", "failed,", "0", "free,", "largest", "ratio", "inf"]
+    assert printed[1].split() == ["!", "fault_dimension", "2", "1", "1", "0", "inf"]
+    assert failure.split() == ["failed", *printed[2].removeprefix("! ").split()] and str(mine) in failure
+    assert [one.failed for one in found] == [True, False] and found.failed == (found[0],) == found[:1] and len(found) == 2
+    assert [one.verdict for one in fs.audit(Counts(), only=only)] == [one.verdict for one in found]
+
+
 def results() -> dict[str, Shown]:
-    """One of each result."""
+    """There is one of each result."""
     system = fs.System(**FAULT)
+    first = load()[0]
+    decided = ClaimResult(first, tuple(ReadingResult(one, Outcome(Verdict(one.expected), "as stated"), 0.5) for one in first.readings))
     return {
         "Structure": fs.analyze(system),
         "Comparison": fs.compare(system, fs.System(**OTHER)),
         "PopulationLimits": fs.limit(example("fault-leads-input")),
         "Checked": fs.check(fs.certify(system, "window-ranks")),
         "Report": Report("quick", (), (), "", 0.0),
+        "Audit": fs.audit(Counts(), only=["fault-dimension[one-fault]", "fault-dimension[two-faults]", "fault-dimension[delayed]"]),
+        "Claim": load()[0],
+        "Reading": load()[0].readings[0],
+        "ReadingResult": decided.readings[0],
+        "ClaimResult": decided,
     }
 
 
-@pytest.mark.parametrize("name", ["Structure", "Comparison", "PopulationLimits", "Checked", "Report"])
+KINDS = ("Structure", "Comparison", "PopulationLimits", "Checked", "Report", "Audit", "Claim", "Reading", "ReadingResult", "ClaimResult")
+
+
+@pytest.mark.parametrize("name", KINDS)
 def test_a_result_shows_itself(name: str) -> None:
     result = results()[name]
     assert repr(result) == f"<{name}: {result.title}>" and len(repr(result)) < 140
@@ -71,6 +106,22 @@ def test_a_result_shows_itself(name: str) -> None:
     html = result._repr_html_()
     assert html.startswith("<table>") and html.endswith("</table>") and html.count("<tr>") == len(list(result.sheet()))
     assert json.loads(json.dumps(result.to_json()))  # type: ignore[attr-defined]
+
+
+def test_a_report_draws_a_square_for_each_reading() -> None:
+    decided = results()["ClaimResult"]
+    assert isinstance(decided, ClaimResult)
+    axes = Report("quick", (decided, decided), (), "", 0.0).plot()
+    texts = [text.get_text() for text in axes.texts]
+    letters = [one.outcome.verdict[0] for repair in (False, True) for one in decided.readings if one.reading.repair == repair]
+    assert [text for text in texts if len(text) == 1] == letters * 2 and texts.count(decided.claim.id) == 2
+    assert Report("quick", (decided,), (), "", 0.0).plot(axes) is axes
+    assert Report("quick", (), (), "", 0.0).plot().texts
+
+
+def test_every_verdict_has_a_meaning() -> None:
+    assert len({verdict.meaning for verdict in Verdict}) == len(Verdict)
+    assert json.dumps(Verdict.PROVED) == '"PROVED"' and Verdict("PROVED") is Verdict.PROVED
 
 
 def test_html_is_escaped() -> None:

@@ -20,11 +20,12 @@ from rich.table import Table
 from rich.text import Text
 
 from faultspace.cli import consoles, failures, progress
-from tests.end_to_end.commands import ROOT, environment
+from faultspace.cli.command_line import main
+from tests.end_to_end.commands import ROOT, call, environment
 
 
 class Terminal(io.StringIO):
-    """A stream that says it is a terminal."""
+    """This stream says that it is a terminal."""
 
     def isatty(self) -> bool:
         return True
@@ -71,10 +72,10 @@ def test_on_a_terminal_one_line_moves_and_is_gone_in_the_end(monkeypatch: pytest
         tell("counting [faults] of a system whose name is much too long for the line", 7, 83)
         time.sleep(0.6)
         failures.say("a remark")
-    shown = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", stream.getvalue())
-    frames = [frame for frame in re.split(r"[\r\n]", shown) if "7 of 83" in frame]
+    printed = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", stream.getvalue())
+    frames = [frame for frame in re.split(r"[\r\n]", printed) if "7 of 83" in frame]
     assert frames and all(len(frame) <= 60 and "counting [faults]" in frame for frame in frames)
-    assert "faultspace: a remark" in shown and stream.getvalue().rstrip("\n").endswith("\x1b[2K")
+    assert "faultspace: a remark" in printed and stream.getvalue().rstrip("\n").endswith("\x1b[2K")
 
 
 def test_a_terminal_that_cannot_go_back_gets_plain_lines(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -90,11 +91,11 @@ def test_a_terminal_that_cannot_go_back_gets_plain_lines(monkeypatch: pytest.Mon
 def test_the_time_that_is_left_is_that_of_the_stage(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([0.0, 0.0, 10.0, 100.0, 100.0, 101.0]).__next__
     monkeypatch.setattr("faultspace.cli.progress.time.monotonic", clock)
-    told: list[float | None] = []
-    tell = progress.evenly(lambda stage, done=0, total=0, left=None, /: told.append(left))
+    remaining: list[float | None] = []
+    tell = progress.evenly(lambda stage, done=0, total=0, left=None, /: remaining.append(left))
     for call_of in (("reading", 0, 40), ("reading", 10, 40), ("counting", 5, 10), ("counting", 6, 10)):
         tell(*call_of)
-    assert told == [None, 30.0, None, None], "a second is too short to tell from"
+    assert remaining == [None, 30.0, None, None], "a second is too short to tell from"
 
 
 @pytest.mark.parametrize("width", [20, 60, 80, 140, 200])
@@ -111,6 +112,45 @@ def test_no_cell_is_cut_at_any_width(width: int) -> None:
         assert all(cell in together for row in cells for cell in row) and "…" not in together
         assert "avalue" in together and "another" in together
         assert not isinstance(stream, Terminal) or max(map(len, lines)) <= width
+
+
+WORDS = {
+    "inspect": ["inspect", "example:paper", "example:theorem-3"],
+    "compare": ["compare", "example:theorem-1-first", "example:theorem-1-second", "--word"],
+    "limit": ["limit", "example:fault-follows-input"],
+    "examples": ["examples"],
+    "a complaint": ["verify", "--claim", "theorem-99"],
+    "help": ["--help"],
+}
+
+
+@pytest.mark.parametrize("width", [60, 80, 120])
+@pytest.mark.parametrize("name", list(WORDS))
+def test_lines_are_broken_between_words(monkeypatch: pytest.MonkeyPatch, name: str, width: int) -> None:
+    piped = call(*WORDS[name])
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setattr(progress, "PATIENCE", 3600.0)
+    out, err = Terminal(), Terminal()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        assert main(WORDS[name]) == piped.code
+    for stream, plain in ((out, piped.out), (err, piped.err)):
+        printed = re.sub(r"\x1b\[[0-9;?]*m", "", stream.getvalue())
+        assert printed.split() == plain.split(), "a word is broken"
+        assert max(map(len, printed.splitlines()), default=0) <= width
+        assert not any(line.endswith(" ") for line in printed.splitlines() if line not in plain.splitlines())
+
+
+def test_the_lines_below_begin_below_the_first_where_there_is_room() -> None:
+    def printed(width: int, label: str, text: str) -> list[str]:
+        stream = Terminal()
+        consoles.paragraph(Console(width=width, file=stream, markup=False, color_system=None), text, label)
+        return stream.getvalue().splitlines()
+
+    assert printed(20, "  name: ", "one two three four") == ["  name: one two", "        three four"]
+    assert printed(16, "  a long name: ", "one two") == ["  a long name:", "      one two"]
+    assert printed(10, "", "- one two three") == ["- one two", "  three"]
+    assert printed(8, "", "0123456789 ab") == ["01234567", "89 ab"]
 
 
 def test_no_color_is_respected_on_a_terminal() -> None:

@@ -62,11 +62,11 @@ def pretended(monkeypatch: pytest.MonkeyPatch) -> Callable[[Verdict], list[dict[
     def pretend(second: Verdict) -> list[dict[str, object]]:
         calls: list[dict[str, object]] = []
 
-        def verify(claims: Sequence[str] | None, *, effort: str, jobs: int, progress: Callable[[str, int, int], None]) -> Report:
+        def verify(claims: Sequence[str] | None, *, effort: str, jobs: int, on_progress: Callable[[str, int, int], None]) -> Report:
             calls.append({"claims": claims, "effort": effort, "jobs": jobs})
-            progress("systems", 0, 12)
-            progress("systems", 12, 12)
-            progress("claim-a: as-printed", 0, 3)
+            on_progress("systems", 0, 12)
+            on_progress("systems", 12, 12)
+            on_progress("claim-a: as-printed", 0, 3)
             return report(claims, second)
 
         monkeypatch.setattr(verifying, "load", lambda: CLAIMS)
@@ -197,10 +197,10 @@ def test_a_folder_that_cannot_be_written_into_is_told_before_the_run(pretended: 
 def test_the_hypotheses_have_a_table_of_their_own(pretended: Pretend) -> None:
     pretended(Verdict.CERTIFIED)
     out = call("verify", "-v").out
-    told = [" ".join(line.split()) for line in out[out.index("which hypotheses are needed") :].splitlines()]
-    assert any(line.startswith("claim-a the rank is right") for line in told)
-    assert f"s >= n REFUTED A=[[0]] {SHORT}" in told and "observable CERTIFIED all 12 tried 5 accepted" in told
-    assert not any("already" in line for line in told), "what follows from one hypothesis is in the JSON only"
+    lines = [" ".join(line.split()) for line in out[out.index("which hypotheses are needed") :].splitlines()]
+    assert any(line.startswith("claim-a the rank is right") for line in lines)
+    assert f"s >= n REFUTED A=[[0]] {SHORT}" in lines and "observable CERTIFIED all 12 tried 5 accepted" in lines
+    assert not any("already" in line for line in lines), "what follows from one hypothesis is in the JSON only"
 
 
 def test_a_hypothesis_with_another_verdict_is_not_as_expected(pretended: Pretend, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -226,8 +226,8 @@ def test_the_verdict_of_the_adversary_is_told_in_a_sentence(monkeypatch: pytest.
     made = report(None, Verdict.CERTIFIED)
     attacked = (Attacked("one", "a counterexample", True, None), Attacked("two", "none found", False, "out of date"))
     (first, second), claim = made.claims[0].readings, made.claims[0]
-    shown = replace(claim, readings=(replace(first, attacks=attacked), replace(second, attacks=attacked[:1])))
-    words = verdict_summary.attack_words(replace(made, claims=(shown, made.claims[1])))
+    attacked_claim = replace(claim, readings=(replace(first, attacks=attacked), replace(second, attacks=attacked[:1])))
+    words = verdict_summary.attack_words(replace(made, claims=(attacked_claim, made.claims[1])))
     assert words == (
         "3 looked at again: 2 confirm a counterexample (1 of these against a verdict other than REFUTED), 1 found none; "
         "1 out of date or not found again."
@@ -235,7 +235,7 @@ def test_the_verdict_of_the_adversary_is_told_in_a_sentence(monkeypatch: pytest.
 
 
 class Window(io.StringIO):
-    """A terminal."""
+    """It says that it is a terminal."""
 
     def isatty(self) -> bool:
         return True
@@ -252,10 +252,10 @@ def test_a_terminal_of_any_width_shows_everything(
     window = Window()
     with contextlib.redirect_stdout(window):
         code = main(["verify", *options])
-    shown = re.sub(r"\x1b\[[0-9;?]*m", "", window.getvalue())
+    printed = re.sub(r"\x1b\[[0-9;?]*m", "", window.getvalue())
     assert code == (0 if "--claim" in options else 1)
-    assert max(map(len, shown.splitlines())) <= width and "…" not in shown
-    together = re.sub(r"[\s─]", "", shown)
+    assert max(map(len, printed.splitlines())) <= width and "…" not in printed
+    together = re.sub(r"[\s─]", "", printed)
     wanted = ["claim-a", "AMENDED", "certificates accepted"]
     if options != ("--claim", "claim-a"):
         wanted += ["claim-b", "NOT as expected: claim-b", "claim-b: REFUTED (expected CERTIFIED)", "readings as printed"]

@@ -20,12 +20,12 @@ Rows = list[list[str]]
 
 
 def rows(random: Random, nrows: int, ncols: int, *, top: int = 3, bottom: int = 3) -> Rows:
-    """Small rationals as strings."""
+    """These are small rationals as strings."""
     return [[str(Fraction(random.randint(-top, top), random.randint(1, bottom))) for _ in range(ncols)] for _ in range(nrows)]
 
 
 def stable(random: Random, n: int) -> Rows:
-    """A stable n x n matrix: entries are halved until it is."""
+    """The result is a stable n x n matrix: entries are halved until it is."""
     while True:
         A = rows(random, n, n)
         for _ in range(2):
@@ -35,19 +35,19 @@ def stable(random: Random, n: int) -> Rows:
 
 
 def nilpotent(random: Random, n: int) -> Rows:
-    """A strictly upper triangular matrix."""
+    """The result is a strictly upper triangular matrix."""
     return [[x if j > i else "0" for j, x in enumerate(row)] for i, row in enumerate(rows(random, n, n))]
 
 
 def system(random: Random, n: int, m: int, p: int, nu: int, A: Rows | None = None) -> dict[str, Any]:
-    """A SYSTEM with B and D."""
+    """The result is a SYSTEM with B and D."""
     sizes: dict[str, Any] = {"n": n, "m": m, "p": p, "nu": nu}
     shapes = {"B": (n, nu), "C": (p, n), "D": (p, nu), "F": (n, m), "G": (p, m)}
     return sizes | {"A": A or stable(random, n)} | {name: rows(random, *shape) for name, shape in shapes.items()}
 
 
 def driven(system: dict[str, Any], s: int, past: int, u: object, v: object, w: object = None) -> Experiment:
-    """The experiment."""
+    """The result is an experiment with random filters."""
     data = system | {"s": s, "past": past, "u_filter": u, "v_filter": v}
     return read_experiment(data if w is None else data | {"w_filter": w})
 

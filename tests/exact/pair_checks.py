@@ -28,11 +28,11 @@ from faultspace.exact.algebra import polynomials
 from faultspace.exact.algebra.fields import Field, NumberField, PrimeField
 from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, stacked
 from faultspace.exact.pairs.assignment import assign_zeros, recoverable_pair
-from faultspace.exact.pairs.bad_variety import bad_equations, bad_set, dimension_of
+from faultspace.exact.pairs.bad_variety import bad_equations, bad_set
 from faultspace.exact.pairs.canonical_form import behavior_name, fault_class, feedback_class, with_feedback
 from faultspace.exact.pairs.linear_determinants import by_deflation, by_values, linear_determinant
-from faultspace.exact.pairs.no_feedthrough import members_by_formula, zero_feedthrough
-from faultspace.exact.pairs.pluecker import coefficient_forms, forms_of_determinant, pluecker_forms, value
+from faultspace.exact.pairs.no_feedthrough import zero_feedthrough
+from faultspace.exact.pairs.pluecker import coefficient_forms, forms_of_determinant, value
 from faultspace.exact.pairs.polynomial import Exceptional, exceptional, judge, polynomial_at
 from faultspace.exact.pairs.witnesses import BadPair, bad_pair, good_columns
 from faultspace.exact.structure.behavior import compare
@@ -46,6 +46,7 @@ from faultspace.exact.structure.zero_output import chain_from_rest
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import observability_matrix
 from tests.exact.checks import random_matrix, read
+from tests.exact.slow_pairs import dimension_of, members_by_formula, pluecker_forms
 from tests.oracle.pencil import invariant_zero_polynomial, normal_rank
 from tests.oracle.systems import parse_system
 
@@ -53,7 +54,7 @@ Json = Any
 
 
 def small_systems(n: int, p: int, m: int, *, feedthrough: bool = True) -> Iterator[Json]:
-    """Every SYSTEM over GF(2) with these dimensions; G = 0 alone without `feedthrough`."""
+    """These are all SYSTEMs over GF(2) with these dimensions; without `feedthrough` only those with G = 0."""
     shapes = {"A": (n, n), "F": (n, m), "C": (p, n), "G": (p, m)}
     sizes = {k: h * w if feedthrough or k != "G" else 0 for k, (h, w) in shapes.items()}
     for bits in product((0, 1), repeat=sum(sizes.values())):
@@ -63,7 +64,7 @@ def small_systems(n: int, p: int, m: int, *, feedthrough: bool = True) -> Iterat
 
 
 def all_matrices(field: Field, nrows: int, ncols: int) -> Iterator[Matrix]:
-    """Every matrix of that shape over a prime field."""
+    """These are all matrices of that shape over a prime field."""
     assert isinstance(field, PrimeField)
     for entries in product(range(field.p), repeat=nrows * ncols):
         rows = [list(entries[i * ncols : (i + 1) * ncols]) for i in range(nrows)]
@@ -71,12 +72,12 @@ def all_matrices(field: Field, nrows: int, ncols: int) -> Iterator[Matrix]:
 
 
 def pencil_of(system: Json) -> Exceptional:
-    """`exceptional` of the SYSTEM."""
+    """The result is `exceptional` of the SYSTEM."""
     return exceptional(kernel_representation(read(system)))
 
 
 def some_pair(found: Exceptional, seed: int) -> Matrix:
-    """A P of the right shape with small entries, of deficient rank now and then."""
+    """The result is a P of the right shape with small entries, of deficient rank now and then."""
     rng = Random(seed)
     P = random_matrix(rng, found.system, found.n_z, found.columns)
     return P @ random_matrix(rng, found.system, found.columns, found.columns) if seed % 3 == 0 else P
@@ -110,7 +111,7 @@ def check_space(system: Json) -> None:
 
 
 def check_determinants(constant: Matrix, slope: Matrix) -> None:
-    """det(X + q Y) three times."""
+    """Three routes to det(X + q Y) agree."""
     field = constant.field
     wanted = by_deflation(constant, slope)
     assert linear_determinant(constant, slope) == wanted
@@ -132,7 +133,7 @@ def check_polynomial(system: Json, seed: int) -> None:
 
 
 def check_pair(found: Exceptional, P: Matrix) -> None:
-    """The same for one P."""
+    """What `check_polynomial` asks of a random P holds for this one."""
     verdict = judge(found, P)
     pair = verdict.system
     slow = parse_system(pair.to_json())
@@ -155,13 +156,13 @@ def check_pair(found: Exceptional, P: Matrix) -> None:
 
 
 def check_forms(system: Json, seed: int) -> None:
-    """The minors of the pencils themselves against those of q b - a, and the sum at a P against the determinant."""
+    """The minors of the pencils themselves are those of q b - a, and the sum at a P is the determinant."""
     found = pencil_of(system)
     slow, fast = pluecker_forms(found), forms_of_determinant(found)
-    assert slow.minors.keys() == fast.minors.keys()
+    assert slow.keys() == fast.minors.keys()
     J = min(fast.minors)
-    unit = fast.minors[J][-1] / slow.minors[J][-1]
-    assert all(tuple(unit * c for c in h) == fast.minors[K] for K, h in slow.minors.items())
+    unit = fast.minors[J][-1] / slow[J][-1]
+    assert all(tuple(unit * c for c in h) == fast.minors[K] for K, h in slow.items())
     P = some_pair(found, seed)
     assert value(fast, P) == polynomial_at(found, P)
     _, forms = coefficient_forms(fast)
@@ -185,7 +186,7 @@ def check_witnesses(system: Json) -> None:
 
 
 def check_bad_set(system: Json) -> None:
-    """The dimension by counting against a Groebner basis of the expanded equations; codimension 1 iff all L_j are constant, r >= 1."""
+    """The dimension by counting is that of a Groebner basis of the expanded equations; it leaves 1 iff all L_j are constant, r >= 1."""
     found = pencil_of(system)
     counted = bad_set(found)
     if found.columns == 0:
@@ -203,7 +204,7 @@ def check_bad_set(system: Json) -> None:
 
 
 def check_assignment(system: Json, seed: int) -> None:
-    """A pair with each degree of free zeros; the zeros found again by `structure`; v(0) recovered from outputs alone."""
+    """There is a pair with each degree of free zeros; `structure` finds its zeros again, and v(0) is recovered from outputs alone."""
     found = pencil_of(system)
     field, rng = found.system.field, Random(seed)
     free = found.zeta + 1 - len(found.fixed) if found.columns else 0
@@ -225,7 +226,7 @@ def check_assignment(system: Json, seed: int) -> None:
 
 
 def check_zero_feedthrough(system: Json) -> None:
-    """For G = 0 and a left-invertible system: the members, both conditions, the alternative."""
+    """For G = 0 and a left-invertible system, members, conditions and alternative are as their definitions say."""
     exact = read(system)
     assert exact.G.is_zero()
     kernel = kernel_representation(exact)
@@ -264,7 +265,7 @@ def _zero_feedthrough_members(basis: Matrix, system: ResidualSystem) -> Matrix:
 
 
 def same_response_up_to_basis(one: ResidualSystem, other: ResidualSystem) -> bool:
-    """Whether the Markov parameters of `other` are those of `one` times one constant matrix."""
+    """This tells whether the Markov parameters of `other` are those of `one` times one constant matrix."""
     responses = []
     for system in (one, other):
         state, blocks = system.F, [system.G]

@@ -26,7 +26,7 @@ Table = sympy.Matrix
 
 @dataclass(frozen=True)
 class Responses:
-    """Lists over lag of matrices: rows of the signal, columns of all noise, w's last."""
+    """This has lists over lag of matrices: rows of the signal, columns of all noise, w's last."""
 
     u: list[Any]
     v: list[Any]
@@ -34,7 +34,7 @@ class Responses:
 
 
 def responses(experiment: Experiment, lags: int) -> Responses:
-    """The first `lags` terms of each impulse response."""
+    """These are the first `lags` terms of each impulse response."""
     system, residual = experiment.system, experiment.system.residual
     noise = experiment.u_filter.noise
     own = experiment.w_filter.noise if experiment.w_filter is not None else 0
@@ -55,7 +55,7 @@ def responses(experiment: Experiment, lags: int) -> Responses:
 
 
 def _filtered(one: Filter, lags: int) -> list[Any]:
-    """Long division: h_k = U_k - d_1 h_(k-1) - d_2 h_(k-2) - ..."""
+    """This is long division: h_k = U_k - d_1 h_(k-1) - d_2 h_(k-2) - ..."""
     result: list[Any] = []
     for k in range(lags):
         block = one.numerator[k].to_sympy() if k < len(one.numerator) else sympy.zeros(one.channels, one.noise)
@@ -67,7 +67,7 @@ def _filtered(one: Filter, lags: int) -> list[Any]:
 
 
 def dense_covariance(process: JointProcess) -> Any:
-    """vec P = (I - Phi kron Phi)^-1 vec(Gamma Gamma')."""
+    """The result is vec P = (I - Phi kron Phi)^-1 vec(Gamma Gamma')."""
     Phi, Gamma = process.Phi.to_sympy(), process.Gamma.to_sympy()
     size = Phi.rows
     right = (Gamma * Gamma.T).reshape(size * size, 1)
@@ -77,7 +77,7 @@ def dense_covariance(process: JointProcess) -> Any:
 
 
 def covariance(a: list[Any], b: list[Any], lag: int) -> Any:
-    """The sum over all lags at hand."""
+    """The result is the sum of the responses' products over all lags at hand."""
     total = sympy.zeros(a[0].rows, b[0].rows)
     for j in range(len(b)):
         if 0 <= j + lag < len(a):
@@ -86,12 +86,12 @@ def covariance(a: list[Any], b: list[Any], lag: int) -> Any:
 
 
 def window(a: list[Any], b: list[Any], rows: range, columns: range) -> Any:
-    """Blocks Cov(a(k+i), b(k+j))."""
+    """The result is the blocks Cov(a(k+i), b(k+j))."""
     return sympy.Matrix(sympy.BlockMatrix([[covariance(a, b, i - j) for j in columns] for i in rows]).as_explicit())
 
 
 def slow_limit(found: Responses, s: int, past: int, *, outputs: bool) -> Any:
-    """The limit for past inputs, and past outputs where asked for."""
+    """The result is the limit for past inputs, and past outputs where asked for."""
     future, before = range(s), range(-past, 0)
     yz, uz = window(found.y, found.u, future, before), window(found.u, found.u, future, before)
     if outputs:
@@ -128,7 +128,7 @@ def slow_output_error(experiment: Experiment, found: Responses) -> tuple[Any, An
 
 
 def slow_moesp(experiment: Experiment, found: Responses) -> tuple[Any, Any]:
-    """Least squares over vec(B), vec(D) of Pi (K - T_s(B, D)), T_s built for every unit."""
+    """These are least squares over vec(B), vec(D) of Pi (K - T_s(B, D)), T_s built for every unit."""
     residual, nu, s = experiment.system.residual, experiment.system.nu, experiment.s
     A, C = residual.A.to_sympy(), residual.C.to_sympy()
     n, p = residual.n, residual.p

@@ -185,7 +185,7 @@ BAD_CALLS: dict[str, tuple[Callable[[], Any], str]] = {
 
 
 def one_line(problem: InvalidInput) -> str:
-    """The message, which must be one line."""
+    """The result is the message, which must be one line."""
     text = str(problem)
     assert text and "\n" not in text and text == text.strip()
     return text

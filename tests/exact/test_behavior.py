@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from faultspace.base.errors import InvalidInput
 from faultspace.exact.algebra.matrices import Matrix, beside, stacked
-from faultspace.exact.structure.behavior import compare, included_on
+from faultspace.exact.structure.behavior import compare, separation
 from faultspace.exact.structure.fault_columns import fault_space
-from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
 from tests.oracle.families import FIELDS, system
@@ -30,7 +30,7 @@ DOUBLED = system("Q", [[0]], [[2]], [[1], [0]], [[0], [1]], n=1, p=2, m=1)
 
 
 def with_unseen_states(rng: Random, given: ResidualSystem) -> ResidualSystem:
-    """Two more states, driven by the others, by the fault and by themselves, that no output sees."""
+    """The result has two more states, driven by the others, by the fault and by themselves, that no output sees."""
     more = 2
     A = stacked(
         beside(given.A, Matrix.zero(given.field, given.n, more)),
@@ -41,7 +41,7 @@ def with_unseen_states(rng: Random, given: ResidualSystem) -> ResidualSystem:
 
 
 def with_superfluous_faults(rng: Random, given: ResidualSystem) -> ResidualSystem:
-    """Fault columns that are combinations of the others, in front of them."""
+    """The result has fault columns that are combinations of the others, in front of them."""
     mixed = checks.random_matrix(rng, given, given.m, 2)
     return given.with_faults(beside(given.F @ mixed, given.F), beside(given.G @ mixed, given.G))
 
@@ -69,6 +69,12 @@ def test_equal_by_construction(given: Json, seed: int) -> None:
     assert compare(kernel, equal[3]).equivalent
 
 
+def included_on(inner: ResidualSystem, outer: KernelRepresentation, window: int) -> bool:
+    """This says whether every word of `inner` of that many samples is a word of `outer`."""
+    found = separation(inner, outer)
+    return found is None or found.window > window
+
+
 @settings(max_examples=60)
 @given(systems(), st.data())
 def test_fewer_faults_are_contained(given: Json, data: st.DataObject) -> None:
@@ -85,7 +91,7 @@ def test_fewer_faults_are_contained(given: Json, data: st.DataObject) -> None:
 @settings(max_examples=60)
 @given(systems(), systems())
 def test_unrelated_systems_of_any_dimensions(first: Json, second: Json) -> None:
-    """Mostly of different n and m; those that cannot be compared are refused."""
+    """Most of them have different n and m; those that cannot be compared are refused."""
     if first["field"] == second["field"] and first["p"] == second["p"]:
         checks.check_comparison(first, second)
     else:

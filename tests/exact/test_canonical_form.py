@@ -122,7 +122,7 @@ def test_names_are_records() -> None:
 
 
 def _agreeing(first: list[KernelRepresentation], second: list[KernelRepresentation]) -> int:
-    """How many pairs are equivalent, each asserted to be what the names say."""
+    """This says how many pairs are equivalent, each asserted to be what the names say."""
     equal = 0
     for one in first:
         for two in second:

@@ -32,7 +32,7 @@ SEEN = ResidualSystem.of([[0]], [[1]], [[1], [0]], [[0], [1]])
 
 
 def closed_form(system: ResidualSystem) -> Matrix:
-    """Basis rows of im [F; G] + [A; C] U + [U; 0]."""
+    """These are basis rows of im [F; G] + [A; C] U + [U; 0]."""
     U = column_basis(beside(largest_output_nulling(system), chain_from_rest(system).last_subspace))
     columns = beside(
         stacked(system.F, system.G),

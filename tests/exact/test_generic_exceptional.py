@@ -26,7 +26,7 @@ ALL = [(n, p, m) for n in range(3) for p in range(4) for m in range(3)]
 
 
 def matrices_at(found: GenericExceptional, values: list[int]) -> dict[str, Matrix]:
-    """A, C and the basis of Z at these values."""
+    """The result is A, C and the basis of Z at these values."""
     entries = found.entries
     shapes = {"A": (entries.n, entries.n), "C": (entries.p, entries.n)}
     result = {
@@ -108,7 +108,7 @@ def _all_of_it() -> Any:
 
 
 BROKEN = {
-    "F enters with the wrong sign": ("_pencil", "[-f for f in line]", "[f for f in line]"),
+    "F enters with the wrong sign": ("indeterminate_pencil", "[-f for f in line]", "[f for f in line]"),
     "C F is forgotten": ("_space", "[*[ring.zero] * m, *times(row, entries.F, m, ring)]", "[ring.zero] * 2 * m"),
     "a forgets A": ("_space", "_frozen([*entries.A, *entries.C])", "_frozen([*entries.A, *([ring.zero] * n for _ in entries.C)])"),
 }

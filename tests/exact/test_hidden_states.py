@@ -15,14 +15,14 @@ from faultspace.exact.limits.moments import covariances
 
 
 def experiment(A: list[list[str]], num: list[str], den: list[str], s: int = 2) -> Experiment:
-    """B = e1, C = I, a fault of its own noise."""
+    """The experiment has B = e1, C = I and a fault of its own noise."""
     given = {"A": A, "B": [["1"], ["0"]], "C": [["1", "0"], ["0", "1"]], "D": [["0"], ["0"]], "F": [["1"], ["0"]], "G": [["0"], ["0"]]}
     u = {"num": [[[x, "0"]] for x in num], "den": den}
     return read_experiment(given | {"s": s, "past": 2, "u_filter": u, "v_filter": [[["0", "1"]]]})
 
 
 def companion(a: Fraction, b: Fraction) -> list[list[str]]:
-    """With the poles a and b."""
+    """The companion matrix has the poles a and b."""
     return [[str(a + b), str(-a * b)], ["1", "0"]]
 
 

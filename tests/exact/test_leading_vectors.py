@@ -15,12 +15,12 @@ from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
 
 
 def floats(matrix: Matrix) -> np.ndarray:
-    """Rounded to doubles."""
+    """The entries are rounded to doubles."""
     return np.array([[float(x.p) / float(x.q) for x in row] for row in matrix.elements()])
 
 
 def by_numpy(L: Matrix, Gamma: Matrix, observability: Matrix) -> bool:
-    """The same from singular values in floats, with a Cholesky factor as the root of Gamma."""
+    """The result is the same from singular values in floats, with a Cholesky factor as the root of Gamma."""
     left, sizes, _ = np.linalg.svd(floats(L) @ np.linalg.inv(np.linalg.cholesky(floats(Gamma))).T)
     n = rank(observability)
     wanted = np.linalg.qr(floats(column_basis(observability)))[0]
@@ -29,7 +29,7 @@ def by_numpy(L: Matrix, Gamma: Matrix, observability: Matrix) -> bool:
 
 
 def integers(random: Random, nrows: int, ncols: int) -> Matrix:
-    """Small entries."""
+    """These are small entries."""
     return Matrix.of([[random.randint(-3, 3) for _ in range(ncols)] for _ in range(nrows)], shape=(nrows, ncols))
 
 
@@ -52,7 +52,7 @@ def test_as_numpy_has_it(seed: int) -> None:
 
 
 def _orthogonal(random: Random, a: Matrix, Gamma: Matrix, count: int) -> Matrix:
-    """Rows b with b Gamma^-1 a' = 0."""
+    """The result is the rows b with b Gamma^-1 a' = 0."""
     inverse = Matrix(Gamma.field, Gamma.nrows, Gamma.nrows, Gamma.flint.inv())
     across = left_null_space(inverse @ a.transposed())
     return integers(random, count, across.nrows) @ across

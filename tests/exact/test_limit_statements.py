@@ -51,7 +51,9 @@ def unbiased(found: PopulationLimits) -> bool:
 
 
 def leads(given: dict[str, Any], s: int, past: int, u: list[str], den: list[str], phi: list[str]) -> Experiment:
-    """v(k) = sum_j phi_j u(k+j) for one input and one fault, u = (sum_j u_j q^-j / den) e, all of it delayed by the largest lead."""
+    """The result is v(k) = sum_j phi_j u(k+j) for one input and one fault, u = (sum_j u_j q^-j / den) e, all of it delayed by the largest
+    lead.
+    """
     delay = len(phi) - 1
     product = [Fraction(0)] * (len(u) + delay)
     for j, weight in enumerate(phi):
@@ -117,7 +119,7 @@ def test_controllability_of_the_b_that_is_seen_is_needed() -> None:
 
 
 def test_a_moving_average_input_ruins_a_and_c() -> None:
-    """u = e(k) + e(k-1)/2, v = e(k+1): rank 2 for one state."""
+    """With u = e(k) + e(k-1)/2 and v = e(k+1) the limit has rank 2 for one state."""
     experiment = driven(SCALAR, 3, 3, [NONE, ONE, [["1/2"]]], [ONE])
     found = limit(experiment)
     assert (found.past_inputs.rank, found.past_inputs.joint_rank) == (2, 2)
@@ -157,7 +159,7 @@ def test_an_autoregressive_input_of_order_at_most_s(seed: int) -> None:
 
 
 def degree_with_delay(experiment: Experiment, K: Matrix) -> int:
-    """McMillan degree of the transfer function from u to y where v(k) = K u(k-1)."""
+    """The result is the McMillan degree of the transfer function from u to y where v(k) = K u(k-1)."""
     residual, nu = experiment.system.residual, experiment.system.nu
     A = stacked(beside(residual.A, residual.F @ K), Matrix.zero(QQ, nu, residual.n + nu))
     B = stacked(experiment.system.B, Matrix.identity(QQ, nu))

@@ -10,7 +10,7 @@ import sympy
 
 from faultspace.exact.algebra.fields import QQ
 from faultspace.exact.algebra.matrices import Matrix, beside, rank, stacked
-from faultspace.exact.algebra.stability import characteristic_polynomial
+from faultspace.exact.algebra.stability import rational_characteristic_polynomial
 from faultspace.exact.limits.column_space import past_input_and_output_limit, past_input_limit, state_part
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.exact.limits.inputs import by_moesp, by_output_error
@@ -69,7 +69,7 @@ def test_finite_responses_sum_to_the_same_limits(seed: int, shape: dict[str, int
 
 @pytest.mark.parametrize("seed", range(8))
 def test_regressions_are_the_ones_written_out(seed: int) -> None:
-    """An observable pair of A nilpotent, so that both regressions have one solution and it is a finite sum."""
+    """A is nilpotent and the pair observable, so that both regressions have one solution and it is a finite sum."""
     experiment = random_experiment(seed + 200, finite=True, nu=1 + seed % 2, s=3)
     residual = experiment.system.residual
     made = slow.responses(experiment, 12)
@@ -139,7 +139,7 @@ def _floats(matrix: Matrix) -> Any:
 
 
 def _in_floats(experiment: Experiment, lags: int) -> dict[str, Any]:
-    """Impulse responses over (lag, row, noise), by the recursions that define the signals."""
+    """The recursions that define the signals give the impulse responses over (lag, row, noise)."""
     system, residual = experiment.system, experiment.system.residual
     filters = {"u": experiment.u_filter, "v": experiment.v_filter, "w": experiment.w_filter}
     noise = experiment.u_filter.noise
@@ -177,7 +177,7 @@ def test_an_unstable_model_has_no_stationary_output_error() -> None:
 def test_stein_with_two_different_sides() -> None:
     S, T = Matrix.of([["1/2", "1"], [0, "-1/3"]]), Matrix.of([["1/5", 0, "2"], [0, "1/7", 0], [0, 0, "-1/2"]])
     R = Matrix.of([[1, 2, 3], ["-1/2", 0, 5]])
-    coefficients = [QQ.element(c) for c in characteristic_polynomial(T)]
+    coefficients = [QQ.element(c) for c in rational_characteristic_polynomial(T)]
     X = stein(S, T, R, coefficients)
     assert S @ X @ T.transposed() + R == X
     # Any multiple annihilates just as well.
@@ -190,7 +190,7 @@ def test_a_wrong_covariance_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     from faultspace.exact.limits import lyapunov
 
     process = joint_process(random_experiment(1, finite=False))
-    monkeypatch.setattr(lyapunov, "characteristic_polynomial", lambda A: (*characteristic_polynomial(A)[:-1], 2))
+    monkeypatch.setattr(lyapunov, "rational_characteristic_polynomial", lambda A: (*rational_characteristic_polynomial(A)[:-1], 2))
     with pytest.raises(ArithmeticError, match="Lyapunov"):
         lyapunov.state_covariance(process)
 
@@ -201,7 +201,7 @@ def test_state_parts() -> None:
     observed = stacked(C, C @ A, C @ A @ A)
     mixed = observed @ Matrix.of([[2, 1], [1, 1]])
     found = state_part(mixed, 1)
-    assert found is not None and found.characteristic_polynomial == characteristic_polynomial(A)
+    assert found is not None and found.characteristic_polynomial == rational_characteristic_polynomial(A)
     assert rank(beside(observed, stacked(found.C, found.C @ found.A, found.C @ found.A @ found.A))) == 2
     assert state_part(Matrix.of([[1, 0], [0, 1], [1, 5], [0, 7]]), 1) is None
     assert state_part(Matrix.of([[1], [2], [5]]), 1) is None

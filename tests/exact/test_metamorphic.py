@@ -28,7 +28,7 @@ MULTIPLES = ((1000, 1), (1, 7), (-3, 2))
 
 
 def invertible(rng: Random, system: ResidualSystem, size: int) -> tuple[Matrix, Matrix]:
-    """A random invertible matrix and its inverse."""
+    """The result is a random invertible matrix and its inverse."""
     while True:
         found = checks.random_matrix(rng, system, size, size)
         if rank(found) == size:
@@ -38,25 +38,25 @@ def invertible(rng: Random, system: ResidualSystem, size: int) -> tuple[Matrix, 
 
 
 def limit(system: ResidualSystem) -> Matrix:
-    """The fault space Z as basis rows."""
+    """The result is the fault space Z as basis rows."""
     return fault_space(kernel_representation(system)).basis
 
 
 def moved(basis: Matrix, of_states: Matrix, of_outputs: Matrix) -> Matrix:
-    """The space of (T f, U g) in its canonical basis."""
+    """The result is the space of (T f, U g) in its canonical basis."""
     n, p = of_states.ncols, of_outputs.ncols
     parts = basis.columns(range(n)) @ of_states.transposed(), basis.columns(range(n, n + p)) @ of_outputs.transposed()
     return row_echelon(beside(*parts)).matrix
 
 
 def scaled(matrix: Matrix, factor: Any) -> Matrix:
-    """Every entry times the factor."""
+    """Every entry of the result is the factor times that of the matrix."""
     rows = [[x * factor for x in row] for row in matrix.elements()]
     return Matrix.from_elements(matrix.field, matrix.nrows, matrix.ncols, rows)
 
 
 def factors(system: ResidualSystem) -> list[Any]:
-    """MULTIPLES as units of the field."""
+    """The result is the list of MULTIPLES as units of the field."""
     one = system.field.element
     pairs = [(one(top), one(bottom)) for top, bottom in MULTIPLES]
     return [top / bottom for top, bottom in pairs if top != 0 and bottom != 0]
@@ -102,7 +102,7 @@ def test_permuted_outputs(given: Json, seed: int) -> None:
 @SOME
 @given(systems())
 def test_amplitudes(given: Json) -> None:
-    """Faults, outputs and states in other units."""
+    """Faults, outputs and states may be given in other units."""
     system = checks.read(given)
     wanted, space = checks.indices(system), limit(system)
     for c in factors(system):
@@ -186,7 +186,7 @@ def test_integer_systems_modulo_a_prime_have_no_larger_ranks(prime: int) -> None
 
 
 def test_the_example_in_other_units() -> None:
-    """The example of the paper, with all amplitudes in thousandths and all states mixed."""
+    """The example of the paper is given with all amplitudes in thousandths and all states mixed."""
     system = checks.read(paper_example())
     T, T_inverse = invertible(Random(0), system, 3)
     c = system.field.element("1/1000")

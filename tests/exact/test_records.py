@@ -6,9 +6,11 @@ RECORDS     name -> a function from a system to a result
 
 from __future__ import annotations
 
+import copy
+import json
 import pickle
 from collections.abc import Callable
-from dataclasses import FrozenInstanceError, fields
+from dataclasses import FrozenInstanceError, fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -18,18 +20,22 @@ import sympy
 from hypothesis import given, settings
 from sympy.polys.matrices import DomainMatrix
 
+import faultspace.exact as exact
+from faultspace.base.errors import InvalidInput
+from faultspace.base.sheets import Shown
 from faultspace.exact.algebra.fields import QQ, AlgebraicNumber, Field, NumberField, PrimeField, field_from_json
 from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.pairs.polynomial import Exceptional
 from faultspace.exact.structure.behavior import compare
 from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.inversion import ambiguous_word
-from faultspace.exact.structure.kernel_rows import horner, kernel_representation
+from faultspace.exact.structure.kernel_rows import KernelRepresentation, horner, kernel_representation
 from faultspace.exact.structure.pencil import right_null_polynomial
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.structure.zero_output import zero_output_chain
 from faultspace.exact.system.modular import image
-from faultspace.exact.system.systems import FaultySystem, ResidualSystem, from_float_exactly, read_system
+from faultspace.exact.system.systems import FaultySystem, ResidualSystem, System, from_float_exactly, read_system
 from tests.exact import checks
 from tests.oracle.families import CUBIC, FIELDS, SQRT2
 from tests.oracle.strategies import systems
@@ -87,7 +93,7 @@ FIELD_OBJECTS: dict[str, Field] = {name: field_from_json(f) for name, f in FIELD
 
 
 def example(field: Field) -> ResidualSystem:
-    """One fault, two outputs, three states, entries 0, 1 and 2."""
+    """The system has one fault, two outputs, three states and the entries 0, 1 and 2."""
     return ResidualSystem.of([[0, 1, 0], [0, 0, 1], [2, 1, 1]], [[1], [0], [1]], [[1, 0, 0], [0, 1, 0]], [[0], [0]], field=field)
 
 
@@ -107,13 +113,79 @@ def test_records_are_values(name: str, over: str) -> None:
     assert record is not None
     again = make(example(FIELD_OBJECTS[over]))
     assert again == record and hash(again) == hash(record)
-    copy = pickle.loads(pickle.dumps(record))
-    assert copy == record and hash(copy) == hash(record) and type(copy) is type(record)
+    loaded = pickle.loads(pickle.dumps(record))
+    assert loaded == record and hash(loaded) == hash(record) and type(loaded) is type(record)
     for place in fields(record):
         with pytest.raises(FrozenInstanceError):
             setattr(record, place.name, None)
     with pytest.raises((FrozenInstanceError, TypeError)):
         record.something_new = 1
+
+
+def test_both_kinds_are_systems_and_nothing_else_is() -> None:
+    """What `System` makes is an instance of it and equal to what the class of its kind makes; neither kind is the other."""
+    rows = SAME["strings"]
+    inputs: Json = {"B": [["1"], ["0"]], "D": [["2"]]}
+    without, faulty = System(*rows), System(*rows, **inputs)
+    assert (type(without), type(faulty)) == (ResidualSystem, FaultySystem)
+    assert without == ONE_WAY == without.residual == faulty.residual
+    assert faulty == FaultySystem(ONE_WAY, Matrix.of([[1], [0]]), Matrix.of([[2]])) == read_system({**ONE_WAY.to_json(), **inputs})
+    assert all(isinstance(one, System) for one in (without, faulty, ONE_WAY)) and not isinstance(ONE_WAY.A, System)
+    for one in (without, faulty):
+        assert (one.n, one.m, one.p, one.field) == (2, 1, 1, QQ)
+        assert replace(one) == copy.deepcopy(one) == one
+    moved = replace(without, G=Matrix.of([[5]]))
+    assert Matrix.of([[5]]) == moved.G and moved.A == ONE_WAY.A
+    with pytest.raises(InvalidInput, match="G: got shape"):
+        replace(without, G=Matrix.zero(QQ, 2, 2))
+
+
+PAIRS: dict[str, Callable[[Exceptional], Any]] = {
+    "pencil": lambda pencil: pencil,
+    "verdict": lambda pencil: exact.judge(pencil, [[0]] * pencil.n_z),
+    "good columns": exact.good_columns,
+    "bad pair, or none": exact.bad_pair,
+    "zero assignment": lambda pencil: exact.assign_zeros(pencil, list(pencil.fixed)),
+    "recovery": exact.recoverable_pair,
+    "bad set": exact.bad_set,
+}
+NAMED: dict[str, Callable[[KernelRepresentation], Any]] = {
+    "kernel representation": lambda kernel: kernel,
+    "fault space": exact.fault_space,
+    "fault space of a short window": lambda kernel: exact.fault_space(kernel, 0),
+    "without feedthrough": exact.zero_feedthrough,
+    "behaviour": exact.behavior_name,
+    "fault class": exact.fault_class,
+    "feedback class": exact.feedback_class,
+}
+
+
+def public_records(field: Field) -> dict[str, Any]:
+    """One of each record that a public function makes over the field."""
+    system = example(field)
+    kernel = kernel_representation(system)
+    found = {name: RECORDS[name](system) for name in ("system", "with inputs", "comparison", "trajectory", "structure")}
+    found |= {name: make(exact.exceptional(kernel)) for name, make in PAIRS.items()} | {name: make(kernel) for name, make in NAMED.items()}
+    unobservable = ResidualSystem.of([[1]], [[1]], [[0]], [[1]], field=field)
+    found["bad pair"] = exact.bad_pair(exact.exceptional(kernel_representation(unobservable)))
+    if field == QQ:
+        found["generic ranks"], found["strata"] = exact.generic_window_ranks(1, 2, 1, [1, 2]), exact.stratify(1, 1, 1)
+        found["equations"] = exact.bad_equations(exact.exceptional(kernel))
+        stable = FaultySystem(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), Matrix.of([[1]]), Matrix.of([[0]]))
+        found["experiment"] = exact.Experiment(stable, 2, 2, exact.Filter.of([[[1, 0]]]), exact.Filter.of([[[0, 1]]]))
+    return found
+
+
+@pytest.mark.parametrize("over", list(FIELD_OBJECTS))
+def test_public_records_are_read_by_people_and_programs(over: str) -> None:
+    """Each has a short repr, a summary that begins with its title, a table for notebooks, and JSON that can be written."""
+    for name, record in public_records(FIELD_OBJECTS[over]).items():
+        assert Shown in type(record).__mro__, name
+        assert repr(record) == f"<{type(record).__name__}: {record.title}>" and len(repr(record)) < 140 and "\n" not in repr(record), name
+        lines = record.summary().splitlines()
+        assert lines[0] == record.title, name
+        assert record._repr_html_().count("<tr>") == len(list(record.sheet())), name
+        assert json.loads(json.dumps(record.to_json())) == record.to_json(), name
 
 
 @pytest.mark.parametrize("over", list(FIELD_OBJECTS))
@@ -193,7 +265,7 @@ def test_domain_matrices_over_other_domains() -> None:
 
 
 def test_the_example_of_the_paper_through_sympy() -> None:
-    """The cubic field of the example, its F given as a DomainMatrix over QQ<a>."""
+    """The example has a cubic field, and its F is given as a DomainMatrix over QQ<a>."""
     x = sympy.Symbol("x")
     field = field_from_json(CUBIC)
     domain = sympy.QQ.algebraic_field(sympy.CRootOf(4 * x**3 - x**2 - 3 * x + 1, 0))

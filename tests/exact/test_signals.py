@@ -30,13 +30,13 @@ SEEN = ResidualSystem.of([[0]], [[1]], [[1], [0]], [[0], [1]])
 
 
 def excited(given: ResidualSystem, seed: int, samples: int) -> Trajectory:
-    """A random trajectory."""
+    """The result is a random trajectory."""
     rng = Random(seed)
     return simulate(given, checks.random_matrix(rng, given, given.n, 1), checks.random_matrix(rng, given, samples, given.m))
 
 
 def as_exact(matrix: SlowMatrix, field: Any) -> Matrix:
-    """The oracle's matrix as one of this room."""
+    """The result is the oracle's matrix as one of this room."""
     rows = [[matrix.field.write(x) for x in row] for row in matrix.rows]
     return Matrix.of(rows, field, shape=(matrix.height, matrix.width))
 
@@ -64,7 +64,7 @@ def test_the_recursion_by_hand(given: Json, seed: int, samples: int) -> None:
 @SOME
 @given(systems(), SEEDS)
 def test_the_factorisation(given: Json, seed: int) -> None:
-    """R_s = [O_s T_s] [X; V_s]."""
+    """The Hankel matrix is the product R_s = [O_s T_s] [X; V_s]."""
     exact = checks.read(given)
     found = excited(exact, seed, 6)
     for s in range(5):

@@ -32,7 +32,7 @@ EXHAUSTED += [(3, n, p, m) for n, p, m in product(range(2), range(2), range(2))]
 
 
 def all_systems(prime: int, n: int, p: int, m: int) -> Iterator[Json]:
-    """All prime^((n+p)(n+m)) of them."""
+    """These are all prime^((n+p)(n+m)) systems."""
     for entries in product(range(prime), repeat=(n + p) * (n + m)):
         rows = [list(entries[i * (n + m) : (i + 1) * (n + m)]) for i in range(n + p)]
         blocks = {"A": [row[:n] for row in rows[:n]], "F": [row[n:] for row in rows[:n]]}

@@ -94,7 +94,7 @@ def test_the_order_of_the_primes() -> None:
 @settings(max_examples=60)
 @given(systems(field="Q", largest=2), SEEDS)
 def test_entries_mixed_with_the_first_prime(given: Json, seed: int) -> None:
-    """Every entry times, over or plus the first prime, at random."""
+    """Every entry is taken times, over or plus the first prime, at random."""
     rng = Random(seed)
 
     def spoiled(entry: Any) -> str:
@@ -222,7 +222,7 @@ def test_a_prime_field_is_its_own_image() -> None:
 
 @pytest.mark.parametrize("prime", [2, FIRST, 18446744073709551557])
 def test_extreme_prime_fields(prime: int) -> None:
-    """2 and the largest prime below 2^64."""
+    """The fields are those of 2 and of the largest prime below 2^64."""
     checks.check_report(system([["1", "1"], ["0", "1"]], [["1"], ["1"]], [["1", "1"]], [["1"]], field={"prime": prime}))
 
 

@@ -12,7 +12,7 @@ import pytest
 
 @pytest.fixture(scope="session")
 def root() -> Path:
-    """The folder of pyproject.toml."""
+    """The root is the folder of pyproject.toml."""
     return Path(__file__).resolve().parents[2]
 
 

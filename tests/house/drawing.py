@@ -25,7 +25,7 @@ WIDTH = 100
 
 
 def room_of(place: str) -> str:
-    """The room that a place lies in."""
+    """This is the room that a place lies in."""
     return place.partition("/")[0]
 
 
@@ -77,20 +77,20 @@ def opening(source: str) -> str:
     return " ".join(text.partition("\n\n")[0].split()).replace("|", "\\|")
 
 
-def filled(page: str, rows: Sequence[str]) -> str:
+def filled(page: str, rows: Sequence[str], begin: str = BEGIN, end: str = END) -> str:
     """The page with the rows between its marks."""
-    before, _, rest = page.partition(BEGIN)
-    _, mark, after = rest.partition(END)
+    before, _, rest = page.partition(begin)
+    _, mark, after = rest.partition(end)
     if not mark:
-        raise ValueError(f"the page has no place for a drawing: {BEGIN}")
-    return f"{before}{BEGIN}\n" + "\n".join(["", *rows, ""]) + f"\n{END}{after}"
+        raise ValueError(f"the page has no place for a drawing: {begin}")
+    return f"{before}{begin}\n" + "\n".join(["", *rows, ""]) + f"\n{end}{after}"
 
 
 PAGES: dict[str, Callable[[Graph], list[str]]] = {"CONTRIBUTING.md": figure, "docs/house.md": table}
 
 
 def main() -> None:
-    """Draws every page again."""
+    """This draws every page again."""
     graph = counted(file_graph(house()))
     for page, made in PAGES.items():
         path = ROOT / page

@@ -15,6 +15,7 @@ Imports for type checkers alone and imports within functions count like all othe
 import ast
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -27,15 +28,20 @@ LEFT: set[tuple[str, str]] = set()
 
 @dataclass(frozen=True)
 class Module:
-    """A module by its import name."""
+    """A module goes by its import name."""
 
     name: str
     source: str
     is_package: bool = False
 
 
-def imports(module: Module) -> Iterator[str]:
-    """Dotted names imported anywhere in the module; `from a import b` gives `a.b`, as b may be a module."""
+@cache
+def imports(module: Module) -> tuple[str, ...]:
+    """Dotted names imported anywhere in the module; `from a import b` gives `a.b`, as b may be a module. A source is read once only."""
+    return tuple(_imports(module))
+
+
+def _imports(module: Module) -> Iterator[str]:
     package = module.name if module.is_package else module.name.rpartition(".")[0]
     for node in ast.walk(ast.parse(module.source)):
         match node:
@@ -105,7 +111,7 @@ def place_graph(files: Mapping[str, set[str]]) -> Graph:
 
 
 def counted(graph: Graph) -> Graph:
-    """Without what is left."""
+    """The graph comes without what is left."""
     return {name: {one for one in imported if (name, one) not in LEFT} for name, imported in graph.items()}
 
 

@@ -7,7 +7,7 @@ from .import_graph import ROOT, Graph, Module, circle, counted, file_graph, hous
 
 
 def files(*more: Module) -> Graph:
-    """Every file of the house and these."""
+    """The graph has every file of the house, and these."""
     return file_graph([*house(), *more])
 
 

@@ -21,13 +21,13 @@ from faultspace.exact.system.systems import ResidualSystem
 
 
 def floats(matrix: Matrix) -> Any:
-    """A rational matrix, each entry correctly rounded."""
+    """Return a rational matrix, each entry correctly rounded."""
     return np.array(matrix.to_sympy().tolist(), dtype=float).reshape(matrix.shape)
 
 
 @dataclass(frozen=True, eq=False)
 class ExactCase:
-    """x(k+1) = A x + B u, y = C x + D u over Q, with one record u (N, n_u), y (N, p) from x0 (n, 1)."""
+    """The system is x(k+1) = A x + B u, y = C x + D u over Q, with one record u (N, n_u), y (N, p) from x0 (n, 1)."""
 
     A: Matrix
     B: Matrix
@@ -42,7 +42,7 @@ class ExactCase:
         return self.A.nrows
 
     def data(self) -> tuple[Any, Any]:
-        """(y, u) in floats."""
+        """Return (y, u) in floats."""
         return floats(self.y), floats(self.u)
 
 
@@ -55,7 +55,7 @@ def _drawn(rng: Random, height: int, width: int, denominator: int) -> Matrix:
 
 
 def stable_state_matrix(rng: Random, n: int) -> Matrix:
-    """Entries over 16 or a multiple of it, spectral radius below 0.9."""
+    """Return entries over 16 or a multiple of it, spectral radius below 0.9."""
     entries = [[rng.randint(-12, 12) for _ in range(n)] for _ in range(n)]
     radius = float(np.max(np.abs(np.linalg.eigvals(np.array(entries, dtype=float)))))
     denominator = 16 * max(1, int(np.ceil(radius / 14.4)))
@@ -63,7 +63,7 @@ def stable_state_matrix(rng: Random, n: int) -> Matrix:
 
 
 def bandpass(u: Matrix, smoothing: int) -> Matrix:
-    """Running sums of neighbouring samples, `smoothing` times."""
+    """Return running sums of neighbouring samples, `smoothing` times."""
     signal = u
     for _ in range(smoothing):
         rows = range(signal.nrows - 1)
@@ -72,7 +72,7 @@ def bandpass(u: Matrix, smoothing: int) -> Matrix:
 
 
 def exact_case(seed: int, n: int, n_u: int, p: int, *, samples: int = 60, smoothing: int = 0) -> ExactCase:
-    """A random case; `smoothing` makes the Hankel matrix of u as ill-conditioned as one likes."""
+    """Return a random case; `smoothing` makes the Hankel matrix of u as ill-conditioned as one likes."""
     rng = Random(seed)
     A, B, C, D = stable_state_matrix(rng, n), _drawn(rng, n, n_u, 3), _drawn(rng, p, n, 5), _drawn(rng, p, n_u, 7)
     u = bandpass(_drawn(rng, samples + smoothing, n_u, 3), smoothing)

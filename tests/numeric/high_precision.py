@@ -28,12 +28,12 @@ Array = Any  # arrays of mpf, of dtype object
 
 
 def precise() -> AbstractContextManager[Any]:
-    """The working precision."""
+    """Return the working precision."""
     return mpmath.workdps(DIGITS)  # type: ignore[no-any-return]
 
 
 def lift(matrix: Any) -> Array:
-    """An array of mpf from floats (exactly what they are), Fractions, or a matrix of the exact branch (correctly rounded)."""
+    """Return an array of mpf from floats (exactly what they are), Fractions, or a matrix of the exact branch (correctly rounded)."""
     exact = hasattr(matrix, "to_sympy")
     entries = np.array(matrix.to_sympy().tolist(), dtype=object).reshape(matrix.shape) if exact else np.asarray(matrix)
     result = np.empty(entries.shape, dtype=object)
@@ -56,7 +56,7 @@ def identity(n: int) -> Array:
 
 
 def norm(matrix: Array) -> Any:
-    """Frobenius norm."""
+    """Return the Frobenius norm."""
     return mpmath.sqrt(mpmath.fsum(entry * entry for entry in matrix.ravel()))
 
 
@@ -69,7 +69,7 @@ def _array(matrix: Any) -> Array:
 
 
 def reflected(H: Array, others: Array) -> tuple[Array, Array]:
-    """R (k, k) upper triangular and Q' others, for H (m, k) with m >= k = its number of columns: H = Q [R; 0]."""
+    """Return R (k, k) upper triangular and Q' others, for H (m, k) with m >= k = its number of columns: H = Q [R; 0]."""
     work, side = H.copy(), others.copy()
     k = work.shape[1]
     for column in range(k):
@@ -88,14 +88,14 @@ def reflected(H: Array, others: Array) -> tuple[Array, Array]:
 
 
 def triangle(H: Array) -> Array:
-    """R (k, k) upper triangular with nonnegative diagonal and R' R = H' H, H (m, k) with m >= k."""
+    """Return R (k, k) upper triangular with nonnegative diagonal and R' R = H' H, H (m, k) with m >= k."""
     upper = reflected(H, zeros(len(H), 1))[0]
     signs = np.array([-1 if upper[i, i] < 0 else 1 for i in range(len(upper))], dtype=object)
     return signs[:, np.newaxis] * upper
 
 
 def back_substituted(upper: Array, right: Array) -> Array:
-    """X with upper X = right."""
+    """Return X with upper X = right."""
     solution = right.copy()
     for i in reversed(range(len(upper))):
         solution[i] = (right[i] - upper[i, i + 1 :] @ solution[i + 1 :]) / upper[i, i]
@@ -103,14 +103,14 @@ def back_substituted(upper: Array, right: Array) -> Array:
 
 
 def least_squares(matrix: Array, right: Array) -> Array:
-    """The X (k, any) of least |matrix X - right|, full column rank."""
+    """Return the X (k, any) of least |matrix X - right|, full column rank."""
     k = matrix.shape[1]
     upper, turned = reflected(matrix, right)
     return back_substituted(upper, turned[:k])
 
 
 def singular(matrix: Array) -> tuple[Array, Array]:
-    """Left singular vectors and singular values, descending."""
+    """Return left singular vectors and singular values, descending."""
     # svd_r wants no more columns than rows to be quick; a triangle of the transpose has the same left side.
     square = triangle(matrix.T).T if matrix.shape[1] > matrix.shape[0] else matrix
     left, values, _ = mpmath.svd_r(_matrix(square))
@@ -119,7 +119,7 @@ def singular(matrix: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class Factor:
-    """L of [Uf; Up; Yf] for s future and q past rows."""
+    """The factor is L of [Uf; Up; Yf] for s future and q past rows."""
 
     lower: Array
     s: int
@@ -129,31 +129,31 @@ class Factor:
     columns: int
 
     def part(self, row: str, column: str) -> Array:
-        """A block by the letters f, p, y."""
+        """Return a block by the letters f, p, y."""
         a, b = self.s * self.n_u, (self.s + self.q) * self.n_u
         spans = {"f": slice(0, a), "p": slice(a, b), "y": slice(b, None)}
         return self.lower[spans[row], spans[column]]
 
 
 def hankel(signal: Array, first: int, rows: int, columns: int) -> Array:
-    """Block rows first .. first + rows - 1 of the Hankel matrix of a time-major signal."""
+    """Return block rows first .. first + rows - 1 of the Hankel matrix of a time-major signal."""
     return np.vstack([signal[i : i + columns].T for i in range(first, first + rows)])
 
 
 def data_matrix(y: Array, u: Array, s: int, q: int) -> Array:
-    """[Uf; Up; Yf]."""
+    """Return [Uf; Up; Yf]."""
     columns = len(y) - s - q + 1
     return np.vstack([hankel(u, q, s, columns), hankel(u, 0, q, columns), hankel(y, q, s, columns)])
 
 
 def compression(y: Array, u: Array, s: int, q: int) -> Factor:
-    """L by Householder reflections of the whole matrix."""
+    """Return L by Householder reflections of the whole matrix."""
     return Factor(triangle(data_matrix(y, u, s, q).T).T, s, q, u.shape[1], y.shape[1], len(y) - s - q + 1)
 
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A, B, C, D, all mpf; `x0` where the data were read."""
+    """The model holds A, B, C, D, all mpf; `x0` stands where the data were read."""
 
     A: Array
     B: Array
@@ -163,7 +163,7 @@ class Model:
 
 
 def observability(A: Array, C: Array, s: int) -> Array:
-    """O_s."""
+    """Return O_s."""
     blocks = [C]
     for _ in range(s - 1):
         blocks.append(blocks[-1] @ A)
@@ -171,7 +171,7 @@ def observability(A: Array, C: Array, s: int) -> Array:
 
 
 def identify(factor: Factor, n: int, scale: Any = None) -> tuple[Array, Array, Array]:
-    """A, C of order n and the singular values, from L32 with outputs divided by `scale` (their root mean square where None)."""
+    """Return A, C of order n and the singular values, from L32 with outputs divided by `scale` (their root mean square where None)."""
     s, p = factor.s, factor.p
     outputs = factor.lower[-s * p :]
     if scale is None:
@@ -187,7 +187,7 @@ def identify(factor: Factor, n: int, scale: Any = None) -> tuple[Array, Array, A
 
 
 def by_moesp(factor: Factor, A: Array, C: Array) -> Model:
-    """B and D of least Frobenius norm of Pi (L31 L11^-1 - T_s(B, D)), outputs in their own units."""
+    """Return B and D of least Frobenius norm of Pi (L31 L11^-1 - T_s(B, D)), outputs in their own units."""
     s, p, n = factor.s, factor.p, len(A)
     free = observability(A, C, s)
     Z = back_substituted_lower(factor.part("f", "f"), factor.part("y", "f"))
@@ -205,13 +205,13 @@ def by_moesp(factor: Factor, A: Array, C: Array) -> Model:
 
 
 def back_substituted_lower(lower: Array, right: Array) -> Array:
-    """right lower^-1 for a lower triangular matrix."""
+    """Return right lower^-1 for a lower triangular matrix."""
     upper = lower.T  # X lower = right  <=>  upper X' = right'
     return back_substituted(upper, right.T).T
 
 
 def regressor(A: Array, C: Array, u: Array) -> Array:
-    """Phi with y = Phi [x0; B by columns; D by rows], (N p, n + n n_u + p n_u)."""
+    """Return Phi with y = Phi [x0; B by columns; D by rows], (N p, n + n n_u + p n_u)."""
     n, p, n_u = len(A), len(C), u.shape[1]
     rows = zeros(len(u), p, n + n * n_u + p * n_u)
     state = zeros(n, n + n * n_u)
@@ -229,7 +229,7 @@ def regressor(A: Array, C: Array, u: Array) -> Array:
 
 
 def by_output_error(y: Array, u: Array, A: Array, C: Array, scale: Any) -> Model:
-    """x0, B, D of least sum of squares of (y - simulated) / scale."""
+    """Return x0, B, D of least sum of squares of (y - simulated) / scale."""
     n, p, n_u = len(A), len(C), u.shape[1]
     scale = lift(scale)
     theta = least_squares(regressor(A, C / scale[:, np.newaxis], u), (y / scale).reshape(-1, 1)).ravel()
@@ -238,7 +238,7 @@ def by_output_error(y: Array, u: Array, A: Array, C: Array, scale: Any) -> Model
 
 
 def simulate(model: Model, u: Array, x0: Array) -> Array:
-    """y (N, p)."""
+    """Return y (N, p)."""
     x, y = x0, []
     for sample in u:
         y.append(model.C @ x + model.D @ sample)
@@ -247,7 +247,7 @@ def simulate(model: Model, u: Array, x0: Array) -> Array:
 
 
 def residual(y: Array, u: Array, model: Model) -> Array:
-    """y less the model's response to u, the initial state fitted by least squares."""
+    """Return y less the model's response to u, the initial state fitted by least squares."""
     N, p = y.shape
     error = y - simulate(model, u, zeros(len(model.A)))
     Phi = observability(model.A, model.C, N)
@@ -256,13 +256,13 @@ def residual(y: Array, u: Array, model: Model) -> Array:
 
 
 def hankel_values(r: Array, windows: int) -> list[Array]:
-    """Singular values of R_1 .. R_windows over the columns of the longest."""
+    """Return singular values of R_1 .. R_windows over the columns of the longest."""
     columns = len(r) - windows + 1
     return [singular(hankel(r, 0, s, columns))[1] for s in range(1, windows + 1)]
 
 
 def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, regularisation: float, refinements: int) -> tuple[Array, Array]:
-    """x(0) (n,) and v (N, m): min |r - C x - G v|^2 + regularisation^2 |v|^2, solved again for what it leaves over."""
+    """Return x(0) (n,) and v (N, m): min |r - C x - G v|^2 + regularisation^2 |v|^2, solved again for what it leaves over."""
     N, n, m = len(r), len(A), F.shape[1]
     free = observability(A, C, N)
     T = zeros(len(r) * len(C), N * m)
@@ -283,7 +283,7 @@ def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, regularisation
 
 
 def markov(model: Any, count: int) -> Array:
-    """D, CB, CAB, .. (count, p, n_u) of a model of mpf."""
+    """Return D, CB, CAB, .. (count, p, n_u) of a model of mpf."""
     values, state = [model.D], model.B
     for _ in range(count - 1):
         values.append(model.C @ state)
@@ -292,7 +292,7 @@ def markov(model: Any, count: int) -> Array:
 
 
 def characteristic_polynomial(A: Array) -> Array:
-    """Coefficients of z^(n-1), .., 1 in det(zI - A)."""
+    """Return coefficients of z^(n-1), .., 1 in det(zI - A)."""
     n, adjugate, coefficients = len(A), identity(len(A)), []
     for k in range(n):
         product = A @ adjugate
@@ -302,13 +302,13 @@ def characteristic_polynomial(A: Array) -> Array:
 
 
 def poles(A: Array) -> list[Any]:
-    """Eigenvalues."""
+    """Return the eigenvalues."""
     # mpmath.eig has another form of answer for one by one.
     return [A[0, 0]] if len(A) == 1 else list(mpmath.eig(_matrix(A), left=False, right=False))
 
 
 def transfer(model: Any, z: complex) -> Array:
-    """D + C (zI - A)^-1 B at a complex z, (p, n_u) of mpc."""
+    """Return D + C (zI - A)^-1 B at a complex z, (p, n_u) of mpc."""
     n = len(model.A)
     point = mpmath.mpc(z)
     pencil = _matrix(identity(n) * point - model.A)

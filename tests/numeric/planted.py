@@ -20,7 +20,7 @@ import scipy.signal
 
 @dataclass(frozen=True)
 class Planted:
-    """x+ = A x + F v, r = C x + G v; `Z` (n + p, n_v + zeta) spans its fault space."""
+    """The system is x+ = A x + F v, r = C x + G v; `Z` (n + p, n_v + zeta) spans its fault space."""
 
     A: Any
     F: Any
@@ -35,10 +35,10 @@ class Planted:
 
 
 def planted(seed: int, zeros: tuple[float, ...] = (), *, n: int = 5, p: int = 3, m: int = 2) -> Planted:
-    """A stable system with exactly these real finite zeros and none at infinity.
+    """Return a stable system with exactly these real finite zeros and none at infinity.
 
-    On a subspace W, the feedback v = K x is made to keep x in W with zero output: A W = W diag(zeros) - F K, C W =
-    -G K. Then V* = W, and Z = im [F; G] + [A; C] W + [W; 0].
+    On a subspace W, the feedback v = K x is made to keep x in W with zero output: A W = W diag(zeros) - F K, C W = -G K. Then V* = W, and Z
+    = im [F; G] + [A; C] W + [W; 0].
     """
     rng = np.random.default_rng(seed)
     k = len(zeros)
@@ -59,9 +59,7 @@ def planted(seed: int, zeros: tuple[float, ...] = (), *, n: int = 5, p: int = 3,
 
 
 def paper_example() -> Planted:
-    """Z = im [F; 0] + [A; C] F + [F; 0] for the infinite zero's U = im F; F is an eigenvector of A with a real
-    eigenvalue.
-    """
+    """Return Z = im [F; 0] + [A; C] F + [F; 0] for the infinite zero's U = im F; F is an eigenvector of A with a real eigenvalue."""
     A = np.array([[0, 1, 0], [0, 0, 1], [-0.25, 0.75, 0.25]])
     C = np.array([[1.0, 0, 0], [0, 1, 0]])
     root = min(np.roots([4, -1, -3, 1]).real)
@@ -72,7 +70,7 @@ def paper_example() -> Planted:
 
 
 def simulate(system: Planted, x0: Any, v: Any) -> Any:
-    """r (N, p)."""
+    """Return r (N, p)."""
     x = np.asarray(x0, dtype=float)
     r = np.empty((len(v), system.C.shape[0]))
     for k, fault in enumerate(v):
@@ -82,7 +80,7 @@ def simulate(system: Planted, x0: Any, v: Any) -> Any:
 
 
 def faults(seed: int, samples: int, m: int = 2) -> Any:
-    """A chirp, a slow rise with white noise, then white noise: (samples, m)."""
+    """Return a chirp, a slow rise with white noise, then white noise: (samples, m)."""
     t = np.arange(samples)
     rng = np.random.default_rng(seed)
     signals = [np.sin(0.25 * t**1.3) + 0.1, 1 - 0.99**t + rng.standard_normal(samples)]
@@ -90,7 +88,7 @@ def faults(seed: int, samples: int, m: int = 2) -> Any:
 
 
 def coloured(seed: int, r: Any, decibels: float) -> Any:
-    """The paper's low-pass noise, (N, p), each channel that far below the one of r."""
+    """Return the paper's low-pass noise, (N, p), each channel that far below the one of r."""
     white = np.random.default_rng(seed).standard_normal((len(r) + 200, r.shape[1]))
     noise = scipy.signal.lfilter([0.17, 0.5, 0.5, 0.17], [1, 0, 0.33, 0], white, axis=0)[200:]
     return noise / noise.std(axis=0) * r.std(axis=0) * 10 ** (-decibels / 20)

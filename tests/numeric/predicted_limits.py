@@ -25,7 +25,7 @@ SETTLING = 500
 
 
 def floats(matrix: Matrix) -> Any:
-    """The float array."""
+    """Return the float array."""
     return np.array([[int(x.p) / int(x.q) for x in row] for row in matrix.elements()]).reshape(matrix.shape)
 
 
@@ -40,7 +40,7 @@ def _filtered(one: Filter, noise: Any) -> Any:
 
 
 def simulated(experiment: Experiment, samples: int, seed: int) -> tuple[Any, Any]:
-    """y (N, p) and u (N, nu)."""
+    """Return y (N, p) and u (N, nu)."""
     generator = np.random.default_rng(seed)
     system, residual = experiment.system, experiment.system.residual
     noise = generator.standard_normal((samples + SETTLING, experiment.u_filter.noise))
@@ -53,7 +53,7 @@ def simulated(experiment: Experiment, samples: int, seed: int) -> tuple[Any, Any
 
 
 def predicted_model(known: Covariances, blocks: WindowCovariances, limit: Limit, s: int, past: int, order: int, *, outputs: bool) -> Any:
-    """invariants() of the model that PI-MOESP (PO-MOESP with `outputs`) tends to at this order."""
+    """Return invariants() of the model that PI-MOESP (PO-MOESP with `outputs`) tends to at this order."""
     u, y, before = known.process.u, known.process.y, range(-past, 0)
     whole, crossed = known.windows(u, u, before, before), blocks.uf_up
     if outputs:
@@ -76,7 +76,7 @@ def predicted_model(known: Covariances, blocks: WindowCovariances, limit: Limit,
 
 
 def invariants(A: Any, B: Any, C: Any, D: Any) -> Any:
-    """One vector."""
+    """Return the invariants of a model as one vector."""
     parts = [np.poly(A)[1:], D.ravel()]
     for _ in range(len(A)):
         parts.append((C @ B).ravel())

@@ -45,14 +45,12 @@ EXCITED = 1e9
 
 
 def floats(matrix: Matrix) -> Any:
-    """A rational matrix, each entry correctly rounded."""
+    """Return a rational matrix, each entry correctly rounded."""
     return np.array(matrix.to_sympy().tolist(), dtype=float).reshape(matrix.shape)
 
 
 def stable(system: ResidualSystem) -> ResidualSystem:
-    """The system with q replaced by a multiple of q, so that A is a contraction: A and C A^k F shrink, the structure
-    stays.
-    """
+    """Return the system with q replaced by a multiple of q, so that A is a contraction: A and C A^k F shrink, the structure stays."""
     largest = max(1, int(np.ceil(np.max(np.abs(np.linalg.eigvals(floats(system.A))), initial=0) * 10 / 9)))
     shape = (system.n, system.n)
     scale = Matrix.of([[f"1/{largest}" if i == j else 0 for j in range(system.n)] for i in range(system.n)], shape=shape)
@@ -61,7 +59,7 @@ def stable(system: ResidualSystem) -> ResidualSystem:
 
 
 def cases(seed: int, shape: Structure) -> tuple[ResidualSystem, KernelRepresentation, Any, Any, Any]:
-    """System, kernel, exact fault signal, residuals in floats, and the exact condition number of the excitation."""
+    """Return system, kernel, exact fault signal, residuals in floats, and the exact condition number of the excitation."""
     attempt = 0
     while True:
         rng = Random(1000 * seed + attempt)
@@ -117,7 +115,7 @@ def test_wrong_columns_at_the_lag() -> None:
 
 @pytest.mark.parametrize("shape", STRUCTURES, ids=str)
 def test_zeros_and_delays(shape: Structure) -> None:
-    """Both delays and the finite zeros as the exact branch has them."""
+    """Both delays and the finite zeros are those of the exact branch."""
     for seed in range(3):
         system, kernel, _, _, _ = cases(seed, shape)
         found = fault_zeros(*(floats(M) for M in (system.A, system.F, system.C, system.G)))
@@ -132,7 +130,7 @@ def test_zeros_and_delays(shape: Structure) -> None:
 
 
 def _zeros_differ_by(found: Any, polynomial: list[float]) -> float:
-    """The largest distance of the zeros from the roots of the exact polynomial, matched in the order of their parts."""
+    """Return the largest distance of the zeros from the roots of the exact polynomial, matched in the order of their parts."""
     due = np.sort_complex(np.roots(polynomial[::-1]))
     assert len(found) == len(due)
     return float(np.max(np.abs(np.sort_complex(found) - due), initial=0))
@@ -208,7 +206,7 @@ def test_a_pair_that_the_exact_branch_calls_equivalent_explains_the_floats() -> 
 
 
 def test_the_papers_example() -> None:
-    """The exact example over its cubic field and the float one: the same dimensions at s = 1 .. 6, and lag 2."""
+    """The exact example over its cubic field and the float one have the same dimensions at s = 1 .. 6, and lag 2."""
     example = paper_example()
     exact = read_system(
         {

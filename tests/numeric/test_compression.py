@@ -19,14 +19,14 @@ Array = NDArray[np.float64]
 
 
 def record(samples: int, n_u: int, p: int, seed: int = 0) -> tuple[Array, Array]:
-    """White y (N, p) and u (N, n_u) with a mean, of unequal sizes."""
+    """Return white y (N, p) and u (N, n_u) with a mean, of unequal sizes."""
     rng = np.random.default_rng(seed)
     y = rng.standard_normal((samples, p)) * 10.0 ** np.arange(p) + 0.5
     return y, rng.standard_normal((samples, n_u)) + 0.3
 
 
 def written_out(y: Array, u: Array, block_rows: int, past_rows: int) -> Array:
-    """The factor from the whole Hankel matrix."""
+    """Return the factor from the whole Hankel matrix."""
     lags = past_rows + block_rows
     columns = len(y) - lags + 1
     past, future = range(past_rows), range(past_rows, lags)
@@ -37,7 +37,7 @@ def written_out(y: Array, u: Array, block_rows: int, past_rows: int) -> Array:
 
 
 def difference(one: Array, other: Array) -> float:
-    """The largest difference of entries, each column by its length: units cancel."""
+    """Return the largest difference of entries, each column by its length: units cancel."""
     return float(np.max(np.abs(one - other) / np.linalg.norm(other, axis=0)))
 
 
@@ -116,7 +116,8 @@ def test_a_compression_survives_pickling() -> None:
 
 
 def ill_conditioned(samples: int, spread: float) -> Array:
-    """u whose second difference is white of size `spread` below a slow drift: smooth inputs make the Hankel matrix nearly singular."""
+    """Return u whose second difference is white of size `spread` below a slow drift: smooth inputs make the Hankel matrix nearly
+    singular."""
     rng = np.random.default_rng(3)
     slow = np.sin(np.arange(samples) / 50.0)
     return (slow + spread * rng.standard_normal(samples))[:, np.newaxis]

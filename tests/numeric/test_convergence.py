@@ -46,13 +46,13 @@ def white(samples: int, channels: int, seed: int) -> Any:
 
 
 def coloured(samples: int, seed: int) -> Any:
-    """A moving average: what past outputs take for dynamics."""
+    """Return a moving average: what past outputs take for dynamics."""
     e = white(samples + 3, 1, seed + 10_000)
     return e[3:] + 0.9 * e[2:-1] + 0.7 * e[1:-2] + 0.5 * e[:-3]
 
 
 def faulty(samples: int, seed: int) -> tuple[Any, Any]:
-    """(y, u) with a coloured fault from x(0) = (1, 1)."""
+    """Return (y, u) with a coloured fault from x(0) = (1, 1)."""
     u, v = white(samples, 2, seed), coloured(samples, seed)
     joint = StateSpaceModel(TRUTH.A, np.hstack([TRUTH.B, floats(F)]), TRUTH.C, np.hstack([TRUTH.D, floats(G)]))
     return joint.simulate(np.hstack([u, v]), np.ones(2)), u
@@ -60,7 +60,7 @@ def faulty(samples: int, seed: int) -> tuple[Any, Any]:
 
 @dataclass(frozen=True)
 class Slope:
-    """Mean slope over seeds, half the width of its confidence interval, and the last mean error."""
+    """The slope is the mean over seeds, with half the width of its confidence interval and the last mean error."""
 
     mean: float
     half: float
@@ -74,7 +74,7 @@ class Slope:
 
 
 def slope(errors: Any, lengths: Sequence[int]) -> Slope:
-    """From errors (seeds, lengths)."""
+    """Return the slope from errors (seeds, lengths)."""
     slopes = np.polyfit(np.log(lengths), np.log(errors).T, 1)[0]
     seeds = len(slopes)
     half = scipy.stats.t.ppf((1 + CONFIDENCE) / 2, seeds - 1) * slopes.std(ddof=1) / np.sqrt(seeds)
@@ -92,7 +92,7 @@ def markov_error(found: Any) -> float:
 
 @cache
 def identified(method: Callable[..., Any], lengths: tuple[int, ...], seeds: int) -> dict[str, Slope]:
-    """Slopes of the pole and Markov parameter errors; every length has its own data."""
+    """Return slopes of the pole and Markov parameter errors; every length has its own data."""
     errors = np.empty((2, seeds, len(lengths)))
     for seed in range(seeds):
         for place, samples in enumerate(lengths):
@@ -104,7 +104,7 @@ def identified(method: Callable[..., Any], lengths: tuple[int, ...], seeds: int)
 
 @pytest.mark.parametrize("quantity", ["poles", "Markov parameters"])
 def test_past_inputs_converge(quantity: str) -> None:
-    """PI-MOESP, N = 1e3 .. 1e6: the interval holds -1/2, and is short enough to exclude -1/4 and -3/4."""
+    """For PI-MOESP with N = 1e3 .. 1e6 the interval holds -1/2, and is short enough to exclude -1/4 and -3/4."""
     found = identified(pi_moesp, (1000, 10_000, 100_000, 1_000_000), 12)[quantity]
     print(f"PI-MOESP {quantity}: {found}")
     assert found.contains(-0.5) and found.half < 0.2 and found.last < 0.02
@@ -112,14 +112,14 @@ def test_past_inputs_converge(quantity: str) -> None:
 
 @pytest.mark.parametrize("quantity", ["poles", "Markov parameters"])
 def test_past_outputs_do_not(quantity: str) -> None:
-    """PO-MOESP at the true order, the contrast: no decay worth the name, -1/2 far outside the interval."""
+    """PO-MOESP at the true order is the contrast: it has no decay worth the name, and -1/2 is far outside the interval."""
     found = identified(po_moesp, (1000, 10_000, 100_000), 8)[quantity]
     print(f"PO-MOESP {quantity}: {found}")
     assert not found.contains(-0.5) and abs(found.mean) < 0.1 and found.half < 0.2 and found.last > 0.02
 
 
 def fault_space_slope(noise_sizes: Callable[[Any], Any]) -> Slope:
-    """The likelihood estimate from r with white noise, the true A and C, and n_v, against the space of the exact branch.
+    """Return the likelihood estimate from r with white noise, the true A and C, and n_v, against the space of the exact branch.
 
     The noise has one twentieth of `noise_sizes` of the channels' sizes.
     """
@@ -141,21 +141,22 @@ def fault_space_slope(noise_sizes: Callable[[Any], Any]) -> Slope:
 
 
 def test_the_fault_space_converges() -> None:
-    """Where the noise is as the likelihood takes it: of equal power in channels of equal size."""
+    """The noise is as the likelihood takes it: of equal power in channels of equal size."""
     rate = fault_space_slope(lambda sizes: sizes)
     print(f"fault space, noise in proportion: {rate}")
     assert rate.contains(-0.5) and rate.half < 0.2
 
 
 def test_the_fault_space_is_biased_by_noise_out_of_proportion() -> None:
-    """The contrast: noise of unequal relative power leaves a bias, of second order in the noise, that more samples do not take away."""
+    """This is the contrast: noise of unequal relative power leaves a bias, of second order in the noise, that more samples do not take
+    away."""
     rate = fault_space_slope(lambda sizes: np.full_like(sizes, sizes.max()))
     print(f"fault space, noise out of proportion: {rate}")
     assert not rate.contains(-0.5) and rate.mean > -0.1 and rate.last > 0.02
 
 
 def test_a_leading_fault_converges_to_its_own_population_values() -> None:
-    """v(k) = u(k + 1) with u white and the true A, C: to B + A F and D + C F of the exact system, not to B and D."""
+    """With v(k) = u(k + 1), u white and the true A, C, the estimate goes to B + A F and D + C F of the exact system, not to B and D."""
     first = Matrix.of([["1", "0"]])
     # x - F u obeys the model of B + A F and D + C F; G u(k + 1) is noise to the past.
     B_limit, D_limit = floats(B + A @ F @ first), floats(D + C @ F @ first)

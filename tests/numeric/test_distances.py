@@ -27,7 +27,7 @@ EPS = np.finfo(float).eps
 
 
 def planted(seed: int, dimension: int, angles: list[float], extra: int = 0) -> tuple[Any, Any]:
-    """U (d, k) and V (d, k + extra) with exactly these principal angles, in scrambled bases."""
+    """Return U (d, k) and V (d, k + extra) with exactly these principal angles, in scrambled bases."""
     rng = np.random.default_rng(seed)
     k = len(angles)
     Q = scipy.linalg.qr(rng.standard_normal((dimension, dimension)))[0]
@@ -43,7 +43,7 @@ def planted(seed: int, dimension: int, angles: list[float], extra: int = 0) -> t
     ids=str,
 )
 def test_planted_angles(angles: list[float], extra: int) -> None:
-    """Absolute errors of rounding, whatever the angle: neither small nor right angles lose half the digits."""
+    """The absolute errors are those of rounding, whatever the angle: neither small nor right angles lose half the digits."""
     worst = 0.0
     for seed in range(10):
         U, V = planted(seed, 9, angles, extra)
@@ -90,9 +90,8 @@ def test_units_of_columns_do_not_matter() -> None:
 
 
 def test_the_published_error_and_the_corrected_ones() -> None:
-    """Orthogonal planes: 1/sqrt(2) as published, 1 as corrected. The whole space as the estimate: 0 as published,
-    yet wrong.
-    """
+    """Orthogonal planes have the error 1/sqrt(2) as published and 1 as corrected; the whole space as the estimate has 0 as published,
+    and yet is wrong."""
     eye = np.eye(8)
     assert author_error(eye[:, :2], eye[:, 2:4]) == pytest.approx(1 / np.sqrt(2))
     assert containment_error(eye[:, :2], eye[:, 2:4]) == pytest.approx(1)
@@ -107,7 +106,7 @@ def test_the_published_error_and_the_corrected_ones() -> None:
 
 
 def test_a_random_subspace_does_not_score_one() -> None:
-    """The baseline of the study: a random estimate of the same dimension, against the right maximum."""
+    """This is the baseline of the study: a random estimate of the same dimension, against the right maximum."""
     rng = np.random.default_rng(6)
     scores = [author_error(rng.standard_normal((8, 2)), rng.standard_normal((8, 5))) for _ in range(200)]
     assert 0.2 < np.median(scores) < 0.5
@@ -121,7 +120,7 @@ def test_no_columns() -> None:
 
 
 @pytest.mark.parametrize(
-    "U, V, said",
+    "U, V, message",
     [
         (np.eye(3), np.eye(4), r"U, V: got 3 and 4 rows"),
         (np.ones((3, 2)), np.eye(3), r"U: columns are dependent"),
@@ -130,8 +129,8 @@ def test_no_columns() -> None:
         (np.array([[np.nan]]), np.eye(1), r"U: got an array of shape \(1, 1\); a basis is"),
     ],
 )
-def test_what_is_no_basis(U: Any, V: Any, said: str) -> None:
-    with pytest.raises(InvalidData, match=said):
+def test_what_is_no_basis(U: Any, V: Any, message: str) -> None:
+    with pytest.raises(InvalidData, match=message):
         principal_angles(U, V)
 
 
@@ -171,7 +170,7 @@ def test_markov_distance() -> None:
 
 
 def test_n1_plus_n2_parameters_are_needed() -> None:
-    """Two delays that differ in the last of the n1 + n2 + 1 parameters only."""
+    """The two delays differ in the last of the n1 + n2 + 1 parameters only."""
 
     def delay(n: int) -> Model:
         return Model(np.eye(n, k=1), np.eye(n)[:, -1:], np.eye(n)[:1], np.zeros((1, 1)))

@@ -17,14 +17,14 @@ MIX = np.random.default_rng(99).standard_normal((4, 4))
 
 
 def noise(seed: int, samples: int = 2000) -> Array:
-    """Coloured noise in four outputs, correlated and of sizes 1 to 1000."""
+    """Return coloured noise in four outputs, correlated and of sizes 1 to 1000."""
     white = np.random.default_rng(seed).standard_normal((samples + 50, 4)) @ MIX
     low: Array = scipy.signal.lfilter([1.0, 0.3], [1.0, -0.9], white, axis=0)
     return low[50:] * [1.0, 10.0, 100.0, 1000.0]
 
 
 def faults(seed: int, count: int, samples: int = 2000) -> Array:
-    """Coloured fault signals through different filters to each output, of about the size of the noise in each."""
+    """Return coloured fault signals through different filters to each output, of about the size of the noise in each."""
     random = np.random.default_rng(seed)
     v = random.standard_normal((samples, count))
     r = np.zeros((samples, 4))

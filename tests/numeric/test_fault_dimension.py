@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 def structured_residual(delays: tuple[int, ...], indices: tuple[int, ...], seed: int, samples: int = 1500) -> Array:
-    """A residual with left indices `indices` and one fault per entry of `delays`, known by construction.
+    """Return a residual with left indices `indices` and one fault per entry of `delays`, known by construction.
 
     A chain of length eta seen at its end and driven by nothing has left index eta; a chain of length d driven at its start is a delayed
     fault. State feedback, output injection and mixed outputs leave the Kronecker structure of the pencil alone.
@@ -55,7 +55,7 @@ def structured_residual(delays: tuple[int, ...], indices: tuple[int, ...], seed:
 
 
 def expected_ranks(m: int, indices: tuple[int, ...], windows: int) -> tuple[int, ...]:
-    """s r + sum_i min(s, eta_i)."""
+    """Return s r + sum_i min(s, eta_i)."""
     return tuple(s * m + sum(min(s, eta) for eta in indices) for s in range(1, windows + 1))
 
 
@@ -74,7 +74,7 @@ def test_exact_ranks_follow_the_left_indices(delays: tuple[int, ...], indices: t
 
 
 def author_example(samples: int = 1001) -> Array:
-    """The paper's example: A, C, a real eigenvector of A for F, the chirp with offset for v."""
+    """Return the paper's example: A, C, a real eigenvector of A for F, the chirp with offset for v."""
     A = np.array([[0, 1, 0], [0, 0, 1], [float(Fraction(-1, 4)), 0.75, 0.25]])
     values, vectors = np.linalg.eig(A)
     F = vectors[:, np.argmax(np.isreal(values))].real
@@ -104,7 +104,7 @@ def test_as_many_faults_as_outputs_stay_undecided() -> None:
 
 
 def noisy(r: Array, decibel: float, seed: int) -> Array:
-    """r with the paper's low-pass noise in every channel."""
+    """Return r with the paper's low-pass noise in every channel."""
     white = np.random.default_rng(seed).standard_normal((len(r) + 64, r.shape[1]))
     noise = scipy.signal.lfilter([0.17, 0.5, 0.5, 0.17], [1.0, 0.0, 0.33, 0.0], white, axis=0)[64:]
     return np.asarray(r + noise / noise.std(axis=0) * r.std(axis=0) * 10.0 ** (-decibel / 20.0))

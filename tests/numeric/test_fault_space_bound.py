@@ -19,7 +19,7 @@ from faultspace.numeric.space.largest import largest_fault_space, observability_
 
 
 def drawn(random: np.random.Generator, n: int, m: int, p: int, entries: int) -> ResidualSystem:
-    """Small integers: many zeros, so that indices are unequal, states unobserved, outputs copies of others."""
+    """Draw small integers: they have many zeros, so that indices are unequal, states unobserved, outputs copies of others."""
     shapes = (n, n), (n, m), (p, n), (p, m)
     A, F, C, G = (random.integers(-entries, entries + 1, shape) * random.integers(0, 2, shape) for shape in shapes)
     if p > 1 and random.integers(3) == 0:

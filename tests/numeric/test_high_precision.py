@@ -55,7 +55,7 @@ CASES = [(1, 1, 1), (1, 2, 2), (2, 2, 1), (3, 1, 2), (3, 2, 2)]  # n, n_u, p
 DIGITS_KEPT = 1e-40
 
 
-def said(label: str, got: float, bound: float) -> None:
+def print_margin(label: str, got: float, bound: float) -> None:
     print(f"{label}: got {got:.1e}, bound {bound:.1e}, ratio {got / bound:.1e}")
 
 
@@ -64,7 +64,7 @@ def window(n: int) -> int:
 
 
 def coloured_fault(samples: int, p: int, seed: int) -> Any:
-    """A moving average on every output."""
+    """Return a moving average on every output."""
     white = np.random.default_rng(seed).standard_normal((samples + 3, p))
     return white[3:] + 0.9 * white[2:-1] + 0.7 * white[1:-2] + 0.5 * white[:-3]
 
@@ -74,7 +74,8 @@ def coloured_fault(samples: int, p: int, seed: int) -> Any:
 
 @pytest.mark.parametrize("n, n_u, p", CASES)
 def test_fifty_digits_give_the_exact_system(n: int, n_u: int, p: int) -> None:
-    """Without noise: Markov parameters, characteristic polynomial and x0 to 1e-40, by both regressions, and rank n exactly."""
+    """Without noise the Markov parameters, the characteristic polynomial and x0 are right to 1e-40 by both regressions, and the rank is
+    n exactly."""
     case = exact_case(5, n, n_u, p, samples=40)
     with precise.precise():
         y, u = precise.lift(case.y), precise.lift(case.u)
@@ -92,7 +93,7 @@ def test_fifty_digits_give_the_exact_system(n: int, n_u: int, p: int) -> None:
 
 
 def measured_by_qr(where: Setting, H: Any) -> float:
-    """The least E, each row relative to its row of H, with factor the one of H + E: an orthogonal Procrustes problem."""
+    """Return the least E, each row relative to its row of H, with factor the one of H + E: an orthogonal Procrustes problem."""
     exact = precise.triangle(H.T)
     lengths = np.array([precise.norm(exact[:, j]) for j in range(len(exact))], dtype=object)
     found, exact = precise.lift(where.compression.factor) / lengths, exact / lengths
@@ -103,7 +104,7 @@ def measured_by_qr(where: Setting, H: Any) -> float:
 
 
 def measured_by_gram(where: Setting, H: Any) -> float:
-    """The largest |dG_ij| / |h_i| |h_j| over the blocks that are used."""
+    """Return the largest |dG_ij| / |h_i| |h_j| over the blocks that are used."""
     found = precise.lift(where.compression.factor)
     lengths = np.array([precise.norm(row) for row in H], dtype=object)
     off = (found.T @ found - H @ H.T)[:, : where.compression.inputs]
@@ -112,7 +113,7 @@ def measured_by_gram(where: Setting, H: Any) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Both:
-    """The same floats taken through numeric/ and through 50 digits; `got`: what of the float models differs, by name."""
+    """The same floats are taken through numeric/ and through 50 digits; `got` is what of the float models differs, by name."""
 
     label: str
     y: Any
@@ -149,7 +150,7 @@ def both_ways(n: int, n_u: int, p: int, smoothing: int, noise: float, route: str
 
 
 def excess(both: Both, backward: BackwardError, kind: str) -> float:
-    """The largest got / bound, all of them printed."""
+    """Return the largest got / bound and print all of them."""
     moved, count = noisy_range(both.where, backward), 2 * both.where.n + 2
     moesp = moesp_error(both.where, backward, moved)
     bounds = {
@@ -161,7 +162,7 @@ def excess(both: Both, backward: BackwardError, kind: str) -> float:
     for name, bound in bounds.items():
         off = both.got[name]
         place = np.unravel_index(np.argmax(off / bound), off.shape)
-        said(f"{both.label} {kind} {name}", float(off[place]), float(bound[place]))
+        print_margin(f"{both.label} {kind} {name}", float(off[place]), float(bound[place]))
         largest = max(largest, float(off[place] / bound[place]))
         assert float(bound[place]) < 1e-3, "a bound that nothing could exceed"
     return largest
@@ -185,7 +186,7 @@ def test_qr_and_fifty_digits_on_faulty_data(n: int, n_u: int, p: int, smoothing:
     both = both_ways(n, n_u, p, smoothing, noise, "qr")
     with precise.precise():
         size, worst = measured_by_qr(both.where, both.H), reflections_error(len(both.H), both.where.compression.columns)
-    said(f"{both.label} backward error", size, worst)
+    print_margin(f"{both.label} backward error", size, worst)
     assert size <= worst
     assert excess(both, by_qr(both.where), "worst case") <= 1
     assert excess(both, measured(both.where, size), "measured") <= 1
@@ -193,17 +194,17 @@ def test_qr_and_fifty_digits_on_faulty_data(n: int, n_u: int, p: int, smoothing:
 
 @pytest.mark.parametrize("n, n_u, p, smoothing, noise", NOISY)
 def test_gram_and_fifty_digits_on_faulty_data(n: int, n_u: int, p: int, smoothing: int, noise: float) -> None:
-    """The same by the Gram."""
+    """The Gram keeps within its bound in the same way."""
     both = both_ways(n, n_u, p, smoothing, noise, "gram")
     with precise.precise():
         size, worst = measured_by_gram(both.where, both.H), gram_error(both.where)
-    said(f"{both.label} backward error", size, worst)
+    print_margin(f"{both.label} backward error", size, worst)
     assert size <= worst
     assert excess(both, by_gram(both.where), "worst case") <= 1
 
 
 def test_a_broken_projection_is_seen_on_faulty_data(monkeypatch: pytest.MonkeyPatch) -> None:
-    """L32 with one millionth of L31 left in it."""
+    """L32 is taken with one millionth of L31 left in it."""
     true_blocks = Compression.blocks
 
     def blocks(self: Compression) -> Blocks:
@@ -216,7 +217,8 @@ def test_a_broken_projection_is_seen_on_faulty_data(monkeypatch: pytest.MonkeyPa
 
 
 def worst_direction(answer: Callable[[Any, Any], Any], y: Any, u: Any) -> tuple[Any, Any]:
-    """Signs for each sample: the error of the data, relative to each sample, that moves some Markov parameter most, to first order."""
+    """Return signs for each sample: the error of the data, relative to each sample, that moves some Markov parameter most, to first
+    order."""
     base, step, slopes = answer(y, u), 1e-7, []
     for signal in (y, u):
         for index in np.ndindex(signal.shape):
@@ -230,7 +232,7 @@ def worst_direction(answer: Callable[[Any, Any], Any], y: Any, u: Any) -> tuple[
 
 
 def parameters(method: Callable[[Any, Any], Any], count: int, y: Any, u: Any) -> Any:
-    """Markov parameters of the model that the method finds."""
+    """Return Markov parameters of the model that the method finds."""
     return method(y, u).model.markov(count)
 
 
@@ -271,7 +273,8 @@ def test_errors_planted_in_the_data(n: int, n_u: int, p: int, noise: float) -> N
 
 
 def faulty(seed: int, *, samples: int = 40, m: int = 1) -> tuple[ExactCase, ResidualSystem, Matrix, Matrix]:
-    """An exact case with faults added to its outputs: the case with the faulty y, the fault system, v and the fault response from rest."""
+    """Return an exact case with faults added to its outputs: the case with the faulty y, the fault system, v and the fault response from
+    rest."""
     case = exact_case(seed, 3, 2, 2, samples=samples)
     rng = Random(seed)
     F, G = (Matrix.of([[rng.randint(-5, 5) for _ in range(m)] for _ in range(rows)], shape=(rows, m)) for rows in (3, 2))
@@ -287,20 +290,20 @@ def rounded(case: ExactCase) -> StateSpaceModel:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_residual_from_a_given_state(seed: int) -> None:
-    """Against the fault response of the exact branch; and a state off by 1e-9 of itself is noticed."""
+    """The residual is held against the fault response of the exact branch; and a state off by 1e-9 of itself is noticed."""
     case, _, _, response = faulty(seed)
     y, u = case.data()
     model, x0 = rounded(case), floats(case.x0).ravel()
     bound = given_state_error(y, u, model, x0)
     got = float(np.linalg.norm(residual(y, u, model, x0=x0).r - floats(response)))
-    said("residual, x0 given", got, bound)
+    print_margin("residual, x0 given", got, bound)
     assert got <= bound
     assert np.linalg.norm(residual(y, u, model, x0=x0 * (1 + 1e-9)).r - floats(response)) > bound
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_residual_with_a_fitted_state(seed: int) -> None:
-    """Fifty digits from the exact rationals, and floats from their roundings; fifty digits without the fit are far outside."""
+    """Fifty digits start from the exact rationals and floats from their roundings; fifty digits without the fit are far outside."""
     case, _, _, response = faulty(seed)
     y, u = case.data()
     model = rounded(case)
@@ -315,13 +318,14 @@ def test_residual_with_a_fitted_state(seed: int) -> None:
         got = float(precise.norm(precise.lift(found) - exact))
         unfitted = float(precise.norm(precise.lift(response) - exact))
     bound = fitted_state_error(y, u, model, found)
-    said("residual, x0 fitted", got, bound)
+    print_margin("residual, x0 fitted", got, bound)
     assert got <= bound < 1e-6 < unfitted
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_singular_values_of_the_residual(seed: int, windows: int = 6) -> None:
-    """n_v and the ranks of R_s from the exact branch, zeros below 1e-40 in 50 digits, and float singular values within Weyl's bound."""
+    """n_v and the ranks of R_s are those of the exact branch, zeros lie below 1e-40 in 50 digits, and float singular values within
+    Weyl's bound."""
     _, system, _, response = faulty(seed)
     assert fault_dimension(floats(response), block_rows=windows).n_v == kernel_representation(system).normal_rank == 1
     values = hankel_values(floats(response), windows)
@@ -333,7 +337,7 @@ def test_singular_values_of_the_residual(seed: int, windows: int = 6) -> None:
         assert sum(value > DIGITS_KEPT for value in exact[s - 1]) == true_rank
         bound = singular_value_error(values[s - 1], columns)
         got = float(np.max(np.abs(values[s - 1] - exact[s - 1].astype(float))))
-        said(f"singular values of R_{s}", got, bound)
+        print_margin(f"singular values of R_{s}", got, bound)
         assert got <= bound and int(np.sum(values[s - 1] > bound)) == true_rank
         # Windows one sample short: another matrix, and not within the bound.
         other = np.linalg.svd(np.vstack([floats(response)[i : i + columns - 1].T for i in range(s)]), compute_uv=False)
@@ -343,7 +347,7 @@ def test_singular_values_of_the_residual(seed: int, windows: int = 6) -> None:
 @pytest.mark.parametrize("known", [True, False])
 @pytest.mark.parametrize("seed, direct", [(0, True), (1, True), (2, True), (1, False), (2, False)])
 def test_the_fault_signal(seed: int, direct: bool, known: bool) -> None:
-    """The exact v on the trusted samples; and a signal read one sample late is outside the bound."""
+    """The exact v is met on the trusted samples; and a signal read one sample late is outside the bound."""
     system, v, trajectory = invertible(seed, direct=direct)
     r = floats(trajectory.residuals)
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
@@ -352,13 +356,16 @@ def test_the_fault_signal(seed: int, direct: bool, known: bool) -> None:
     first, last = found.trusted
     bound = fault_signal_error(r, A, F, C, G, found, x0=x0)
     got = float(np.linalg.norm((found.v - floats(v))[first:last]))
-    said(f"fault signal, G {'given' if direct else 'zero'}, state {'known' if known else 'unknown'}, samples {first}..{last}", got, bound)
+    print_margin(
+        f"fault signal, G {'given' if direct else 'zero'}, state {'known' if known else 'unknown'}, samples {first}..{last}", got, bound
+    )
     assert last - first >= len(r) - 4 and got <= bound < 1e-6
     assert np.linalg.norm((np.roll(found.v, 1, axis=0) - floats(v))[first:last]) > bound
 
 
 def invertible(seed: int, *, samples: int = 30, direct: bool = True) -> tuple[ResidualSystem, Matrix, Any]:
-    """More outputs than faults and no finite zero: v is seen at once, or one sample later without feedthrough."""
+    """Say whether there are more outputs than faults and no finite zero: v is then seen at once, or one sample later without
+    feedthrough."""
     rng = Random(seed)
     case = exact_case(seed, 3, 1, 3)
     F = Matrix.of([[rng.randint(1, 5)] for _ in range(3)], shape=(3, 1))
@@ -370,7 +377,7 @@ def invertible(seed: int, *, samples: int = 30, direct: bool = True) -> tuple[Re
 
 
 def test_the_fault_signal_in_fifty_digits() -> None:
-    """The regularised problem solved again for what it leaves over: 1e-40 after a few rounds, and not after one."""
+    """The regularised problem is solved again for what it leaves over: it is right to 1e-40 after a few rounds, and not after one."""
     system, v, trajectory = invertible(1, samples=12)
     with precise.precise():
         r = precise.lift(trajectory.residuals)

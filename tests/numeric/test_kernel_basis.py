@@ -34,7 +34,7 @@ def degrees(system: Planted, basis: Any) -> float:
 
 
 def setting() -> tuple[Any, Any, Any]:
-    """A problem with rows of degree 1 and 2 in general position, and a colour."""
+    """Return a problem with rows of degree 1 and 2 in general position, and a colour."""
     rng = np.random.default_rng(0)
     r = rng.standard_normal((500, 4))
     r[1:] += 0.5 * r[:-1]
@@ -71,7 +71,7 @@ def test_the_cost_knows_the_span_alone() -> None:
 
 
 def test_a_spectral_null_survives() -> None:
-    """White noise through 1 + q: at the highest frequencies next to nothing, where an untapered record holds 1/N."""
+    """White noise through 1 + q leaves next to nothing at the highest frequencies, where an untapered record holds 1/N."""
     white = np.random.default_rng(1).standard_normal((1002, 2))
     moments = tapered_moments(white[1:] + white[:-1], 0)
     power = np.trace(moments.moments, axis1=1, axis2=2).real / moments.weights / 4
@@ -111,7 +111,7 @@ def test_rows_from_a_known_space_annihilate_clean_data() -> None:
 
 
 def test_a_longer_row_is_no_shift_of_a_shorter_one() -> None:
-    """Degrees 0 and 4: the row of degree 0 times q^4 annihilates too, but adds nothing."""
+    """With degrees 0 and 4 the row of degree 0 times q^4 annihilates too, but adds nothing."""
     part = planted(320, n=4, p=2, m=1)
     mix = np.array([[1.0, 0], [0, 1], [0.6, -0.9]])
     system = Planted(part.A, part.F, mix @ part.C, mix @ part.G, part.Z, ())
@@ -126,7 +126,7 @@ def test_a_longer_row_is_no_shift_of_a_shorter_one() -> None:
 
 
 def test_all_rows_at_once_beat_one_at_a_time() -> None:
-    """p - n_v = 2: the median angle of the joint likelihood is below that of the rows of several mixes."""
+    """Where p - n_v is 2, the median angle of the joint likelihood is below that of the rows of several mixes."""
     joint, single = [], []
     for seed in range(8):
         system = planted(300 + seed, n=4, p=4, m=2)
@@ -142,7 +142,7 @@ def test_all_rows_at_once_beat_one_at_a_time() -> None:
 
 
 def test_rows_of_unequal_degrees() -> None:
-    """A third output that is a mixture of the others: degrees 0 and 4, not 2 and 2, and the tool finds the split."""
+    """The third output is a mixture of the others, so that the degrees are 0 and 4, not 2 and 2, and the tool finds the split."""
     for seed in range(3):
         part = planted(320 + seed, n=4, p=2, m=1)
         mix = np.array([[1.0, 0], [0, 1], [0.6, -0.9]])
@@ -172,7 +172,7 @@ def test_the_stated_angle_covers_the_error() -> None:
 
 
 def test_the_angle_of_a_known_error() -> None:
-    """One direction only: the angle of 95 % is the arc tangent of 1.96 deviations."""
+    """With one direction only, the angle of 95 % is the arc tangent of 1.96 deviations."""
     root = np.zeros((1, 5, 2))
     root[0, 4, 0] = 0.01
     stated = SpaceUncertainty(root)

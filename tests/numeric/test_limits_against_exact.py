@@ -33,7 +33,7 @@ def records(name: str) -> list[tuple[Any, Any]]:
 
 
 def distances(estimates: list[Any], exact: Any) -> Any:
-    """How many standard errors of the mean lie between the mean and the limit, entry by entry."""
+    """Return how many standard errors of the mean lie between the mean and the limit, entry by entry."""
     table = np.array(estimates)
     error = table.std(axis=0, ddof=1) / np.sqrt(len(table))
     return np.abs(table.mean(axis=0) - exact) / error
@@ -41,7 +41,7 @@ def distances(estimates: list[Any], exact: Any) -> Any:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_projected_outputs_tend_to_the_limit(name: str) -> None:
-    """(1/N) Yf Pi Up' entry by entry, from the factor that PI-MOESP computes."""
+    """The matrix (1/N) Yf Pi Up' is compared entry by entry, from the factor that PI-MOESP computes."""
     found = known(name)
     experiment, estimates = found.experiment, []
     for y, u in records(name):
@@ -54,7 +54,8 @@ def test_the_projected_outputs_tend_to_the_limit(name: str) -> None:
 @pytest.mark.parametrize("method", [pi_moesp, po_moesp])
 @pytest.mark.parametrize("name", NAMES)
 def test_models_tend_to_the_predicted_one(name: str, method: Any) -> None:
-    """At the true order, consistent or not: poles and Markov parameters, B and D by output error for the A and C found."""
+    """At the true order, consistent or not, this holds for poles and Markov parameters, with B and D by output error for the A and C
+    found."""
     found = known(name)
     experiment, outputs = found.experiment, method is po_moesp
     s, past, n = experiment.s, experiment.past, experiment.system.residual.n
@@ -71,7 +72,7 @@ def test_models_tend_to_the_predicted_one(name: str, method: Any) -> None:
 
 
 def test_another_limit_would_be_noticed() -> None:
-    """The truth in place of the limit is tens of standard errors away where the limit is biased."""
+    """The truth in place of the limit lies tens of standard errors away where the limit is biased."""
     found = known("fault-leads-input")
     system, residual = found.experiment.system, found.experiment.system.residual
     truth = invariants(*(floats(M) for M in (residual.A, system.B, residual.C, system.D)))

@@ -21,7 +21,7 @@ UNITS = np.array([1e-6, 1.0, 1e6])
 
 
 def noise(seed: int, samples: int, pole: float = 0.5) -> Array:
-    """Correlated coloured noise in three outputs."""
+    """Return correlated coloured noise in three outputs."""
     white = np.random.default_rng(seed).standard_normal((samples + 200, 3)) @ np.array([[1.0, 0.5, 0.0], [0.0, 1.0, 0.3], [0.0, 0.0, 1.0]])
     return np.asarray(lfilter([1.0, 0.4], [1.0, -pole], white, axis=0)[200:])
 

@@ -33,14 +33,14 @@ def folder() -> Path:
 
 
 def hair_dryer() -> tuple[Array, Array]:
-    """y and u as recorded, 1000 samples."""
+    """Return y and u as recorded, 1000 samples."""
     values = np.array((folder() / "hairdryer_SLICOT_IB01BD.dat").read_text("ascii").split("\n", 3)[3].split(), dtype=np.float64)
     assert values.shape == (2000,)
     return values[1000:], values[:1000]
 
 
 def record(name: str, inputs: int) -> tuple[Array, Array]:
-    """y and u of a MATLAB file whose first columns are the inputs, means removed."""
+    """Return y and u of a MATLAB file whose first columns are the inputs, means removed."""
     from scipy.io import loadmat
 
     contents = {key: value for key, value in loadmat(folder() / name).items() if not key.startswith("_")}
@@ -51,7 +51,7 @@ def record(name: str, inputs: int) -> tuple[Array, Array]:
 
 
 def fit(model: StateSpaceModel, y: Array, u: Array) -> Array:
-    """The fit of each output, percent."""
+    """Return the fit of each output, percent."""
     free = y - model.simulate(u)
     x0 = np.linalg.lstsq(observability_matrix(model.A, model.C, len(y)), free.ravel(), rcond=None)[0]
     error = y - model.simulate(u, x0)

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 def system(n: int, n_u: int, p: int, *, seed: int = 0, direct: bool = True, radius: float = 0.85) -> StateSpaceModel:
-    """A system with a largest eigenvalue of the given modulus."""
+    """Return a system with a largest eigenvalue of the given modulus."""
     rng = np.random.default_rng(seed)
     A = rng.standard_normal((n, n))
     A *= radius / np.abs(np.linalg.eigvals(A)).max()
@@ -27,13 +27,13 @@ def system(n: int, n_u: int, p: int, *, seed: int = 0, direct: bool = True, radi
 
 
 def behaviour_error(one: StateSpaceModel, other: StateSpaceModel, count: int = 40) -> float:
-    """The largest difference of Markov parameters against the largest of `other`."""
+    """Return the largest difference of Markov parameters against the largest of `other`."""
     wanted = other.markov(count)
     return float(np.abs(one.markov(count) - wanted).max() / np.abs(wanted).max())
 
 
 def coloured(samples: int, channels: int, seed: int) -> Array:
-    """A moving average: a fault that past outputs take for dynamics."""
+    """Return a moving average: a fault that past outputs take for dynamics."""
     white = np.random.default_rng(seed).standard_normal((samples + 4, channels))
     return white[4:] + 0.9 * white[3:-1] + 0.7 * white[2:-2] + 0.5 * white[1:-3] + 0.3 * white[:-4]
 
@@ -69,7 +69,7 @@ def test_unequal_windows_are_as_exact() -> None:
 
 
 def test_smooth_inputs_are_as_exact_by_the_route_chosen() -> None:
-    """A Gram would lose the digits here: the condition of the input is told, and QR taken."""
+    """A Gram would lose the digits here: the condition of the input is reported, and QR taken."""
     truth = system(3, 1, 2)
     white = np.random.default_rng(2).standard_normal(3000)
     u = np.convolve(white, np.exp(-(np.arange(-12, 13) ** 2) / 12.0), mode="same")[:, np.newaxis]
@@ -110,7 +110,7 @@ def test_output_error_is_the_least_squares_solution_written_out() -> None:
 
 
 def slope(method: Any, lengths: list[int], experiments: int = 8) -> tuple[float, float]:
-    """The slope of ln error against ln N, and the error at the largest N (root mean square over experiments)."""
+    """Return the slope of ln error against ln N, and the error at the largest N (root mean square over experiments)."""
     truth = system(3, 2, 2)
     errors = []
     for samples in lengths:
@@ -374,7 +374,7 @@ def test_inputs_that_excite_few_past_directions_serve_as_far_as_they_go() -> Non
         pi_moesp(y, u[100:], order=3, block_rows=12)
 
 
-def test_silent_outputs_and_enormous_signals_are_told() -> None:
+def test_silent_outputs_and_enormous_signals_are_reported() -> None:
     u = np.random.default_rng(21).standard_normal((300, 1))
     with pytest.raises(InvalidData, match="no dynamics are seen"):
         pi_moesp(np.zeros((300, 2)), u, block_rows=5)
@@ -387,8 +387,8 @@ def test_silent_outputs_and_enormous_signals_are_told() -> None:
         pi_moesp(np.ma.masked_greater(u, 2), u, order=1, block_rows=5)
 
 
-def test_block_rows_at_the_lag_are_told() -> None:
-    """Two outputs, lag 3: O_2 has rank below 3, so the shift from O_3 cannot be solved for A."""
+def test_block_rows_at_the_lag_are_reported() -> None:
+    """Two outputs have lag 3: O_2 has rank below 3, so the shift from O_3 cannot be solved for A."""
     truth = StateSpaceModel(np.diag([0.9, 0.5, -0.4]), np.ones((3, 1)), [[1, 1, 1], [2, 2, 2]], np.zeros((2, 1)))
     u = np.random.default_rng(20).standard_normal((300, 1))
     y = truth.simulate(u)

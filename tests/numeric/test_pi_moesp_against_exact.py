@@ -42,12 +42,12 @@ POINTS = [1.0 + 0.0j, -1.0 + 0.0j, 0.6 + 0.8j]  # on the unit circle, and floats
 
 
 def window(case: ExactCase) -> int:
-    """Enough block rows for the lag of any system of this order, and one more."""
+    """Return enough block rows for the lag of any system of this order, and one more."""
     return case.n + 2
 
 
 def by_moesp(case: ExactCase, route: str) -> tuple[Any, ModelError]:
-    """The float model with MOESP's regression for B and D, and its bounds."""
+    """Return the float model with MOESP's regression for B and D, and its bounds."""
     y, u = case.data()
     compressed = compress(y, u, block_rows=window(case), route=route)
     found = pi_moesp.pi_moesp_from_compression(compressed, order=case.n)
@@ -57,7 +57,7 @@ def by_moesp(case: ExactCase, route: str) -> tuple[Any, ModelError]:
 
 
 def by_output_error(case: ExactCase, route: str) -> tuple[Any, ModelError]:
-    """The float model with output error for B and D, and its bounds."""
+    """Return the float model with output error for B and D, and its bounds."""
     y, u = case.data()
     found = pi_moesp.pi_moesp(y, u, order=case.n, block_rows=window(case), route=route)
     assert found.x0 is not None
@@ -70,7 +70,7 @@ METHODS = [by_moesp, by_output_error]
 
 
 def differences(case: ExactCase, found: Any, error: ModelError) -> dict[str, tuple[float, float]]:
-    """Quantity -> (got, bound) at the entry where their ratio is largest."""
+    """Return quantity -> (got, bound) at the entry where their ratio is largest."""
     count = 2 * case.n + 2
     pairs: dict[str, tuple[Any, Any]] = {}
     with precise.precise():
@@ -94,7 +94,7 @@ def differences(case: ExactCase, found: Any, error: ModelError) -> dict[str, tup
     return worst
 
 
-def shown(label: str, worst: dict[str, tuple[float, float]]) -> None:
+def print_margins(label: str, worst: dict[str, tuple[float, float]]) -> None:
     for name, (got, bound) in worst.items():
         print(f"{label} {name}: got {got:.1e}, bound {bound:.1e}, ratio {got / bound:.1e}")
 
@@ -103,12 +103,12 @@ def shown(label: str, worst: dict[str, tuple[float, float]]) -> None:
 @pytest.mark.parametrize("route", ROUTES)
 @pytest.mark.parametrize("n, n_u, p", CASES)
 def test_floats_agree_with_the_exact_system(n: int, n_u: int, p: int, route: str, method: Any) -> None:
-    """Within the bound, and the bound itself is small: it would notice the fifth digit."""
+    """The difference is within the bound, and the bound itself is small: it would notice the fifth digit."""
     case = exact_case(3, n, n_u, p)
     assert not case.x0.is_zero() and not case.D.is_zero() and not case.B.is_zero()
     found, error = method(case, route)
     worst = differences(case, found, error)
-    shown(f"n={n} n_u={n_u} p={p} {route} {method.__name__}", worst)
+    print_margins(f"n={n} n_u={n_u} p={p} {route} {method.__name__}", worst)
     assert all(got <= bound for got, bound in worst.values())
     assert all(bound < 1e-5 for _, bound in worst.values())
 
@@ -122,7 +122,7 @@ def test_smooth_inputs(smoothing: int, method: Any) -> None:
     for route in ROUTES:
         found, error = method(case, route)
         worst = differences(case, found, error)
-        shown(f"condition {found.condition_numbers['inputs']:.1e} {route} {method.__name__}", worst)
+        print_margins(f"condition {found.condition_numbers['inputs']:.1e} {route} {method.__name__}", worst)
         assert all(got <= bound for got, bound in worst.values())
         errors[route] = worst["Markov parameters"]
     if smoothing == 12:
@@ -152,7 +152,7 @@ def test_random_systems(seed: int, n: int, n_u: int, p: int, route: str, method:
 
 
 def without_projection(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Yf along past and future inputs alike: the future ones are not projected out."""
+    """Take Yf along past and future inputs alike: the future ones are not projected out."""
     true_blocks = Compression.blocks
 
     def blocks(self: Compression) -> Blocks:
@@ -163,7 +163,7 @@ def without_projection(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def hankel_off_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Future outputs one sample after future inputs: y(k) is paired with u(k+1)."""
+    """Take future outputs one sample after future inputs: y(k) is paired with u(k+1)."""
     true_rows = compression_module.window_rows
 
     def rows(n_u: int, p: int, past_rows: int, block_rows: int) -> Any:
@@ -175,7 +175,7 @@ def hankel_off_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def shift_the_wrong_way(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Block rows upside down: A comes out inverted."""
+    """Turn the block rows upside down: A comes out inverted."""
     true_range = pi_moesp.system_range
 
     def upside_down(projected: Any, scale: Any, *rest: Any) -> Any:
@@ -186,7 +186,7 @@ def shift_the_wrong_way(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def transposed_solve(monkeypatch: pytest.MonkeyPatch) -> None:
-    """L11^-T for L11^-1 in MOESP's regression."""
+    """Take L11^-T for L11^-1 in MOESP's regression."""
     true_solve = scipy.linalg.solve_triangular
 
     def solve(a: Any, b: Any, **options: Any) -> Any:
@@ -196,7 +196,7 @@ def transposed_solve(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def interleaved_inputs(monkeypatch: pytest.MonkeyPatch) -> None:
-    """B filled by rows where it comes by columns: right for one input, wrong for two."""
+    """Fill B by rows where it comes by columns: this is right for one input and wrong for two."""
     for name in ("by_moesp", "by_output_error"):
         true_regression = getattr(pi_moesp, name)
 
@@ -208,7 +208,7 @@ def interleaved_inputs(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def forgotten_initial_state(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Output error from rest: the columns of x0 are zero."""
+    """Start output error from rest: the columns of x0 are zero."""
     true_step = input_matrices._Regression.__init__
 
     def begin(self: Any, A: Any, C: Any, n_u: int) -> None:
@@ -236,13 +236,13 @@ def test_a_broken_formula_exceeds_the_bound(broken: Any, method: Any, monkeypatc
     broken(monkeypatch)
     found, error = method(case, "qr")
     worst = differences(case, found, error)
-    shown(f"{broken.__name__} {method.__name__}", worst)
+    print_margins(f"{broken.__name__} {method.__name__}", worst)
     assert max(got / bound for got, bound in worst.values()) > 100
 
 
 @pytest.mark.parametrize("name", ["A", "B", "C", "D"])
 def test_a_wrong_digit_exceeds_the_bound(name: str) -> None:
-    """One entry of the model off by 1e-6 of itself."""
+    """One entry of the model is off by 1e-6 of itself."""
     case = exact_case(3, 2, 2, 2)
     found, error = by_moesp(case, "qr")
     wrong = {key: getattr(found, key).copy() for key in "ABCD"}

@@ -17,8 +17,8 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
+from faultspace.numeric import drawing
 from faultspace.numeric.count.rank_gap import FaultDimension, fault_dimension
-from faultspace.numeric.signal import plots
 
 Figure: Any = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed").Figure
 Array = NDArray[np.float64]
@@ -31,13 +31,13 @@ def axes() -> Any:
 
 @pytest.fixture(scope="module")
 def dimension() -> FaultDimension:
-    """Of a noise-free residual with one fault in three outputs."""
+    """Return the count for a noise-free residual with one fault in three outputs."""
     v = np.random.default_rng(0).standard_normal(600)
     return fault_dimension(np.column_stack([v[2:], v[1:-1] + 0.5 * v[2:], v[:-2]]), block_rows=6)
 
 
 def rendered(ax: Any) -> bytes:
-    """The picture as it is written to files."""
+    """Return the picture as it is written to files."""
     stream = BytesIO()
     ax.figure.savefig(stream, format="png")
     return stream.getvalue()
@@ -49,7 +49,7 @@ def points(ax: Any, number: int) -> tuple[Array, Array]:
 
 
 def words(ax: Any) -> str:
-    """Every word of the picture: title, axes, legend, annotations."""
+    """Return every word of the picture: title, axes, legend, annotations."""
     legend = [text.get_text() for text in ax.get_legend().get_texts()] if ax.get_legend() else []
     titles = [ax.get_title(loc) for loc in ("left", "center")]
     return " | ".join([*titles, ax.get_xlabel(), ax.get_ylabel(), *legend, *(text.get_text() for text in ax.texts)])
@@ -58,12 +58,12 @@ def words(ax: Any) -> str:
 def drawings(dimension: FaultDimension) -> Iterator[Callable[[Any], Any]]:
     draw = np.random.default_rng(1)
     signal = draw.standard_normal((500, 3))
-    yield lambda ax: plots.plot_singular_values([5.0, 2.0, 1e-3, 0.0], order=2, ax=ax)
-    yield lambda ax: plots.plot_window_ranks(dimension, ax=ax)
-    yield lambda ax: plots.plot_zeros_and_poles([0.5 + 0.2j, 0.5 - 0.2j], [2.0], ax=ax)
-    yield lambda ax: plots.plot_measured_and_simulated(signal, signal + 0.1, ax=ax)
-    yield lambda ax: plots.plot_fault_signal(signal, trusted=(20, 480), ax=ax)
-    yield lambda ax: plots.plot_principal_angles([1e-9, 0.3, 1.5], ax=ax)
+    yield lambda ax: drawing.plot_singular_values([5.0, 2.0, 1e-3, 0.0], order=2, ax=ax)
+    yield lambda ax: drawing.plot_window_ranks(dimension, ax=ax)
+    yield lambda ax: drawing.plot_zeros_and_poles([0.5 + 0.2j, 0.5 - 0.2j], [2.0], ax=ax)
+    yield lambda ax: drawing.plot_measured_and_simulated(signal, signal + 0.1, ax=ax)
+    yield lambda ax: drawing.plot_fault_signal(signal, trusted=(20, 480), ax=ax)
+    yield lambda ax: drawing.plot_principal_angles([1e-9, 0.3, 1.5], ax=ax)
 
 
 @pytest.mark.parametrize("number", range(6))
@@ -78,13 +78,13 @@ def test_a_plot_returns_its_axes_and_draws(number: int, axes: Any, dimension: Fa
 def test_without_axes_a_figure_is_made(dimension: FaultDimension, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MPLBACKEND", "Agg")
     pyplot: Any = import_module("matplotlib.pyplot")
-    ax = plots.plot_window_ranks(dimension)
+    ax = drawing.plot_window_ranks(dimension)
     assert rendered(ax).startswith(b"\x89PNG")
     pyplot.close(ax.figure)
 
 
 def test_singular_values_up_to_the_order_are_filled(axes: Any) -> None:
-    plots.plot_singular_values([5.0, 2.0, 1e-3, 0.0], order=2, ax=axes)
+    drawing.plot_singular_values([5.0, 2.0, 1e-3, 0.0], order=2, ax=axes)
     assert points(axes, 0)[0].tolist() == [1, 2] and points(axes, 1)[0].tolist() == [3, 4]
     assert axes.lines[1].get_fillstyle() == "none" and axes.lines[0].get_fillstyle() == "full"
     assert np.all(points(axes, 1)[1] > 0)  # zero has a place on a logarithmic scale
@@ -93,7 +93,7 @@ def test_singular_values_up_to_the_order_are_filled(axes: Any) -> None:
 
 @pytest.mark.parametrize("window", [None, 2])
 def test_windows_show_thresholds_and_ranks(window: int | None, axes: Any, dimension: FaultDimension) -> None:
-    plots.plot_window_ranks(dimension, window=window, ax=axes)
+    drawing.plot_window_ranks(dimension, window=window, ax=axes)
     s = window or 6
     for k, first in ((s - 1, 0), (s, 3)):
         above, below = points(axes, first), points(axes, first + 1)
@@ -106,11 +106,11 @@ def test_windows_show_thresholds_and_ranks(window: int | None, axes: Any, dimens
 def test_a_window_not_looked_at_is_refused(dimension: FaultDimension) -> None:
     for window in (0, 7):
         with pytest.raises(InvalidData, match="windows 1 to 6"):
-            plots.plot_window_ranks(dimension, window=window)
+            drawing.plot_window_ranks(dimension, window=window)
 
 
 def test_far_zeros_are_inside_the_picture_and_scales_equal(axes: Any) -> None:
-    plots.plot_zeros_and_poles([0.9], [-7.0, 1j], ax=axes)
+    drawing.plot_zeros_and_poles([0.9], [-7.0, 1j], ax=axes)
     assert axes.get_xlim()[0] < -7 and axes.get_xlim()[1] == -axes.get_xlim()[0] == axes.get_ylim()[1]
     assert axes.get_aspect() == 1.0
     assert "1 pole " in f"{words(axes)} " and "2 finite zeros" in words(axes)
@@ -118,7 +118,7 @@ def test_far_zeros_are_inside_the_picture_and_scales_equal(axes: Any) -> None:
 
 def test_one_channel_keeps_its_units(axes: Any) -> None:
     y = np.linspace(50, 70, 40)
-    plots.plot_measured_and_simulated(y, y - 1, names=["kelvin"], first=100, ax=axes)
+    drawing.plot_measured_and_simulated(y, y - 1, names=["kelvin"], first=100, ax=axes)
     assert points(axes, 0)[1].tolist() == y.tolist() and points(axes, 1)[1].tolist() == (y - 1).tolist()
     assert points(axes, 0)[0][0] == 100 and axes.get_ylabel() == "kelvin"
 
@@ -126,7 +126,7 @@ def test_one_channel_keeps_its_units(axes: Any) -> None:
 def test_several_channels_do_not_overlap_and_many_are_cut(axes: Any) -> None:
     draw = np.random.default_rng(2)
     y = draw.standard_normal((300, 11)) * 10.0 ** np.arange(11)
-    plots.plot_measured_and_simulated(y, 0 * y, ax=axes)
+    drawing.plot_measured_and_simulated(y, 0 * y, ax=axes)
     ranges = [(points(axes, i)[1].min(), points(axes, i)[1].max()) for i in range(0, 16, 2)]
     assert all(upper[0] > lower[1] for upper, lower in pairwise(ranges))
     assert "8 of 11" in words(axes) and len(axes.lines) == 16
@@ -135,7 +135,7 @@ def test_several_channels_do_not_overlap_and_many_are_cut(axes: Any) -> None:
 def test_undetermined_samples_are_shaded_and_do_not_set_the_scale(axes: Any) -> None:
     v = np.sin(np.arange(200.0))
     v[190:] = 1e9
-    plots.plot_fault_signal(v, trusted=(10, 190), ax=axes)
+    drawing.plot_fault_signal(v, trusted=(10, 190), ax=axes)
     assert axes.get_ylim()[1] < 3
     assert [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in axes.patches] == [(0, 10), (190, 199)]
     assert "not determined" in words(axes)
@@ -144,14 +144,14 @@ def test_undetermined_samples_are_shaded_and_do_not_set_the_scale(axes: Any) -> 
 def test_long_signals_keep_their_extremes(axes: Any) -> None:
     v = np.zeros(100_000)
     v[77_777] = 1.0
-    plots.plot_fault_signal(v, ax=axes)
+    drawing.plot_fault_signal(v, ax=axes)
     (band,) = axes.collections
     assert np.max(band.get_paths()[0].vertices[:, 1]) == 1.0
     assert len(band.get_paths()[0].vertices) < 10_000
 
 
 def test_angles_are_in_degrees_and_zero_has_a_place(axes: Any) -> None:
-    plots.plot_principal_angles([0.0, np.pi / 6, np.pi / 2], ax=axes)
+    drawing.plot_principal_angles([0.0, np.pi / 6, np.pi / 2], ax=axes)
     degrees = points(axes, 0)[1]
     assert np.allclose(degrees[1:], [30, 90]) and 0 < degrees[0] < 1e-12
     assert "30°" in words(axes) and "0°" in words(axes)
@@ -160,12 +160,12 @@ def test_angles_are_in_degrees_and_zero_has_a_place(axes: Any) -> None:
 @pytest.mark.parametrize(
     "draw",
     [
-        lambda: plots.plot_singular_values([1.0, np.nan]),
-        lambda: plots.plot_singular_values([-1.0]),
-        lambda: plots.plot_zeros_and_poles([np.inf]),
-        lambda: plots.plot_measured_and_simulated(np.zeros(4), np.zeros(5)),
-        lambda: plots.plot_fault_signal([np.nan]),
-        lambda: plots.plot_principal_angles([-0.1]),
+        lambda: drawing.plot_singular_values([1.0, np.nan]),
+        lambda: drawing.plot_singular_values([-1.0]),
+        lambda: drawing.plot_zeros_and_poles([np.inf]),
+        lambda: drawing.plot_measured_and_simulated(np.zeros(4), np.zeros(5)),
+        lambda: drawing.plot_fault_signal([np.nan]),
+        lambda: drawing.plot_principal_angles([-0.1]),
     ],
 )
 def test_what_cannot_be_drawn_is_refused(draw: Callable[[], Any]) -> None:

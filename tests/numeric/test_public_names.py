@@ -20,7 +20,7 @@ SAYS = {"shapes": r"\(N?,? ?n?|\(p\)", "units": r"\bunits?\b", "errors": r"\bRai
 
 
 def unsaid(text: str) -> list[str]:
-    """What a docstring does not say."""
+    """Return what a docstring does not say."""
     return [what for what, pattern in SAYS.items() if not re.search(pattern, text)] + ([] if ">>>" in text else ["example"])
 
 

@@ -25,12 +25,12 @@ def run(system: Planted, v: Any, x0: Any, *, known: bool = False) -> Reconstruct
 
 
 def error(found: Reconstruction, v: Any) -> Any:
-    """Largest error of each sample over the size of v."""
+    """Return the largest error of each sample over the size of v."""
     return np.max(np.abs(found.v - v), axis=1) / np.sqrt(np.mean(v**2))
 
 
 def test_the_papers_example() -> None:
-    """Delay one: everything but the last sample of v, from an unknown initial state."""
+    """The delay is one: everything but the last sample of v is found, from an unknown initial state."""
     system, v = paper_example(), faults(0, 1001, 1)
     found = run(system, v, [1.0, -2.0, 0.5])
     assert found.delay == 1 and found.trusted == (0, 1000) and found.left_invertible and found.zeros.size == 0
@@ -44,7 +44,7 @@ def test_the_papers_example() -> None:
 @pytest.mark.parametrize("known", [False, True])
 @pytest.mark.parametrize("m", [1, 2, 3])
 def test_no_zeros(seed: int, known: bool, m: int) -> None:
-    """Feedthrough of full rank: a known state gives v at once; an unknown one is found from the record."""
+    """With feedthrough of full rank a known state gives v at once; an unknown one is found from the record."""
     system, v = planted(seed, p=4, m=m), faults(seed, 300, m)
     found = run(system, v, np.arange(5.0), known=known)
     assert found.zeros.size == 0 and found.trusted == (0, 300)
@@ -76,7 +76,7 @@ def test_zeros_disturb_the_ends_and_nothing_else(zeros: tuple[float, ...], known
 
 
 def test_faults_that_are_hard_to_tell_apart() -> None:
-    """Two columns at an angle of 1e-3: the regularisation alone would bias v by 3 percent; refinement takes it away."""
+    """Two columns lie at an angle of 1e-3: the regularisation alone would bias v by 3 percent, and refinement takes that away."""
     system, v = planted(2), faults(2, 300)
     mix = np.array([[1.0, 1.0], [0.0, 1e-3]])
     close = Planted(system.A, system.F @ mix, system.C, system.G @ mix, None, ())
@@ -84,7 +84,7 @@ def test_faults_that_are_hard_to_tell_apart() -> None:
 
 
 def test_what_is_left_undetermined_moves_along_the_zero() -> None:
-    """Stable zero, unknown state: the error of v is a multiple of q^k."""
+    """With a stable zero and an unknown state the error of v is a multiple of q^k."""
     system, v = planted(3, (0.8,)), faults(3, 200)
     wrong = run(system, v, np.ones(5)).v - v
     ratios = wrong[1:30, 0] / wrong[:29, 0]
@@ -99,7 +99,7 @@ def test_zero_on_the_unit_circle_is_admitted() -> None:
 
 
 def test_another_member_of_the_fault_space_explains_the_same_residual() -> None:
-    """A good P: the residual is reproduced by (Fhat P, Ghat P), whatever zeros P has placed."""
+    """For a good P the residual is reproduced by (Fhat P, Ghat P), whatever zeros P has placed."""
     system, v = planted(5, (0.5,)), faults(5, 500)
     r = simulate(system, np.ones(5), v)
     space = fault_space(r, system.A, system.C)
@@ -112,7 +112,7 @@ def test_another_member_of_the_fault_space_explains_the_same_residual() -> None:
 
 
 def test_equivariance() -> None:
-    """State basis, channel order and units, fault units: v changes by its own units alone."""
+    """Under other state bases, channel orders and units, and other units of the fault, v changes by its own units alone."""
     system, v = planted(6, (0.6, 1.3)), faults(6, 300)
     r = simulate(system, np.ones(5), v)
     reference = reconstruct_fault(r, system.A, system.F, system.C, system.G)
@@ -133,7 +133,7 @@ def test_equivariance() -> None:
 
 
 def test_noise_is_spread_and_not_amplified_without_bound() -> None:
-    """A strictly non-minimum phase system with noise: the causal inverse diverges, the smoother does not."""
+    """In a strictly non-minimum phase system with noise the causal inverse diverges, and the smoother does not."""
     system, v = planted(7, (1.3,)), faults(7, 2000)
     r = simulate(system, np.zeros(5), v)
     found = reconstruct_fault(r + coloured(7, r, 60), system.A, system.F, system.C, system.G)
@@ -143,7 +143,7 @@ def test_noise_is_spread_and_not_amplified_without_bound() -> None:
 
 
 def test_not_left_invertible() -> None:
-    """The same fault twice: the residual is explained, v is not claimed."""
+    """The same fault stands there twice: the residual is explained, and v is not claimed."""
     system = planted(8, m=1)
     twice = Planted(system.A, np.hstack([system.F, system.F]), system.C, np.hstack([system.G, system.G]), system.Z, ())
     v = faults(8, 200)
@@ -154,7 +154,7 @@ def test_not_left_invertible() -> None:
 
 
 def test_cost_is_linear_in_samples() -> None:
-    """A record of 1e5 samples, for which a dense matrix would take 6e10 entries."""
+    """A dense matrix would take 6e10 entries for this record of 1e5 samples."""
     system, v = planted(9), faults(9, 100_000)
     found = run(system, v, np.zeros(5))
     assert np.max(error(found, v)[:-5]) < 1e-8
@@ -188,7 +188,7 @@ def test_short_records(samples: int) -> None:
 
 
 def test_delays_of_a_delay_line() -> None:
-    """A fault behind d states: d samples of delay, with the state known or not."""
+    """A fault behind d states is seen d samples late, with the state known or not."""
     for d in range(1, 5):
         A, F, C, G = np.eye(d, k=1), np.eye(d)[:, -1:], np.eye(d)[:1], np.zeros((1, 1))
         limits = fault_zeros(A, F, C, G)
@@ -227,9 +227,9 @@ BAD = [
 ]
 
 
-@pytest.mark.parametrize("change, said", BAD)
-def test_bad_input(change: dict[str, Any], said: str) -> None:
+@pytest.mark.parametrize("change, message", BAD)
+def test_bad_input(change: dict[str, Any], message: str) -> None:
     system = planted(12)
     given = {"r": np.ones((1000, 3)), "A": system.A, "F": system.F, "C": system.C, "G": system.G, "x0": None} | change
-    with pytest.raises(InvalidData, match=said):
+    with pytest.raises(InvalidData, match=message):
         reconstruct_fault(given["r"], given["A"], given["F"], given["C"], given["G"], x0=given["x0"])

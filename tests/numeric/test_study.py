@@ -10,11 +10,11 @@ import pytest
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.space.distances import author_error, containment_distance, subspace_distance
-from faultspace.numeric.study import experiments as study_experiments
+from faultspace.numeric.study import runs
 from faultspace.numeric.study.cases import LIKELIHOOD, PAPER, Case, Errors
 from faultspace.numeric.study.example_v import behaviour_ranks, exact_fault_space, example_v, lines, published_ranks, recorded_errors, tally
 from faultspace.numeric.study.example_v import system as example_system
-from faultspace.numeric.study.experiments import NOISE_GAIN, experiment, response
+from faultspace.numeric.study.runs import NOISE_GAIN, response, study_run
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, by_phase, by_zeros, median_interval, monte_carlo
 from faultspace.numeric.study.systems import pencil_zeros, study_system
 
@@ -23,7 +23,7 @@ RECORDED_MEDIANS = {1: 2.3, 2: 1.7, 3: 0.9}
 
 
 def errors(case: Case) -> Errors:
-    """Of the published estimator, which answers every case."""
+    """Return the errors of the published estimator, which answers every case."""
     found = case.estimates[PAPER].errors
     assert found is not None
     return found
@@ -77,8 +77,8 @@ def test_the_response_is_that_of_the_model() -> None:
 
 def test_the_stated_noise_is_43_decibels_and_the_corrected_one_40() -> None:
     system = study_system(1, 0)
-    published = experiment(system, 1, level=0.01, samples=20000).decibels
-    corrected = experiment(system, 1, level=0.01 / NOISE_GAIN, samples=20000).decibels
+    published = study_run(system, 1, level=0.01, samples=20000).decibels
+    corrected = study_run(system, 1, level=0.01 / NOISE_GAIN, samples=20000).decibels
     assert abs(published - (40 - 20 * np.log10(NOISE_GAIN))) < 0.2
     assert abs(corrected - 40) < 0.2
     assert abs(published - 43) < 0.2
@@ -153,7 +153,7 @@ def test_few_values_have_no_interval() -> None:
 
 def test_progress_counts_to_the_end() -> None:
     seen: list[tuple[int, int, float]] = []
-    monte_carlo(CORRECTED, systems=3, jobs=1, samples=200, progress=lambda *told: seen.append(told))
+    monte_carlo(CORRECTED, systems=3, jobs=1, samples=200, on_progress=lambda *each: seen.append(each))
     assert [(done, total) for done, total, _ in seen] == [(1, 3), (2, 3), (3, 3)]
     assert seen[-1][2] == 0.0
 
@@ -192,17 +192,17 @@ def test_figures_are_drawn_on_the_axes_given(tmp_path: Path) -> None:
 
 
 def test_the_example_tells_where_its_ranks_differ_from_theory(published_run: list[str]) -> None:
-    told = "\n".join(published_run)
-    assert "theory, rank [O_s T_s]" in told
+    printed = "\n".join(published_run)
+    assert "theory, rank [O_s T_s]" in printed
     first, second = published_ranks(1907)
     assert (first, second) == (6, 7)
-    assert "rank R_5 is 6 where 7 is true, rank R_6 is 7 where 8 is true" in told
-    assert "default ranks equal theory at every window" in told
+    assert "rank R_5 is 6 where 7 is true, rank R_6 is 7 where 8 is true" in printed
+    assert "default ranks equal theory at every window" in printed
 
 
 @pytest.fixture(scope="module")
 def published_run() -> list[str]:
-    """The example's own words for its default seed."""
+    """Return the example's own words for its default seed."""
     run = example_v()
     assert run.theory == (2, 4, 5, 6, 7, 8)
     assert run.default_true == run.theory
@@ -234,5 +234,5 @@ def test_the_examples_ranks_are_counted_over_runs() -> None:
 
 
 def test_the_noise_gain_is_that_of_the_filter() -> None:
-    noise = study_experiments.coloured_noise(200000, 1, np.random.default_rng(0))
+    noise = runs.coloured_noise(200000, 1, np.random.default_rng(0))
     assert abs(noise.std() - NOISE_GAIN) < 0.01

@@ -19,7 +19,7 @@ def squared(number: int) -> int:
 
 
 def assert_same(one: Study, two: Study) -> None:
-    """BLAS may run on other numbers of threads here and there: equal up to rounding."""
+    """Two studies are equal up to rounding, as BLAS may run on other numbers of threads here and there."""
     for first, second in zip(one.cases, two.cases, strict=True):
         assert first.zeros == second.zeros
         assert [estimate.n_z for estimate in first.estimates.values()] == [estimate.n_z for estimate in second.estimates.values()]
@@ -43,7 +43,7 @@ def test_a_cluster_gives_the_same_cases_and_only_its_scheduler_counts() -> None:
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
         seen: list[int] = []
         address = cluster.scheduler_address
-        spread = monte_carlo(CORRECTED, systems=6, seed=4, samples=300, cluster=address, progress=lambda done, *_: seen.append(done))
+        spread = monte_carlo(CORRECTED, systems=6, seed=4, samples=300, cluster=address, on_progress=lambda done, *_: seen.append(done))
     assert seen == [1, 2, 3, 4, 5, 6]
     assert_same(monte_carlo(CORRECTED, systems=6, seed=4, samples=300, jobs=1), spread)
 
@@ -73,10 +73,10 @@ def test_without_distributed_the_extra_is_named(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_results_come_in_the_order_of_the_tasks_with_the_time_that_remains() -> None:
-    told: list[tuple[int, int, float]] = []
-    assert in_order(squared, [(k,) for k in range(5)], worth=1, jobs=1, progress=lambda *each: told.append(each)) == [0, 1, 4, 9, 16]
-    assert [(done, total) for done, total, _ in told] == [(k, 5) for k in range(1, 6)]
-    assert all(left > 0 for _, _, left in told[:-1]) and told[-1][2] == 0
+    heard: list[tuple[int, int, float]] = []
+    assert in_order(squared, [(k,) for k in range(5)], worth=1, jobs=1, progress=lambda *each: heard.append(each)) == [0, 1, 4, 9, 16]
+    assert [(done, total) for done, total, _ in heard] == [(k, 5) for k in range(1, 6)]
+    assert all(left > 0 for _, _, left in heard[:-1]) and heard[-1][2] == 0
 
 
 def test_a_cluster_and_a_number_of_processes_are_refused_together() -> None:

@@ -13,19 +13,19 @@ from faultspace.numeric.count.windows import hankel_factor
 from faultspace.numeric.model.toeplitz_factorisation import toeplitz_factorisation
 from faultspace.numeric.space.distances import author_error, subspace_distance
 from faultspace.numeric.space.result import kernel_conditions
-from faultspace.numeric.study.experiments import experiment
+from faultspace.numeric.study.runs import study_run
 from faultspace.numeric.study.systems import StudySystem, study_system
 
 Array = NDArray[np.float64]
 
 
 def residual_of(system: StudySystem, level: float) -> Array:
-    run = experiment(system, 9, level=level)
+    run = study_run(system, 9, level=level)
     return run.y - system.model.simulate(run.u)
 
 
 def null_rows(r: Array, A: Array, C: Array, s: int, rank: int, n_z: int) -> Array:
-    """The columns that least violate N_s T_s(z) = 0, N_s from the singular vectors beyond the rank."""
+    """Return the columns that least violate N_s T_s(z) = 0, N_s from the singular vectors beyond the rank."""
     rows = np.linalg.svd(hankel_factor(r, s))[0][:, rank:].T.reshape(-1, s, C.shape[0])
     conditions = kernel_conditions(rows, A, C).reshape(-1, A.shape[0] + C.shape[0])
     return np.asarray(np.linalg.svd(conditions)[2][-n_z:].T)

@@ -29,7 +29,7 @@ from .systems import parse_system
 
 
 def first_difference(first: Json, second: Json) -> int | None:
-    """The least number of samples on which the restricted behaviours of two SYSTEMs differ, None when there is none.
+    """The result is the least number of samples on which the restricted behaviours of two SYSTEMs differ, None when there is none.
 
     Raises ValueError when a system is malformed or their fields or outputs are not the same.
     """

@@ -25,33 +25,33 @@ from .windows import hankel, window_matrix, window_rank
 
 
 def conclusive_window(first: System, second: System) -> int:
-    """A number of samples on which two behaviours agree only if they do on every window."""
+    """The result is a number of samples on which two behaviours agree only if they do on every window."""
     return first.n + second.n + 1
 
 
 def included_on(inner: System, outer: System, s: int) -> bool:
-    """Whether every word of s samples of `inner` is one of `outer`."""
+    """This tells whether every word of s samples of `inner` is one of `outer`."""
     both = beside(window_matrix(outer, s), window_matrix(inner, s))
     return rank(both) == window_rank(outer, s)
 
 
 def equal_on(first: System, second: System, s: int) -> bool:
-    """Whether the restricted behaviours on s samples are equal."""
+    """This tells whether the restricted behaviours on s samples are equal."""
     return included_on(first, second, s) and included_on(second, first, s)
 
 
 def included(inner: System, outer: System) -> bool:
-    """Whether B(inner) is contained in B(outer), on every window."""
+    """This tells whether B(inner) is contained in B(outer), on every window."""
     return included_on(inner, outer, conclusive_window(inner, outer))
 
 
 def equivalent(first: System, second: System) -> bool:
-    """Whether the behaviours are equal, on every window."""
+    """This tells whether the behaviours are equal, on every window."""
     return equal_on(first, second, conclusive_window(first, second))
 
 
 def first_difference(first: System, second: System) -> int | None:
-    """The least s >= 1 such that the restricted behaviours on s samples differ; None when there is none."""
+    """The result is the least s >= 1 such that the restricted behaviours on s samples differ; None when there is none."""
     for s in range(1, conclusive_window(first, second) + 1):
         if not equal_on(first, second, s):
             return s
@@ -59,19 +59,19 @@ def first_difference(first: System, second: System) -> int | None:
 
 
 def is_word(system: System, outputs: Sequence[Matrix]) -> bool:
-    """Whether the outputs r(0), ..., r(s-1), each p x 1, are those of some x(0) and v."""
+    """This tells whether the outputs r(0), ..., r(s-1), each p x 1, are those of some x(0) and v."""
     stacked = above(zeros(system.field, 0, 1), *outputs)
     return solve(window_matrix(system, len(outputs)), stacked) is not None
 
 
 def residual_hankel(system: System, x0: Sequence[Element], v: Sequence[Sequence[Element]], s: int) -> Matrix:
-    """R_s, (p s) x (N-s+1): the block Hankel matrix of r(0..N-1)."""
+    """The result is R_s, (p s) x (N-s+1): the block Hankel matrix of r(0..N-1)."""
     _, outputs = trajectory(system, x0, v)
     return hankel(system.field, outputs, system.p, s)
 
 
 def excitation(system: System, x0: Sequence[Element], v: Sequence[Sequence[Element]], s: int) -> Matrix:
-    """[X; V_s], (n + m s) x (N-s+1): x(k) on top of v(k..k+s-1)."""
+    """The result is [X; V_s], (n + m s) x (N-s+1): x(k) on top of v(k..k+s-1)."""
     states, _ = trajectory(system, x0, v)
     faults = hankel(system.field, [column_of(system.field, sample) for sample in v], system.m, s)
     return above(beside(zeros(system.field, system.n, 0), *states[: faults.width]), faults)

@@ -26,17 +26,17 @@ Rows = list[list[int]]
 
 
 def system(field: Json, a: Rows, f: Rows, c: Rows, g: Rows, *, n: int, p: int, m: int) -> Json:
-    """The SYSTEM with these integers for entries."""
+    """The result is the SYSTEM with these integers for entries."""
     return {"A": a, "F": f, "C": c, "G": g, "n": n, "m": m, "p": p, "field": field}
 
 
 def shift_register(field: Json, n: int) -> Json:
-    """n >= 1. Delay 0, since the fault is an output, but lag n."""
+    """For n >= 1 the delay is 0, since the fault is an output, but the lag is n."""
     return system(field, _shift(n), _last(n), [_first(n), [0] * n], [[0], [1]], n=n, p=2, m=1)
 
 
 def delay_line(field: Json, n: int) -> Json:
-    """n >= 1. One infinite zero of order n - 1, and delay n, of the transfer function q^-n."""
+    """For n >= 1 there is one infinite zero of order n - 1, and a delay of n: that of the transfer function q^-n."""
     return system(field, _shift(n), _last(n), [_first(n)], [[0]], n=n, p=1, m=1)
 
 
@@ -54,7 +54,7 @@ def paper_example() -> Json:
 
 
 def adversarial(field: Json) -> dict[str, Json]:
-    """The named systems over that field. A name says what is odd about its system."""
+    """These are the named systems over that field. A name says what is odd about its system."""
     named = {f"shift-register-{n}": shift_register(field, n) for n in range(1, 5)}
     named |= {f"delay-line-{n}": delay_line(field, n) for n in range(1, 5)}
 

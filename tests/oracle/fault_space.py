@@ -19,14 +19,14 @@ from .windows import toeplitz, window_matrix
 
 
 def with_fault_column(system: System, z: Matrix) -> System:
-    """The system (A, f, C, g) whose only fault column is z = [f; g], (n+p) x 1."""
+    """The result is the system (A, f, C, g) whose only fault column is z = [f; g], (n+p) x 1."""
     f = matrix(system.field, system.n, 1, z.rows[: system.n])
     g = matrix(system.field, system.p, 1, z.rows[system.n :])
     return System(system.field, system.A, f, system.C, g)
 
 
 def fault_space(system: System, s: int) -> Matrix:
-    """The reduced row echelon basis of { z : N_s T_s(z) = 0 }; z enters linearly, so the unit vectors tell all."""
+    """The result is the reduced row echelon basis of { z : N_s T_s(z) = 0 }; z enters linearly, so the unit vectors tell all."""
     annihilator = left_null_space(window_matrix(system, s))
     size = system.n + system.p
     images = []
@@ -38,12 +38,12 @@ def fault_space(system: System, s: int) -> Matrix:
 
 
 def fault_space_limit(system: System) -> Matrix:
-    """The solutions for every window beyond all left minimal indices: none exceeds n, so window n + 2 is beyond."""
+    """These are the solutions for every window beyond all left minimal indices: none exceeds n, so window n + 2 is beyond."""
     return fault_space(system, system.n + 2)
 
 
 def annihilated_columns(system: System, z: Sequence[Element], s: int) -> list[bool]:
-    """For each of the s block columns of T_s(z), whether N_s annihilates it."""
+    """For each of the s block columns of T_s(z) this tells whether N_s annihilates it."""
     annihilator = left_null_space(window_matrix(system, s))
     product = annihilator @ toeplitz(with_fault_column(system, column_of(system.field, z)), s)
     return [product.column(j).is_zero() for j in range(s)]

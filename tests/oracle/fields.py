@@ -37,7 +37,7 @@ class NotAField(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Residue:
-    """An element of the field with `prime` elements, 0 <= value < prime."""
+    """This is an element of the field with `prime` elements, 0 <= value < prime."""
 
     value: int
     prime: int
@@ -65,7 +65,7 @@ class Residue:
 
 @dataclass(frozen=True, slots=True)
 class Algebraic:
-    """An element of Q(a): a polynomial in a, reduced modulo the minimal polynomial.
+    """This is an element of Q(a): a polynomial in a, reduced modulo the minimal polynomial.
 
     Both are tuples of Fractions, ascending; the element's has no trailing zeros.
     """
@@ -97,7 +97,7 @@ class Algebraic:
         return self * other.inverse()
 
     def inverse(self) -> Algebraic:
-        """1 / self by Euclid's extended algorithm.
+        """The result is 1 / self by Euclid's extended algorithm.
 
         Raises ZeroDivisionError for zero and NotAField for a zero divisor.
         """
@@ -116,11 +116,11 @@ class Algebraic:
 
 
 class Field(ABC):
-    """A field of the format. Two are the same field when they compare equal."""
+    """This is a field of the format. Two are the same field when they compare equal."""
 
     @abstractmethod
     def integer(self, k: int) -> Element:
-        """The integer k as an element."""
+        """The result is the integer k as an element."""
 
     @abstractmethod
     def parse(self, entry: Json) -> Element:
@@ -128,11 +128,11 @@ class Field(ABC):
 
     @abstractmethod
     def write(self, element: Element) -> Json:
-        """Element -> ENTRY, in strings."""
+        """The result is the ENTRY of an element, in strings."""
 
     @abstractmethod
     def to_json(self) -> Json:
-        """The FIELD."""
+        """The result is the FIELD."""
 
     @property
     def zero(self) -> Element:
@@ -145,7 +145,7 @@ class Field(ABC):
 
 @dataclass(frozen=True)
 class Rationals(Field):
-    """Q."""
+    """This is the field Q."""
 
     def integer(self, k: int) -> Fraction:
         return Fraction(k)
@@ -162,7 +162,7 @@ class Rationals(Field):
 
 @dataclass(frozen=True)
 class PrimeField(Field):
-    """The field with `prime` elements."""
+    """This is the field with `prime` elements."""
 
     prime: int
 
@@ -181,13 +181,13 @@ class PrimeField(Field):
 
 @dataclass(frozen=True)
 class NumberField(Field):
-    """Q(a) for a root a of the monic polynomial `modulus`, ascending."""
+    """This is Q(a) for a root a of the monic polynomial `modulus`, ascending."""
 
     modulus: tuple[Fraction, ...]
 
     @property
     def generator(self) -> Algebraic:
-        """The root a itself."""
+        """This is the root a itself."""
         return self._element([Fraction(0), Fraction(1)])
 
     def integer(self, k: int) -> Algebraic:
@@ -256,7 +256,7 @@ def parse_field(json: Json) -> Field:
 
 
 def is_prime(p: int) -> bool:
-    """Whether p is a prime, for p below 2^64.
+    """This tells whether p is a prime, for p below 2^64.
 
     Miller's test; no composite number below 3.3e24 passes it for the first twelve primes.
     """
@@ -274,7 +274,7 @@ def is_prime(p: int) -> bool:
 
 
 def is_irreducible(field: Field) -> bool:
-    """Whether `field` is a field: True but for Q(a) with a reducible polynomial. Factors with sympy."""
+    """This tells whether `field` is a field: it is but for Q(a) with a reducible polynomial, which sympy factors."""
     if not isinstance(field, NumberField):
         return True
     import sympy

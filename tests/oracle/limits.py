@@ -29,7 +29,7 @@ Signal = tuple[Matrix, Matrix]
 
 @dataclass(frozen=True)
 class Filter:
-    """f(k) = sum over j of numerator[j] e(k-j) - sum over j >= 1 of denominator[j] f(k-j); denominator[0] = 1."""
+    """This is f(k) = sum over j of numerator[j] e(k-j) - sum over j >= 1 of denominator[j] f(k-j); denominator[0] = 1."""
 
     numerator: tuple[Matrix, ...]
     denominator: tuple[Element, ...]
@@ -55,14 +55,14 @@ class Experiment:
 
 @dataclass(frozen=True)
 class Process:
-    """xi(k+1) = Phi xi(k) + Gamma e(k), with the covariance P of xi."""
+    """This is xi(k+1) = Phi xi(k) + Gamma e(k), with the covariance P of xi."""
 
     Phi: Matrix
     Gamma: Matrix
     P: Matrix
 
     def covariance(self, a: Signal, b: Signal, lag: int) -> Matrix:
-        """E a(k + lag) b(k)'."""
+        """The result is E a(k + lag) b(k)'."""
         if lag < 0:
             return self.covariance(b, a, -lag).T
         if lag == 0:
@@ -73,7 +73,7 @@ class Process:
         return a[0] @ reached
 
     def windows(self, a: Signal, rows: range, b: Signal, columns: range) -> Matrix:
-        """E of (a(i); i in rows) times (b(j); j in columns)'."""
+        """The result is E of (a(i); i in rows) times (b(j); j in columns)'."""
         return above(*(beside(*(self.covariance(a, b, i - j) for j in columns)) for i in rows))
 
 
@@ -95,12 +95,12 @@ def parse_experiment(json: Json) -> Experiment:
 
 
 def is_stationary(e: Experiment) -> bool:
-    """Whether there is a stationary solution that e determines: A and the denominators are Schur stable."""
+    """This tells whether there is a stationary solution that e determines: A and the denominators are Schur stable."""
     return stability.is_stable(e.system) and all(stability.inside_circle(list(reversed(f.denominator))) for f in (e.u, e.v, e.w))
 
 
 def process(e: Experiment, more: tuple[Matrix, Matrix] | None = None) -> tuple[Process, dict[str, Signal]]:
-    """The process with the signals u and y, and "z", for `more` = (A, B), where z(k+1) = A z(k) + B u(k)."""
+    """The result is the process with the signals u and y, and "z", for `more` = (A, B), where z(k+1) = A z(k) + B u(k)."""
     n, q, r = e.system.n, e.u.numerator[0].width, e.w.numerator[0].width
     tail, drive = more or (zeros(Q, 0, 0), zeros(Q, 0, e.nu))
     heights = {"x": n, "z": tail.height}
@@ -113,7 +113,7 @@ def process(e: Experiment, more: tuple[Matrix, Matrix] | None = None) -> tuple[P
     starts = {name: sum(list(heights.values())[:i]) for i, name in enumerate(heights)}
 
     def part(name: str) -> Matrix:
-        """The rows of xi that hold this part."""
+        """The result is the rows of xi that hold this part."""
         return matrix(Q, heights[name], size, identity(Q, size).rows[starts[name] : starts[name] + heights[name]])
 
     noises = {"u": beside(identity(Q, q), zeros(Q, q, r)), "w": beside(zeros(Q, r, q), identity(Q, r))}
@@ -145,7 +145,7 @@ def process(e: Experiment, more: tuple[Matrix, Matrix] | None = None) -> tuple[P
 
 
 def lyapunov(Phi: Matrix, Gamma: Matrix) -> Matrix:
-    """P = P' with P = Phi P Phi' + Gamma Gamma', one equation for each entry on and above the diagonal."""
+    """The result is P = P' with P = Phi P Phi' + Gamma Gamma', one equation for each entry on and above the diagonal."""
     size = Phi.height
     unknowns = {pair: k for k, pair in enumerate((i, j) for i in range(size) for j in range(i, size))}
     noise = (Gamma @ Gamma.T).rows
@@ -164,7 +164,9 @@ def lyapunov(Phi: Matrix, Gamma: Matrix) -> Matrix:
 
 
 def moesp_ranks(e: Experiment, past_outputs: bool) -> tuple[int, int, int] | None:
-    """The ranks of L = Cov(Yf, Z) - Cov(Yf, Uf) Cov(Uf)^-1 Cov(Uf, Z), of O_s and of [L O_s]; Z past inputs, or with past outputs."""
+    """These are the ranks of L = Cov(Yf, Z) - Cov(Yf, Uf) Cov(Uf)^-1 Cov(Uf, Z), of O_s and of [L O_s]; Z past inputs, or with past
+    outputs.
+    """
     driven, signals = process(e)
     past, future = range(-e.past, 0), range(e.s)
     u, y = signals["u"], signals["y"]
@@ -183,7 +185,7 @@ def moesp_ranks(e: Experiment, past_outputs: bool) -> tuple[int, int, int] | Non
 
 
 def output_error(e: Experiment) -> tuple[Matrix, Matrix] | None:
-    """By the normal equations over the signals that each entry of B and of D, set to 1, predicts."""
+    """The normal equations are those over the signals that each entry of B and of D, set to 1, predicts."""
     n, p, nu = e.system.n, e.system.p, e.nu
     pairs = [(i, j) for j in range(nu) for i in range(n)]
     copies = len(pairs)
@@ -201,7 +203,7 @@ def output_error(e: Experiment) -> tuple[Matrix, Matrix] | None:
 
 
 def moesp_regression(e: Experiment) -> tuple[Matrix, Matrix] | None:
-    """Least squares over the entries of Pi T_s(B, D), one column for each entry of B and of D, Pi the projection beside O_s."""
+    """This solves least squares over the entries of Pi T_s(B, D), a column for each entry of B and of D, Pi the projection beside O_s."""
     driven, signals = process(e)
     future, n, p, nu = range(e.s), e.system.n, e.system.p, e.nu
     u, y = signals["u"], signals["y"]
@@ -227,7 +229,7 @@ def moesp_regression(e: Experiment) -> tuple[Matrix, Matrix] | None:
 
 
 def moesp_limit(statement: Json) -> bool:
-    """Stationary, Cov(Uf) nonsingular, and these ranks."""
+    """This tells whether the process is stationary, Cov(Uf) nonsingular, and the ranks are these."""
     ranks = ("limit_rank", "observability_rank", "joint_rank")
     parse_keys(statement, {"experiment", "instruments", *ranks})
     e, claimed = parse_experiment(statement["experiment"]), tuple(parse_index(statement[name]) for name in ranks)

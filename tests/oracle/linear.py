@@ -47,20 +47,20 @@ class Matrix:
 
     @property
     def T(self) -> Matrix:
-        """The transpose."""
+        """This is the transpose."""
         rows = ([row[j] for row in self.rows] for j in range(self.width))
         return matrix(self.field, self.width, self.height, rows)
 
     def column(self, j: int) -> Matrix:
-        """Column j, height x 1."""
+        """The result is column j, height x 1."""
         return matrix(self.field, self.height, 1, ([row[j]] for row in self.rows))
 
     def columns(self, start: int, stop: int) -> Matrix:
-        """Columns start..stop-1."""
+        """The result has the columns start..stop-1."""
         return matrix(self.field, self.height, stop - start, (row[start:stop] for row in self.rows))
 
     def entries(self) -> tuple[Element, ...]:
-        """All entries, row by row."""
+        """These are all entries, row by row."""
         return tuple(x for row in self.rows for x in row)
 
     def is_zero(self) -> bool:
@@ -73,38 +73,38 @@ def matrix(field: Field, height: int, width: int, rows: Iterable[Sequence[Elemen
 
 
 def zeros(field: Field, height: int, width: int) -> Matrix:
-    """The height x width matrix of zeros."""
+    """The result is the height x width matrix of zeros."""
     return matrix(field, height, width, [[field.zero] * width for _ in range(height)])
 
 
 def identity(field: Field, n: int) -> Matrix:
-    """The n x n identity."""
+    """The result is the n x n identity."""
     return matrix(field, n, n, [[field.one if i == j else field.zero for j in range(n)] for i in range(n)])
 
 
 def column_of(field: Field, entries: Sequence[Element]) -> Matrix:
-    """The entries as one column."""
+    """These are the entries as one column."""
     return matrix(field, len(entries), 1, [[x] for x in entries])
 
 
 def unit_vector(field: Field, n: int, i: int) -> Matrix:
-    """The i-th unit vector, n x 1."""
+    """The result is the i-th unit vector, n x 1."""
     return identity(field, n).column(i)
 
 
 def above(first: Matrix, *others: Matrix) -> Matrix:
-    """The matrices one above the other."""
+    """The result has the matrices one above the other."""
     rows = [row for a in (first, *others) for row in a.rows]
     return matrix(first.field, len(rows), first.width, rows)
 
 
 def beside(first: Matrix, *others: Matrix) -> Matrix:
-    """The matrices side by side."""
+    """The result has the matrices side by side."""
     return above(first.T, *(a.T for a in others)).T
 
 
 def rref(a: Matrix) -> tuple[Matrix, list[int]]:
-    """The reduced row echelon form (rank x width, no zero rows) and its pivot columns."""
+    """The result is the reduced row echelon form (rank x width, no zero rows) and its pivot columns."""
     rows = [list(row) for row in a.rows]
     pivots: list[int] = []
     for j in range(a.width):
@@ -124,12 +124,12 @@ def rref(a: Matrix) -> tuple[Matrix, list[int]]:
 
 
 def rank(a: Matrix) -> int:
-    """The rank."""
+    """The rank is the number of rows of the echelon form."""
     return len(rref(a)[1])
 
 
 def null_space(a: Matrix) -> Matrix:
-    """A basis of { x : a x = 0 }, its vectors as the rows of a k x width matrix."""
+    """The result is a basis of { x : a x = 0 }, its vectors as the rows of a k x width matrix."""
     reduced, pivots = rref(a)
     basis = []
     for free in (j for j in range(a.width) if j not in pivots):
@@ -142,12 +142,12 @@ def null_space(a: Matrix) -> Matrix:
 
 
 def left_null_space(a: Matrix) -> Matrix:
-    """A basis of { y : y a = 0 }, its vectors as the rows of a k x height matrix."""
+    """The result is a basis of { y : y a = 0 }, its vectors as the rows of a k x height matrix."""
     return null_space(a.T)
 
 
 def solve(a: Matrix, b: Matrix) -> Matrix | None:
-    """Some x with a x = b, or None when there is none."""
+    """The result is some x with a x = b, or None when there is none."""
     reduced, pivots = rref(beside(a, b))
     if any(pivot >= a.width for pivot in pivots):
         return None

@@ -22,7 +22,7 @@ Bivariate = dict[tuple[int, int], Element]
 
 
 def multiply(a: Bivariate, b: Bivariate) -> Bivariate:
-    """a b."""
+    """The result is a b."""
     product: Bivariate = {}
     for (i, k), x in a.items():
         for (j, h), y in b.items():
@@ -31,7 +31,7 @@ def multiply(a: Bivariate, b: Bivariate) -> Bivariate:
 
 
 def determinant(field: Field, rows: list[list[Bivariate]]) -> Bivariate:
-    """The sum over all permutations; 1 for no rows."""
+    """The result is the sum over all permutations, which is 1 for no rows."""
     total: Bivariate = {}
     for order in permutations(range(len(rows))):
         inversions = sum(1 for i, j in combinations(range(len(order)), 2) if order[i] > order[j])
@@ -44,7 +44,7 @@ def determinant(field: Field, rows: list[list[Bivariate]]) -> Bivariate:
 
 
 def maximal_minors(first: System, second: System) -> Iterator[Bivariate]:
-    """n + m of the n + p rows at a time; none when there are too few."""
+    """These choose n + m of the n + p rows at a time; there are none when there are too few."""
     field, n, m, p = first.field, first.n, first.m, first.p
 
     def entry(**terms: Element) -> Bivariate:
@@ -66,7 +66,7 @@ def maximal_minors(first: System, second: System) -> Iterator[Bivariate]:
 
 
 def binary_forms(first: System, second: System) -> list[list[Element]]:
-    """Each as its coefficients of a^m, a^(m-1) b, ..., b^m."""
+    """Each form is given by its coefficients of a^m, a^(m-1) b, ..., b^m."""
     field = first.field
     return [
         [minor.get((i, k), field.zero) for k in range(first.m + 1)] for minor in maximal_minors(first, second) for i in range(first.n + 1)
@@ -74,7 +74,7 @@ def binary_forms(first: System, second: System) -> list[list[Element]]:
 
 
 def holds(first: System, second: System) -> bool:
-    """Whether no (a : b) is a zero of all forms: not (0 : 1), and no (1 : b), of which a gcd would tell."""
+    """This tells whether no (a : b) is a zero of all forms: not (0 : 1), and no (1 : b), of which a gcd would tell."""
     forms = binary_forms(first, second)
     common: polynomials.Polynomial = []
     for form in forms:

@@ -29,7 +29,7 @@ Choice = tuple[int, ...]
 
 
 class PolynomialMatrix(NamedTuple):
-    """height x width polynomials over `field`."""
+    """This is height x width polynomials over `field`."""
 
     field: Field
     height: int
@@ -38,7 +38,7 @@ class PolynomialMatrix(NamedTuple):
 
 
 def pencil(system: System) -> PolynomialMatrix:
-    """P(q) = [[qI - A, -F], [C, G]]."""
+    """The result is P(q) = [[qI - A, -F], [C, G]]."""
     one = identity(system.field, system.n).rows
     top = [
         [polynomials.trimmed([-a, i]) for a, i in zip(row_a, row_i, strict=True)] + [polynomials.trimmed([-f]) for f in row_f]
@@ -49,7 +49,7 @@ def pencil(system: System) -> PolynomialMatrix:
 
 
 def reversed_pencil(system: System) -> PolynomialMatrix:
-    """[[I - tA, -tF], [tC, tG]]: t P(1/t) with the signs kept, whose zeros at t = 0 are those of P at infinity."""
+    """The result is [[I - tA, -tF], [tC, tG]]: t P(1/t) with the signs kept, whose zeros at t = 0 are those of P at infinity."""
     zero = system.field.zero
     one = identity(system.field, system.n).rows
     top = [
@@ -61,11 +61,7 @@ def reversed_pencil(system: System) -> PolynomialMatrix:
 
 
 def minors(a: PolynomialMatrix) -> Iterator[dict[tuple[Choice, Choice], Polynomial]]:
-    """For k = 0, 1, ..., min(height, width): all minors of order k, by the rows and columns chosen.
-
-    Each is expanded along its last row in minors of order k - 1. There are many: meant for a dozen rows and columns at
-    most.
-    """
+    """For k = 0, 1, ..., min(height, width) these are all minors of order k, by the rows and columns chosen."""
     order: dict[tuple[Choice, Choice], Polynomial] = {((), ()): [a.field.one]}
     yield order
     for k in range(1, min(a.height, a.width) + 1):
@@ -84,7 +80,7 @@ def minors(a: PolynomialMatrix) -> Iterator[dict[tuple[Choice, Choice], Polynomi
 
 
 def determinantal_divisors(a: PolynomialMatrix) -> list[Polynomial]:
-    """d_0 = 1, ..., d_rank: d_k is the monic greatest common divisor of all minors of order k."""
+    """The result is d_0 = 1, ..., d_rank: d_k is the monic greatest common divisor of all minors of order k."""
     divisors = []
     for order in minors(a):
         divisor: Polynomial = []
@@ -97,10 +93,10 @@ def determinantal_divisors(a: PolynomialMatrix) -> list[Polynomial]:
 
 
 def polynomial_rank(a: PolynomialMatrix) -> int:
-    """The rank over the field of rational functions.
+    """The result is the rank over the field of rational functions.
 
-    Rows are eliminated crosswise, row_i := pivot row_i - entry pivot_row, and then freed of the common factor of their
-    entries; neither changes the rank. Evaluation at points would not do: a small field has too few of them.
+    Rows are eliminated crosswise, row_i := pivot row_i - entry pivot_row, and then freed of the common factor of their entries; neither
+    changes the rank. Evaluation at points would not do: a small field has too few of them.
     """
     rows = [list(row) for row in a.rows]
     found = 0
@@ -123,20 +119,19 @@ def polynomial_rank(a: PolynomialMatrix) -> int:
 
 
 def normal_rank(system: System) -> int:
-    """The normal rank of C (qI - A)^-1 F + G, as that of the pencil less n."""
+    """The result is the normal rank of C (qI - A)^-1 F + G, as that of the pencil less n."""
     return polynomial_rank(pencil(system)) - system.n
 
 
 def invariant_zero_polynomial(system: System) -> Polynomial:
-    """The monic gcd of the minors of order n + r, r the normal rank: the product of all invariant polynomials."""
+    """The result is the monic gcd of the minors of order n + r, r the normal rank: the product of all invariant polynomials."""
     return determinantal_divisors(pencil(system))[-1]
 
 
 def infinite_zero_orders_of_pencil(system: System) -> list[int]:
-    """The infinite zero orders, ascending: d - 1 for each elementary divisor t^d, d >= 1, of the reversed pencil.
+    """These are the infinite zero orders, ascending: d - 1 for each elementary divisor t^d, d >= 1, of the reversed pencil.
 
-    The powers of t in consecutive determinantal divisors differ by the d's; the power in a gcd is the least among the
-    minors.
+    The powers of t in consecutive determinantal divisors differ by the d's; the power in a gcd is the least among the minors.
     """
     powers = []
     for order in minors(reversed_pencil(system)):
@@ -149,10 +144,10 @@ def infinite_zero_orders_of_pencil(system: System) -> list[int]:
 
 
 def left_minimal_indices_of_pencil(system: System) -> list[int]:
-    """The left minimal indices, ascending, from the rows y(q) that annihilate the pencil.
+    """These are the left minimal indices, ascending, from the rows y(q) that annihilate the pencil.
 
-    With minimal indices eta_i these rows of degree at most d make up a space of dimension sum max(0, d + 1 - eta_i),
-    whose second difference in d counts the indices equal to d. No index exceeds n, since they and more sum up to n.
+    With minimal indices eta_i these rows of degree at most d make up a space of dimension sum max(0, d + 1 - eta_i), whose second
+    difference in d counts the indices equal to d. No index exceeds n, since they and more sum up to n.
     """
     a = pencil(system)
     dimensions = [0, 0] + [_annihilator_dimension(a, d) for d in range(system.n + 1)]
@@ -163,12 +158,12 @@ def left_minimal_indices_of_pencil(system: System) -> list[int]:
 
 
 def right_minimal_indices_of_pencil(system: System) -> list[int]:
-    """The right minimal indices, ascending."""
+    """These are the right minimal indices, ascending."""
     return left_minimal_indices_of_pencil(transposed(system))
 
 
 def _annihilator_dimension(a: PolynomialMatrix, d: int) -> int:
-    """The dimension of { y(q) of degree at most d : y(q) a(q) = 0 }, by comparing coefficients of all powers of q."""
+    """The result is the dimension of { y(q) of degree at most d : y(q) a(q) = 0 }, by comparing coefficients of all powers of q."""
     zero = a.field.zero
     highest = max((len(x) for row in a.rows for x in row), default=0)
     unknowns = [(k, i) for k in range(d + 1) for i in range(a.height)]

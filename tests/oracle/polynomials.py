@@ -19,7 +19,7 @@ Polynomial = list[Any]
 
 
 def trimmed(a: Sequence[Any]) -> Polynomial:
-    """The coefficients without trailing zeros."""
+    """These are the coefficients without trailing zeros."""
     length = len(a)
     while length and not a[length - 1]:
         length -= 1
@@ -27,28 +27,28 @@ def trimmed(a: Sequence[Any]) -> Polynomial:
 
 
 def degree(a: Polynomial) -> int:
-    """The degree, -1 for the zero polynomial."""
+    """The result is the degree, -1 for the zero polynomial."""
     return len(a) - 1
 
 
 def add(a: Polynomial, b: Polynomial) -> Polynomial:
-    """a + b."""
+    """The result is a + b."""
     longer, shorter = (a, b) if len(a) >= len(b) else (b, a)
     return trimmed([x + shorter[i] if i < len(shorter) else x for i, x in enumerate(longer)])
 
 
 def negate(a: Polynomial) -> Polynomial:
-    """-a."""
+    """The result is -a."""
     return [-x for x in a]
 
 
 def subtract(a: Polynomial, b: Polynomial) -> Polynomial:
-    """a - b."""
+    """The result is a - b."""
     return add(a, negate(b))
 
 
 def multiply(a: Polynomial, b: Polynomial) -> Polynomial:
-    """a b."""
+    """The result is a b."""
     if not a or not b:
         return []
     zero = a[0] - a[0]
@@ -75,7 +75,7 @@ def divide(a: Polynomial, b: Polynomial) -> tuple[Polynomial, Polynomial]:
 
 
 def exact_quotient(a: Polynomial, b: Polynomial) -> Polynomial:
-    """a / b when b divides a; raises ArithmeticError when it does not."""
+    """The result is a / b when b divides a; raises ArithmeticError when it does not."""
     quotient, remainder = divide(a, b)
     if remainder:
         raise ArithmeticError("the division of polynomials leaves a remainder")
@@ -88,14 +88,14 @@ def monic(a: Polynomial) -> Polynomial:
 
 
 def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
-    """The monic greatest common divisor by Euclid's algorithm; zero when both are."""
+    """The result is the monic greatest common divisor by Euclid's algorithm; zero when both are."""
     while b:
         a, b = b, divide(a, b)[1]
     return monic(a)
 
 
 def valuation(a: Polynomial) -> int:
-    """The largest k such that the k-th power of the variable divides a; raises ValueError for zero."""
+    """The result is the largest k such that the k-th power of the variable divides a; raises ValueError for zero."""
     for k, x in enumerate(a):
         if x:
             return k
@@ -103,7 +103,7 @@ def valuation(a: Polynomial) -> int:
 
 
 def evaluate(a: Polynomial, x: Any, zero: Any) -> Any:
-    """a(x) by Horner's rule, `zero` being the field's."""
+    """The result is a(x) by Horner's rule, `zero` being the field's."""
     value = zero
     for coefficient in reversed(a):
         value = value * x + coefficient

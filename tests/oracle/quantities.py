@@ -46,11 +46,7 @@ PLAIN_KEYS = (
 
 
 def left_minimal_indices(system: System) -> list[int]:
-    """Ascending. gap(k) = p - #{eta_i <= k}: each index equal to k makes the gap drop by one from k - 1 to k.
-
-    The gap starts from p, at k = -1. The gaps are constant from k = n on (see `behaviours`), so that no drop comes
-    later.
-    """
+    """They are ascending: gap(k) = p - #{eta_i <= k}, so that each index equal to k makes the gap drop by one from k - 1 to k."""
     indices: list[int] = []
     before = system.p
     for k in range(system.n + 1):
@@ -61,17 +57,17 @@ def left_minimal_indices(system: System) -> list[int]:
 
 
 def right_minimal_indices(system: System) -> list[int]:
-    """Ascending: the left ones of the transposed system."""
+    """They are ascending: the left ones of the transposed system."""
     return left_minimal_indices(transposed(system))
 
 
 def lag(system: System) -> int:
-    """The largest left minimal index, 0 when there is none."""
+    """The result is the largest left minimal index, 0 when there is none."""
     return max(left_minimal_indices(system), default=0)
 
 
 def infinite_zero_orders(system: System) -> list[int]:
-    """Ascending. rank T_(k+1) - rank T_k = #{delta_i <= k}; none exceeds n."""
+    """They are ascending: rank T_(k+1) - rank T_k = #{delta_i <= k}, and none exceeds n."""
     orders: list[int] = []
     before = 0
     for k in range(system.n + 1):
@@ -82,17 +78,17 @@ def infinite_zero_orders(system: System) -> list[int]:
 
 
 def is_observable(system: System) -> bool:
-    """(A, C): rank O_n = n."""
+    """This tells whether (A, C) is observable: rank O_n = n."""
     return rank(observability(system, system.n)) == system.n
 
 
 def is_controllable(system: System) -> bool:
-    """(A, F): rank [F, AF, ..., A^(n-1) F] = n."""
+    """This tells whether (A, F) is controllable: rank [F, AF, ..., A^(n-1) F] = n."""
     return rank(reachability(system)) == system.n
 
 
 def determines_first_fault(system: System, last: int, initial_state: str) -> bool:
-    """Whether r(0..last) determines v(0), with x(0) = 0 (KNOWN) or whatever x(0) is (UNKNOWN).
+    """This tells whether r(0..last) determines v(0), with x(0) = 0 (KNOWN) or whatever x(0) is (UNKNOWN).
 
     By linearity: whether v(0) is zero in every (x(0), v(0..last)) that makes the output zero.
     """
@@ -106,16 +102,16 @@ def determines_first_fault(system: System, last: int, initial_state: str) -> boo
 
 
 def delay(system: System, initial_state: str) -> int | None:
-    """The least l in 0..n such that r(0..l) determines v(0); None when there is none.
+    """The result is the least l in 0..n such that r(0..l) determines v(0); None when there is none.
 
-    Beyond n nothing new happens: the v(0) that go with zero output on 0..l are those that lead into the states from
-    which the output can be kept zero for l samples, and these form a decreasing chain in K^n, constant from l = n on.
+    Beyond n nothing new happens: the v(0) that go with zero output on 0..l are those that lead into the states from which the output can be
+    kept zero for l samples, and these form a decreasing chain in K^n, constant from l = n on.
     """
     return next((last for last in range(system.n + 1) if determines_first_fault(system, last, initial_state)), None)
 
 
 def is_left_invertible(system: System) -> bool:
-    """Whether x(0) = 0 and zero output for ever imply v = 0.
+    """This tells whether x(0) = 0 and zero output for ever imply v = 0.
 
     They imply v(0) = 0 iff r(0..n) determines v(0) (see `delay`); then x(1) = 0, and so on for v(1), v(2), ...
     """
@@ -123,7 +119,7 @@ def is_left_invertible(system: System) -> bool:
 
 
 def inspect_slowly(json: Json) -> dict[str, Any]:
-    """SYSTEM -> the object that `faultspace inspect --json` prints; raises ValueError when the system is malformed."""
+    """The result is the object that `faultspace inspect --json` prints for a SYSTEM. Raises ValueError when the system is malformed."""
     system = parse_system(json)
     write = system.field.write
     zero_polynomial = invariant_zero_polynomial(system)
@@ -155,7 +151,7 @@ def inspect_slowly(json: Json) -> dict[str, Any]:
 
 
 def same_report(first: dict[str, Any], second: dict[str, Any]) -> bool:
-    """Whether two such objects agree on all keys of `inspect_slowly`; either may have more.
+    """This tells whether two such objects agree on all keys of `inspect_slowly`; either may have more.
 
     Numbers are compared as elements of the field: over Q(a), "1" and ["1", "0"] are the same.
     """

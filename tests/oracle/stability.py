@@ -19,7 +19,7 @@ from .systems import System
 
 
 def determinant(field: Field, rows: list[list[Polynomial]]) -> Polynomial:
-    """The sum over all permutations; 1 for no rows."""
+    """The result is the sum over all permutations, which is 1 for no rows."""
     total: Polynomial = []
     for order in permutations(range(len(rows))):
         inversions = sum(1 for i, j in combinations(range(len(order)), 2) if order[i] > order[j])
@@ -31,14 +31,14 @@ def determinant(field: Field, rows: list[list[Polynomial]]) -> Polynomial:
 
 
 def characteristic_polynomial(system: System) -> Polynomial:
-    """det(qI - A), monic of degree n."""
+    """The result is det(qI - A), monic of degree n."""
     field = system.field
     rows = [[polynomials.trimmed([-x, field.integer(int(i == j))]) for j, x in enumerate(row)] for i, row in enumerate(system.A.rows)]
     return determinant(field, rows)
 
 
 def norm(field: NumberField, f: Polynomial) -> Polynomial:
-    """The determinant of multiplication by f on the basis 1, a, ..., a^(d-1) of Q(a)[q] over Q[q]."""
+    """The result is the determinant of multiplication by f on the basis 1, a, ..., a^(d-1) of Q(a)[q] over Q[q]."""
     d = len(field.modulus) - 1
     power: Element = field.one
     rows = []
@@ -50,7 +50,7 @@ def norm(field: NumberField, f: Polynomial) -> Polynomial:
 
 
 def inside_circle(f: Polynomial) -> bool:
-    """Whether (1 - w)^d f((1 + w) / (1 - w)) has degree d and all its roots in the open left half plane, by Hurwitz.
+    """This tells whether (1 - w)^d f((1 + w) / (1 - w)) has degree d and all its roots in the open left half plane, by Hurwitz.
 
     The map takes the unit disc to the half plane and -1 to infinity. The leading minors of Hurwitz's matrix are positive iff elimination
     without exchange of rows finds positive pivots.
@@ -76,7 +76,7 @@ def inside_circle(f: Polynomial) -> bool:
 
 
 def is_stable(system: System) -> bool:
-    """Raises ValueError over a prime field."""
+    """This tells whether A is Schur stable for every embedding. Raises ValueError over a prime field."""
     if isinstance(system.field, PrimeField):
         raise ValueError("a prime field has no unit circle")
     f = characteristic_polynomial(system)

@@ -28,14 +28,14 @@ SYSTEM_KEYS = ("system", "inner", "outer", "first", "second")
 
 
 def truth(kind: str, statement: dict[str, Any]) -> bool:
-    """Whether the statement of that kind is true; raises ValueError when it is malformed or the kind unknown."""
+    """This tells whether the statement of that kind is true; raises ValueError when it is malformed or the kind unknown."""
     if kind not in KINDS:
         raise ValueError(f"unknown kind: {kind!r}")
     return KINDS[kind](statement)
 
 
 def premise_holds(kind: str, statement: dict[str, Any]) -> bool:
-    """Whether every "field" in the statement is one; raises ValueError as `truth` does on malformed systems."""
+    """This tells whether every "field" in the statement is one; raises ValueError as `truth` does on malformed systems."""
     if kind not in KINDS or not isinstance(statement, dict):
         raise ValueError(f"not a statement of a known kind: {kind!r}")
     if "experiment" in statement:
@@ -44,12 +44,7 @@ def premise_holds(kind: str, statement: dict[str, Any]) -> bool:
 
 
 def window_ranks(statement: Json) -> bool:
-    """rank [O_s T_s] = s r + sum min(s, eta_i) for every s >= 1, with p - r indices eta_i, and the listed ranks.
-
-    The left side is affine in s from s = n on (its gaps are constant from k = n on, see `behaviours`), the right one if
-    no index exceeds n; then agreement up to s = n + 1 is conclusive. The number of indices is part of the statement
-    since an index 0 leaves no trace in the formula.
-    """
+    """It says that rank [O_s T_s] = s r + sum min(s, eta_i) for every s >= 1, with p - r indices eta_i, and the listed ranks."""
     parse_keys(statement, {"system", "normal_rank", "left_minimal_indices"}, frozenset({"window_ranks"}))
     system = parse_system(statement["system"])
     r = parse_index(statement["normal_rank"])
@@ -69,18 +64,18 @@ def window_ranks(statement: Json) -> bool:
 
 
 def left_invertible(statement: Json) -> bool:
-    """x(0) = 0 and zero output for ever imply v = 0: n + 1 samples decide (see `quantities.is_left_invertible`)."""
+    """It says that x(0) = 0 and zero output for ever imply v = 0: n + 1 samples decide (see `quantities.is_left_invertible`)."""
     parse_keys(statement, {"system"})
     return is_left_invertible(parse_system(statement["system"]))
 
 
 def not_left_invertible(statement: Json) -> bool:
-    """The contrary."""
+    """It says the contrary of `left_invertible`."""
     return not left_invertible(statement)
 
 
 def left_invertible_line(statement: Json) -> bool:
-    """Left-invertible with the faults a F + b F' and a G + b G' for every (a : b) over every extension of the field."""
+    """The system is left-invertible with the faults a F + b F' and a G + b G' for every (a : b) over every extension of the field."""
     first, second = _two_systems(statement, "first", "second")
     if (first.A, first.C, first.m) != (second.A, second.C, second.m):
         raise ValueError("first and second have the same A, C and number of faults")
@@ -88,7 +83,7 @@ def left_invertible_line(statement: Json) -> bool:
 
 
 def inversion_delay(statement: Json) -> bool:
-    """The least l in 0..n such that r(0..l) determines v(0); null: there is none."""
+    """It says that this is the least l in 0..n such that r(0..l) determines v(0); null says that there is none."""
     parse_keys(statement, {"system", "initial_state", "delay"})
     if statement["initial_state"] not in (KNOWN, UNKNOWN):
         raise ValueError(f"not an initial state: {statement['initial_state']!r}")
@@ -103,34 +98,27 @@ def behaviour_inclusion(statement: Json) -> bool:
 
 
 def behaviour_equality(statement: Json) -> bool:
-    """B(first) = B(second) on every window: n1 + n2 + 1 samples decide."""
+    """It says that B(first) = B(second) on every window: n1 + n2 + 1 samples decide."""
     first, second = _two_systems(statement, "first", "second")
     return behaviours.equivalent(first, second)
 
 
 def window_equality(statement: Json) -> bool:
-    """The restricted behaviours on that many samples are equal; a conclusive window stands for all longer ones."""
+    """It says that the restricted behaviours on that many samples are equal; a conclusive window stands for all longer ones."""
     first, second = _two_systems(statement, "first", "second", frozenset({"window"}))
     s = min(_window(statement["window"]), behaviours.conclusive_window(first, second))
     return behaviours.equal_on(first, second, s)
 
 
 def behaviour_difference(statement: Json) -> bool:
-    """Some word of that many samples of the first is not one of the second.
-
-    A conclusive window stands for all longer ones.
-    """
+    """It says that some word of that many samples of the first is not one of the second."""
     first, second = _two_systems(statement, "first", "second", frozenset({"window"}))
     s = min(_window(statement["window"]), behaviours.conclusive_window(first, second))
     return not behaviours.included_on(first, second, s)
 
 
 def fault_space_basis(statement: Json) -> bool:
-    """The solutions of problem (11) at the window (null: in the limit) have this reduced row echelon basis.
-
-    No left minimal index exceeds n, and no window beyond all of them adds a condition, so that window n + 2 stands for
-    all later ones.
-    """
+    """It says that the solutions of problem (11) at the window (null: in the limit) have this reduced row echelon basis."""
     parse_keys(statement, {"system", "window", "basis"})
     system = parse_system(statement["system"])
     s = system.n + 2
@@ -172,7 +160,7 @@ def schur_stable(statement: Json) -> bool:
 
 
 def finite_zeros(statement: Json) -> bool:
-    """The normal rank and the monic product of the invariant polynomials of the pencil."""
+    """The result is the normal rank and the monic product of the invariant polynomials of the pencil."""
     parse_keys(statement, {"system", "normal_rank", "invariant_zero_polynomial"})
     system = parse_system(statement["system"])
     r = parse_index(statement["normal_rank"])
@@ -181,7 +169,7 @@ def finite_zeros(statement: Json) -> bool:
 
 
 def infinite_zeros(statement: Json) -> bool:
-    """The infinite zero orders, one per unit of normal rank, from the minors of the reversed pencil."""
+    """These are the infinite zero orders, one per unit of normal rank, from the minors of the reversed pencil."""
     parse_keys(statement, {"system", "infinite_zero_orders"})
     system = parse_system(statement["system"])
     return _ascending(statement["infinite_zero_orders"]) == infinite_zero_orders_of_pencil(system)

@@ -26,12 +26,12 @@ SEEDS = st.integers(min_value=0, max_value=2**32 - 1)
 
 
 def field_descriptions() -> st.SearchStrategy[Json]:
-    """FIELDs."""
+    """It draws FIELDs."""
     return st.sampled_from(list(FIELDS.values()))
 
 
 def entries(field: Json) -> st.SearchStrategy[Json]:
-    """ENTRYs over that FIELD; half of them are zero."""
+    """It draws ENTRYs over that FIELD, of which half are zero."""
     rational = st.builds(_fraction, st.integers(-3, 3), st.sampled_from([1, 1, 1, 2, 3]))
     if field == "Q":
         nonzero: st.SearchStrategy[Json] = rational
@@ -45,7 +45,7 @@ def entries(field: Json) -> st.SearchStrategy[Json]:
 
 @st.composite
 def entrywise_systems(draw: st.DrawFn, field: Json = None, largest: int = 3) -> Json:
-    """SYSTEMs with entries that are drawn one by one, each of F, C, G possibly zero altogether."""
+    """It draws SYSTEMs entry by entry, each of F, C, G possibly zero altogether."""
     field = draw(field_descriptions()) if field is None else field
     n, p, m = (draw(st.integers(0, largest)) for _ in range(3))
     entry = entries(field)
@@ -60,7 +60,7 @@ def entrywise_systems(draw: st.DrawFn, field: Json = None, largest: int = 3) -> 
 
 @st.composite
 def generated_systems(draw: st.DrawFn, field: Json = None, largest: int = 3) -> Json:
-    """SYSTEMs by `random_system`."""
+    """It draws SYSTEMs by `random_system`."""
     field = draw(field_descriptions()) if field is None else field
     n, p, m = (draw(st.integers(0, largest)) for _ in range(3))
     return random_system(Random(draw(SEEDS)), field, n, p, m)
@@ -68,14 +68,14 @@ def generated_systems(draw: st.DrawFn, field: Json = None, largest: int = 3) -> 
 
 @st.composite
 def named_systems(draw: st.DrawFn, field: Json = None, largest: int = 3) -> Json:
-    """The adversarial SYSTEMs with no dimension above `largest`."""
+    """These are the adversarial SYSTEMs with no dimension above `largest`."""
     field = draw(field_descriptions()) if field is None else field
     fitting = [s for s in adversarial(field).values() if max(s["n"], s["m"], s["p"]) <= largest]
     return draw(st.sampled_from(fitting))
 
 
 def systems(field: Json = None, largest: int = 3) -> st.SearchStrategy[Json]:
-    """SYSTEMs of all sorts."""
+    """It draws SYSTEMs of all sorts."""
     return st.one_of(
         entrywise_systems(field=field, largest=largest),
         generated_systems(field=field, largest=largest),
@@ -85,7 +85,7 @@ def systems(field: Json = None, largest: int = 3) -> st.SearchStrategy[Json]:
 
 @st.composite
 def system_pairs(draw: st.DrawFn, field: Json = None, largest: int = 3) -> tuple[Json, Json]:
-    """Pairs of SYSTEMs by `random_pair`."""
+    """It draws pairs of SYSTEMs by `random_pair`."""
     field = draw(field_descriptions()) if field is None else field
     n, p, m = (draw(st.integers(0, largest)) for _ in range(3))
     return random_pair(Random(draw(SEEDS)), field, n, p, m)
@@ -93,7 +93,7 @@ def system_pairs(draw: st.DrawFn, field: Json = None, largest: int = 3) -> tuple
 
 @st.composite
 def planted_systems(draw: st.DrawFn, field: Json = None, largest: int = 3) -> tuple[Json, Structure]:
-    """SYSTEMs together with the structure that was planted in them."""
+    """It draws SYSTEMs together with the structure that was planted in them."""
     field = draw(field_descriptions()) if field is None else field
     n, p, m = (draw(st.integers(0, largest)) for _ in range(3))
     rng = Random(draw(SEEDS))

@@ -34,7 +34,7 @@ from .systems import System, parse_system, write_system
 
 @dataclass(frozen=True)
 class Structure:
-    """Left and right minimal indices, infinite zero orders (one per unit of normal rank) and integer finite zeros."""
+    """It has left and right minimal indices, infinite zero orders (one per unit of normal rank) and integer finite zeros."""
 
     left: tuple[int, ...]
     right: tuple[int, ...]
@@ -58,7 +58,7 @@ class Structure:
         return len(self.infinite)
 
     def zero_polynomial(self, field: Field) -> polynomials.Polynomial:
-        """The product of q - root."""
+        """The result is the product of q - root."""
         product: polynomials.Polynomial = [field.one]
         for root in self.roots:
             product = polynomials.multiply(product, [field.integer(-root), field.one])
@@ -66,7 +66,7 @@ class Structure:
 
 
 def random_structure(rng: Random, n: int, p: int, m: int) -> Structure:
-    """Any structure of n states, p outputs and m faults: n is dealt out among the blocks at random."""
+    """The structure has n states, p outputs and m faults: n is dealt out among the blocks at random."""
     r = rng.randint(0, min(p, m))
     counts = [0] * (p - r + m - r + r)
     roots = 0
@@ -85,7 +85,7 @@ def random_structure(rng: Random, n: int, p: int, m: int) -> Structure:
 
 
 def planted_system(rng: Random, field: Json, structure: Structure) -> Json:
-    """A SYSTEM whose pencil has that structure."""
+    """The result is a SYSTEM whose pencil has that structure."""
     over = parse_field(field)
     system = _empty(over)
     for eta in structure.left:
@@ -98,7 +98,7 @@ def planted_system(rng: Random, field: Json, structure: Structure) -> Json:
 
 
 def random_system(rng: Random, field: Json, n: int, p: int, m: int) -> Json:
-    """A SYSTEM of n states, p outputs and m faults; degenerate as often as not."""
+    """The result is a SYSTEM of n states, p outputs and m faults; degenerate as often as not."""
     kind = rng.randrange(5)
     if kind == 0:
         return planted_system(rng, field, random_structure(rng, n, p, m))
@@ -113,11 +113,7 @@ def random_system(rng: Random, field: Json, n: int, p: int, m: int) -> Json:
 
 
 def random_pair(rng: Random, field: Json, n: int, p: int, m: int) -> tuple[Json, Json]:
-    """Two SYSTEMs over the same field with the same number of outputs.
-
-    The second is the first in other coordinates or under feedback (equivalent), the first with fewer faults (within
-    it), the first with one entry of F changed (often equal on short windows), or unrelated.
-    """
+    """The two SYSTEMs are over the same field, with the same number of outputs."""
     first = parse_system(random_system(rng, field, n, p, m))
     variants: list[Callable[[Random, System], System]] = [
         similar,
@@ -130,20 +126,20 @@ def random_pair(rng: Random, field: Json, n: int, p: int, m: int) -> tuple[Json,
 
 
 def similar(rng: Random, system: System) -> System:
-    """The same system in other coordinates of state and fault."""
+    """The result is the same system in other coordinates of state and fault."""
     basis, inverse = _invertible(rng, system.field, system.n)
     faults, _ = _invertible(rng, system.field, system.m)
     return System(system.field, basis @ system.A @ inverse, basis @ system.F @ faults, system.C @ inverse, system.G @ faults)
 
 
 def fed_back(rng: Random, system: System) -> System:
-    """(A + FK, F, C + GK, G): the same behaviour, since v ranges over everything."""
+    """The result is (A + FK, F, C + GK, G): the same behaviour, since v ranges over everything."""
     gain = _random_matrix(rng, system.field, system.m, system.n, 0.6)
     return System(system.field, system.A + system.F @ gain, system.F, system.C + system.G @ gain, system.G)
 
 
 def random_element(rng: Random, field: Field, density: float) -> Element:
-    """Zero with probability 1 - density, else a small element (which may be zero, too)."""
+    """The element is zero with probability 1 - density, else small, and may be zero then, too."""
     if rng.random() >= density:
         return field.zero
     if isinstance(field, PrimeField):
@@ -164,7 +160,7 @@ def _random_matrix(rng: Random, field: Field, height: int, width: int, density: 
 
 
 def _invertible(rng: Random, field: Field, size: int) -> tuple[Matrix, Matrix]:
-    """A random invertible matrix and its inverse: a permuted product of unit triangular ones with small entries."""
+    """The result is a random invertible matrix and its inverse: a permuted product of unit triangular ones with small entries."""
     lower = [[field.integer(rng.randint(-1, 1) if j < i else int(i == j)) for j in range(size)] for i in range(size)]
     upper = [[field.integer(rng.randint(-1, 1) if j > i else int(i == j)) for j in range(size)] for i in range(size)]
     rng.shuffle(lower)
@@ -187,7 +183,7 @@ def _entrywise(rng: Random, field: Field, n: int, p: int, m: int) -> System:
 
 
 def _with_nulled_states(rng: Random, system: System) -> System:
-    """Plant an output-nulling subspace: with v = -Kx the first k states stay among themselves, unseen; then hide it."""
+    """An output-nulling subspace is planted and hidden: with v = -Kx the first k states stay among themselves, unseen."""
     n, field = system.n, system.field
     k = rng.randint(0, n)
     gain = _random_matrix(rng, field, system.m, k, 0.6)
@@ -200,7 +196,7 @@ def _with_nulled_states(rng: Random, system: System) -> System:
 
 
 def _with_repetitions(rng: Random, system: System) -> System:
-    """The first fault column and the first output row once more in place of the last ones."""
+    """The result is the first fault column and the first output row once more in place of the last ones."""
     f, g, c = system.F, system.G, system.C
     if system.m and rng.random() < 0.7:
         f, g = beside(f.columns(0, system.m - 1), f.column(0)), beside(g.columns(0, system.m - 1), g.column(0))
@@ -240,10 +236,7 @@ def _empty(field: Field) -> System:
 
 
 def _chain(field: Field, length: int, *, driven: bool, read: bool) -> System:
-    """`length` states in a row, x_i(k+1) = x_(i+1)(k).
-
-    Driven: a fault enters the last (or, without states, the output). Read: the output is the first.
-    """
+    """The chain has `length` states in a row, x_i(k+1) = x_(i+1)(k)."""
     a = [[field.integer(int(j == i + 1)) for j in range(length)] for i in range(length)]
     m, p = int(driven), int(read)
     last = [[field.integer(int(i == length - 1))] * m for i in range(length)]
@@ -265,7 +258,7 @@ def _free_states(rng: Random, field: Field, roots: tuple[int, ...]) -> System:
 
 
 def _sum(first: System, second: System) -> System:
-    """Both systems side by side, with the faults and the outputs of both."""
+    """The result has both systems side by side, with the faults and the outputs of both."""
 
     def diagonal(a: Matrix, b: Matrix) -> Matrix:
         return above(beside(a, zeros(a.field, a.height, b.width)), beside(zeros(a.field, b.height, a.width), b))

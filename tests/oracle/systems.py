@@ -22,7 +22,7 @@ MAX_DIMENSION = 512
 
 @dataclass(frozen=True)
 class System:
-    """x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k), with A n x n, F n x m, C p x n, G p x m."""
+    """This is x(k+1) = A x(k) + F v(k), r(k) = C x(k) + G v(k), with A n x n, F n x m, C p x n, G p x m."""
 
     field: Field
     A: Matrix
@@ -44,7 +44,7 @@ class System:
 
 
 def parse_keys(json: Json, required: set[str], optional: frozenset[str] = frozenset()) -> dict[str, Any]:
-    """The JSON object when it has the required keys and none but these and the optional ones; raises ValueError."""
+    """The result is the JSON object when it has the required keys and none but these and the optional ones; raises ValueError."""
     if not isinstance(json, dict):
         raise ValueError(f"not a JSON object: {json!r}")
     if required - set(json):
@@ -62,7 +62,7 @@ def parse_vector(field: Field, json: Json, length: int) -> list[Element]:
 
 
 def parse_matrix(field: Field, json: Json, height: int, width: int) -> Matrix:
-    """MATRIX of that shape, where [] stands for every matrix without entries; raises ValueError."""
+    """The result is the MATRIX of that shape, where [] stands for every matrix without entries. Raises ValueError."""
     if not isinstance(json, list):
         raise ValueError(f"not a MATRIX: {json!r}")
     if height * width == 0 and json == []:
@@ -105,7 +105,7 @@ def parse_system(json: Json) -> System:
 
 
 def write_system(system: System) -> dict[str, Json]:
-    """System -> SYSTEM, with its dimensions and its field."""
+    """The result is the SYSTEM with its dimensions and its field."""
     json: dict[str, Json] = {
         name: [[system.field.write(x) for x in row] for row in block.rows]
         for name, block in (("A", system.A), ("F", system.F), ("C", system.C), ("G", system.G))
@@ -115,7 +115,7 @@ def write_system(system: System) -> dict[str, Json]:
 
 
 def trajectory(system: System, x0: Sequence[Element], v: Sequence[Sequence[Element]]) -> tuple[list[Matrix], list[Matrix]]:
-    """The columns x(0), ..., x(N) and r(0), ..., r(N-1) from x0 under v(0), ..., v(N-1)."""
+    """The result is the columns x(0), ..., x(N) and r(0), ..., r(N-1) from x0 under v(0), ..., v(N-1)."""
     states = [column_of(system.field, x0)]
     outputs = []
     for sample in v:
@@ -126,7 +126,7 @@ def trajectory(system: System, x0: Sequence[Element], v: Sequence[Sequence[Eleme
 
 
 def transposed(system: System) -> System:
-    """The system of A', C', F', G', whose pencil is the transposed one up to signs."""
+    """The result is the system of A', C', F', G', whose pencil is the transposed one up to signs."""
     return System(system.field, system.A.T, system.C.T, system.F.T, system.G.T)
 
 

@@ -302,7 +302,7 @@ def bits(length: int) -> list[tuple[int, ...]]:
 
 
 def run(s: System, x0: tuple[int, ...], v: list[tuple[int, ...]]) -> tuple[int, ...]:
-    """The output of a system over GF(2) in plain integers."""
+    """The result is the output of a system over GF(2) in plain integers."""
     a, f, c, g = ([[x.value for x in row] for row in block.rows] for block in (s.A, s.F, s.C, s.G))
     state, outputs = list(x0), []
 
@@ -316,13 +316,13 @@ def run(s: System, x0: tuple[int, ...], v: list[tuple[int, ...]]) -> tuple[int, 
 
 
 def all_runs(s: System, samples: int) -> list[tuple[tuple[int, ...], list[tuple[int, ...]], tuple[int, ...]]]:
-    """Every initial state and fault signal with the output."""
+    """These are all initial states and fault signals, with the output."""
     signals = [list(v) for v in product(bits(s.m), repeat=samples)]
     return [(x0, v, run(s, x0, v)) for x0 in bits(s.n) for v in signals]
 
 
 def tiny_systems() -> list[System]:
-    """All systems over GF(2) with n + p + m at most 3, but those with nothing except states."""
+    """These are all systems over GF(2) with n + p + m at most 3, but those with nothing except states."""
     found = []
     for n, p, m in product(range(4), repeat=3):
         if n + p + m > 3 or p == m == 0:
@@ -381,7 +381,7 @@ def test_fault_spaces_by_enumeration(enumerated: list[System]) -> None:
 
 
 def combination(basis: Matrix, weights: tuple[int, ...]) -> tuple[int, ...]:
-    """The linear combination of the rows over GF(2)."""
+    """The result is the linear combination of the rows over GF(2)."""
     columns = basis.T.rows
     return tuple(sum(w * x.value for w, x in zip(weights, column, strict=True)) % 2 for column in columns)
 

@@ -41,40 +41,40 @@ WALK = {"x0": [1], "v": [["1"], ["0"], ["1"], ["1"]], "system": SEEN}
 
 
 def moved(a: list[list[Any]], field: Any = Q) -> Any:
-    """A system of that A and nothing else."""
+    """The result is a system of that A and nothing else."""
     n = len(a)
     return {"A": a, "F": [[]] * n, "C": [], "G": [], "n": n, "m": 0, "p": 0, "field": field}
 
 
 def diagonal(field: Field, size: int, x: Element) -> Matrix:
-    """x times the identity."""
+    """The result is x times the identity."""
     return matrix(field, size, size, [[x if i == j else field.zero for j in range(size)] for i in range(size)])
 
 
 def static(g: list[list[int]], field: Any = Q) -> Any:
-    """r = G v."""
+    """The system is r = G v."""
     return system(field, [], [], [[]] * len(g), g, n=0, p=len(g), m=len(g[0]))
 
 
 def fed(f: list[list[int]], g: list[list[int]], a: int = 0) -> Any:
-    """x+ = a x + F v, r = (x, 0) + G v."""
+    """The system is x+ = a x + F v, r = (x, 0) + G v."""
     return system(Q, [[a]], f, [[1], [0]], g, n=1, p=2, m=len(f[0]))
 
 
 def driven(**changes: Any) -> dict[str, Any]:
-    """x+ = x / 2 + u + v, y = x + v with v(k) = u(k+1) white, two samples of either side."""
+    """The experiment is x+ = x / 2 + u + v, y = x + v with v(k) = u(k+1) white, two samples of either side."""
     data = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[1]], "s": 2, "past": 2}
     return {**data, "u_filter": [[[0]], [[1]]], "v_filter": [[[1]]], **changes}
 
 
 def ranks(limit: int, seen: int, joint: int, instruments: str = "past-inputs", **changes: Any) -> dict[str, Any]:
-    """The statement of a moesp-limit."""
+    """The result is the statement of a moesp-limit."""
     stated = {"instruments": instruments, "limit_rank": limit, "observability_rank": seen, "joint_rank": joint}
     return {"experiment": driven(**changes), **stated}
 
 
 def inputs(regression: str, b: object, d: object, **changes: Any) -> dict[str, Any]:
-    """The statement of an input-limit for one input, state and output."""
+    """The result is the statement of an input-limit for one input, state and output."""
     return {"experiment": driven(**changes), "regression": regression, "B": [[b]], "D": [[d]]}
 
 

@@ -19,7 +19,7 @@ from .systems import System
 
 
 def power(a: Matrix, k: int) -> Matrix:
-    """a to the power k."""
+    """The result is the k-th power of a."""
     result = identity(a.field, a.height)
     for _ in range(k):
         result = a @ result
@@ -27,7 +27,7 @@ def power(a: Matrix, k: int) -> Matrix:
 
 
 def observability(system: System, s: int) -> Matrix:
-    """O_s, (p s) x n."""
+    """The result is O_s, (p s) x n."""
     blocks = [zeros(system.field, 0, system.n)]
     row = system.C
     for _ in range(s):
@@ -37,7 +37,7 @@ def observability(system: System, s: int) -> Matrix:
 
 
 def reachability(system: System) -> Matrix:
-    """[F, AF, ..., A^(n-1) F], n x (n m)."""
+    """The result is [F, AF, ..., A^(n-1) F], n x (n m)."""
     blocks = [zeros(system.field, system.n, 0)]
     for k in range(system.n):
         blocks.append(power(system.A, k) @ system.F)
@@ -45,7 +45,7 @@ def reachability(system: System) -> Matrix:
 
 
 def toeplitz(system: System, s: int) -> Matrix:
-    """T_s, (p s) x (m s)."""
+    """The result is T_s, (p s) x (m s)."""
     markov = [system.G]
     column = system.F
     for _ in range(1, s):
@@ -59,27 +59,27 @@ def toeplitz(system: System, s: int) -> Matrix:
 
 
 def window_matrix(system: System, s: int) -> Matrix:
-    """[O_s T_s], (p s) x (n + m s)."""
+    """The result is [O_s T_s], (p s) x (n + m s)."""
     return beside(observability(system, s), toeplitz(system, s))
 
 
 def window_rank(system: System, s: int) -> int:
-    """rank [O_s T_s]."""
+    """The result is rank [O_s T_s]."""
     return rank(window_matrix(system, s))
 
 
 def toeplitz_rank(system: System, s: int) -> int:
-    """rank T_s."""
+    """The result is rank T_s."""
     return rank(toeplitz(system, s))
 
 
 def gap(system: System, k: int) -> int:
-    """rank [O_(k+1) T_(k+1)] - rank [O_k T_k]."""
+    """The result is rank [O_(k+1) T_(k+1)] - rank [O_k T_k]."""
     return window_rank(system, k + 1) - window_rank(system, k)
 
 
 def hankel(field: Field, blocks: Sequence[Matrix], block_height: int, s: int) -> Matrix:
-    """The block Hankel matrix of N columns with s block rows: column k = 0..N-s holds blocks k..k+s-1."""
+    """The result is the block Hankel matrix of N columns with s block rows: column k = 0..N-s holds blocks k..k+s-1."""
     columns = [zeros(field, block_height * s, 0)]
     for k in range(len(blocks) - s + 1):
         columns.append(above(zeros(field, 0, 1), *blocks[k : k + s]))

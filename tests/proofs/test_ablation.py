@@ -1,21 +1,22 @@
-"""Dropping hypotheses: the engine on subjects whose truth is known, and the experiments against the ledger."""
+"""Dropping hypotheses: the engine on subjects whose truth is known, and the ablations against the ledger."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from importlib import resources
 from itertools import product
 
 import pytest
 
 from faultspace.proofs.evidence import corpus
 from faultspace.proofs.evidence.search import Box, chunks
-from faultspace.proofs.hypotheses import experiments
+from faultspace.proofs.hypotheses import ablations
+from faultspace.proofs.hypotheses.aimed import HIDDEN_ZEROS, aimed_systems
 from faultspace.proofs.hypotheses.facets import degenerate, flags
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
-from faultspace.proofs.verdict.ablation import Experiment, Found, Proof, ablate, first_found
+from faultspace.proofs.rocq.sources import sources
+from faultspace.proofs.verdict.ablation import Ablation, Found, Proof, ablate, first_found
 from faultspace.proofs.verdict.ledger import expected_without, load
 from faultspace.proofs.verdict.verdicts import Row, Verdict
 from faultspace.proofs.verdict.workbench import Workbench
@@ -45,23 +46,23 @@ class Triple:
         return (self.a + self.b + self.c,)
 
 
-def experiment(subjects: Sequence[Triple]) -> Experiment[Triple]:
+def ablation(subjects: Sequence[Triple]) -> Ablation[Triple]:
     def search(bench: Workbench, dropped: Sequence[str]) -> Found[Triple]:
         failing = [s for s in subjects if not s.conclusion and all(getattr(s, name) for name in "abc" if name not in dropped)]
         return first_found(lambda poor: sorted((s for s in failing if bool(s.degenerate) == poor), key=lambda s: s.size), "a box")
 
-    return Experiment(
+    return Ablation(
         "toy", "theorem-1", "it holds", {name: (lambda s, name=name: getattr(s, name)) for name in "abc"},  # type: ignore[misc]
         lambda s: s.conclusion, lambda bench: iter(subjects), search, lambda s: iter(()),
     )  # fmt: skip
 
 
-def rows_of(made: Experiment[Triple], expected: dict[str, str] | None = None) -> dict[str, Row]:
+def rows_of(made: Ablation[Triple], expected: dict[str, str] | None = None) -> dict[str, Row]:
     return {" ".join(row.dropped): row for row in ablate(Workbench("quick", 1, quiet), made, expected or {})}
 
 
 def rows(subjects: Sequence[Triple]) -> dict[str, Row]:
-    return rows_of(experiment(subjects))
+    return rows_of(ablation(subjects))
 
 
 EVERY = [(a, b, c) for a, b, c in product((True, False), repeat=3)]
@@ -104,7 +105,7 @@ def test_nothing_tried_is_an_error_and_not_a_verdict() -> None:
 
 def test_what_fails_over_a_finite_field_alone_is_told() -> None:
     odd = [Triple(a, b, c, a, field="GF(2)") for a, b, c in EVERY]
-    made = replace(experiment(odd), over_q=lambda bench, dropped: Found(None, "a box"))
+    made = replace(ablation(odd), over_q=lambda bench, dropped: Found(None, "a box"))
     found = rows_of(made)
     assert found["a"].verdict == "REFUTED" and "over GF(2), and none over Q" in found["a"].evidence
 
@@ -122,18 +123,18 @@ def test_a_witness_that_is_not_degenerate_comes_first_and_a_degenerate_one_is_to
 def test_a_hypothesis_follows_from_the_others_where_a_reason_is_given_and_no_subject_lacks_it() -> None:
     follows = [Triple(a, a or b, c, a) for a, b, c in EVERY]  # b wherever a is
     reason = {"b": "a makes it so"}
-    found = rows_of(replace(experiment(follows), implied=reason), {"b": "IMPLIED", "c": "CERTIFIED", "a": "REFUTED"})
+    found = rows_of(replace(ablation(follows), implied=reason), {"b": "IMPLIED", "c": "CERTIFIED", "a": "REFUTED"})
     assert found["b"].meaning == "follows from the others" and "a makes it so; of the 2 subjects" in found["b"].evidence
     assert all(found[name].as_expected for name in "abc")
     assert found["b"].to_json()["follows_from_the_others"] == "a makes it so"
-    assert not rows_of(replace(experiment(follows), implied=reason), {"b": "CERTIFIED"})["b"].as_expected
-    assert not rows_of(experiment(follows), {"b": "IMPLIED"})["b"].as_expected, "a reason is wanted"
-    wrong = rows_of(replace(experiment([Triple(a, b, c, a) for a, b, c in EVERY]), implied=reason), {"b": "IMPLIED"})["b"]
+    assert not rows_of(replace(ablation(follows), implied=reason), {"b": "CERTIFIED"})["b"].as_expected
+    assert not rows_of(ablation(follows), {"b": "IMPLIED"})["b"].as_expected, "a reason is wanted"
+    wrong = rows_of(replace(ablation([Triple(a, b, c, a) for a, b, c in EVERY]), implied=reason), {"b": "IMPLIED"})["b"]
     assert wrong.verdict == "ERROR" and "1 of the 2 subjects that meet the others lack it" in wrong.evidence
 
 
 def test_a_row_is_proved_where_the_theorems_do_without_what_is_dropped() -> None:
-    proved = replace(experiment([Triple(a, b, c, a) for a, b, c in EVERY]), proof=Proof(("some_theorem",), frozenset({"a"})))
+    proved = replace(ablation([Triple(a, b, c, a) for a, b, c in EVERY]), proof=Proof(("some_theorem",), frozenset({"a"})))
     found = rows_of(proved, {"a": "REFUTED", "b": "CERTIFIED", "c": "CERTIFIED"})
     assert {name for name, row in found.items() if row.theorems} == {"b", "c", "b c"}
     checked = _Machine(object(), None, "")  # type: ignore[arg-type]
@@ -148,36 +149,35 @@ def test_a_row_is_proved_where_the_theorems_do_without_what_is_dropped() -> None
 
 
 def test_a_counterexample_to_what_is_proved_is_an_error() -> None:
-    made = replace(experiment([Triple(a, b, c, a) for a, b, c in EVERY]), proof=Proof(("some_theorem",)))
+    made = replace(ablation([Triple(a, b, c, a) for a, b, c in EVERY]), proof=Proof(("some_theorem",)))
     assert rows_of(made)["a"].verdict == "ERROR" and "some_theorem prove it without" in rows_of(made)["a"].evidence
 
 
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
-    """A workbench with every ninth system of the quick corpus."""
+    """A workbench with every ninth system of the quick corpus and every fourth of the aimed ones, twenty for each hypothesis."""
     made = Workbench("quick", 1, quiet)
     sources = list(corpus._sources("quick"))[::9]
-    made.corpus = corpus.Corpus(tuple(corpus.examine(*source) for source in sources))
+    made.corpus = tuple(corpus.examine(*source) for source in sources)
+    few = [*HIDDEN_ZEROS, *list(aimed_systems(80))[::4]]
+    made.records("aimed systems", lambda: [corpus.examine("aimed", system) for system in few])
     return made
 
 
 def test_the_ledger_and_the_experiments_name_the_same() -> None:
     expected = expected_without()
     claims = {claim.id for claim in load()}
-    assert list(expected) == [e.name for e in experiments()]
-    for e in experiments():
+    assert list(expected) == [e.name for e in ablations()]
+    for e in ablations():
         assert list(expected[e.name]) == list(e.hypotheses), e.name
         assert set(expected[e.name].values()) <= {"REFUTED", "CERTIFIED", "IMPLIED"} and e.claim in claims
         assert {name for name, entry in expected[e.name].items() if entry == "IMPLIED"} == set(e.implied), e.name
 
 
 def test_the_proofs_name_theorems_that_are_there_and_use_no_more_than_what_is_needed() -> None:
-    files = resources.files("faultspace.proofs") / "theory"
-    there = {
-        name for path in files.iterdir() if path.name.startswith("Headlines") and path.name.endswith(".v")
-        for name in re.findall(r"^Theorem (\w+)", path.read_text("utf-8"), re.MULTILINE)
-    }  # fmt: skip
-    for e in experiments():
+    texts = [text for file, text in sources().items() if file.startswith("Headlines")]
+    there = {name for text in texts for name in re.findall(r"^Theorem (\w+)", text, re.MULTILINE)}
+    for e in ablations():
         if e.proof is None:
             continue
         entries = expected_without()[e.name]
@@ -202,7 +202,7 @@ def test_a_conclusion_broken_on_purpose_is_noticed(bench: Workbench) -> None:
     assert all(row.as_expected for row in ablate(bench, unsought, expected))
     blind = ablate(bench, replace(unsought, holds=lambda subject: True), expected)
     assert not all(row.as_expected for row in blind)
-    wrong = ablate(bench, replace(unsought, holds=lambda subject: subject.dossier.gap(subject.window) <= 1), expected)
+    wrong = ablate(bench, replace(unsought, holds=lambda subject: subject.evidence.kernel.gap(subject.window) <= 1), expected)
     assert not all(row.as_expected for row in wrong)
 
 

@@ -23,7 +23,7 @@ from faultspace.proofs.adversary.engine import pursue
 from faultspace.proofs.adversary.float_limits import exact_experiment, float_limits
 from faultspace.proofs.adversary.following import Trace
 from faultspace.proofs.adversary.limit_attacks import led_family, open_family, shaped_family
-from faultspace.proofs.adversary.results import AttackRecord, refuting, run_attacks, shown, stored
+from faultspace.proofs.adversary.results import AttackRecord, checked_again, refuting, run_attacks, stored
 from faultspace.proofs.adversary.rounding import rational_roots, solve_affine
 from faultspace.proofs.adversary.spectra import shaped_input
 from faultspace.proofs.adversary.sweeps import Sweep
@@ -124,7 +124,7 @@ def test_the_file_of_results_is_whole_up_to_date_and_as_expected() -> None:
     assert [record["attack"] for record in stored()] == [one.id for one in catalogue()]
     again = "python -m faultspace.proofs.adversary --reading ID --out proofs/adversary/results.json runs an attack again"
     for target in dict.fromkeys(one.target for one in catalogue()):
-        found = shown(target)
+        found = checked_again(target)
         assert [one.trouble for one in found if one.trouble] == [], f"{target}: {again}"
         assert any(one.refutes for one in found) == (expected_of(target) == "REFUTED"), target
 
@@ -136,16 +136,16 @@ def record_of(name: str) -> AttackRecord:
 def test_a_record_that_was_tampered_with_is_noticed() -> None:
     record = record_of(FALSE_REPAIR)
     target = record["target"]
-    assert [one.trouble for one in shown(target, [record])] == [None]
+    assert [one.trouble for one in checked_again(target, [record])] == [None]
     other_words = record | {"statement_sha256": "0" * 64}
     nearer = record | {"nearest": record["nearest"] + 0.5}
     witness = record["witness"]
     moved = record | {"witness": witness | {"point": ["0", *witness["point"][1:]]}}
     renamed = record | {"witness": witness | {"certificates": [{"kind": "moesp-limit", "sha256": "0" * 64}]}}
     for spoilt, word in ((other_words, "out of date"), (nearer, "value"), (moved, "no counterexample"), (renamed, "certificates")):
-        (told,) = shown(target, [spoilt])
-        assert told.trouble is not None and word in told.trouble
-        assert not told.refutes
+        (attacked,) = checked_again(target, [spoilt])
+        assert attacked.trouble is not None and word in attacked.trouble
+        assert not attacked.refutes
 
 
 def reading_result(target: str, verdict: Verdict) -> tuple[ReadingResult, str]:
@@ -213,7 +213,7 @@ def test_limits_in_floats_are_the_exact_ones(family: object) -> None:
 
 
 def test_an_input_has_the_reflection_coefficients_it_was_made_of() -> None:
-    """By Levinson's recursion on its exact covariances."""
+    """They are found again by Levinson's recursion on its exact covariances."""
     wanted = [Fraction(1, 3), Fraction(-3, 4), Fraction(1, 2), Fraction(-1, 5)]
     made = shaped_input(wanted, [Fraction(1, 2), Fraction(-2, 3)], Fraction(4, 5))
     drawn = shaped_family(1, 1, 1, 1, 0).at([Fraction(0), Fraction(0)])
@@ -265,5 +265,5 @@ def test_sweeps_go_to_the_end_of_a_box_or_say_that_they_did_not() -> None:
     done = sweep(few, seconds=60)
     assert (done.cases, done.complete, done.found) == (5, True, None)
     assert not sweep(few, seconds=0).complete
-    failing = replace(few, judge=lambda case: ("fails", []))
+    failing = replace(few, decide=lambda case: ("fails", []))
     assert sweep(failing, seconds=60).found == ("fails", [])

@@ -206,7 +206,7 @@ def test_each_file_has_the_whole_of_the_work(lone: Lone, monkeypatch: pytest.Mon
     checker.verify(RANKS)
     monkeypatch.setattr(checker, "MAX_WORK", int(checker._meter.get().work * 1.5))
     insisted = [checker.subject(seen().to_json())]
-    assert [checker.judged(path, insisted)["result"] for path in paths] == ["rejected", "verified", "verified"]
+    assert [checker.result_of(path, insisted)["result"] for path in paths] == ["rejected", "verified", "verified"]
     for _ in range(3):  # what is read outside of a certificate is charged to itself
         checker.subject(seen().to_json())
         assert checker.verify(RANKS, [seen().to_json()]).assumes == []

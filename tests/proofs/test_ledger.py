@@ -1,4 +1,4 @@
-"""The ledger names what there is: a function for every reading, a reading for every function, verdicts from the closed list."""
+"""The ledger names what there is: a check for every reading, a reading for every check, verdicts from the closed list."""
 
 from __future__ import annotations
 
@@ -13,22 +13,30 @@ from faultspace.proofs.verdict.verdicts import Verdict
 ROOM = Path(faultspace.proofs.claims.__file__).parent
 
 
-def checks(module: str) -> set[str]:
-    """The public functions of a claim's file that take a Workbench."""
-    tree = ast.parse((ROOM / f"{module}.py").read_text(encoding="utf-8"))
-    return {f.name for f in tree.body if isinstance(f, ast.FunctionDef) and [a.arg for a in f.args.args] == ["bench"] and f.name[0] != "_"}
+def checks(path: Path) -> set[str]:
+    """The public functions of a file of claims/ that take a Workbench alone, as "file.function"."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    named = (f for f in tree.body if isinstance(f, ast.FunctionDef) and [a.arg for a in f.args.args] == ["bench"])
+    return {f"{path.stem}.{f.name}" for f in named if f.name[0] != "_"}
 
 
-def test_every_reading_has_its_function_and_every_function_its_reading() -> None:
-    for claim in load():
-        assert checks(claim.module) == {reading.id.replace("-", "_") for reading in claim.readings}, claim.id
-        for reading in claim.readings:
-            assert callable(getattr(import_module(f"faultspace.proofs.claims.{claim.module}"), reading.id.replace("-", "_")))
+def test_every_reading_has_its_check_and_every_check_its_reading() -> None:
+    named = {reading.check for claim in load() for reading in claim.readings}
+    assert named == {check for path in ROOM.glob("*.py") for check in checks(path)}
+    for check in named:
+        file, _, name = check.partition(".")
+        assert callable(getattr(import_module(f"faultspace.proofs.claims.{file}"), name))
 
 
-def test_every_claim_file_is_in_the_ledger() -> None:
+def test_a_check_is_where_its_claim_is_unless_the_ledger_says_so() -> None:
+    readings = {(claim.id, reading.id): reading.check for claim in load() for reading in claim.readings}
+    assert readings["theorem-1", "n-samples"] == "theorem_1.n_samples"
+    assert readings["settle-2", "n"] == readings["assumption-4", "n-known"] == "assumption_4.n_known"
+
+
+def test_every_file_of_checks_is_that_of_a_claim() -> None:
     files = {path.stem for path in ROOM.glob("*.py")} - {"__init__", "common"}
-    assert files == {claim.module for claim in load()}
+    assert files <= {claim.id.replace("-", "_") for claim in load()}
 
 
 def test_expected_verdicts_are_of_the_closed_list() -> None:

@@ -8,10 +8,10 @@ from random import Random
 import pytest
 
 from faultspace.exact.limits.experiments import Experiment
-from faultspace.proofs.claims import assumption_2, objection_1, past_outputs, proposition_1, settle_1
-from faultspace.proofs.evidence import experiments as experiments_tried
-from faultspace.proofs.evidence.experiments import FAMILIES, LimitDossier, examine_experiment
-from faultspace.proofs.hypotheses.experiments import consistency
+from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
+from faultspace.proofs.evidence import experiments
+from faultspace.proofs.evidence.experiments import FAMILIES, LimitEvidence, examine_experiment
+from faultspace.proofs.hypotheses.consistency import consistency
 from faultspace.proofs.verdict.ablation import ablate
 from faultspace.proofs.verdict.ledger import expected_without
 from faultspace.proofs.verdict.verdicts import Verdict
@@ -28,7 +28,7 @@ def bench() -> Workbench:
     """A workbench with fourteen experiments of each family, more of those in which v is independent of u."""
     made = Workbench("quick", 1, quiet)
     counts = {name: 120 if name == "v independent of u" else 30 if "independent" in name else 14 for name in FAMILIES}
-    made.limits = tuple(experiments_tried._all([(name, seed) for name, count in counts.items() for seed in range(count)]))
+    made.limits = tuple(experiments._all([(name, seed) for name, count in counts.items() for seed in range(count)]))
     return made
 
 
@@ -44,7 +44,7 @@ READINGS = (
     proposition_1.two_sided_autoregressive,
     proposition_1.two_sided_nilpotent,
     proposition_1.two_sided_long_past,
-    objection_1.two_sided_long_past,
+    proposition_1.two_sided_long_past_inputs,
     settle_1.not_both,
     past_outputs.white_fault,
     past_outputs.past_inputs_long_past,
@@ -55,7 +55,7 @@ READINGS = (
 def test_a_reading_holds_and_falls_when_what_certificates_say_is_turned_round(reading: object, bench: Workbench) -> None:
     assert reading(bench).verdict == Verdict.CERTIFIED  # type: ignore[operator]
 
-    def turned(d: LimitDossier) -> LimitDossier:
+    def turned(d: LimitEvidence) -> LimitEvidence:
         if "K u(k-1)" in d.origin:
             system = d.experiment.system
             return replace(d, equal=True, inputs_right=True, state_inputs=(system.B, system.D))

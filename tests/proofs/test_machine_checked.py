@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from importlib import resources
 
 import pytest
 
 from faultspace.proofs import verification
 from faultspace.proofs.rocq import theorems as machine_checked
-from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, sources
+from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved
+from faultspace.proofs.rocq.sources import THEORY, sources
 from faultspace.proofs.rocq.statements import read
 from faultspace.proofs.rocq.theorems import Theorems, answers
 from faultspace.proofs.verdict.ledger import Claim, Reading, load
@@ -42,7 +42,7 @@ def test_a_reading_whose_theorems_were_checked_is_proved(monkeypatch: pytest.Mon
     found = verification._with_theorems(_result(NAMED), machine)
     assert found.outcome.verdict == found.expected == "PROVED" and found.as_expected
     assert "one, two" in found.outcome.evidence and "on 3 systems" in found.outcome.evidence
-    assert "8.16.1: 2 theorems" in machine.told
+    assert "8.16.1: 2 theorems" in machine.message
     assert found.to_json()["theorems"] == ["one", "two"]
 
 
@@ -64,7 +64,7 @@ def test_without_rocq_the_certificates_stand_and_it_is_told(monkeypatch: pytest.
     machine = _machine(monkeypatch, _raising(NoRocq("coqc is not on the path; install it")))
     found = verification._with_theorems(_result(NAMED), machine)
     assert found.outcome.verdict == found.expected == "CERTIFIED" and found.as_expected
-    assert "install it" in machine.told and "rest on their certificates" in machine.told
+    assert "install it" in machine.message and "rest on their certificates" in machine.message
 
 
 @pytest.mark.parametrize("error", [BrokenTheory("Lag.v does not compile"), NotProved("the theorem one rests on more")])
@@ -114,10 +114,9 @@ def test_the_ledger_names_theorems_of_readings_alone() -> None:
 
 
 def test_the_readme_of_the_theorems_counts_them() -> None:
-    room = resources.files("faultspace.proofs").joinpath("theory")
-    texts = [one.read_text("utf-8") for one in room.iterdir() if one.name.startswith("Headlines") and one.name.endswith(".v")]
+    texts = [text for name, text in sources().items() if name.startswith("Headlines")]
     headlines = sum(len(re.findall(r"^Print Assumptions ", text, re.M)) for text in texts)
     readings = [reading for claim in load() for reading in claim.readings]
     named = sum(bool(reading.theorems) for reading in readings)
-    readme = room.joinpath("README.md").read_text("utf-8")
+    readme = THEORY.joinpath("README.md").read_text("utf-8")
     assert f"\n{headlines} headlines" in readme and f"They prove {named} of the {len(readings)} readings" in readme

@@ -1,4 +1,4 @@
-"""Judged pairs: what D(q; P) says before is what certificates say after, and a claim notices when either is tampered with."""
+"""Pairs (Fhat P, Ghat P): what D(q; P) says before is what certificates say after, and a claim notices when either is tampered with."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.pairs.witnesses import BadPair, bad_pair, good_columns
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.claims import bad_set, canonical_form, one_determinant, sharp_windows, zero_assignment, zeros_of_pairs
-from faultspace.proofs.evidence import pairs_by_polynomial as judged_pairs
-from faultspace.proofs.evidence.alternatives import rival_dossiers
+from faultspace.proofs.evidence import pairs_by_polynomial as pairs_by_polynomial
+from faultspace.proofs.evidence.alternatives import alternatives
 from faultspace.proofs.evidence.families import adversarial
-from faultspace.proofs.evidence.pairs_by_polynomial import JudgedPair, examine_judged, pencil_of
+from faultspace.proofs.evidence.pairs_by_polynomial import PairByPolynomial, examine_by_polynomial, pencil_of
 from faultspace.proofs.verdict.verdicts import Verdict
 from faultspace.proofs.verdict.workbench import Workbench
 from tests.oracle import truth
@@ -27,19 +27,19 @@ def quiet(stage: str, done: int, total: int) -> None:
 def bench() -> Workbench:
     """A workbench with the pairs of every sixth system of the quick run."""
     made = Workbench("quick", 1, quiet)
-    made.judged = tuple(judged_pairs._all(list(judged_pairs._systems(False))[::6]))
-    made.rivals = rival_dossiers("quick", 1, quiet)[::9]
+    made.pairs_by_polynomial = tuple(pairs_by_polynomial._all(list(pairs_by_polynomial._systems(False))[::6]))
+    made.alternatives = alternatives("quick", 1, quiet)[::9]
     return made
 
 
-def good_and_bad() -> tuple[JudgedPair, JudgedPair]:
+def good_and_bad() -> tuple[PairByPolynomial, PairByPolynomial]:
     system = ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]])
     pencil = pencil_of(system)
     bad = bad_pair(pencil)
     assert isinstance(bad, BadPair)
     return (
-        examine_judged("named", "good", system, good_columns(pencil).verdict.P, None, 1),
-        examine_judged("named", "bad", system, bad.verdict.P, None, 1),
+        examine_by_polynomial("named", "good", system, good_columns(pencil).verdict.P, None, 1),
+        examine_by_polynomial("named", "bad", system, bad.verdict.P, None, 1),
     )
 
 
@@ -62,7 +62,7 @@ def test_what_is_tampered_with_no_longer_agrees(change: dict[str, object]) -> No
 
 def test_readings_are_refuted_by_tampered_pairs(bench: Workbench) -> None:
     spoilt = Workbench("quick", 1, quiet)
-    spoilt.judged = tuple(replace(d, equal=not d.equal, zeta=d.zeta + 1) for d in bench.judged)
+    spoilt.pairs_by_polynomial = tuple(replace(d, equal=not d.equal, zeta=d.zeta + 1) for d in bench.pairs_by_polynomial)
     for reading in (one_determinant.formula, zeros_of_pairs.number, bad_set.one_fault, zero_assignment.every_polynomial):
         assert reading(bench).verdict == Verdict.CERTIFIED, reading
         assert reading(spoilt).verdict in (Verdict.REFUTED, Verdict.ERROR), reading
@@ -104,5 +104,5 @@ def test_a_line_of_good_pairs_is_found_where_the_codimension_is_two() -> None:
 def test_a_p_of_deficient_rank_is_bad() -> None:
     system = ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]])
     pencil = pencil_of(system)
-    found = examine_judged("named", "deficient", system, Matrix.zero(system.field, pencil.n_z, pencil.columns), None, 1)
+    found = examine_by_polynomial("named", "deficient", system, Matrix.zero(system.field, pencil.n_z, pencil.columns), None, 1)
     assert not found.full_column_rank and not found.polynomial and one_determinant.agrees(found)

@@ -18,8 +18,8 @@ from faultspace.exact.structure.inversion import delay_unknown_state
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.windows import observability_matrix
 from faultspace.proofs.claims import trajectory_recovered
-from faultspace.proofs.evidence.corpus import Corpus, examine
-from faultspace.proofs.evidence.experiments import LimitDossier, examine_experiment, nilpotent_points
+from faultspace.proofs.evidence.corpus import examine
+from faultspace.proofs.evidence.experiments import LimitEvidence, examine_experiment, nilpotent_points
 from faultspace.proofs.evidence.families import adversarial
 from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
 from faultspace.proofs.evidence.seasonal_inputs import in_order, seasonal
@@ -67,7 +67,7 @@ def attack(seed: int) -> Experiment:
     return read_experiment(given | {"u_filter": {"num": lags, "den": [str(x) for x in den]}, "v_filter": [own, own]})
 
 
-def defied(d: LimitDossier) -> list[str]:
+def defied(d: LimitEvidence) -> list[str]:
     """The readings that this experiment refutes."""
     n, nu, past = d.experiment.system.residual.n, d.experiment.system.nu, d.experiment.past
     readings = {
@@ -130,12 +130,14 @@ def test_finite_zeros_count_with_multiplicity() -> None:
     found = [(name, system) for name, system in adversarial() if "unobservable mode" in name]
     assert len(found) == 2
     bench = Workbench("quick", 1, lambda stage, done, total: None)
-    bench.corpus = Corpus(tuple(examine(*one) for one in found))
+    bench.corpus = tuple(examine(*one) for one in found)
     outcome = trajectory_recovered.no_finite_zeros(bench)
     assert outcome.verdict == Verdict.CERTIFIED
-    for (_, system), dossier in zip(found, bench.corpus.dossiers, strict=True):
+    for (_, system), evidence in zip(found, bench.corpus, strict=True):
         hidden = system.n - rank(observability_matrix(system, system.n))
-        assert dossier.left_invertible and dossier.finite_zeros == hidden + 1 and delay_unknown_state(kernel_representation(system)) is None
+        assert (
+            evidence.left_invertible and evidence.finite_zeros == hidden + 1 and delay_unknown_state(kernel_representation(system)) is None
+        )
         certificate = next(c for c in outcome.certificates if c["kind"] == "finite-zeros")
         statement = certificate["statement"]
         assert statement["invariant_zero_polynomial"] == ["0", "0", "1"] and truth("finite-zeros", statement)

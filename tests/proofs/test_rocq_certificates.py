@@ -18,6 +18,7 @@ from faultspace.proofs.rocq import export as rocq_export
 from faultspace.proofs.rocq.build import NotProved
 from faultspace.proofs.rocq.export import COVERED, NotCovered, Terms, exported, translated
 from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomputed, theory
+from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.trust import checker
 from tests.end_to_end.commands import call
 from tests.proofs.examples import RANKS, ROOTED, K, S, certificates, spoiled, written
@@ -30,12 +31,12 @@ FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
 
 def covered(certificate: dict[str, Any]) -> bool:
-    """Whether it is of a covered kind, over the rational numbers."""
+    """Whether the certificate is of a covered kind, over the rational numbers."""
     return certificate["kind"] in COVERED and '"field"' not in json.dumps(certificate)
 
 
 def small_ones() -> list[dict[str, Any]]:
-    """Certificates of every covered kind, systems without states, faults or outputs among them."""
+    """Yields certificates of every covered kind, systems without states, faults or outputs among them."""
     made = [c for system in SYSTEMS.values() for c in of_one_system(system)]
     return [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
 
@@ -110,14 +111,14 @@ NO_NUMBERS = (SOURCE, MARK, "1_0", " 1", "1 ", "\u0661", "0x1", "1%N", "(* 1", T
 
 
 def everywhere(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """The places in a certificate: every key and every item."""
+    """Yields the places in a certificate: every key and every item."""
     for key in node if isinstance(node, dict) else range(len(node)) if isinstance(node, list) else ():
         yield (*path, key)
         yield from everywhere(node[key], (*path, key))
 
 
 def text_of(certificate: dict[str, Any], write: Callable[[dict[str, Any]], Terms]) -> str | None:
-    """What Rocq would read; None where the exporter refuses."""
+    """Returns what Rocq would read; None where the exporter refuses."""
     try:
         return f"{(terms := write(certificate)).theorem()} {terms.check}"
     except (checker.Malformed, checker.Rejected, NotCovered):
@@ -125,7 +126,7 @@ def text_of(certificate: dict[str, Any], write: Callable[[dict[str, Any]], Terms
 
 
 def words_of(text: str) -> set[str]:
-    """The names in it."""
+    """Returns the names in a text."""
     return set(re.findall(r"[A-Za-z_]\w*", text))
 
 
@@ -172,13 +173,13 @@ def test_other_kinds_and_fields_are_not_covered() -> None:
 
 
 def test_the_format_tells_what_is_covered_and_by_which_theorem() -> None:
-    room = resources.files("faultspace.proofs")
-    _, _, section = room.joinpath("trust/FORMAT.md").read_text("utf-8").partition("## What Rocq recomputes")
+    texts = sources()
+    _, _, section = resources.files("faultspace.proofs").joinpath("trust/FORMAT.md").read_text("utf-8").partition("## What Rocq recomputes")
     rows = dict(re.findall(r"^\| `([\w-]+)` \| (.*) \|$", section, re.M))
     assert set(rows) == set(COVERED)
     for theorems in rows.values():
         module, *_ = re.findall(r"`(\w+)\.", theorems)
-        text = room.joinpath(f"theory/{module}.v").read_text("utf-8")
+        text = texts[f"{module}.v"]
         assert all(f"Theorem {name} " in text for name in re.findall(r"`(?:\w+\.)?(\w+)`", theorems))
 
 

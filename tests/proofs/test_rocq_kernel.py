@@ -22,7 +22,7 @@ TINY = {
 
 @pytest.fixture
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A cache of its own, where MathComp is found."""
+    """Provides a cache of its own, where MathComp is found."""
     try:
         rocq_build.installation()
     except rocq_build.NoRocq as reason:
@@ -32,15 +32,15 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_what_was_changed_in_the_cache_is_compiled_again(cache: Path) -> None:
-    told: list[int] = []
-    place = rocq_build.compiled_theory(lambda name, done, total: told.append(done), texts=TINY)
-    assert {"First.vo", "Second.vo"} <= {one.name for one in place.iterdir()} and told
-    told.clear()
-    assert rocq_build.compiled_theory(lambda name, done, total: told.append(done), texts=TINY) == place and not told
+    compiled: list[int] = []
+    place = rocq_build.compiled_theory(lambda name, done, total: compiled.append(done), texts=TINY)
+    assert {"First.vo", "Second.vo"} <= {one.name for one in place.iterdir()} and compiled
+    compiled.clear()
+    assert rocq_build.compiled_theory(lambda name, done, total: compiled.append(done), texts=TINY) == place and not compiled
     for spoil in (lambda: (place / "First.vo").unlink(), lambda: (place / "Second.vo").write_bytes(b""), lambda: shutil.rmtree(place)):
-        told.clear()
+        compiled.clear()
         spoil()
-        assert rocq_build.compiled_theory(lambda name, done, total: told.append(done), texts=TINY) == place and told
+        assert rocq_build.compiled_theory(lambda name, done, total: compiled.append(done), texts=TINY) == place and compiled
         assert "True" in rocq_build.compile_file(place, "Asked.v", "From faultspace Require Import Second.\nCheck second.\n")
 
 
@@ -80,23 +80,24 @@ def test_the_second_checker_finds_no_axiom() -> None:
 
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
 @pytest.mark.parametrize(
-    "assumed, told",
+    "assumed, reason",
     [
         ("Axiom absurd : False.", "Axioms: .*absurd"),
         ("Lemma absurd : False. Admitted.", "Axioms: .*absurd"),
         ("#[bypass_check(guard)] Fixpoint absurd (n : nat) : False := absurd n.", "fixpoints: .*absurd"),
     ],
 )
-def test_the_second_checker_finds_what_is_assumed(cache: Path, assumed: str, told: str) -> None:
-    """Also where no theorem of ours uses it."""
+def test_the_second_checker_finds_what_is_assumed(cache: Path, assumed: str, reason: str) -> None:
+    """It finds it also where no theorem of ours uses it."""
     theory = rocq_build.compiled_theory(texts={"First.v": f"{assumed}\n{TINY['First.v']}"})
-    with pytest.raises(rocq_build.NotProved, match=told):
+    with pytest.raises(rocq_build.NotProved, match=reason):
         second_check(theory)
 
 
 @pytest.mark.skipif(rocq_build.found() is None or COQCHK is None, reason=rocq_build.INSTALL)
 def test_recheck_believes_nothing_that_was_compiled_before(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not even a forgery that nothing else notices: compiled files of another theory, with their digests, under our sources."""
+    """It does not believe even a forgery that nothing else notices: compiled files of another theory, with their digests, under our
+    sources."""
     monkeypatch.setattr(rocq_build, "sources", lambda: TINY)
     place = rocq_build.compiled_theory(texts=TINY)
     true = (place / "Second.vo").read_bytes()
@@ -157,7 +158,7 @@ def test_the_same_source_is_compiled_to_the_same_bytes(cache: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "text, told",
+    "text, reason",
     [
         ("Fixpoint count n := match n with 0 => 0 | S m => count m + count m end.\nEval vm_compute in count 60.\n", "took more than 3 s"),
         ('Goal True. do 100000000 idtac "x". Abort.\n', "took more than|was stopped"),
@@ -167,9 +168,9 @@ def test_the_same_source_is_compiled_to_the_same_bytes(cache: Path) -> None:
         ('Declare ML Module "stolen".\n', "says Declare ML"),
     ],
 )
-def test_coqc_runs_under_limits(cache: Path, text: str, told: str) -> None:
+def test_coqc_runs_under_limits(cache: Path, text: str, reason: str) -> None:
     place = rocq_build.compiled_theory(texts=TINY)
-    with pytest.raises(rocq_build.BrokenTheory, match=told):
+    with pytest.raises(rocq_build.BrokenTheory, match=reason):
         rocq_build.compile_file(place, "Asked.v", text, seconds=3)
 
 
@@ -178,7 +179,7 @@ def test_coqc_runs_under_limits(cache: Path, text: str, told: str) -> None:
     [
         ("MOST_MEMORY", 2**28, "From mathcomp Require Import all_ssreflect all_algebra.\n"),
         ("MOST_WRITTEN", 2**15, 'Goal True. do 5000 idtac "0123456789". Abort.\n'),
-        ("MOST_SAID", 2**12, 'Goal True. do 5000 idtac "0123456789". Abort.\n'),
+        ("MOST_PRINTED", 2**12, 'Goal True. do 5000 idtac "0123456789". Abort.\n'),
     ],
 )
 def test_memory_and_output_are_limited(cache: Path, monkeypatch: pytest.MonkeyPatch, limit: str, most: int, text: str) -> None:
@@ -190,11 +191,11 @@ def test_memory_and_output_are_limited(cache: Path, monkeypatch: pytest.MonkeyPa
 
 
 def test_coqc_has_a_home_of_its_own(cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A compiler that tells where it runs."""
-    told = tmp_path / "coqc"
-    told.write_text('#!/bin/sh\necho "$HOME"; echo "$TMPDIR"; pwd; ulimit -t\n', "utf-8")
-    told.chmod(0o755)
-    monkeypatch.setattr(rocq_build, "found", lambda: rocq_build.Rocq(str(told), "0"))
+    """A compiler made for the test prints where it runs."""
+    compiler = tmp_path / "coqc"
+    compiler.write_text('#!/bin/sh\necho "$HOME"; echo "$TMPDIR"; pwd; ulimit -t\n', "utf-8")
+    compiler.chmod(0o755)
+    monkeypatch.setattr(rocq_build, "found", lambda: rocq_build.Rocq(str(compiler), "0"))
     home, scratch, folder, seconds = rocq_build.compile_file(tmp_path, "Asked.v", "Check True.\n", seconds=7).split()
     assert home == scratch and not Path(home).exists() and not Path(folder).exists() and int(seconds) == 8
     assert Path.home() not in (Path(home), Path(folder)) and Path.cwd() != Path(folder)

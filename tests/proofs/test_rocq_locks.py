@@ -5,40 +5,39 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import replace
-from importlib import resources
 from pathlib import Path
 
 import pytest
 
 from faultspace.proofs.rocq import locks as rocq_locks
-from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, NotProved, compile_file, compiled_theory
 from faultspace.proofs.rocq.locks import held, kept, made, page, written
+from faultspace.proofs.rocq.sources import THEORY, sources
 from faultspace.proofs.rocq.statements import Headline, read
 from faultspace.proofs.rocq.theorems import parted
 from faultspace.proofs.verdict.ledger import load
 from tests.proofs.test_rocq_headlines import CHANGES
 
-FOLDER = resources.files("faultspace.proofs").joinpath("theory")
 TEXTS = sources()
 STATEMENTS = read(TEXTS)
 WORDS = sorted({word.key: word for words in STATEMENTS.words.values() for word in words.values()}.items())
 
 
 def changed(file: str, old: str, new: str) -> dict[str, str]:
-    """Our sources with one text of one file changed."""
+    """Returns our sources with one text of one file changed."""
     assert TEXTS[file].count(old) >= 1 and old != new, (file, old)
     return {**TEXTS, file: TEXTS[file].replace(old, new, 1)}
 
 
 def source(headline: Headline) -> str:
-    """The statement as it stands in its file, with its line breaks."""
+    """Returns the statement as it stands in its file, with its line breaks."""
     m = re.search(rf"^Theorem {headline.name}\b(.*?)\.\nProof\.", TEXTS[headline.file], re.MULTILINE | re.DOTALL)
     assert m is not None
     return m[0]
 
 
 def with_hypothesis(headline: Headline) -> str:
-    """The statement with one hypothesis more: that S is observable, where it speaks of one S, and a trivial one elsewhere."""
+    """Returns the statement with one hypothesis more: that S is observable, where it speaks of one S, and a trivial one elsewhere."""
     binders, stated = parted(headline.statement)
     more = "observable S" if "(S : system" in binders else "(0 < 1)%N"
     return f"Theorem {headline.name} {binders} : {more} -> ({stated}).\nProof."
@@ -51,16 +50,16 @@ def test_the_statements_are_those_that_are_locked() -> None:
 
 
 def test_the_files_of_the_locks_are_current() -> None:
-    """After a change that is wanted: python -m faultspace.proofs.rocq.locks."""
-    assert FOLDER.joinpath("locks.json").read_text("utf-8") == written(made(TEXTS))
-    assert FOLDER.joinpath("STATEMENTS.md").read_text("utf-8") == page(made(TEXTS), list(load()))
+    """A change that is wanted is locked by python -m faultspace.proofs.rocq.locks."""
+    assert THEORY.joinpath("locks.json").read_text("utf-8") == written(made(TEXTS))
+    assert THEORY.joinpath("STATEMENTS.md").read_text("utf-8") == page(made(TEXTS), list(load()))
 
 
 def test_readings_theorems_and_locks_stand_side_by_side() -> None:
-    text, locks = FOLDER.joinpath("STATEMENTS.md").read_text("utf-8"), made(TEXTS)
+    text, locks = THEORY.joinpath("STATEMENTS.md").read_text("utf-8"), made(TEXTS)
     rows = [line for line in text.splitlines() if line.startswith("| ") and re.search(r"`[0-9a-f]{64}` \|$", line)]
-    told = {name: row for row in rows if (name := re.split(r"` ?Theorem ", row)[1].split()[0])}
-    assert set(told) == set(locks.theorems) and all(lock.sha256 in told[name] for name, lock in locks.theorems.items())
+    listed = {name: row for row in rows if (name := re.split(r"` ?Theorem ", row)[1].split()[0])}
+    assert set(listed) == set(locks.theorems) and all(lock.sha256 in listed[name] for name, lock in locks.theorems.items())
     for row in rows:
         assert len(re.split(r"(?<!\\)\|", row)) == 6, row[:200]
     for claim in load():
@@ -113,7 +112,7 @@ def test_a_changed_word_is_not_as_locked(key: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "file, old, new, told",
+    "file, old, new, reason",
     [
         ("Vocabulary.v", "(K : fieldType) (n m p : nat).", "(K : realFieldType) (n m p : nat).", "the word Vocabulary."),
         ("Vocabulary.v", "Implicit Types (S : system)", "Implicit Types (S : nat)", "the word Vocabulary."),
@@ -128,8 +127,8 @@ def test_a_changed_word_is_not_as_locked(key: str) -> None:
         ("Gap.v", "Qed.", "Qed.\nUnset Guard Checking.", "Gap.v has Unset Guard"),
     ],
 )
-def test_what_else_may_change_a_statement_is_noticed(file: str, old: str, new: str, told: str) -> None:
-    with pytest.raises(NotProved, match=re.escape(told)):
+def test_what_else_may_change_a_statement_is_noticed(file: str, old: str, new: str, reason: str) -> None:
+    with pytest.raises(NotProved, match=re.escape(reason)):
         held(changed(file, old, new))
 
 
@@ -162,7 +161,7 @@ def test_comments_and_line_breaks_change_nothing() -> None:
 
 @pytest.mark.parametrize("text", ["", "{}", "[]", '{"theorems": {"a": {}}}', '{"theorems": 1, "words": {}, "openings": {}, "far": []}'])
 def test_locks_that_cannot_be_read_are_no_locks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str) -> None:
-    monkeypatch.setattr(rocq_locks, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(rocq_locks, "THEORY", tmp_path)
     with pytest.raises(NotProved, match="cannot be read: FileNotFoundError"):
         kept()
     (tmp_path / "locks.json").write_text(text, "utf-8")
@@ -172,13 +171,13 @@ def test_locks_that_cannot_be_read_are_no_locks(tmp_path: Path, monkeypatch: pyt
 
 def test_the_command_locks_a_wanted_change(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     wanted = changed("Headlines.v", "(lag S <= n)%N", "(lag S <= n.+1)%N")
-    monkeypatch.setattr(rocq_locks, "_folder", lambda: tmp_path)
+    monkeypatch.setattr(rocq_locks, "THEORY", tmp_path)
     monkeypatch.setattr(rocq_locks, "sources", lambda: wanted)
     (tmp_path / "locks.json").write_text(written(made(TEXTS)), "utf-8")
     assert rocq_locks.main() == 0
     assert "the headline lag_at_most_n says" in capsys.readouterr().out
-    told = json.loads((tmp_path / "locks.json").read_text("utf-8"))
-    assert held(wanted) == kept() and "n.+1" in told["theorems"]["lag_at_most_n"]["statement"]
+    data = json.loads((tmp_path / "locks.json").read_text("utf-8"))
+    assert held(wanted) == kept() and "n.+1" in data["theorems"]["lag_at_most_n"]["statement"]
     assert rocq_locks.main() == 0 and capsys.readouterr().out == "nothing is different\n"
     monkeypatch.setattr(rocq_locks, "sources", lambda: {**wanted, "Headlines.v": "Definition a := 1.\n"})
     assert rocq_locks.main() == 1 and "theorems alone" in capsys.readouterr().err

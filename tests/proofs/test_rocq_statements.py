@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from faultspace.proofs.rocq.build import NoRocq, NotProved, compiled_theory, sources
+from faultspace.proofs.rocq.build import NoRocq, NotProved, compiled_theory
+from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import VOCABULARY, assumptions, read, sentences
 
 TINY = {
@@ -127,7 +128,7 @@ def test_what_is_assumed_or_reaches_outside_is_noticed(text: str) -> None:
 
 
 def _resolved(folder: Path, file: str) -> list[tuple[int, str, str]]:
-    """Where in a source (in bytes) coqc saw a name of ours, the file and the name, by the record that it keeps."""
+    """Returns where in a source (in bytes) coqc saw a name of ours, the file and the name, by the record that it keeps."""
     lines = (folder / file).with_suffix(".glob").read_text("utf-8").splitlines()
     found = [re.fullmatch(r"R(\d+):\d+ faultspace\.(\w+) (\S+) (\S+) (?:def|rec|ind|proj|constr|abbrev)", line) for line in lines]
     return [(int(m[1]), m[2], m[4].partition(":")[0] if m[3] == "<>" else f"{m[3]}.{m[4]}") for m in found if m]

@@ -12,7 +12,7 @@ from faultspace.proofs.evidence import corpus
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust.structure_certificates import sha256
 from faultspace.proofs.verdict import workbench
-from faultspace.proofs.verdict.ledger import Claim, Reading
+from faultspace.proofs.verdict.ledger import Claim, Reading, load
 from faultspace.proofs.verdict.verdicts import ClaimResult, Outcome, ReadingResult, Verdict
 from faultspace.proofs.verdict.workbench import Workbench, accepted, certify
 from faultspace.proofs.verification import verify
@@ -28,7 +28,7 @@ def bench() -> Workbench:
     """A workbench with a corpus small enough for tests: every fifteenth system of the quick one."""
     made = Workbench("quick", 1, quiet)
     sources = list(corpus._sources("quick"))[::15]
-    made.corpus = corpus.Corpus(tuple(corpus.examine(*source) for source in sources))
+    made.corpus = tuple(corpus.examine(*source) for source in sources)
     return made
 
 
@@ -127,9 +127,9 @@ def test_refutations_found_by_search_are_true_statements_about_small_systems() -
 
 
 def test_certify_turns_to_refuted_when_the_statement_fails(bench: Workbench) -> None:
-    always = certify(bench, lambda d: True, lambda d: d.rank(1) <= d.p, lambda s: ())
+    always = certify(bench, lambda e: True, lambda e: e.kernel.rank(1) <= e.system.p, lambda s: ())
     assert always.verdict == Verdict.CERTIFIED and always.accepted > 0
-    too_strong = certify(bench, lambda d: True, lambda d: d.gap(d.n) == d.m, lambda s: ())
+    too_strong = certify(bench, lambda e: True, lambda e: e.kernel.gap(e.system.n) == e.system.m, lambda s: ())
     assert too_strong.verdict == Verdict.REFUTED and "smallest of the corpus" in too_strong.evidence
     nothing = certify(bench, lambda d: False, lambda d: True, lambda s: ())
     assert nothing.verdict == Verdict.ERROR
@@ -179,15 +179,21 @@ def _first_image(system: object, largest: int) -> object:
     return image(system, largest=LARGEST_PRIME)  # type: ignore[arg-type]
 
 
-def test_workbench_makes_shared_outcomes_once() -> None:
-    calls: list[int] = []
+def test_a_check_that_several_readings_share_is_run_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[Workbench] = []
 
-    def find() -> Outcome:
-        calls.append(1)
-        return Outcome(Verdict.CERTIFIED, "")
+    def found(bench: Workbench) -> Outcome:
+        calls.append(bench)
+        return Outcome(Verdict.IDENTITY, "shared")
 
-    made = workbench.Workbench("quick", 1, quiet)
-    assert made.once("x", find) is made.once("x", find) and calls == [1]
+    names = {reading.check for claim in load() if claim.id in ("proposition-3", "settle-2") for reading in claim.readings}
+    for name in names:
+        monkeypatch.setattr(f"faultspace.proofs.claims.{name}", found)
+    monkeypatch.setattr(verification, "ablations", tuple)
+    report = verify(["proposition-3", "settle-2"], jobs=1)
+    readings = [reading for one in report.claims for reading in one.readings]
+    assert len(calls) == len(names) == len(readings) - 1
+    assert all(reading.outcome.evidence.endswith("shared") for reading in readings)
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,9 @@ from faultspace.cli import verifying
 from faultspace.proofs import verification
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import theorems as machine_checked
-from faultspace.proofs.rocq.build import DIGESTS, NoRocq, compile_file, compiled_theory, sources
+from faultspace.proofs.rocq.build import DIGESTS, NoRocq, compile_file, compiled_theory
 from faultspace.proofs.rocq.locks import held
+from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import read
 from faultspace.proofs.verdict.ledger import Claim, Reading, load
 from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Verdict
@@ -29,22 +30,22 @@ def _no_systems(monkeypatch: pytest.MonkeyPatch) -> None:
     """The systems say what the ledger expects, at once: what is tried here is Rocq's part."""
 
     def agrees(claim: Claim, reading: Reading, bench: object) -> ReadingResult:
-        return ReadingResult(reading, Outcome(Verdict(reading.expected), "as told"), 0.0)
+        return ReadingResult(reading, Outcome(Verdict(reading.expected), "as expected"), 0.0)
 
     monkeypatch.setattr(verification, "_check", agrees)
-    monkeypatch.setattr(verification, "experiments", tuple)
+    monkeypatch.setattr(verification, "ablations", tuple)
 
 
 def verify(capsys: pytest.CaptureFixture[str]) -> tuple[int, Any]:
-    """The exit code of `faultspace verify --claim ... --json`, and what it prints."""
+    """Returns the exit code of `faultspace verify --claim ... --json`, and what it prints."""
     capsys.readouterr()
     code = verifying.run([CLAIM], effort="quick", jobs=1, out=None, recheck=False, as_json=True)
     return code, json.loads(capsys.readouterr().out)
 
 
-def red(told: Any, why: str) -> None:
-    """Every reading that has a theorem is an ERROR, for this reason, and the run says it too."""
-    readings = [one for claim in told["claims"] for one in claim["readings"]]
+def red(report: Any, why: str) -> None:
+    """Asserts that every reading that has a theorem is an ERROR, for this reason, and that the run says it too."""
+    readings = [one for claim in report["claims"] for one in claim["readings"]]
     named = {r.id for claim in load() if claim.id == CLAIM for r in claim.readings if r.theorems}
     assert named and {one["reading"] for one in readings if one["verdict"] == "ERROR"} == named
     assert all(re.search(why, one["evidence"]) for one in readings if one["verdict"] == "ERROR"), readings
@@ -74,27 +75,27 @@ WHY = {
 
 @pytest.mark.parametrize("what", CHANGES)
 def test_a_change_of_the_sources_is_told(what: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    """Before anything is compiled, so with and without Rocq."""
+    """It is told before anything is compiled, so with and without Rocq."""
     file, old, new = CHANGES[what]
     assert old in TEXTS[file]
     monkeypatch.setattr(machine_checked, "sources", lambda: {**TEXTS, file: TEXTS[file].replace(old, new, 1)})
-    code, told = verify(capsys)
+    code, report = verify(capsys)
     assert code == 1
-    red(told, WHY.get(what, r"the headline \w+ says .* where its lock has "))
+    red(report, WHY.get(what, r"the headline \w+ says .* where its lock has "))
 
 
 def test_the_locks_are_told_without_rocq_too(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(rocq_build, "found", lambda: None)
-    code, told = verify(capsys)
-    assert code == 0 and "coqc is not on the path" in told["rocq"]
-    for one in told["claims"][0]["readings"]:
+    code, report = verify(capsys)
+    assert code == 0 and "coqc is not on the path" in report["rocq"]
+    for one in report["claims"][0]["readings"]:
         named = next(r.theorems for claim in load() if claim.id == CLAIM for r in claim.readings if r.id == one["reading"])
         assert one["locks"] == {name: held(TEXTS).theorems[name].sha256 for name in named} and not one["theorems"]
 
 
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A copy of the compiled theory, in a cache of its own."""
+    """Provides a copy of the compiled theory, in a cache of its own."""
     try:
         theory = compiled_theory()
     except NoRocq as reason:
@@ -107,12 +108,12 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def digests_computed_again(place: Path) -> None:
-    """What a careful forger does."""
+    """Writes the digests anew, as a careful forger does."""
     (place / DIGESTS).write_text(json.dumps(rocq_build._digests(place)), "utf-8")
 
 
 def all_true(place: Path) -> str:
-    """Headlines.v with `True` in the place of every statement, compiled into the folder."""
+    """Compiles Headlines.v with `True` in the place of every statement into the folder."""
     names = read(TEXTS).headlines
     text = "\n".join(f"Theorem {name} : True. Proof. exact I. Qed." for name in names) + "\n"
     compile_into(place, "Headlines.v", text)
@@ -128,10 +129,10 @@ def compile_into(place: Path, name: str, text: str) -> None:
 
 @pytest.mark.timeout(900)
 def test_a_poisoned_cache_is_told(place: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """In four ways, one after the other, each with digests that are right; what was there before each is put back."""
-    code, told = verify(capsys)
-    assert code == 0 and "all as locked" in told["rocq"]
-    locks = {name: lock for claim in told["claims"] for one in claim["readings"] for name, lock in one["locks"].items()}
+    """It is poisoned in four ways, one after the other, each with digests that are right; what was there before each is put back."""
+    code, report = verify(capsys)
+    assert code == 0 and "all as locked" in report["rocq"]
+    locks = {name: lock for claim in report["claims"] for one in claim["readings"] for name, lock in one["locks"].items()}
     assert locks and all(held(TEXTS).theorems[name].sha256 == lock for name, lock in locks.items())
     kept = shutil.copytree(place, place.parent / "kept")
 
@@ -141,29 +142,29 @@ def test_a_poisoned_cache_is_told(place: Path, capsys: pytest.CaptureFixture[str
 
     (place / "Headlines.v").write_text(all_true(place), "utf-8")
     digests_computed_again(place)
-    code, told = verify(capsys)
+    code, report = verify(capsys)
     assert code == 1
-    red(told, r"its sources are not those of this package: Headlines\.v")
+    red(report, r"its sources are not those of this package: Headlines\.v")
 
     put_back()
     all_true(place)
     digests_computed_again(place)
-    code, told = verify(capsys)
+    code, report = verify(capsys)
     assert code == 1
-    red(told, r"the compiled theorem \w+ does not say what our source says")
+    red(report, r"the compiled theorem \w+ does not say what our source says")
 
     put_back()
     compile_into(place, "Vocabulary.v", TEXTS["Vocabulary.v"].replace("-> forall k, v k = 0.", "-> forall k, v k = v k."))
     digests_computed_again(place)
-    code, told = verify(capsys)
+    code, report = verify(capsys)
     assert code == 1
-    red(told, r"its Vocabulary\.v was not compiled from ours")
+    red(report, r"its Vocabulary\.v was not compiled from ours")
 
     put_back()
     place.chmod(0o777)
-    code, told = verify(capsys)
+    code, report = verify(capsys)
     assert code == 1
-    red(told, "others than you can write into it")
+    red(report, "others than you can write into it")
 
     put_back()
     assert verify(capsys)[0] == 0

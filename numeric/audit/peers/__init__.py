@@ -59,8 +59,8 @@ def _octave(package: str | None = None) -> str | None:
         return None
     known = f"d = pkg('describe', '{package}'); printf('Octave %s, {package} %s', version(), d{{1}}.version)"
     asked = known if package else "printf('Octave %s', version())"
-    told = subprocess.run([*OCTAVE, "--eval", asked], capture_output=True, check=False, stdin=subprocess.DEVNULL, text=True)
-    return told.stdout.strip() or None
+    run = subprocess.run([*OCTAVE, "--eval", asked], capture_output=True, check=False, stdin=subprocess.DEVNULL, text=True)
+    return run.stdout.strip() or None
 
 
 def _fault_id() -> str | None:
@@ -98,7 +98,7 @@ PEERS = (
 
 
 def peer(name: str) -> Peer:
-    """Raises InvalidData for an unknown name."""
+    """This is the peer of that name. Raises InvalidData where there is none."""
     found = next((one for one in PEERS if one.name == name), None)
     if found is None:
         raise InvalidData(f"peer {name}: there is none of that name; there are {', '.join(one.name for one in PEERS)}")

@@ -11,7 +11,7 @@ import ctrlsys
 import numpy as np
 
 from ....base.arrays import Array
-from ..adapter import Structure
+from ..adapter import ZeroStructure
 from ._slicot import structure_of
 
 SINGULAR = (3, 4, 5)  # of ib01ad: all singular values zero, a rank-deficient least-squares problem: SLICOT's way to decline
@@ -30,8 +30,8 @@ def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any,
     return A, B, C, D
 
 
-def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:
-    """No scaling, the default tolerance."""
+def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
+    """It is called without scaling, at the default tolerance."""
     n, m = len(A), F.shape[1]
     matrices = (np.asfortranarray(M) for M in (A, F, C, G))
     nu, rank, dinfz, _, _, infz, _, _, Af, Bf, info = ctrlsys.ab08nd("N", n, m, len(C), *matrices, 0.0)

@@ -28,7 +28,7 @@ def _identified(y: Array, u: Array, order: int, block_rows: int, **options: bool
 
 
 def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
-    """Defaults."""
+    """It is called with its defaults."""
     return _identified(y, u, order, block_rows)
 
 

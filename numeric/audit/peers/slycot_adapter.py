@@ -5,11 +5,11 @@ from __future__ import annotations
 import slycot
 
 from ....base.arrays import Array
-from ..adapter import Structure
+from ..adapter import ZeroStructure
 from ._slicot import structure_of
 
 
-def structure(A: Array, F: Array, C: Array, G: Array) -> Structure:
+def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
     """The package's default: no scaling, its own tolerance."""
     n, m = len(A), F.shape[1]
     try:

@@ -13,8 +13,9 @@ from pathlib import Path
 from rich.progress import track
 
 from faultspace.numeric.audit.adapter import FUNCTIONS, offered
-from faultspace.numeric.audit.records import Kind
-from faultspace.numeric.audit.running import all_checks, audit
+from faultspace.numeric.audit.catalogue import all_checks
+from faultspace.numeric.audit.records import Demand
+from faultspace.numeric.audit.running import audit
 from tests.numeric.audit.mutants import MUTANTS, Mutant
 
 Counts = Mapping[tuple[str, str], tuple[int, int]]
@@ -26,17 +27,17 @@ for the mutant. Columns where nothing fails are left out. Made by `python -m tes
 
 
 def counted(mutant: Mutant) -> dict[tuple[str, str], tuple[int, int]]:
-    """Of one mutant."""
+    """The counts are those of one mutant."""
     result: dict[tuple[str, str], tuple[int, int]] = {}
     for record in audit(mutant.adapter):
         failed, asked = result.get((mutant.name, record.slug), (0, 0))
-        if record.kind != Kind.FREE:
+        if record.kind != Demand.FREE:
             result[mutant.name, record.slug] = failed + record.failed, asked + 1
     return result
 
 
 def page(mutants: Sequence[Mutant], counts: Counts) -> str:
-    """All tables."""
+    """The page has all tables."""
     parts = [HEAD]
     slugs = list(dict.fromkeys((one.function, one.slug) for one in all_checks()))
     for function in FUNCTIONS:
@@ -54,12 +55,12 @@ def page(mutants: Sequence[Mutant], counts: Counts) -> str:
 
 def _cell(count: tuple[int, int], named: bool) -> str:
     failed, asked = count
-    shown = f"{failed}/{asked}" if failed else ""
-    return f"**{shown}**" if named else shown
+    cell = f"{failed}/{asked}" if failed else ""
+    return f"**{cell}**" if named else cell
 
 
 def main() -> None:
-    """Writes the page."""
+    """This writes the page."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, metavar="FILE")
     out: Path = parser.parse_args().out

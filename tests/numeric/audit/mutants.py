@@ -16,7 +16,7 @@ from unittest.mock import patch
 import numpy as np
 
 from faultspace.numeric.audit import reference
-from faultspace.numeric.audit.adapter import Structure
+from faultspace.numeric.audit.adapter import ZeroStructure
 from faultspace.numeric.count.windows import hankel_factor
 from faultspace.numeric.model import compression, input_matrices, toeplitz_factorisation
 from faultspace.numeric.model.compression import Blocks, Compression
@@ -219,7 +219,7 @@ def _space_padded(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
 
 
 def _ranks_as_if_excited(r: Any, windows: int) -> Any:
-    """The first step goes on for ever."""
+    """It takes the first step to go on for ever."""
     one, two = reference.window_ranks(r, 2)
     return [one + (s - 1) * (two - one) for s in range(1, windows + 1)]
 
@@ -231,14 +231,14 @@ def _count_unscaled(r: Any) -> int:
 
 
 def _square_time(r: Any, windows: int) -> Any:
-    """Where the running median of each channel stands, from the beginning for every sample."""
-    order = [np.argsort(r[: k + 1], axis=0)[k // 2].copy() for k in range(len(r))]  # a view would keep every sorted array
-    assert np.all(np.less_equal(0, order))
+    """The place of every sample among all before it, found by looking at all of them: the cheapest square that stands out clearly."""
+    order = [np.sum(r[: k + 1] <= r[k], axis=0) for k in range(len(r))]
+    assert np.all(np.less_equal(1, order))
     return reference.window_ranks(r, windows)
 
 
 def _window_of_n(r: Any, A: Any, C: Any, n_v: int, block_rows: int) -> Any:
-    """n block rows where lag + 1 are needed."""
+    """It takes n block rows where lag + 1 are needed."""
     return noise_free_fault_space(r, A, C, n_v=n_v, block_rows=len(A)).basis
 
 
@@ -310,7 +310,7 @@ def _residual_of_reversed_inputs(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any)
 
 
 def _residual_late(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
-    """x(k+1) used for x(k)."""
+    """It uses x(k+1) for x(k)."""
     model = StateSpaceModel(A, B, C, D)
     late = np.vstack([model.simulate(u)[1:], np.zeros((1, len(C)))])
     return y - late
@@ -321,7 +321,7 @@ def _signal_from_rest(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
 
 
 def _residual_rounded(y: Any, u: Any, A: Any, B: Any, C: Any, D: Any) -> Any:
-    """A fixed resolution."""
+    """It has a fixed resolution."""
     return np.round(reference.residual(y, u, A, B, C, D), 12)
 
 
@@ -340,17 +340,17 @@ def _signal_limited(r: Any, A: Any, F: Any, C: Any, G: Any, x0: Any) -> Any:
 # -- structure ---------------------------------------------------------------------------------------------------------------------
 
 
-def _finite_only(A: Any, F: Any, C: Any, G: Any) -> Structure:
+def _finite_only(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     found = reference.structure(A, F, C, G)
     return replace(found, infinite_zero_orders=[0] * found.normal_rank)
 
 
-def _inside_only(A: Any, F: Any, C: Any, G: Any) -> Structure:
+def _inside_only(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     found = reference.structure(A, F, C, G)
     return replace(found, finite_zeros=[z for z in found.finite_zeros if abs(z) < 1])
 
 
-def _columns_counted(A: Any, F: Any, C: Any, G: Any) -> Structure:
+def _columns_counted(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     found = reference.structure(A, F, C, G)
     return replace(found, normal_rank=min(F.shape[1], len(C)), left_invertible=F.shape[1] <= len(C))
 

@@ -13,8 +13,9 @@ import pytest
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import adapter, reference
 from faultspace.numeric.audit.adapter import FUNCTIONS, load
-from faultspace.numeric.audit.records import Kind, Measurement, Record
-from faultspace.numeric.audit.running import ExpectedFailure, all_checks, audit, parametrize_with_checks, told
+from faultspace.numeric.audit.catalogue import all_checks
+from faultspace.numeric.audit.records import CheckResult, Demand, Measurement, message
+from faultspace.numeric.audit.running import ExpectedFailure, audit, parametrize_with_checks
 
 # What mypy checks: the reference is what the protocols describe.
 _identifies: adapter.Identifies = reference
@@ -28,7 +29,7 @@ _knows: adapter.KnowsStructure = reference
 
 @parametrize_with_checks(reference)
 def test_the_reference_passes_every_check(check: Any) -> None:
-    record: Record = check()
+    record: CheckResult = check()
     if record.ratio is not None:
         print(f"{record.name}: got {record.got:.2g}, bound {record.bound:.2g}, ratio {record.ratio:.2g}")
 
@@ -36,7 +37,7 @@ def test_the_reference_passes_every_check(check: Any) -> None:
 def test_every_function_has_checks_that_hold_and_that_refuse() -> None:
     checks = list(all_checks())
     assert {one.function for one in checks} == set(FUNCTIONS)
-    assert {one.function for one in checks if one.kind is Kind.MUST_REFUSE} == set(FUNCTIONS)
+    assert {one.function for one in checks if one.kind is Demand.MUST_REFUSE} == set(FUNCTIONS)
     named = [(one.name, one.function) for one in checks]
     assert len(named) == len(set(named))
 
@@ -97,7 +98,7 @@ def test_what_is_no_model_is_broken(answer: Any) -> None:
 
 def test_a_failure_is_told_with_the_line_that_shows_it_again() -> None:
     (record,) = audit(SimpleNamespace(fault_dimension=lambda r: 3), only=["fault-dimension[one-fault]"])
-    words = told(record, "mine.py")
+    words = message(record, "mine.py")
     for part in ("fault-dimension[one-fault]", "got 2", "bound 0", "ratio inf", "a wrong number of faults"):
         assert part in words
     assert words.endswith("faultspace audit mine.py --check 'fault-dimension[one-fault]-fault_dimension'")

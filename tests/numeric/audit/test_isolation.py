@@ -12,8 +12,8 @@ import pytest
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit.isolation import Isolated
-from faultspace.numeric.audit.programs import Limits
-from faultspace.numeric.audit.running import audit, audit_named, parametrize_with_checks
+from faultspace.numeric.audit.outcome import Audit
+from faultspace.numeric.audit.running import audit, parametrize_with_checks
 
 REFERENCE = "faultspace.numeric.audit.reference"
 ONE, TWO = "fault-dimension[one-fault]", "fault-dimension[two-faults]"
@@ -60,8 +60,7 @@ def _adapter(tmp_path: Path, body: str, head: str = "") -> str:
 )
 def test_what_breaks_is_told_and_the_run_goes_on(tmp_path: Path, body: str, verdict: str, words: str) -> None:
     name = _adapter(tmp_path, body)
-    limits = Limits(seconds=4.0 if "4 s" in words else 60.0, memory=512 << 20)
-    first, second = audit_named(name, only=[ONE, TWO], limits=limits)
+    first, second = audit(name, only=[ONE, TWO], seconds=4.0 if "4 s" in words else 60.0, gibibytes=0.5)
     assert (first.name, first.verdict) == (ONE, verdict) and words in first.detail
     assert (second.name, second.verdict) == (TWO, "pass")
 
@@ -70,7 +69,7 @@ def test_a_process_left_behind_ends_with_the_audit(tmp_path: Path) -> None:
     mark = tmp_path / "alive"
     child = f"import time, pathlib; time.sleep(3); pathlib.Path({str(mark)!r}).touch()"
     name = _adapter(tmp_path, f"import subprocess; subprocess.Popen([sys.executable, '-c', {child!r}])")
-    (record,) = audit_named(name, only=[ONE])
+    (record,) = audit(name, only=[ONE])
     assert record.verdict == "pass"
     time.sleep(3.5)
     assert not mark.exists()
@@ -80,7 +79,7 @@ def test_a_process_that_leaves_the_session_ends_with_the_audit(tmp_path: Path) -
     mark = tmp_path / "alive"
     child = f"import time, pathlib; time.sleep(4); pathlib.Path({str(mark)!r}).touch()"
     body = f"import subprocess; subprocess.Popen([sys.executable, '-c', {child!r}], start_new_session=True); time.sleep(0.3)"
-    (record,) = audit_named(_adapter(tmp_path, body), only=[ONE])
+    (record,) = audit(_adapter(tmp_path, body), only=[ONE])
     assert record.verdict == "pass"
     time.sleep(4.5)
     assert not mark.exists()
@@ -89,18 +88,19 @@ def test_a_process_that_leaves_the_session_ends_with_the_audit(tmp_path: Path) -
 def test_an_adapter_that_loads_once_only_breaks_what_comes_after(tmp_path: Path) -> None:
     mark = tmp_path / "once"
     head = f"import pathlib\nmark = pathlib.Path({str(mark)!r})\nassert not mark.exists(), 'one licence'\nmark.touch()"
-    first, second = audit_named(_adapter(tmp_path, "os.abort()", head=head), only=[ONE, TWO])
+    first, second = audit(_adapter(tmp_path, "os.abort()", head=head), only=[ONE, TWO])
     assert (first.verdict, second.verdict) == ("broken", "broken") and "one licence" in second.detail
 
 
 def test_the_same_records_with_and_without_a_process_of_its_own() -> None:
     import faultspace.numeric.audit.reference as reference
 
-    def told(records: Any) -> list[Any]:
-        return [(one.name, one.function, one.verdict, one.got, one.bound) for one in records]
+    def parts(found: Audit) -> list[Any]:
+        return [(one.name, one.function, one.verdict, one.got, one.bound) for one in found]
 
     only = ["fault-dimension", "normal-rank", "refuses-nan-output"]
-    assert told(audit_named(REFERENCE, only=only)) == told(audit(reference, only=only))
+    here, apart = audit(reference, only=only), audit(REFERENCE, only=only)
+    assert parts(here) == parts(apart) and here.adapter == apart.adapter == audit(only=only).adapter == REFERENCE
 
 
 @pytest.mark.parametrize(
@@ -123,7 +123,7 @@ def test_what_cannot_be_loaded(tmp_path: Path, text: str, words: str) -> None:
 def test_what_lies_beside_the_adapter_can_be_imported(tmp_path: Path) -> None:
     (tmp_path / "beside_it.py").write_text("ONE = 1\n", "utf-8")
     name = _adapter(tmp_path, "return beside_it.ONE", head="import beside_it")
-    (record,) = audit_named(name, only=[ONE])
+    (record,) = audit(name, only=[ONE])
     assert record.verdict == "pass"
 
 
@@ -136,7 +136,7 @@ def test_a_module_in_the_present_folder_stands_in_for_none_of_ours(tmp_path: Pat
 
 
 def test_the_pytest_face_takes_a_name(tmp_path: Path) -> None:
-    decorated: Any = parametrize_with_checks(_adapter(tmp_path, "os.abort()"), limits=Limits(seconds=20.0))
+    decorated: Any = parametrize_with_checks(_adapter(tmp_path, "os.abort()"), seconds=20.0)
     cases = {case.id: case.values[0] for case in decorated.args[1]}
     with pytest.raises(AssertionError, match="SIGABRT"):
         cases[f"{ONE}-fault_dimension"]()

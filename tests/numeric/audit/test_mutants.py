@@ -7,9 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from faultspace.numeric.audit.adapter import Structure
-from faultspace.numeric.audit.records import Kind
-from faultspace.numeric.audit.running import all_checks, audit
+from faultspace.numeric.audit.adapter import ZeroStructure
+from faultspace.numeric.audit.catalogue import all_checks
+from faultspace.numeric.audit.records import Demand
+from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.vectors import shipped
 from tests.numeric.audit.mutants import MUTANTS, Mutant
 
@@ -67,11 +68,11 @@ def _answers_everything() -> SimpleNamespace:
         fault_dimension=lambda r: 1,
         fault_space=lambda r, A, C, n_v, block_rows: np.eye(len(A) + len(C))[:, :n_v],
         reconstruct=lambda r, A, F, C, G, x0: np.zeros((len(r), F.shape[1])),
-        structure=lambda A, F, C, G: Structure(1, [], [0], True),
+        structure=lambda A, F, C, G: ZeroStructure(1, [], [0], True),
     )
 
 
-REFUSALS = sorted({check.slug for check in all_checks() if check.kind is Kind.MUST_REFUSE})
+REFUSALS = sorted({check.slug for check in all_checks() if check.kind is Demand.MUST_REFUSE})
 
 
 def test_who_answers_everything_fails_every_check_that_asks_for_a_refusal() -> None:
@@ -82,7 +83,7 @@ def test_who_answers_everything_fails_every_check_that_asks_for_a_refusal() -> N
 
 def test_every_must_is_seen_to_fail() -> None:
     """By a mutant, or by who answers everything."""
-    musts = {check.slug for check in all_checks() if check.kind is not Kind.FREE}
+    musts = {check.slug for check in all_checks() if check.kind is not Demand.FREE}
     assert musts == {slug for mutant in MUTANTS for slug in (mutant.caught_by, *mutant.also)} | set(REFUSALS)
 
 

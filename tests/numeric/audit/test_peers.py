@@ -12,7 +12,7 @@ import pytest
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit.adapter import load, offered
 from faultspace.numeric.audit.peers import FAULT_ID, HERE, OCTAVE, PEERS, peer
-from faultspace.numeric.audit.records import Record, Verdict
+from faultspace.numeric.audit.records import CheckResult, Status
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subprocess_adapter import Exec
 
@@ -66,7 +66,7 @@ WRONG = [
 ]
 
 
-def _asked(name: str, *checks: str) -> dict[str, Record]:
+def _asked(name: str, *checks: str) -> dict[str, CheckResult]:
     """Records by name; skips where the peer is not here."""
     one = peer(name)
     if one.version() is None:
@@ -90,8 +90,8 @@ def test_the_registry_is_well_formed() -> None:
 
 def test_the_registry_imports_no_peer() -> None:
     code = f"import sys, faultspace.numeric.audit.peers; print([name for name in {PACKAGES} if name in sys.modules])"
-    told = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
-    assert told.stdout.strip() == "[]"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True, text=True)
+    assert run.stdout.strip() == "[]"
 
 
 @pytest.mark.parametrize("name", OFFERED)
@@ -109,7 +109,7 @@ def test_what_a_peer_offers(name: str) -> None:
 @pytest.mark.parametrize(("name", "check"), RIGHT)
 def test_a_peer_gets_right_what_it_can(name: str, check: str) -> None:
     record = _asked(name, check)[check]
-    assert record.verdict == Verdict.PASS, record
+    assert record.verdict == Status.PASS, record
 
 
 @pytest.mark.parametrize(("name", "check", "verdict"), WRONG)
@@ -126,7 +126,7 @@ def test_the_reshape_spares_the_poles() -> None:
 
 def test_what_is_not_offered_is_declined() -> None:
     record = _asked("python-control", "normal-rank[wide]")["normal-rank[wide]"]
-    assert record.verdict == Verdict.REFUSED and "normal rank" in record.detail
+    assert record.verdict == Status.REFUSED and "normal rank" in record.detail
 
 
 def test_a_missing_clone_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,11 +11,12 @@ from types import SimpleNamespace
 import pytest
 
 from faultspace.base.errors import InvalidData
+from faultspace.numeric.audit import peers
+from faultspace.numeric.audit.catalogue import all_checks
 from faultspace.numeric.audit.peers import PEERS, Peer
-from faultspace.numeric.audit.programs import STANDARD
-from faultspace.numeric.audit.records import Kind
-from faultspace.numeric.audit.running import all_checks, audit
-from faultspace.numeric.audit.scoreboard import audit_peer, main, merged, tallies
+from faultspace.numeric.audit.records import Demand
+from faultspace.numeric.audit.running import audit
+from faultspace.numeric.audit.scoreboard import main, merged, tallies
 from faultspace.numeric.audit.scoreboard_pages import findings, table, write_pages
 from faultspace.numeric.audit.scoreboard_records import Audited, Board
 from faultspace.numeric.audit.vectors import shipped
@@ -73,7 +74,7 @@ def test_tallies_count_and_show_the_first_failure() -> None:
     counts = [vector.n_v for vector in shipped("faults")]
     wrong = sum(count != 1 for count in counts)
     assert (one.asked, one.failed, one.verdict, one.got, one.bound) == (len(counts), wrong, "fail", 1.0, 0.0)
-    assert one.vector == "two-faults" and rows["as-many-faults-as-outputs"].kind == Kind.FREE
+    assert one.vector == "two-faults" and rows["as-many-faults-as-outputs"].kind == Demand.FREE
 
 
 def test_what_an_answer_lacks_is_not_asked() -> None:
@@ -93,10 +94,11 @@ def test_a_new_entry_takes_the_place_of_the_old_one() -> None:
     assert [(one.name, one.seconds) for one in new.audited] == [("faultspace", 2.0), ("ctrlsys", 1.0), ("slycot", 2.0)]
 
 
-def test_a_package_that_is_not_here_says_what_it_needs() -> None:
+def test_a_package_that_is_not_here_says_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
     absent = Peer("absent", "", "Python", "absent", None, "pip install absent", lambda: None)
+    monkeypatch.setattr(peers, "PEERS", (absent,))
     with pytest.raises(InvalidData, match="pip install absent"):
-        audit_peer(absent, limits=STANDARD)
+        audit(peer="absent")
 
 
 def test_pages_without_marks_are_left_alone(tmp_path: Path) -> None:

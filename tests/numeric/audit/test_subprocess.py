@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import shutil
-import subprocess
 import sys
 import time
 from importlib.resources import as_file, files
@@ -14,9 +12,10 @@ from typing import Any
 import pytest
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.audit.programs import Limits
+from faultspace.base.processes import Limits
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subprocess_adapter import Exec
+from tests.end_to_end.commands import call, command
 
 EXAMPLES = files("faultspace.numeric.audit").joinpath("examples")
 PREAMBLE = "import json, os, sys, time\nfor line in sys.stdin:\n    q = json.loads(line)\n    a = {}\n"
@@ -96,9 +95,9 @@ def test_nan_crosses_as_a_string(tmp_path: Path) -> None:
 
 
 def test_what_does_not_speak_the_protocol() -> None:
-    for command in ("no-such-program-anywhere", [sys.executable, "-c", "print('hello')"], [sys.executable, "-c", ""]):
+    for program in ("no-such-program-anywhere", [sys.executable, "-c", "print('hello')"], [sys.executable, "-c", ""]):
         with pytest.raises(InvalidData, match="the program"):
-            Exec(command, Limits(seconds=5.0))
+            Exec(program, Limits(seconds=5.0))
     silly = [sys.executable, "-c", 'input(); print(\'{"functions": ["sing"]}\', flush=True); input()']
     with pytest.raises(InvalidData, match="sing"):
         Exec(silly, Limits(seconds=5.0))
@@ -114,23 +113,19 @@ def test_the_examples_pass(shell: str, name: str) -> None:
     assert len(records) > 20 and [record.name for record in records if record.failed] == []
 
 
-def _command(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "faultspace", "audit", *arguments], capture_output=True, text=True, timeout=60)
-
-
 def test_the_command(tmp_path: Path) -> None:
     mine = tmp_path / "mine.py"
     mine.write_text("class Mine:\n    def fault_dimension(self, r):\n        return 1\n", "utf-8")
-    run = _command(f"{mine}:Mine", "--check", "fault-dimension", "--json")
-    document = json.loads(run.stdout)
-    assert run.returncode == 1 and document["failed"] == 3
+    run = command("audit", f"{mine}:Mine", "--check", "fault-dimension", "--json")  # the others run in this process
+    document = run.json
+    assert run.code == 1 and document["failed"] == 3
     assert {one["vector"] for one in document["records"] if one["failed"]} == {"two-faults", "bad-units", "nearly-one-fault"}
-    run = _command("--check", "fault-dimension")
-    assert run.returncode == 0 and "9 checks of fault_dimension: 0 failed" in run.stdout and "Traceback" not in run.stderr
-    run = _command(f"{mine}:Mine", "--check", "fault-dimension[two-faults]")
-    assert run.returncode == 1 and f"faultspace audit {mine}:Mine --check 'fault-dimension[two-faults]-fault_dimension'" in run.stdout
-    run = _command(f"{mine}:Mine", "--check", "fault-space")
-    assert run.returncode == 2 and "asks fault_space" in run.stderr
+    run = call("audit", "--check", "fault-dimension")
+    assert run.code == 0 and "9 checks of fault_dimension: 0 failed" in run.out and "Traceback" not in run.err
+    run = call("audit", f"{mine}:Mine", "--check", "fault-dimension[two-faults]")
+    assert run.code == 1 and f"faultspace audit {mine}:Mine --check 'fault-dimension[two-faults]-fault_dimension'" in run.out
+    run = call("audit", f"{mine}:Mine", "--check", "fault-space")
+    assert run.code == 2 and "asks fault_space" in run.err
 
 
 @pytest.mark.parametrize(
@@ -148,7 +143,7 @@ def test_the_command(tmp_path: Path) -> None:
     ],
 )
 def test_bad_input_is_told_in_one_line(arguments: tuple[str, ...]) -> None:
-    run = _command(*arguments)
-    assert run.returncode == 2 and run.stdout == ""
-    *progress, complaint = run.stderr.splitlines()
+    run = call("audit", *arguments)
+    assert run.code == 2 and run.out == ""
+    *progress, complaint = run.err.splitlines()
     assert complaint.startswith("faultspace: ") and all(line.endswith(" ...") for line in progress)

@@ -17,7 +17,7 @@ from faultspace.exact.algebra.matrices import rank, stacked
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import data_fault_space, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.numeric.audit.exact_comparison import characteristic_polynomial, markov
+from faultspace.numeric.audit.exact_comparison import markov, polynomial_from_the_top
 from faultspace.numeric.audit.excitation_checks import unexciting_inputs
 from faultspace.numeric.audit.fault_vectors import VIEWS, in_channel_units
 from faultspace.numeric.audit.making_fault_vectors import singular_values
@@ -102,7 +102,7 @@ def test_outputs_by_convolution(vector: Any) -> None:
 def test_characteristic_polynomials_annihilate() -> None:
     for vector in shipped("identification"):
         total, power = 0 * floats(vector.A), np.eye(vector.order)
-        for coefficient in reversed(characteristic_polynomial(vector.A)):
+        for coefficient in reversed(polynomial_from_the_top(vector.A)):
             total, power = total + float(coefficient) * power, power @ floats(vector.A)
         assert np.allclose(total, 0, atol=1e-12)
 
@@ -114,17 +114,17 @@ RECORDS = [*shipped("faults"), *shipped("unexciting"), *(view for one in shipped
 def test_ranks_and_certified_gaps(vector: Any) -> None:
     """The gap encloses what a float SVD sees, and stands far above what rounding of the data can do wherever ranks are asked."""
     r = in_channel_units(vector.r)
-    told = not hasattr(vector, "clear") or vector.clear
+    clear = not hasattr(vector, "clear") or vector.clear
     for s, (due, (least, largest)) in enumerate(zip(vector.ranks, vector.gaps, strict=True), start=1):
         H = hankel(r, s)
         assert rank(H) == due
         values = np.linalg.svd(floats(H), compute_uv=False)
         assert values[0] <= largest * (1 + 1e-6) and largest < values[0] * 1.01
-        if told:
+        if clear:
             assert least <= values[due - 1] * (1 + 1e-6) and values[due - 1] * 0.99 < least
             assert least > 1e3 * 2.0**-53 * float(np.linalg.norm(floats(H)))
             assert due == len(values) or values[due] < 1e-3 * least
-    assert vector.ranks[-1] - vector.ranks[-2] == (vector.shown if hasattr(vector, "shown") else vector.n_v)
+    assert vector.ranks[-1] - vector.ranks[-2] == (vector.visible if hasattr(vector, "visible") else vector.n_v)
 
 
 def test_only_what_has_died_out_is_not_told() -> None:
@@ -172,7 +172,7 @@ def test_unexciting_faults_are_explained_by_others(vector: Any) -> None:
     system = vector.system
     known = analyze(system).fault_space
     found = data_fault_space(vector.r, system.A, system.C, system.n + 5)
-    assert vector.shown < system.m
+    assert vector.visible < system.m
     assert found.nrows != known.dimension or rank(stacked(found, known.basis)) > known.dimension
     assert not noise_free_fault_space(floats(vector.r), floats(system.A), floats(system.C), n_v=system.m).meaningful
 

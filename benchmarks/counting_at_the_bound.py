@@ -1,0 +1,223 @@
+"""Kernel rows of outputs and inputs: the number of faults, the number of zeros and the fault space, on seeds that no rule was chosen on.
+
+    python benchmarks/counting_at_the_bound.py {count,space,calibrate} [--trials 30] [--seed 1] [--samples 1001] [--limit SECONDS]
+
+count       `count_faults` on random plants of order 5 with one input (`fault_dimension.py`): p outputs, n_v faults, noise so many
+            decibels below each output, equal for spread 1, else the loudest to the faintest in that ratio, in random order
+space       `fault_space_by_rows` on the systems of the study with 0 .. 3 zeros, noise 40 dB down, n_v told: with the true A, C and with
+            those that PI-MOESP finds; zeta right, undecided, wrong; distance to the true space in % of its maximum; how often the
+            stated 95 % angle holds, where zeta is right and A, C are true
+calibrate   means of the likelihood ratios over what they should be, where the rows are laws: what MISFITS and SHAPE_MISFIT are set by
+
+Brackets are 95 % intervals: Wilson's of a rate, the bootstrap's of a median. Seconds are CPU seconds; hold BLAS to one thread.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import scipy.stats
+from fault_dimension import fault_signals, noise, random_plant
+from numpy.typing import NDArray
+
+from faultspace.base.errors import InvalidData
+from faultspace.numeric.model.models import observability_matrix
+from faultspace.numeric.model.past_inputs import pi_moesp
+from faultspace.numeric.rows.counting import count_faults
+from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
+from faultspace.numeric.rows.joint import course, joint_moments
+from faultspace.numeric.rows.laws import EXTRA, SHAPE_MISFIT, tested
+from faultspace.numeric.rows.space import fault_space_by_rows
+from faultspace.numeric.space.distances import principal_angles, two_sided_error
+from faultspace.numeric.space.result import FaultSpaceEstimate, orthonormal
+from faultspace.numeric.study.experiments import NOISE_GAIN, experiment
+from faultspace.numeric.study.systems import N_V, N_X, StudySystem, study_system
+
+Array = NDArray[np.float64]
+
+# p, n_v, decibels, spread
+COUNT_CELLS = (
+    (3, 1, 40.0, 1.0),
+    (3, 1, 20.0, 1.0),
+    (3, 1, 40.0, 10.0),
+    (3, 1, 20.0, 10.0),
+    (4, 1, 20.0, 10.0),
+    (4, 2, 40.0, 1.0),
+    (4, 2, 20.0, 1.0),
+    (4, 2, 40.0, 10.0),
+    (3, 0, 20.0, 10.0),
+    (3, 2, 40.0, 1.0),
+    (3, 2, 20.0, 1.0),
+    (4, 3, 40.0, 1.0),
+    (3, 3, 40.0, 1.0),
+    (3, 3, 20.0, 1.0),
+    (4, 4, 40.0, 1.0),
+)
+
+
+def record(seed: int, p: int, n_v: int, decibels: float, spread: float, samples: int) -> tuple[Array, Array]:
+    """y (samples, p) and u (samples, 1)."""
+    random = np.random.default_rng([seed, p, n_v, int(decibels), int(spread), samples])
+    plant = random_plant(random, p, max(n_v, 1))
+    state, u = random.standard_normal(N_X), random.standard_normal((samples, 1))
+    v = fault_signals(random, samples, max(n_v, 1)) * (n_v > 0)
+    clean = np.sum(plant.respond(state, u, v), axis=0)
+    levels = clean.std(axis=0) * 10 ** (-decibels / 20) * random.permutation(np.geomspace(1, 1 / spread, p))
+    return clean + noise(random, samples, levels), u
+
+
+def count(seed: int, trials: int, samples: int, clock: Clock) -> None:
+    """A line a cell: right, undecided, wrong."""
+    for p, n_v, decibels, spread in COUNT_CELLS:
+        right = undecided = wrong = 0
+        begin = time.process_time()
+        for trial in clock.range(trials):
+            y, u = record(seed + trial, p, n_v, decibels, spread, samples)
+            found = count_faults(y, u, order=N_X)
+            right += found.n_v == n_v
+            undecided += found.n_v is None
+            wrong += found.n_v not in (None, n_v)
+        made = right + undecided + wrong
+        if made:
+            seconds = (time.process_time() - begin) / made
+            name = f"p={p} n_v={n_v} {decibels:g} dB 1:{spread:g}"
+            print(
+                f"{name:24s} {right}/{undecided}/{wrong}  right {rate(right, made)}  wrong {rate(wrong, made)}  {seconds:.2f} s", flush=True
+            )
+
+
+def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
+    """A line a number of zeros, and one for all of them, with true and with identified A, C."""
+    told: list[tuple[int, str, float, float, bool, float]] = []
+    for trial in clock.range(trials):
+        zeros = trial % 4
+        system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
+        run = experiment(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
+        for name, A, C in models(system, run.y, run.u):
+            begin = time.process_time()
+            found = fault_space_by_rows(run.y, run.u, A, C, n_v=N_V)
+            seconds = time.process_time() - begin
+            basis = aligned(system, found, A, C)
+            inside = False
+            if name == "true" and found.n_z == system.Z.shape[1] and found.uncertainty is not None:
+                inside = bool(principal_angles(system.Z, basis)[-1] <= found.uncertainty.angle())
+            verdict = "right" if found.zeta == zeros else "undecided" if found.zeta is None else "wrong"
+            told.append((zeros, f"{name} {verdict}", 100 * two_sided_error(system.Z, basis), seconds, inside, float(found.n_z - N_V)))
+    for name in ("true", "identified"):
+        for group in ((0,), (1,), (2,), (3,), (0, 1, 2, 3)):
+            part = [row for row in told if row[0] in group and row[1].startswith(name)]
+            if not part:
+                continue
+            verdicts = [sum(row[1].endswith(verdict) for row in part) for verdict in ("right", "undecided", "wrong")]
+            errors = np.array([row[2] for row in part])
+            line = f"{name:10s} zeros {','.join(map(str, group)):8s} zeta {verdicts[0]}/{verdicts[1]}/{verdicts[2]}"
+            line += f"  right {rate(verdicts[0], len(part))}  wrong {rate(verdicts[2], len(part))}  error % {median(errors)}"
+            line += f"  {np.mean([row[3] for row in part]):.2f} s"
+            if name == "true":
+                right = [row[4] for row in part if row[5] == row[0]]
+                line += f"  angle holds {rate(sum(right), len(right))}" if right else ""
+            print(line, flush=True)
+
+
+def models(system: StudySystem, y: Array, u: Array) -> Iterator[tuple[str, Array, Array]]:
+    """Name, A, C: the true ones, and PI-MOESP's where it finds any."""
+    yield "true", system.model.A, system.model.C
+    try:
+        model = pi_moesp(y, u, order=N_X, block_rows=20).model
+    except InvalidData:
+        return
+    yield "identified", model.A, model.C
+
+
+def aligned(system: StudySystem, found: FaultSpaceEstimate, A: Array, C: Array) -> Array:
+    """The estimate in the true state basis."""
+    true, other = (observability_matrix(*pair, 2 * N_X) for pair in ((system.model.A, system.model.C), (A, C)))
+    to_true = np.linalg.lstsq(true, other, rcond=None)[0]
+    return orthonormal(np.vstack([to_true @ found.F, found.G]))
+
+
+def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
+    """Ratios over their expectations: of degrees on the study's systems, of sphericity and flatness on random plants."""
+    degree: dict[int, list[float]] = {1: [], 2: [], 3: []}
+    laws: list[tuple[float, float]] = []
+    for trial in clock.range(trials):
+        zeros = trial % 4
+        system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
+        run = experiment(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
+        data = joint_moments(run.y, run.u, N_X + 3)
+        fits = course(data, 1, N_X - zeros + 3)
+        for extra, ratios in degree.items():
+            low, high = fits[N_X - zeros], fits[N_X - zeros + extra]
+            ratios.append(likelihood_ratio(data, low, high) / freedom(data, low, high))
+        p, n_v, decibels, spread = COUNT_CELLS[trial % 9]
+        y, u = record(seed + trial, p, n_v, decibels, spread, samples)
+        data = joint_moments(y, u, N_X + EXTRA)
+        found = tested(data, p - n_v, N_X)
+        assert found.sphericity is not None
+        gain = likelihood_ratio(data, found.fit, found.longer) / freedom(data, found.fit, found.longer)
+        laws.append((found.sphericity.nats / found.sphericity.expected, gain))
+    for extra, ratios in degree.items():
+        parameters = 4 * extra
+        tail = scipy.stats.chi2.sf(np.array(ratios) * parameters / MISFITS[min(extra, 2) - 1], parameters)
+        shares = ", ".join(f"{np.mean(tail < level):.2f} below {level:g}" for level in (0.05, 0.01, 1e-3, 1e-4))
+        print(f"{extra} degrees more: ratio / freedom {quantiles(ratios)}; of the stated probabilities {shares}")
+    print(f"sphericity / expected, k >= 2: {quantiles([law[0] for law in laws])} (SHAPE_MISFIT is {SHAPE_MISFIT:g})")
+    print(f"flatness / freedom, k >= 2: {quantiles([law[1] for law in laws])} (MISFITS are {MISFITS})")
+
+
+def quantiles(values: list[float]) -> str:
+    """Mean and some quantiles."""
+    q = np.quantile(values, [0.5, 0.9, 0.99])
+    return f"mean {np.mean(values):.2f}, median {q[0]:.2f}, 90 % {q[1]:.2f}, 99 % {q[2]:.2f} of {len(values)}"
+
+
+def rate(count: int, total: int) -> str:
+    """In %, with Wilson's interval."""
+    interval = scipy.stats.binomtest(count, total).proportion_ci(method="wilson")
+    return f"{100 * count / total:.0f} [{100 * interval.low:.0f}, {100 * interval.high:.0f}] %"
+
+
+def median(errors: Array) -> str:
+    """With its bootstrap interval, and the 90 % quantile."""
+    random = np.random.default_rng(0)
+    medians = np.median(random.choice(errors, (500, len(errors))), axis=1)
+    low, high = np.quantile(medians, [0.025, 0.975])
+    return f"{np.median(errors):.1f} [{low:.1f}, {high:.1f}], q90 {np.quantile(errors, 0.9):.0f}"
+
+
+class Clock:
+    """Trials as long as there is time, shared equally among the calls that are left."""
+
+    def __init__(self, seconds: float, calls: int) -> None:
+        self.end, self.left = time.monotonic() + seconds, calls
+
+    def range(self, trials: int) -> Iterator[int]:
+        """0, 1, .., trials - 1, or as far as the time of this call goes."""
+        stop = time.monotonic() + max(self.end - time.monotonic(), 0.0) / max(self.left, 1)
+        self.left -= 1
+        for trial in range(trials):
+            if time.monotonic() > stop:
+                return
+            yield trial
+
+
+def main() -> None:
+    """Parse, run, print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("table", choices=("count", "space", "calibrate"))
+    parser.add_argument("--trials", type=int, default=30)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--samples", type=int, default=1001)
+    parser.add_argument("--limit", type=float, default=float("inf"))
+    chosen = parser.parse_args()
+    calls = len(COUNT_CELLS) if chosen.table == "count" else 1
+    {"count": count, "space": space, "calibrate": calibrate}[chosen.table](
+        chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, calls)
+    )
+
+
+if __name__ == "__main__":
+    main()

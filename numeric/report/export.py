@@ -1,0 +1,53 @@
+"""An Identification for other programs: python-control, scipy.signal and MATLAB.
+
+to_control   control.StateSpace with the names of the channels
+to_scipy     scipy.signal.dlti
+to_mat       a MAT file with A, B, C, D, F, G, names and sample time
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...base.errors import InvalidData, InvalidInput, quote_path
+
+if TYPE_CHECKING:
+    from ..findings import Findings
+    from ..model.models import StateSpaceModel
+
+UNKNOWN = -1.0  # the sample time that MATLAB's `ss` takes where it is not stated
+
+
+def _model(answer: Findings) -> StateSpaceModel:
+    if answer.model is None:
+        raise InvalidData("there is no model to hand on, since the order is undecided: state an order")
+    return answer.model.model
+
+
+def to_control(answer: Findings) -> Any:
+    """Return the model as control.StateSpace, from the inputs to the outputs by their names."""
+    return _model(answer).to_control(dt=answer.dt, inputs=answer.record.inputs, outputs=answer.record.outputs)
+
+
+def to_scipy(answer: Findings) -> Any:
+    """Return the model as scipy.signal.dlti with the sample time, 1 where none was stated."""
+    return _model(answer).to_scipy(dt=answer.dt)
+
+
+def to_mat(answer: Findings, path: str | os.PathLike[str]) -> None:
+    """Write A, B, C, D, F, G, x0, names and sample time into a MAT file; F and G have no columns where no pair was found."""
+    from scipy.io import savemat
+
+    model, record = _model(answer), answer.record
+    F, G = answer.pair or (np.zeros((model.n, 0)), np.zeros((model.p, 0)))
+    x0 = np.zeros(0) if answer.residual is None else answer.residual.x0
+    content = {"A": model.A, "B": model.B, "C": model.C, "D": model.D, "F": F, "G": G, "x0": x0[:, np.newaxis]}
+    # Object arrays become cell arrays, as names of different lengths must.
+    names = {"inputs": np.array(record.inputs, dtype=object), "outputs": np.array(record.outputs, dtype=object)}
+    try:
+        savemat(path, content | names | {"dt": UNKNOWN if answer.dt is None else answer.dt}, appendmat=False, oned_as="column")
+    except OSError as error:
+        raise InvalidInput(f"{quote_path(os.fspath(path))}: cannot be written ({error.strerror or error}), expected another path") from None

@@ -1,0 +1,201 @@
+"""The number of faults in a record of outputs and inputs, from the laws that they still obey: no model, no residual.
+
+With m faults, k = p - m polynomial rows annihilate [y; u] up to noise, and no more (`joint.py`). So the question for every k is whether
+k rows of total degree n are laws (`laws.py`), and the number of faults is p less the most that are. Bisection finds the place.
+
+    k >= 2    sphericity and flatness, both with a probability; noise shares of the channels are estimated
+    k = 1     flatness alone: one row leaves one signal, which any noise could be. So a last fault that is as faint as the noise is not told
+              from noise: the answer p - 1 rests on the assumption that no fault is fainter than FAINTEST beside the one before it; where
+              the step from two rows to one is less, the answer is "p - 1 or p"
+    known     a `noise_level` of the channels settles that: the remainder of laws has no more than that power, to a factor KNOWN_TO
+
+A fault in one output alone with the colour of the noise is noise by every statistic of such a record. n_v = p is answered only where the
+noise level is known. Without noise the ranks of `fault_dimension` count, which are exact.
+
+    count_faults    FaultCount: n_v, or "p - 1 or p", or undecided, the reason, and every test made
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import ArrayLike
+
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..count.rank_gap import fault_dimension
+from ..data.validation import constant_channels, positive, signals
+from .joint import ROUNDING, JointMoments, joint_moments
+from .laws import EXTRA, FAILS, SUFFICES, Laws, bootstrapped, tested
+
+# Nats (22 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
+FAINTEST = 5.0
+# Factor of power to which a stated noise level is taken at its word.
+KNOWN_TO = 2.0
+# Singular values of the scaled outputs below which a channel is a combination of others.
+DEPENDENT = 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class FaultCount:
+    """The number of faults. `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why.
+
+    `tests`: what was asked of k rows, by falling k; empty where there was no noise. `noise_power` (p,): what the rows leave of each output,
+    in its own units, squared; None where no rows are laws.
+    """
+
+    n_v: int | None
+    possible: tuple[int, ...]
+    reason: str
+    tests: tuple[Laws, ...]
+    noise_power: Array | None = None
+
+    @property
+    def decided(self) -> bool:
+        """Whether there is one answer."""
+        return self.n_v is not None
+
+
+def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLike | None = None, draws: int = 0) -> FaultCount:
+    """How many independent faults act on y (N, p) with inputs u (N, n_u), the system being of this `order` or less.
+
+    `noise_level`: standard deviation of the noise in each output, (p,) or one number for all, in units of y. `draws`: records of the
+    parametric bootstrap for each k that is tried, by which the misfit of the stated laws is measured for this very record (20 will do,
+    a quarter of a second each). Units of y and u do not matter. Raises InvalidData for shapes that do not fit, records too short for rows
+    of degree order + 3, constant outputs, and outputs that are combinations of others up to rounding. Source: [W91] for the rows, [M82]
+    and [W38] for the ratios.
+
+    >>> rng = np.random.default_rng(0)
+    >>> u, v = rng.standard_normal((600, 1)), rng.standard_normal((600, 1))
+    >>> y = np.hstack([u + v, u - v, 2 * v]) + 0.01 * rng.standard_normal((600, 3))
+    >>> count_faults(y, u, order=1).n_v
+    1
+    """
+    outputs, inputs = signals(y, u)
+    p, n = outputs.shape[1], positive(order, "order")
+    _measured(outputs)
+    data = joint_moments(outputs, inputs, n + EXTRA)
+    known = None if noise_level is None else _known(noise_level, p) / data.scale[:p]
+    one = tested(data, 1, n, None if known is None else known**2 / np.exp(np.mean(np.log(known**2))))
+    if np.exp(one.level) < ROUNDING:
+        return _by_ranks(outputs, inputs)
+    shares = None if known is None else one.shares
+    tests: dict[int, Laws] = {}
+
+    def laws(count: int) -> Laws:
+        if count not in tests:
+            quick = one if count == 1 else tested(data, count, n, shares)
+            tests[count] = bootstrapped(outputs, inputs, data, quick, draws) if draws else quick
+        return tests[count]
+
+    # Invariant: `some` rows are laws, `more` are not.
+    some, more = 0, p + 1
+    while more - some > 1:
+        k = (some + more) // 2
+        if k == 1:
+            break
+        found = _holds(laws(k), data, known)
+        if found is None:
+            return _undecided(p, k, laws(k), tests)
+        some, more = (k, more) if found else (some, k)
+    if some:
+        return _answer(p - some, tests[some], tests, data)
+    return _last(p, laws, tests, data, known)
+
+
+def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: JointMoments, known: Array | None) -> FaultCount:
+    """The answer where no two rows are laws: p - 1, p, or either."""
+    one = laws(1)
+    if known is not None:
+        loud = _loudness(one.longer.level, one.longer.spectrum, data, known)
+        if loud > KNOWN_TO:
+            reason = f"not even one row comes down to the noise level: its remainder has {loud:.3g} times that power"
+            return FaultCount(p, (p,), reason, _walk(tests))
+    found = _holds(one, data, known)
+    if found is None:
+        return _undecided(p, 1, one, tests)
+    if not found:
+        reason = f"{p} faults, or an order above the one given: no row of its degree leaves noise alone (probability {one.probability:.1g})"
+        return FaultCount(None, (p,), reason, _walk(tests))
+    if known is not None or p == 1:
+        return _answer(p - 1, one, tests, data)
+    step = laws(2).level - one.level
+    if step < FAINTEST:
+        reason = (
+            f"{p - 1} or {p}: one row leaves {step:.2g} nats less than two, and a fault fainter than {FAINTEST:g} beside the others would "
+            "look the same; a noise_level would settle it"
+        )
+        return FaultCount(None, (p - 1, p), reason, _walk(tests))
+    return _answer(p - 1, one, tests, data)
+
+
+def _answer(n_v: int, found: Laws, tests: dict[int, Laws], data: JointMoments) -> FaultCount:
+    """`found` are the most laws."""
+    p = data.p
+    reason = (
+        f"{found.count} row{'s' if found.count > 1 else ''} of outputs and inputs leave noise alone (probability {found.probability:.2g})"
+    )
+    more = tests.get(found.count + 1)
+    if more is not None:
+        reason += f", {more.count} do not ({more.probability:.1g})"
+    spread = float(found.fit.spectrum @ data.moments.weights)
+    power = np.exp(found.level) * spread * found.shares * data.scale[:p] ** 2
+    return FaultCount(n_v, (n_v,), reason, _walk(tests), np.asarray(power))
+
+
+def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount:
+    """`near` is neither clearly a law nor clearly none."""
+    most = max((count for count, laws in tests.items() if laws.holds), default=0)
+    least = min((count for count, laws in tests.items() if laws.holds is False), default=p + 1)
+    possible = tuple(range(max(p - least + 1, 0), p - most + 1))
+    limits = f"accepted from {SUFFICES:g}, refused below {FAILS:g}"
+    reason = f"{k} rows may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
+    return FaultCount(None, possible, reason, _walk(tests))
+
+
+def _holds(laws: Laws, data: JointMoments, known: Array | None) -> bool | None:
+    """Whether they are laws; where the noise level is known, laws leave no more than it."""
+    if known is not None and _loudness(laws.level, laws.fit.spectrum, data, known) > KNOWN_TO:
+        return False
+    return laws.holds
+
+
+def _loudness(level: float, spectrum: Array, data: JointMoments, known: Array) -> float:
+    """Power of the noise that rows leave, beside the known one (p,) in units of the moments."""
+    return float(np.exp(level - np.mean(np.log(known**2))) * (spectrum @ data.moments.weights))
+
+
+def _known(noise_level: ArrayLike, p: int) -> Array:
+    """(p,) positive deviations. Raises InvalidData."""
+    try:
+        level = np.broadcast_to(np.asarray(noise_level, dtype=float), (p,))
+    except (TypeError, ValueError):
+        level = np.zeros(p)
+    if not (np.all(np.isfinite(level)) and np.all(level > 0)):
+        raise InvalidData(f"noise_level: got {noise_level!r}; needed one positive standard deviation, or {p} of them, in units of y")
+    return level
+
+
+def _by_ranks(y: Array, u: Array) -> FaultCount:
+    """The count where no noise is seen."""
+    exact = fault_dimension(y, u=u)
+    possible = tuple(range(y.shape[1] + 1)) if exact.n_v is None else (exact.n_v,)
+    return FaultCount(exact.n_v, possible, f"no noise beyond rounding: {exact.reason}", ())
+
+
+def _measured(outputs: Array) -> None:
+    """InvalidData for outputs (N, p) that show no noise of their own."""
+    constant = constant_channels(outputs.min(axis=0), outputs.max(axis=0))
+    if constant:
+        raise InvalidData(f"y: channels {constant} (from 0) are constant: they show no fault and no noise; leave them out")
+    sizes = np.abs(np.diag(scipy.linalg.qr(outputs / np.linalg.norm(outputs, axis=0), mode="r", pivoting=True)[0]))
+    if sizes[-1] < DEPENDENT * sizes[0]:
+        raise InvalidData("y: some channels are combinations of others up to rounding, such as copies: leave them out, they count as laws")
+
+
+def _walk(tests: dict[int, Laws]) -> tuple[Laws, ...]:
+    """By falling number of rows."""
+    return tuple(tests[count] for count in sorted(tests, reverse=True))

@@ -1,0 +1,105 @@
+"""The number of zeros: the least total degree of the kernel rows that the data accept, with a probability.
+
+k rows of [y; u] whose degrees add up to d are rational curves of degree d in a Grassmannian and have d (p + n_u) + k (p + n_u - k)
+parameters, so that every further degree frees p + n_u. The level of the rows is the logarithm of the noise power that they leave in each of
+k signals; hence rows of degree d are as likely as those of degree D > d or less so by the likelihood ratio
+
+    2 log(likelihood of D / likelihood of d) = samples k (level_d - level_D),
+
+which, where d suffices, follows a chi-squared law with (D - d) (p + n_u) degrees of freedom [W38] multiplied by a misfit. Two things
+keep the misfit above one. At d the parameters of D are not identified: rows of D are rows of d times factors that can have any root, and
+the best root is taken, a maximum over a process that has the stated law at each root [D87]. And the colour of the noise is an
+autoregression of finite order. So the misfit is measured: `benchmarks/counting_at_the_bound.py --calibrate` does it on fresh seeds, and
+the parametric bootstrap for a given record.
+
+    LeastDegree    the degree, the levels of all degrees, the probability that each suffices, and whether the answer is clear
+    least_degree   from the fits of a course
+    SUFFICES       a degree is accepted if data as unlikely come with at least this probability
+    FAILS          and clearly too low if with less than this; between the two the answer is undecided
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.stats
+
+from ...base.arrays import Array
+from ..space.basis import KernelBasis
+from .joint import ROUNDING, JointMoments
+
+SUFFICES, FAILS = 0.01, 1e-6
+# Means of the ratio over its degrees of freedom where the degree suffices, for one degree more and for several. One more frees a real root,
+# several free pairs of roots, which can stand at any frequency; so the second is larger. Neither grows with N, because the moments have no
+# more bands.
+MISFITS = (1.6, 3.2)
+
+
+@dataclass(frozen=True, eq=False)
+class LeastDegree:
+    """`degree`, the likeliest least one; `levels` and `probabilities` (most + 1,) of total degrees 0, 1, ..; `margin`, at least one where
+    `decided`: the smaller of log(probability of the degree below) / log(FAILS) and log(SUFFICES) / log(probability of the degree)."""
+
+    degree: int
+    levels: Array
+    probabilities: Array
+    margin: float
+    decided: bool
+    reason: str
+
+
+def likelihood_ratio(data: JointMoments, low: KernelBasis, high: KernelBasis) -> float:
+    """Twice the logarithm of the likelihood ratio of two fits with the same number of rows; none where both are exact up to rounding."""
+    floor = float(np.log(ROUNDING))
+    return max(data.samples * len(low.rows) * (max(low.level, floor) - max(high.level, floor)), 0.0)
+
+
+def freedom(data: JointMoments, low: KernelBasis, high: KernelBasis) -> int:
+    """Parameters that the fit of the higher total degree has more."""
+    return (_total(high) - _total(low)) * data.moments.channels
+
+
+def excess(data: JointMoments, low: KernelBasis, high: KernelBasis, misfits: Sequence[float] = MISFITS) -> float:
+    """Probability of a ratio at least as large, if the lower total degree suffices; misfits[i] for i + 1 degrees more, the last for all."""
+    misfit = misfits[min(_total(high) - _total(low), len(misfits)) - 1]
+    return float(scipy.stats.chi2.sf(likelihood_ratio(data, low, high) / misfit, freedom(data, low, high)))
+
+
+def _total(fit: KernelBasis) -> int:
+    """Sum of the degrees of the rows."""
+    return sum(len(row) - 1 for row in fit.rows)
+
+
+def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, most: int, misfits: Sequence[float] = MISFITS) -> LeastDegree:
+    """Of `fits` with total degrees 0, 1, ..; `least` and `most` bound what the structure allows. Fits beyond `most` test the order."""
+    top = len(fits) - 1
+    # The least favourable comparison, counted as many times as there are comparisons.
+    probabilities = np.ones(top + 1)
+    for d in range(top):
+        probabilities[d] = min(1.0, (top - d) * min(excess(data, fits[d], fits[D], misfits) for D in range(d + 1, top + 1)))
+    levels = np.array([fit.level for fit in fits])
+    degree = next((d for d in range(least, most + 1) if probabilities[d] >= SUFFICES), None)
+    if degree is None:
+        reason = f"degree {most} leaves what higher degrees explain (probability {probabilities[most]:.1g}): the order is too low"
+        return LeastDegree(most, levels, probabilities, 0.0, False, reason)
+    # By steps of one degree the same must come out: noise of another colour than assumed gains by many degrees at once.
+    steps = (d for d in range(least, top) if excess(data, fits[d], fits[d + 1], misfits) >= SUFFICES)
+    settled = next(steps, top) >= degree
+    below = 0.0 if degree == least else float(probabilities[degree - 1])
+    reason = f"degree {degree} suffices (probability {probabilities[degree]:.2g})"
+    if degree == least:
+        reason += ", the least that (A, C) allow"
+    elif not settled:
+        reason += f", but a lower one is not improved by the next alone (probability of degree {degree - 1} {below:.1g})"
+    else:
+        reason += f", degree {degree - 1} {'does not' if below <= FAILS else 'may'} ({below:.1g})"
+    margin = _margin(below, float(probabilities[degree])) if settled else 0.0
+    return LeastDegree(degree, levels, probabilities, margin, settled and below <= FAILS, reason)
+
+
+def _margin(below: float, at: float) -> float:
+    """How far on their sides of the thresholds the two probabilities lie, as a ratio of their logarithms."""
+    tiny = 1e-300
+    return float(min(np.log(max(below, tiny)) / np.log(FAILS), np.log(SUFFICES) / np.log(max(min(at, 1 - 1e-9), tiny))))

@@ -1,0 +1,129 @@
+"""Whether k kernel rows of total degree n are laws that outputs and inputs obey up to noise: two likelihood ratios.
+
+    sphericity   k >= 2: the remainder has one colour and the shape that noise of the channels gives it (`remainder.py`)
+    flatness     rows of total degree n + EXTRA explain no more than noise does (`degree.py`)
+
+Both are true of k <= p - n_v rows. Of more rows the faults are left in the remainder: its shape is theirs, and longer rows still gain. The
+noise shares of the channels are estimated in turns with the rows; of a single row they are not identifiable and stay as stated.
+
+    Laws         k rows with their level, shares, both ratios with their probabilities, and `holds`: True, False, or None in between
+    tested       the test; with draws > 0 the misfit of both ratios is measured by the parametric bootstrap
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base.arrays import Array
+from ..space.basis import KernelBasis
+from .bootstrap import redrawn
+from .degree import MISFITS, excess, freedom, likelihood_ratio
+from .joint import JointMoments, course, even_split, fitted, joint_moments, padded, refitted
+from .remainder import Sphericity, noise_shares, remainder, sphericity
+
+# Degrees beyond the order by which flatness is seen: one more could still be explained by a single root of the colour of a fault.
+EXTRA = 3
+# Turns of noise shares and rows.
+TURNS = 4
+# Mean of the ratio of sphericity over what it should have, where the rows are laws.
+SHAPE_MISFIT = 1.3
+# Ratios that many times their expectation are no law whatever the misfit, and are worth neither another start nor a bootstrap.
+HOPELESS = 15.0
+# Probabilities from which rows are laws, and below which they are none. Rows that are no laws are far below.
+SUFFICES, FAILS = 0.01, 1e-12
+SEED = 20251122
+
+
+@dataclass(frozen=True, eq=False)
+class Laws:
+    """k = `count` rows, `fit` of total degree n and `longer` of n + EXTRA, with noise `shares` (p,) of mean logarithm zero in the units of
+    the moments. `probability`: of ratios as large if the rows are laws, the smaller of the two, twice; `gain`: nats from `fit` to `longer`.
+    """
+
+    count: int
+    fit: KernelBasis
+    longer: KernelBasis
+    shares: Array
+    sphericity: Sphericity | None
+    gain: float
+    probability: float
+    shape_misfit: float
+    misfit: float
+
+    @property
+    def level(self) -> float:
+        """Logarithm of the noise power, in units of the moments, that the rows leave in each of their signals."""
+        return self.fit.level
+
+    @property
+    def holds(self) -> bool | None:
+        """Whether they are laws; None where it is a near thing."""
+        return True if self.probability >= SUFFICES else False if self.probability <= FAILS else None
+
+
+def tested(data: JointMoments, count: int, order: int, shares: Array | None = None) -> Laws:
+    """The test of `count` rows, for moments of degree order + EXTRA. `shares`: those of the channels where they are known."""
+    known = np.ones(data.p) if shares is None else shares
+    degrees = even_split(order, count)
+    short = fitted(data, even_split(order // 2 + 1, count), shares=known, rounds=3).rows
+    fit = fitted(data, degrees, [padded(short, degrees), padded(short, degrees, below=True)], shares=known, rounds=3)
+    if count == 1 or shares is not None:
+        return _judged(data, fit, known, MISFITS[-1], SHAPE_MISFIT)
+    laws = _judged(data, *_with_shares(data, fit, known), MISFITS[-1], SHAPE_MISFIT)
+    if laws.holds or _hopeless(data, laws):
+        return laws
+    # A descent from rows that were fitted to equal shares may have ended elsewhere.
+    fit = course(data, count, order, shares=laws.shares, rounds=3)[-1]
+    again = _judged(data, *_with_shares(data, fit, laws.shares), MISFITS[-1], SHAPE_MISFIT)
+    return max(laws, again, key=lambda each: each.probability)
+
+
+def _hopeless(data: JointMoments, laws: Laws) -> bool:
+    """Whether a ratio is far beyond what any misfit makes of laws."""
+    flat = likelihood_ratio(data, laws.fit, laws.longer) <= HOPELESS * freedom(data, laws.fit, laws.longer)
+    round_enough = laws.sphericity is None or laws.sphericity.nats <= HOPELESS * laws.sphericity.expected
+    return not (flat and round_enough)
+
+
+def _with_shares(data: JointMoments, fit: KernelBasis, shares: Array) -> tuple[KernelBasis, Array]:
+    """Rows and shares in turns, as long as the remainder becomes more spherical."""
+    degrees = [len(row) - 1 for row in fit.rows]
+    best = sphericity(remainder(data, fit), shares).nats
+    for _ in range(TURNS):
+        found = noise_shares(remainder(data, fit), shares)
+        trial = refitted(data, degrees, fit.rows, shares=found, rounds=2)
+        nats = sphericity(remainder(data, trial), found).nats
+        if not nats < best:
+            break
+        fit, shares, best = trial, found, nats
+    return fit, shares
+
+
+def bootstrapped(y: Array, u: Array, data: JointMoments, laws: Laws, draws: int) -> Laws:
+    """The same laws, judged by the misfit that so many records made from the rows have; the same laws where they are hopeless."""
+    if _hopeless(data, laws):
+        return laws
+    gains, shapes = [], []
+    for record in redrawn(y, u, data, laws.fit, laws.shares, draws, SEED):
+        again = joint_moments(record, u, data.degree)
+        fit = refitted(again, [len(row) - 1 for row in laws.fit.rows], laws.fit.rows, shares=laws.shares, rounds=3)
+        judged = _judged(again, fit, laws.shares, 1.0, 1.0)
+        gains.append(likelihood_ratio(again, judged.fit, judged.longer) / freedom(again, judged.fit, judged.longer))
+        shapes.append(judged.sphericity.nats / judged.sphericity.expected if judged.sphericity else 1.0)
+    return _judged(data, laws.fit, laws.shares, max(float(np.mean(gains)), 1.0), max(float(np.mean(shapes)), 1.0))
+
+
+def _judged(data: JointMoments, fit: KernelBasis, shares: Array, misfit: float, shape_misfit: float) -> Laws:
+    """Both ratios of a fit with these shares."""
+    count = len(fit.rows)
+    total = sum(map(len, fit.rows)) - count
+    degrees = even_split(total + EXTRA, count)
+    longer = refitted(data, degrees, fit.rows, shares=shares, rounds=3)
+    flat = excess(data, fit, longer, (misfit,))
+    if count == 1:
+        return Laws(count, fit, longer, shares, None, fit.level - longer.level, flat, shape_misfit, misfit)
+    shape = sphericity(remainder(data, fit), shares, shape_misfit)
+    probability = min(1.0, 2 * min(flat, shape.level))
+    return Laws(count, fit, longer, shares, shape, fit.level - longer.level, probability, shape_misfit, misfit)

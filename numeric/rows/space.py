@@ -1,0 +1,135 @@
+"""The fault space from kernel rows of outputs and inputs, and A, C of the model.
+
+The rows [N_y N_u] are fitted to [y; u] without the model, so that its error does not enter them. A fault column z = [f; g] belongs to the
+space iff N_y (g + C (q - A)^-1 f) vanishes, that is iff it meets the conditions [X_(j+1), N_j] z = 0, X_j = N_j C + X_(j+1) A, of every
+row ([G25] problem (11)). Of k rows with degrees eta_i there are sum (eta_i + 1) conditions, exactly n + p - n_z, so that rows and A, C
+that do not fit exactly contradict each other nowhere: N_y O_s = 0, which holds for true ones, need not be imposed.
+
+    fault_space_by_rows     the space, its dimension with a probability, and the angle by which it may be off
+    n_z                     n_v + n - (total degree of the rows)
+
+The total degree is not below the sum of the k = p - n_v least observability indices of (A, C), and not above n (`largest.py`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..count.arguments import shaped
+from ..count.windows import ObservedCoordinates, observed_coordinates
+from ..data.validation import positive, signals
+from ..space.basis import KernelBasis
+from ..space.largest import largest_fault_space
+from ..space.result import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
+from ..space.uncertainty import space_uncertainty
+from .bootstrap import redrawn
+from .degree import LeastDegree, freedom, least_degree, likelihood_ratio
+from .joint import JointMoments, course, even_split, fitted, joint_moments, padded, refitted
+
+# Total degrees beyond the order by which it is tested.
+BEYOND = 1
+SEED = 20251123
+
+
+def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, draws: int = 0) -> FaultSpaceEstimate:
+    """The fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
+
+    The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`); with `draws` their misfit is measured
+    on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right; the
+    error of an identified model is not in it. The basis is in the states of A and the units of y, which do not matter otherwise. The noise
+    is taken to have one colour, and the same power relative to the deviation of each output. Raises InvalidData for shapes that do not
+    fit, n_v outside 1 .. p, and records too short for rows of degree n + 1. Source: [G25] problem (11), [W91].
+
+    >>> rng = np.random.default_rng(0)
+    >>> u, v = rng.standard_normal((300, 1)), rng.standard_normal((300, 1))
+    >>> y = np.hstack([u + v, u - v]) + 0.01 * rng.standard_normal((300, 2))
+    >>> fault_space_by_rows(y, u, np.zeros((0, 0)), np.zeros((2, 0)), n_v=1).G.ravel().round(1) ** 2
+    array([0.49, 0.49])
+    """
+    outputs, inputs = signals(y, u)
+    _, A, C = shaped(outputs, A, C)
+    p, n = C.shape
+    faults = positive(n_v, "n_v")
+    if faults > p:
+        raise InvalidData(f"n_v: got {n_v} with {p} outputs; needed 1 <= n_v <= p (more faults than outputs cannot be told apart)")
+    if faults == p:
+        reason = f"{p} faults in {p} outputs leave no relation between the outputs: every column is a solution"
+        return everything(n, p, faults, n + 1, reason)
+    coordinates = observed_coordinates(outputs, A, C, n + 1)
+    rows, seen = p - faults, coordinates.observed
+    data = joint_moments(outputs, inputs, -(-(seen + BEYOND) // rows))
+    largest = largest_fault_space(coordinates.A, coordinates.C, faults)
+    fits = course(data, rows, seen + BEYOND)
+    chosen = least_degree(data, fits, n + faults - largest, seen)
+    if draws:
+        misfits = _misfits(outputs, inputs, data, fits, chosen, draws)
+        chosen = least_degree(data, fits, n + faults - largest, seen, misfits)
+    return _estimate(data, fits[chosen.degree], chosen, coordinates, faults, largest)
+
+
+def _estimate(
+    data: JointMoments, fit: KernelBasis, chosen: LeastDegree, coordinates: ObservedCoordinates, n_v: int, largest: int
+) -> FaultSpaceEstimate:
+    """What rows of the chosen total degree say."""
+    p, n = coordinates.C.shape
+    n_z = n_v + n - chosen.degree
+    lag = max(map(len, fit.rows)) - 1
+    units = coordinates.scale / data.scale[:p]
+    rows_of_y = [row[:, :p] * units for row in fit.rows]
+    strengths, columns = solutions(rows_of_y, coordinates, n_z)
+    told = "; as many as the observability indices of (A, C) allow" if n_z == largest else ""
+    doubt = "" if chosen.decided else "undecided: "
+    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; rows of total {chosen.reason}{told}"
+    return FaultSpaceEstimate(
+        orthonormal(coordinates.back(columns)),
+        n_z,
+        n,
+        n_v,
+        lag,
+        lag + 1,
+        strengths,
+        n + p - n_z,
+        n + p,
+        chosen.margin,
+        chosen.decided,
+        True,
+        reason,
+        None,
+        "kernel rows",
+        space_uncertainty(rows_of_y, _selections(fit, units), fit.covariance, coordinates, columns),
+    )
+
+
+def _misfits(y: Array, u: Array, data: JointMoments, fits: Sequence[KernelBasis], chosen: LeastDegree, draws: int) -> list[float]:
+    """Means of the ratios over their degrees of freedom, for one degree more, two, .., on records made from the chosen fit."""
+    ratios = []
+    for record in redrawn(y, u, data, fits[chosen.degree], np.ones(data.p), draws, SEED):
+        again = joint_moments(record, u, data.degree)
+        count = len(fits[0].rows)
+        steps = [refitted(again, even_split(chosen.degree, count), fits[chosen.degree].rows)]
+        for total in range(chosen.degree + 1, len(fits)):
+            degrees = even_split(total, count)
+            starts = [padded(steps[-1].rows, degrees), padded(steps[-1].rows, degrees, below=True)]
+            steps.append(fitted(again, degrees, starts))
+        ratios.append([likelihood_ratio(again, steps[0], step) / freedom(again, steps[0], step) for step in steps[1:]])
+    return [max(float(mean), 1.0) for mean in np.mean(ratios, axis=0)] or [1.0]
+
+
+def solutions(rows: Sequence[Array], coordinates: ObservedCoordinates, n_z: int) -> tuple[Array, Array]:
+    """Singular values (n + p,) of the conditions of rows N_y (eta_i + 1, p), and the n_z columns (n + p, n_z) that meet them best."""
+    p, n = coordinates.C.shape
+    conditions = np.vstack([kernel_conditions(row[None], coordinates.A, coordinates.C)[0] for row in rows])
+    _, values, right = np.linalg.svd(conditions)
+    return np.concatenate([values, np.zeros(n + p - values.size)]), right[n + p - n_z :].T
+
+
+def _selections(fit: KernelBasis, units: Array) -> list[Array]:
+    """For each row (q_i, p (eta_i + 1)): what a unit change of each of its coefficients does to those of the outputs, in other units."""
+    p = len(units)
+    each = [np.pad(np.diag(units), ((0, row.shape[1] - p), (0, 0))) for row in fit.rows]
+    return [np.asarray(np.kron(np.eye(len(row)), change), dtype=np.float64) for row, change in zip(fit.rows, each, strict=True)]

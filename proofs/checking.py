@@ -1,0 +1,197 @@
+"""Certificates before the checker, which decides alone, and before Rocq's kernel where that is asked for.
+
+check          what a certificate proves; the certificate is a dict, or the name of its file
+check_file     what comes of a file: the checker's answer, whatever it is
+ask_rocq       the same files, with what Rocq's kernel makes of the certificates that the checker has verified
+Checked        a statement that the checker has verified
+CheckedFile    a file with the checker's answer, and Rocq's
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..base.errors import InvalidInput, quote_path
+from ..base.sheets import Shown
+from ..exact.limits.experiments import Experiment
+from ..exact.system.systems import FaultySystem, ResidualSystem
+from .rocq.build import BrokenTheory, NoRocq, Progress
+from .rocq.recompute import Recomputed, recomputed
+from .trust import checker
+
+
+@dataclass(frozen=True, repr=False)
+class Checked(Shown):
+    """A statement that the checker has verified, in words, with what it assumes; `check` returns it.
+
+    `statement` names the systems that it is about. `assumes` is the list of what was taken for granted, empty in most cases: at most that a
+    polynomial is irreducible. `rocq` is None where Rocq was not asked, else it has a `result` ("accepted", "rejected", "not covered" or
+    "undecided") and a `reason`.
+
+    Raises nothing.
+
+    >>> import faultspace as fs
+    >>> found = fs.check(fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "infinite-zeros"))
+    >>> found
+    <Checked: verified>
+    >>> found.statement
+    'the infinite zeros have the orders [1]; for (A=[[1/2]], F=[[1]], C=[[1]], G=[[0]])'
+    """
+
+    statement: str
+    assumes: list[str]
+    rocq: Recomputed | None = None
+
+    @property
+    def title(self) -> str:
+        """Whether the statement holds without an assumption."""
+        return "verified under an assumption" if self.assumes else "verified"
+
+    def sheet(self) -> list[tuple[str, str]]:
+        """The statement, the assumptions and what Rocq says, as (name, value) pairs."""
+        rocq = [] if self.rocq is None else [("Rocq", f"{self.rocq.result}, {self.rocq.reason}")]
+        return [("statement", self.statement), *(("assumed, not verified", text) for text in self.assumes), *rocq]
+
+    def to_json(self) -> dict[str, Any]:
+        """The object with the statement, the assumptions and, where Rocq was asked, its answer."""
+        rocq = {} if self.rocq is None else {"rocq": {"result": self.rocq.result, "reason": self.rocq.reason}}
+        return {"statement": self.statement, "assumes": self.assumes, **rocq}
+
+
+@dataclass(frozen=True, repr=False)
+class CheckedFile(Shown):
+    """A file with the checker's answer: "file" and "result", then "kind", "statement", "assumes" and "sha256", or a "reason".
+
+    The result is one of "verified", "verified under an assumption", "rejected" and "malformed". `rocq` is None where Rocq was not asked,
+    else it has a "result", which is "not asked" for a file that the checker has not verified, and a "reason". `to_json` gives all of it as
+    one dict.
+
+    Raises nothing.
+
+    >>> from faultspace.proofs import check_file
+    >>> check_file("no-such-file.json").title
+    'no-such-file.json: malformed'
+    """
+
+    answer: Mapping[str, Any]
+    rocq: Mapping[str, str] | None = None
+
+    @property
+    def result(self) -> str:
+        """The checker's word on the file."""
+        return str(self.answer["result"])
+
+    @property
+    def title(self) -> str:
+        """The file and the result."""
+        return f"{quote_path(self.answer['file'])}: {self.result}"
+
+    def sheet(self) -> list[tuple[str, str]]:
+        """The statement or the reason, the assumptions and what Rocq says, as (name, value) pairs."""
+        pairs = [(name, self.answer[name]) for name in ("statement", "reason", "sha256") if name in self.answer]
+        pairs += [("assumed, not verified", text) for text in self.answer.get("assumes", ())]
+        return pairs if self.rocq is None else [*pairs, ("Rocq", f"{self.rocq['result']}, {self.rocq['reason']}")]
+
+    def to_json(self) -> dict[str, Any]:
+        """The object that `faultspace check --json` prints of a file."""
+        return {**self.answer} if self.rocq is None else {**self.answer, "rocq": {**self.rocq}}
+
+
+def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Iterable[Any] = (), *, rocq: bool = False) -> Checked:
+    """What a certificate proves, decided by the checker, which trusts nothing that the certificate says.
+
+    `certificate` is the JSON-ready dict that `certify` returns, or the name of a certificate's file. Each of `systems` must be one that the
+    statement is about: systems, experiments, JSON-ready dicts or names of their files. With `rocq` the kernel of Rocq recomputes what the
+    checker has verified, which takes seconds, and minutes when the theory is first compiled. The result has `statement`, in words,
+    `assumes`, the list of what was not verified, and `rocq`. `faultspace check` does the same with files. The format of certificates is in
+    proofs/trust/FORMAT.md; the checker there is one file that can be copied alone.
+
+    Raises `faultspace.proofs.Rejected` where the witness does not prove the statement, `faultspace.proofs.Malformed` for what is no
+    certificate or cannot be read, and InvalidInput where Rocq is asked and is not there.
+
+    >>> import faultspace as fs
+    >>> certificate = fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "schur-stable")
+    >>> fs.check(certificate)
+    <Checked: verified>
+    >>> certificate["statement"]["system"]["A"] = [["2"]]
+    >>> fs.check(certificate)
+    Traceback (most recent call last):
+      ...
+    faultspace.proofs.trust.checker.Rejected: an eigenvalue is not inside the unit circle
+    """
+    if isinstance(certificate, (str, os.PathLike)):
+        certificate = checker.load(os.fspath(certificate))
+    checked = Checked(*checker.verify(certificate, [_subject(one) for one in systems]))
+    return replace(checked, rocq=_recomputed([certificate])[0]) if rocq else checked
+
+
+def check_file(path: str | os.PathLike[str], systems: Iterable[Any] = ()) -> CheckedFile:
+    """The checker's answer about a certificate's file, whatever it is: what cannot be read is "malformed", and nothing of it is raised.
+
+    The `answer` of the result is a dict. `path` names the file, and each of `systems` is as for `check`: systems, experiments, JSON-ready
+    dicts or names of their files.
+
+    Raises `faultspace.proofs.Malformed` or `faultspace.proofs.Rejected` for one of `systems` that is none.
+
+    >>> import json, tempfile, faultspace as fs
+    >>> from faultspace.proofs import check_file
+    >>> certificate = fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "schur-stable")
+    >>> with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+    ...     file.write(json.dumps(certificate)) > 0, file.flush(), check_file(file.name).result
+    (True, None, 'verified')
+    """
+    return CheckedFile(checker.result_of(os.fspath(path), [_subject(one) for one in systems]))
+
+
+def ask_rocq(files: Sequence[CheckedFile], progress: Progress = lambda stage, done, total: None) -> list[CheckedFile]:
+    """The files, each that parses with what Rocq makes of it: its kernel is asked about verified ones alone, about all of them at once.
+
+    `files` is a list of what `check_file` returns, and `progress(stage, done, total)` hears how far the work is. Certificates are not kept
+    meanwhile: a file that holds another one now is "not asked".
+
+    Raises InvalidInput where there is no Rocq, or one that does not compile the theory.
+    """
+    answers: dict[int, Mapping[str, str]] = {}
+    certificates: dict[int, Any] = {}
+    for place, file in enumerate(files):
+        if file.result == "rejected":
+            answers[place] = {"result": "not asked", "reason": "only what the checker has verified is handed to Rocq"}
+        elif file.result != "malformed":
+            certificate = _read_again(file)
+            if certificate is None:
+                answers[place] = {"result": "not asked", "reason": "the file has changed since the checker has read it"}
+            else:
+                certificates[place] = certificate
+    for place, one in zip(certificates, _recomputed([*certificates.values()], progress), strict=True):
+        answers[place] = {"result": one.result, "reason": one.reason}
+    return [replace(file, rocq=answers.get(place)) for place, file in enumerate(files)]
+
+
+def _subject(given: Any) -> checker.System:
+    """What a statement must be about, as the checker reads it, on a meter of its own."""
+    if isinstance(given, checker.System):
+        return given
+    if isinstance(given, (ResidualSystem, FaultySystem, Experiment)):
+        return checker.subject(given.to_json())
+    return checker.subject(checker.load(os.fspath(given)) if isinstance(given, (str, os.PathLike)) else given)
+
+
+def _recomputed(certificates: Sequence[Any], progress: Progress = lambda stage, done, total: None) -> list[Recomputed]:
+    try:
+        return recomputed(certificates, progress)
+    except NoRocq as error:
+        raise InvalidInput(f"rocq: {error}") from None
+    except BrokenTheory as error:
+        raise InvalidInput(f"rocq: this version of Rocq does not compile the theory ({error})") from None
+
+
+def _read_again(file: CheckedFile) -> Any:
+    """The certificate that the checker has verified; None where the file holds another one now."""
+    try:
+        certificate = checker.load(file.answer["file"])
+        return certificate if checker.sha256(certificate) == file.answer["sha256"] else None
+    except (checker.Malformed, ValueError, TypeError, MemoryError):
+        return None

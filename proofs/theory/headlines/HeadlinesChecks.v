@@ -1,0 +1,98 @@
+(** The fifth part of Headlines.v, which includes it: what the checks of certificates prove once the kernel of Rocq has computed true. A
+    system is told by L, lists of integers and a common denominator; meant n m p L is the system over the rational numbers. The checks
+    check_... are functions on such lists (CertificatesVocabulary.v), and all other arguments are witnesses that nobody has to believe. *)
+From mathcomp Require Import all_ssreflect all_algebra.
+From faultspace Require Import Vocabulary CertificatesVocabulary.
+From faultspace Require CheckRanks CheckSolutions CheckBehaviors CheckInversion CheckMatrices.
+Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
+Import GRing.Theory.
+Local Open Scope ring_scope.
+
+(** ** certificates *)
+
+Theorem check_window_ranks (n m p : nat) L l r etas ranks rows ws : check_window_ranks n m p r etas ranks l L rows ws ->
+  let S := meant n m p L in
+  (forall s, \rank (window S s) = (s * r + \sum_(eta <- etas) minn s eta)%N) /\ [seq \rank (window S s) | s <- iota 1 (size ranks)] = ranks.
+Proof. exact: CheckRanks.window_ranks_sound. Qed.
+Print Assumptions check_window_ranks.
+
+Theorem check_left_invertible (n m p : nat) L l ws : check_left_invertible n m p l L ws -> left_invertible (meant n m p L).
+Proof. exact: CheckRanks.left_invertible_sound. Qed.
+Print Assumptions check_left_invertible.
+
+Theorem check_solutions (n m p : nat) L s l rows ws d basis pivots combinations :
+  check_solutions n m p s l L rows ws d basis pivots combinations ->
+  spans_solutions (meant n m p L) s (fraction d (size basis) (n + p) basis).
+Proof. exact: CheckSolutions.solutions_sound. Qed.
+Print Assumptions check_solutions.
+
+Theorem check_limit (n m p : nat) L beyond l rows ws d basis pivots combinations :
+  check_limit n m p beyond l L rows ws d basis pivots combinations ->
+  forall s, (beyond < s)%N -> spans_solutions (meant n m p L) s (fraction d (size basis) (n + p) basis).
+Proof. exact: CheckSolutions.limit_sound. Qed.
+Print Assumptions check_limit.
+
+Theorem check_inclusion (n m n' m' p : nat) L L' l rows ws : check_inclusion n m n' m' p l L L' rows ws ->
+  let S := meant n m p L in let S' := meant n' m' p L' in
+  (forall s r, word S s r -> word S' s r) /\ (forall r, behavior S r -> behavior S' r).
+Proof. exact: CheckBehaviors.inclusion_sound. Qed.
+Print Assumptions check_inclusion.
+
+Theorem check_equality (n m n' m' p : nat) L L' l rows ws ws' : check_equality n m n' m' p l L L' rows ws ws' ->
+  let S := meant n m p L in let S' := meant n' m' p L' in
+  (forall s r, word S s r <-> word S' s r) /\ (forall r, behavior S r <-> behavior S' r).
+Proof. exact: CheckBehaviors.equality_sound. Qed.
+Print Assumptions check_equality.
+
+Theorem check_window_equality (n m n' m' p : nat) L L' s l rows ws ws' :
+  check_window_equality n m n' m' p s l L L' rows ws ws' ->
+  forall r, word (meant n m p L) s r <-> word (meant n' m' p L') s r.
+Proof. exact: CheckBehaviors.window_equality_sound. Qed.
+Print Assumptions check_window_equality.
+
+Theorem check_difference (n m n' m' p : nat) L L' s x vs c : check_difference n m n' m' p s L L' x vs c ->
+  exists2 r, word (meant n m p L) s r & ~ word (meant n' m' p L') s r.
+Proof. exact: CheckBehaviors.difference_sound. Qed.
+Print Assumptions check_difference.
+
+Theorem check_not_left_invertible (n m p : nat) L xs vs :
+  check_not_left_invertible n m p L xs vs -> ~ left_invertible (meant n m p L).
+Proof. exact: CheckInversion.not_left_invertible_sound. Qed.
+Print Assumptions check_not_left_invertible.
+
+(** The first fault from the first l + 1 samples, the initial state known (that is, zero) or not; and from no fewer, or from no number. *)
+Theorem check_delay (n m p : nat) L (known : bool) l rows x vs : check_delay n m p known l L rows x vs ->
+  let determined l := forall x v, (known -> x = 0) -> (forall k, (k <= l)%N -> output (meant n m p L) x v k = 0) -> v 0%N = 0 in
+  [/\ (l <= n)%N, determined l & forall j, (j < l)%N -> ~ determined j].
+Proof. exact: CheckInversion.delay_sound. Qed.
+Print Assumptions check_delay.
+
+Theorem check_no_delay (n m p : nat) L (known : bool) x vs : check_no_delay n m p known L x vs ->
+  let determined l := forall x v, (known -> x = 0) -> (forall k, (k <= l)%N -> output (meant n m p L) x v k = 0) -> v 0%N = 0 in
+  forall j, (j <= n)%N -> ~ determined j.
+Proof. exact: CheckInversion.no_delay_sound. Qed.
+Print Assumptions check_no_delay.
+
+Theorem check_observability (n m p : nat) L l r nulls combinations :
+  check_observability n m p r l L nulls combinations -> \rank (O (meant n m p L) n) = r.
+Proof. exact: CheckMatrices.observability_sound. Qed.
+Print Assumptions check_observability.
+
+(** [F; F A; ...; F A^(n-1)], or its transpose *)
+Theorem check_reachability (n m p : nat) L l r nulls combinations : check_reachability n m p r l L nulls combinations ->
+  \rank (reachability (meant n m p L)) = r.
+Proof. exact: CheckMatrices.reachability_sound. Qed.
+Print Assumptions check_reachability.
+
+(** A recorded trajectory: the initial state x and the faults vs, over the denominator d *)
+Theorem check_hankel (n m p : nat) L l r nulls combinations N s d x vs :
+  check_hankel n m p N s r l L d x vs nulls combinations ->
+  \rank (hankel N s (output (meant n m p L) (recorded d n x) (fun k => recorded d m (nth [::] vs k)))) = r.
+Proof. exact: CheckMatrices.hankel_sound. Qed.
+Print Assumptions check_hankel.
+
+Theorem check_excitation (n m p : nat) L l r nulls combinations N s d x vs :
+  check_excitation n m p N s r l L d x vs nulls combinations ->
+  \rank (excitation (meant n m p L) (recorded d n x) (fun k => recorded d m (nth [::] vs k)) N s) = r.
+Proof. exact: CheckMatrices.excitation_sound. Qed.
+Print Assumptions check_excitation.

@@ -1,0 +1,61 @@
+"""Evidence is the structure of a system as accepted certificates state it: the same as exact computes, and refused where two disagree."""
+
+from __future__ import annotations
+
+import pytest
+
+from faultspace.exact.algebra.matrices import Matrix, beside, rank, row_echelon
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.structure.record import analyze
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import window_matrix
+from faultspace.proofs.evidence import corpus
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import structure_certificates as make
+
+SOURCES = list(corpus._sources("quick"))[::12]
+ONE_STATE = ResidualSystem.of([[0]], [[1]], [[1]], [[0]])
+
+
+def test_the_structure_that_certificates_state_is_the_one_that_is_computed() -> None:
+    fields = set()
+    for origin, system, weight in SOURCES:
+        found = corpus.examine(origin, system, weight)
+        assert found.to_json() == analyze(system).to_json(), str(system)
+        assert found.kernel.rows == analyze(system).kernel.rows
+        assert (found.origin, found.weight, found.accepted) == (origin, weight, 10 + 2 * (system.n + 2))
+        fields.add(str(system.field))
+    assert len(fields) == 6
+
+
+@pytest.mark.parametrize("place", range(0, len(SOURCES), 5))
+def test_windows_have_certificates_of_their_own(place: int) -> None:
+    origin, system, _ = SOURCES[place]
+    found, kernel = corpus.examine(origin, system), analyze(system).kernel
+    windows = range(1, system.n + 3)
+    assert found.window_ranks == tuple(rank(window_matrix(system, s)) for s in windows)
+    assert found.space_dimensions == tuple(fault_space(kernel, s).dimension for s in windows)
+    assert found.without_feedthrough == members_without_feedthrough(found.fault_space.basis, system.p)
+
+
+def members_without_feedthrough(basis: Matrix, p: int) -> int:
+    """The rows whose g vanishes in a basis of the same space for which the entries of g were eliminated first."""
+    n = basis.ncols - p
+    gains_first = row_echelon(beside(basis.columns(range(n, n + p)), basis.columns(range(n)))).matrix
+    return sum(gains_first.rows([i]).columns(range(p)).is_zero() for i in range(gains_first.nrows))
+
+
+def test_a_refused_certificate_ends_the_examination(monkeypatch: pytest.MonkeyPatch) -> None:
+    right = make.finite_zeros(ONE_STATE)
+    wrong = right | {"statement": right["statement"] | {"invariant_zero_polynomial": ["0", "1"]}}
+    monkeypatch.setattr(make, "finite_zeros", lambda system: wrong)
+    with pytest.raises(checker.Rejected):
+        corpus.examine("test", ONE_STATE)
+
+
+def test_certificates_that_disagree_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The checker accepts no false one: one is put in its way that is accepted unread."""
+    monkeypatch.setattr(make, "left_invertible", lambda kernel: {"kind": "not-left-invertible", "statement": {}})
+    monkeypatch.setattr(corpus, "accept", lambda certificate: None)
+    with pytest.raises(ArithmeticError, match="disagree on whether"):
+        corpus.examine("test", ONE_STATE)
