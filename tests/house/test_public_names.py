@@ -19,8 +19,10 @@ import pytest
 
 ROOMS = ("faultspace", "faultspace.exact", "faultspace.numeric", "faultspace.proofs")
 PUBLIC = {room: tuple(getattr(importlib.import_module(room), "__all__", ())) for room in ROOMS}
-DOCUMENTED = ("faultspace", "faultspace.exact")
-CALLED = [(room, name) for room in DOCUMENTED for name in PUBLIC[room] if name != "errors"]
+DOCUMENTED = ("faultspace", "faultspace.exact", "faultspace.numeric")
+# Whose docstrings another change is still to write.
+WAITING = {"OrderEvidence", "ReducedModel", "Spectra", "Uncertainty", "arx_reduction", "arx_reduction_experiments", "cramer_rao"}
+CALLED = [(room, name) for room in DOCUMENTED for name in PUBLIC[room] if name not in {"errors", *WAITING}]
 # They hold, read, check and judge what the others make; nobody's theorem stands behind them.
 WITHOUT_SOURCE = {
     "faultspace": {"System", "read_record", "certify", "check"},
@@ -29,6 +31,7 @@ WITHOUT_SOURCE = {
         *("Matrix", "rank", "left_null_space", "right_null_space"),
         *("System", "ResidualSystem", "FaultySystem", "read_system", "Experiment", "read_experiment", "Filter", "read_filter"),
     },
+    "faultspace.numeric": {"Record", "read_record", "record_from", "StateSpaceModel"},
 }
 HEAVY = ("numpy", "scipy", "sympy", "flint", "mpmath", "pandas", "matplotlib")
 
