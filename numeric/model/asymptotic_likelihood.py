@@ -87,7 +87,7 @@ def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | 
         evidence, found = order_tried(sources, lengths, carried)
         notes = found.notes
         if not evidence.decided:
-            notes += (f"the data leave orders {evidence.least} to {evidence.most} open; {evidence.best} has the best criterion",)
+            notes += (f"the data leave orders {evidence.least} to {evidence.most} open; the model has {evidence.best}",)
         found = replace(found, orders=evidence, notes=notes)
     else:
         found = reduced(merge_windows([arx_windows(source, carried) for source in sources]), n)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
 
 from ...base.arrays import Array
@@ -38,7 +38,7 @@ class Uncertainty:
         spread = markov_jacobian(system_matrix(self.model), self.model.n, count) @ self.root
         return np.asarray(np.linalg.norm(spread, axis=1).reshape(count, self.model.p, self.model.n_u))
 
-    def transfer(self, angles: Array) -> ComplexArray:
+    def transfer(self, angles: ArrayLike) -> ComplexArray:
         """Standard deviations (M, p, n_u) of G(exp(i angle)), angles in radians a sample."""
         points = np.atleast_1d(np.asarray(angles, dtype=np.float64))
         spread = transfer_jacobian(system_matrix(self.model), self.model.n, points) @ self.root

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -75,7 +76,7 @@ def divergence(model: StateSpaceModel, data: Faulty) -> float:
     """N times the power of the error under the true weight: chi-squared with PARAMETERS degrees of freedom where the bound is attained."""
     angles = circle(256)
     plant = np.array(half_transfers(system_matrix(data.plant), 2, angles)[0])
-    weight = np.linalg.inv(data.spectra.disturbance(angles))
+    weight: Any = np.linalg.inv(data.spectra.disturbance(angles))
     return Reduction(angles, plant, weight, data.spectra.input(angles), len(data.y)).cost(system_matrix(model), model.n)
 
 
