@@ -4,9 +4,9 @@
 
 count       `count_faults` on random plants of order 5 with one input (`fault_dimension.py`): p outputs, n_v faults, noise so many
             decibels below each output, equal for spread 1, else the loudest to the faintest in that ratio, in random order
-space       `fault_space_by_rows` on the systems of the study with 0 .. 3 zeros, noise 40 dB down, n_v told: with the true A, C and with
-            those that PI-MOESP finds; zeta right, undecided, wrong; distance to the true space in % of its maximum; how often the
-            stated 95 % angle holds, where zeta is right and A, C are true
+space       `fault_space_by_rows` on the systems of the study with 0 .. 3 zeros, noise 40 dB down, n_v told: with the true A, C, with those
+            of PI-MOESP and those of the weighted reduction of an ARX model; zeta right, undecided, wrong; distance to the true space in
+            % of its maximum; how often the stated 95 % angle holds, where zeta is right and A, C are true
 calibrate   means of the likelihood ratios over what they should be, where the rows are laws: what MISFITS and SHAPE_MISFIT are set by
 
 Brackets are 95 % intervals: Wilson's of a rate, the bootstrap's of a median. Seconds are CPU seconds; hold BLAS to one thread.
@@ -24,7 +24,8 @@ from fault_dimension import fault_signals, noise, random_plant
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model.models import observability_matrix
+from faultspace.numeric import arx_reduction
+from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
 from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.rows.counting import count_faults
 from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
@@ -33,7 +34,7 @@ from faultspace.numeric.rows.laws import EXTRA, SHAPE_MISFIT, tested
 from faultspace.numeric.rows.space import fault_space_by_rows
 from faultspace.numeric.space.distances import principal_angles, two_sided_error
 from faultspace.numeric.space.result import FaultSpaceEstimate, orthonormal
-from faultspace.numeric.study.experiments import NOISE_GAIN, experiment
+from faultspace.numeric.study.runs import NOISE_GAIN, study_run
 from faultspace.numeric.study.systems import N_V, N_X, StudySystem, study_system
 
 Array = NDArray[np.float64]
@@ -95,7 +96,7 @@ def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
     for trial in clock.range(trials):
         zeros = trial % 4
         system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
-        run = experiment(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
+        run = study_run(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
         for name, A, C in models(system, run.y, run.u):
             begin = time.process_time()
             found = fault_space_by_rows(run.y, run.u, A, C, n_v=N_V)
@@ -106,7 +107,7 @@ def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
                 inside = bool(principal_angles(system.Z, basis)[-1] <= found.uncertainty.angle())
             verdict = "right" if found.zeta == zeros else "undecided" if found.zeta is None else "wrong"
             told.append((zeros, f"{name} {verdict}", 100 * two_sided_error(system.Z, basis), seconds, inside, float(found.n_z - N_V)))
-    for name in ("true", "identified"):
+    for name in ("true", "PI-MOESP", "reduction"):
         for group in ((0,), (1,), (2,), (3,), (0, 1, 2, 3)):
             part = [row for row in told if row[0] in group and row[1].startswith(name)]
             if not part:
@@ -123,13 +124,24 @@ def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 
 def models(system: StudySystem, y: Array, u: Array) -> Iterator[tuple[str, Array, Array]]:
-    """Name, A, C: the true ones, and PI-MOESP's where it finds any."""
+    """Name, A, C: the true ones, PI-MOESP's and those of the weighted reduction, where these find any."""
     yield "true", system.model.A, system.model.C
-    try:
-        model = pi_moesp(y, u, order=N_X, block_rows=20).model
-    except InvalidData:
-        return
-    yield "identified", model.A, model.C
+    for name, identified in (("PI-MOESP", pi_moesp_model), ("reduction", reduced_model)):
+        try:
+            model = identified(y, u)
+        except InvalidData:
+            continue
+        yield name, model.A, model.C
+
+
+def pi_moesp_model(y: Array, u: Array) -> StateSpaceModel:
+    """PI-MOESP with the window of the study."""
+    return pi_moesp(y, u, order=N_X, block_rows=20).model
+
+
+def reduced_model(y: Array, u: Array) -> StateSpaceModel:
+    """An ARX model of high order, reduced with its weight."""
+    return arx_reduction(y, u, order=N_X).model
 
 
 def aligned(system: StudySystem, found: FaultSpaceEstimate, A: Array, C: Array) -> Array:
@@ -146,7 +158,7 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
     for trial in clock.range(trials):
         zeros = trial % 4
         system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
-        run = experiment(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
+        run = study_run(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
         data = joint_moments(run.y, run.u, N_X + 3)
         fits = course(data, 1, N_X - zeros + 3)
         for extra, ratios in degree.items():

@@ -13,7 +13,7 @@ from .count.against_healthy import FaultsAgainstHealthy
 from .count.mean_shift import MeanShift
 from .count.rank_gap import FaultDimension
 from .data.records import Record
-from .model.past_inputs import MoespModel
+from .model.moesp_model import MoespModel
 from .model.residuals import ResidualSignal
 from .signal.reconstruction import Reconstruction
 from .signal.residual_sizes import ResidualSizes

@@ -49,7 +49,14 @@ class ResidualSignal(Shown):
     `store` holds r, and `x0` (n,) is the state at the first sample; `fitted` says whether it was fitted to this record. `covariance` (p, p)
     is that of r about zero, with fitted degrees of freedom taken off; `x0_covariance` (n, n) is zero where x0 was given. `observed` is the
     number of state directions that the record determines, `backward` the number of growing modes that were run backward, and `notes` are
-    what a user should know.
+    what a user should know. Raises ImportError in
+    `plot()` without matplotlib. Source of the fit: [GVL13] section 5.3.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, residual
+    >>> found = residual(np.ones((4, 1)), np.zeros((4, 1)), StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]), x0=[0.0])
+    >>> found, found.r.ravel().tolist()
+    (<ResidualSignal: residual of 4 samples, 1 outputs>, [1.0, 1.0, 1.0, 1.0])
     """
 
     store: SampleStore
@@ -122,6 +129,8 @@ def residual(
     Raises InvalidData for NaN, unequal lengths, channels that do not fit the
     model, fewer than n samples, and for a given x0 with a model whose modes grow by more than FORWARD over the record.
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, residual
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
     >>> u = np.ones((4, 1))
     >>> residual(model.simulate(u) + 0.25, u, model, x0=[0.0]).r.ravel().tolist()

@@ -34,7 +34,8 @@ import numpy as np
 from ...base.arrays import Array
 from ..model.compression import EPS, Compression
 from ..model.models import BLOCK, StateSpaceModel, observability_matrix
-from ..model.past_inputs import MoespModel, output_scale
+from ..model.moesp_model import MoespModel
+from ..model.past_inputs import output_scale
 
 UNIT = EPS / 2
 SMALL = 10.0

@@ -55,6 +55,8 @@ def fault_space(
     such, with `meaningful` False and a reason. Raises InvalidData for shapes that do not fit, values that are not
     finite, n_v outside 1..p, or fewer samples than the window needs.
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_space
     >>> v = np.random.default_rng(1).standard_normal((100, 1))
     >>> found = fault_space(np.hstack([v, 2 * v]), [[0.5]], [[1.0], [0.0]])
     >>> found.n_z, bool(np.allclose(found.G[1], 2 * found.G[0]))

@@ -72,6 +72,15 @@ class FaultSpaceEstimate(Shown):
     error_bound      bound on the sine of the angle to the true space from rounding and conditioning; None with noise
     method           "noise-free", "least squares" or "likelihood" ("none" where no equation was found)
     uncertainty      of the likelihood form: the angle to the true space with a confidence, n_z taken as right; else None
+
+    f is in the units of the state and g in those of y, each for a fault in units of its own. Raises nothing itself; `fault_space`,
+    which makes it, raises InvalidData. Source: [G25] problem (11).
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_space
+    >>> v = np.random.default_rng(1).standard_normal((100, 1))
+    >>> fault_space(np.hstack([v, 2 * v]), [[0.5]], [[1.0], [0.0]])
+    <FaultSpaceEstimate: fault space of dimension 1 (undecided), n_v 1>
     """
 
     basis: Array

@@ -276,6 +276,14 @@ def test_zeros_are_counted_and_the_space_found(zeros: tuple[float, ...]) -> None
     assert other.n_z == found.n_z and principal_angles(found.basis, np.linalg.qr(back)[0])[-1] < 1e-5
 
 
+def test_the_bootstrap_decides_the_degree_too() -> None:
+    system = planted(25, (0.5,), n=2, p=2, m=1)
+    y, u = joint_record(system, 25, 500, 40)
+    quick, careful = (fault_space_by_rows(y, u, system.A, system.C, n_v=1, draws=draws) for draws in (0, 3))
+    assert careful.n_z == quick.n_z == 2 and careful.margin != quick.margin
+    np.testing.assert_array_equal(careful.basis, quick.basis)
+
+
 def test_two_rows_and_no_noise() -> None:
     """p - n_v = 2; without noise the space is the true one."""
     system = planted(23, (0.4,), n=4, p=4, m=2)
