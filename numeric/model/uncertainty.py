@@ -24,10 +24,18 @@ ComplexArray = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False)
 class Uncertainty:
-    """`root` (K, K - n^2) with root @ root.T the covariance of T's entries in row order, in the gauge orthogonal to changes of basis.
+    """How sure a model is: standard deviations of what does not depend on the basis of the state, by the delta method [L99].
 
-    Standard deviations are in the units of what they belong to. Those of complex numbers are returned as complex numbers: the real part is
-    the deviation of the real part, the imaginary part that of the imaginary part.
+    `root` has the shape (K, K - n^2), and root @ root.T is the covariance of the entries of T = [[A, B], [C, D]] in row order, in the
+    gauge orthogonal to changes of basis. Standard deviations are in the units of what they belong to. Those of complex numbers are
+    returned as complex numbers: the real part is the deviation of the real part, the imaginary part that of the imaginary part. Raises nothing.
+
+    >>> from faultspace.numeric import Spectra, StateSpaceModel, cramer_rao
+    >>> from faultspace.numeric.bound.spectra import white
+    >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
+    >>> least = cramer_rao(model, Spectra(white([[1.0]]), white([[0.01]])), 400)
+    >>> least.markov(2).ravel().round(5).tolist(), least.poles().real.round(5).tolist()
+    ([0.005, 0.00484], [0.00325])
     """
 
     model: StateSpaceModel
