@@ -45,6 +45,8 @@ def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, 
     is taken to have one colour, and the same power relative to the deviation of each output. Raises InvalidData for shapes that do not
     fit, n_v outside 1 .. p, and records too short for rows of degree n + 1. Source: [G25] problem (11), [W91].
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_space_by_rows
     >>> rng = np.random.default_rng(0)
     >>> u, v = rng.standard_normal((300, 1)), rng.standard_normal((300, 1))
     >>> y = np.hstack([u + v, u - v]) + 0.01 * rng.standard_normal((300, 2))
