@@ -41,10 +41,15 @@ DEPENDENT = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class FaultCount:
-    """The number of faults. `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why.
+    """The number of faults that `count_faults` finds, with what it rests on [W91].
 
-    `tests`: what was asked of k rows, by falling k; empty where there was no noise. `noise_power` (p,): what the rows leave of each output,
-    in its own units, squared; None where no rows are laws.
+    `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why. `tests`: what was asked of k rows, by
+    falling k; empty where there was no noise. `noise_power`, of shape (p,): what the rows leave of each output, in its own units, squared;
+    None where no rows are laws. Raises nothing itself.
+
+    >>> from faultspace.numeric import FaultCount
+    >>> FaultCount(None, (2, 3), "2 or 3: a fainter fault would look the same", ()).decided
+    False
     """
 
     n_v: int | None
@@ -68,6 +73,8 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
     of degree order + 3, constant outputs, and outputs that are combinations of others up to rounding. Source: [W91] for the rows, [M82]
     and [W38] for the ratios.
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import count_faults
     >>> rng = np.random.default_rng(0)
     >>> u, v = rng.standard_normal((600, 1)), rng.standard_normal((600, 1))
     >>> y = np.hstack([u + v, u - v, 2 * v]) + 0.01 * rng.standard_normal((600, 3))
