@@ -321,8 +321,10 @@ def _fit(parts: SplitModel, error: Array) -> tuple[Array, Array, int]:
 def _state_covariance(parts: SplitModel, r: Array, directions: Array) -> Array:
     """Return the covariance of theta for a stationary r: D D' Phi' Cov(r) Phi D D', lags up to N^(1/3), Bartlett weights."""
     reach = min(int(np.ceil(len(r) ** (1 / 3))), len(r) - 1)
-    middle = np.zeros((parts.basis.shape[0],) * 2)
+    n = parts.basis.shape[0]
+    middle = np.zeros((n, n))
     lagged = [(1.0 - lag / (reach + 1)) * (r[lag:].T @ r[: len(r) - lag]) / len(r) for lag in range(reach + 1)]
+    lagged[0] /= 2.0  # every term is added with its transpose
     largest = 0.0
     for start, _, phi in parts.chunks():
         size = float(np.max(np.abs(phi), initial=0.0))
@@ -331,10 +333,15 @@ def _state_covariance(parts: SplitModel, r: Array, directions: Array) -> Array:
             continue
         before = min(start, reach)
         longer = np.concatenate([parts.rows(start - before, start), phi]) if before else phi
+        # Outputs come first, so that a covariance meets all samples of the chunk in one product of matrices.
+        outputs = np.ascontiguousarray(longer.transpose(1, 0, 2))
+        p, samples, _ = outputs.shape
+        weighted = np.zeros((p, len(phi), n))
         for lag, covariance in enumerate(lagged):
             skip = max(lag - before, 0)
-            now, then = phi[skip:], longer[before + skip - lag : len(longer) - lag]
-            term = np.einsum("kpi,pq,kqj->ij", now, covariance, then, optimize=True)
-            middle += term if lag == 0 else term + term.T
+            then = outputs[:, before + skip - lag : samples - lag]
+            weighted[:, skip:] += (covariance @ then.reshape(p, then.shape[1] * n)).reshape(then.shape)
+        term = outputs[:, before:].reshape(p * len(phi), n).T @ weighted.reshape(p * len(phi), n)
+        middle += term + term.T
     inverse = directions @ directions.T
     return np.asarray(inverse @ middle @ inverse)
