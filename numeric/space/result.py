@@ -23,6 +23,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import Shown
 from ..data.plain import plain
+from ..drawing import plot_conditions
 
 DRAWS = 4000
 _SEED = 20250519
@@ -148,6 +149,15 @@ class FaultSpaceEstimate(Shown):
             "F": plain(None if known is None else self.F),
             "G": plain(None if known is None else self.G),
         }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the singular values of the conditions, those taken for zero open, into the matplotlib axes `ax`, new ones where None are
+        given, and return them. Raises InvalidData where there is no condition, and ImportError without matplotlib."""
+        values, others = self.singular_values, f"taken for zero: dimension {self.n_z}"
+        if self.method in ("likelihood", "kernel rows"):
+            # Rows of a fit have so many solutions by their degrees: that these values are zero is no evidence, and they are not drawn.
+            values, others = values[: self.equations], f"the other {self.n_z} are zero by the fit: dimension {self.n_z}"
+        return plot_conditions(values, self.equations, others=others, ax=ax)
 
     @property
     def zeta(self) -> int | None:
