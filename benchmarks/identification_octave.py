@@ -94,7 +94,7 @@ def octave_command(script: str) -> list[str]:
 
 @cache
 def octave_missing() -> str | None:
-    """Why the scripts cannot run here, or None."""
+    """Return why the scripts cannot run here, or None."""
     if shutil.which(PROGRAM) is None:
         return f"the program {PROGRAM} is not installed"
     loaded = subprocess.run(octave_command("pkg load control"), capture_output=True, check=False, stdin=subprocess.DEVNULL)

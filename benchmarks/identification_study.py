@@ -62,7 +62,7 @@ def sections(notebook: Path) -> list[str]:
 
 
 def author_study(fault_id: Path) -> str:
-    """The program that times sections 1 to 4 and tells the median error."""
+    """Return the program that times sections 1 to 4 and tells the median error."""
     code = [text.replace("close all;", "") for text in sections(fault_id / "montecarlo.mlx")[:SECTIONS]]
     head = f'pkg load control; warning off; addpath ("{fault_id}"); addpath ("{fault_id / "Monte Carlo"}"); addpath (pwd);\nbegun = tic;\n'
     tail = 'printf ("RESULT {\\"seconds\\": %.6g, \\"error\\": %.6g}\\n", toc (begun), 100 * median ([scenario.error]));\n'
@@ -70,7 +70,7 @@ def author_study(fault_id: Path) -> str:
 
 
 def study_here() -> dict[str, Any]:
-    """Our side, in this process: the study once to warm up, then on one process and on all cores."""
+    """Return what our side takes, in this process: the study once to warm up, then on one process and on all cores."""
     import numpy as np
 
     from faultspace.numeric.study.studies import PUBLISHED, monte_carlo

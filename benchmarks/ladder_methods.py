@@ -64,7 +64,7 @@ class Method:
         return f"{self.needs} {found.group() if found else '?'}"
 
     def command(self, system: System, folder: Path) -> list[str]:
-        """The command line, after what it reads has been written into the folder."""
+        """Return the command line, after what it reads has been written into the folder."""
         if self.script is None:
             file = folder / "system.json"
             file.write_text(json.dumps(system), "utf-8")

@@ -94,7 +94,7 @@ def measured(given: Experiment) -> dict[str, Any]:
 
 
 def _dense(process: JointProcess) -> Any:
-    """vec P from the Kronecker system of as many unknowns as P has entries."""
+    """Solve for vec P in the Kronecker system of as many unknowns as P has entries."""
     Phi, size = process.Phi.elements(), process.Phi.nrows
     drive = (process.Gamma @ process.Gamma.transposed()).flint.entries()
     table = []

@@ -27,7 +27,7 @@ from .moments import WindowCovariances
 
 @dataclass(frozen=True)
 class StatePart:
-    """A (n x n) and C (p x n) with the limit's column space equal to that of C, CA, ..., CA^(s-1); unique up to similarity."""
+    """This is A (n x n) and C (p x n) with the limit's column space equal to that of C, CA, ..., CA^(s-1); unique up to similarity."""
 
     A: Matrix
     C: Matrix

@@ -88,7 +88,7 @@ def lead_identities(n: int, nu: int, m: int, p: int, J: int) -> LeadIdentities:
 
 
 def _pulse_response(entries: dict[str, Table], ring: Ring, J: int, end: int) -> dict[int, Table]:
-    """y(t), -J <= t < end, p x nu: one column for a pulse in each input, by stepping through time."""
+    """Return y(t), -J <= t < end, p x nu: one column for a pulse in each input, by stepping through time."""
     A, B, C, D, F, G = (entries[letter] for letter in "abcdfg")
     n, nu, zero = len(A), len(D[0]), ring.zero
     state: Table = [[zero] * nu for _ in range(n)]

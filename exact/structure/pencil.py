@@ -42,7 +42,7 @@ class NullPolynomial:
 
 @dataclass(frozen=True)
 class PencilParts:
-    """P(q) = constant + q slope, both (n + p) x (n + m)."""
+    """This is P(q) = constant + q slope, both (n + p) x (n + m)."""
 
     constant: Matrix
     slope: Matrix

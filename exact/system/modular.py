@@ -31,7 +31,7 @@ class Image:
 
 
 def primes_below(start: int) -> Iterator[int]:
-    """Primes at or below `start`, descending."""
+    """Yield primes at or below `start`, descending."""
     candidate = start
     while candidate > 1:
         if fmpz(candidate).is_prime():

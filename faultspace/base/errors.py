@@ -14,15 +14,17 @@ from contextlib import contextmanager
 
 
 class InvalidInput(ValueError):
-    """Input that cannot be used. The message is one line: the place, what was got, what is expected."""
+    """It is raised for input that cannot be used. The message is one line: the place, what was got, what is expected."""
 
 
 class InvalidData(InvalidInput):
-    """Measured data, or a setting that goes with them, from which no answer can be had. The message is one line, as of InvalidInput."""
+    """It is raised for measured data, or a setting that goes with them, from which no answer can be had. The message is one line, as of
+    InvalidInput.
+    """
 
 
 def shorten(value: object, width: int = 60) -> str:
-    """`repr(value)`, cut to `width` characters and to one line."""
+    """Return `repr(value)`, cut to `width` characters and to one line."""
     try:
         text = repr(value)
     except (ValueError, RecursionError):  # integers beyond Python's printing limit, deep nesting
@@ -32,7 +34,7 @@ def shorten(value: object, width: int = 60) -> str:
 
 
 def quote_path(name: str) -> str:
-    """The name itself where it prints on one line without doubt, else quoted."""
+    """Return the name itself where it prints on one line without doubt, else quoted."""
     return name if name.isprintable() and name == name.strip() and name else repr(name)
 
 

@@ -59,7 +59,7 @@ def kill_session(leader: int) -> None:
 
 
 def family(pid: int) -> list[psutil.Process]:
-    """The process and its descendants; none where it is gone."""
+    """Return the process and its descendants; none where it is gone."""
     with suppress(psutil.Error):
         first = psutil.Process(pid)
         return [first, *first.children(recursive=True)]
@@ -67,7 +67,7 @@ def family(pid: int) -> list[psutil.Process]:
 
 
 def resident(processes: Iterable[psutil.Process]) -> int:
-    """Bytes that the processes hold (shared pages are counted once for each)."""
+    """Return bytes that the processes hold (shared pages are counted once for each)."""
     total = 0
     for one in processes:
         with suppress(psutil.Error):

@@ -39,7 +39,7 @@ def residual(y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Arra
 
 
 def window_ranks(r: Array, windows: int) -> tuple[int, ...]:
-    """At the rounding threshold, channels in unit mean square."""
+    """Return the ranks at the rounding threshold, channels in unit mean square."""
     data = signal(r, "r")
     enough_samples(len(data), (data.shape[1] + 1) * windows - 1, f"a window of {windows} block rows", data.shape)
     return rounding_ranks(data / channel_sizes(data), windows, unit=EPS).ranks

@@ -65,7 +65,9 @@ class Spectra:
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """A half of the healthy record, `residual` (N, p) and `inputs` (N, n_u), with the `reference` that was learnt on the other half."""
+    """This is a half of the healthy record, `residual` (N, p) and `inputs` (N, n_u), with the `reference` that was learnt on the other
+    half.
+    """
 
     reference: HealthyReference
     residual: Array

@@ -90,7 +90,7 @@ class MeanReference:
 
 @dataclass(frozen=True, eq=False)
 class MeanShift:
-    """The verdict on the mean of a residual, with its evidence.
+    """This is the verdict on the mean of a residual, with its evidence.
 
     `shifted` is None where it is undecided, and `reason` says why. `shift` (p,) is the estimate in units of r, and `deviations` (p,) are
     its standard deviations. `channels` numbers the outputs whose own shift is beyond chance. `statistic` is T^2, held against `threshold`

@@ -70,7 +70,7 @@ class WindowMoments:
 
 @dataclass(frozen=True)
 class FittedRow:
-    """A kernel row that was fitted.
+    """This is a kernel row that was fitted.
 
     `coefficients` (degree+1, p) have unit norm and make N(q) = sum_j coefficients[j] q^j; `level` is in nats; `noise_colour` is the monic
     autoregression (1, a_1, ..) of the noise; `flat` says whether the last step gained less than `FLAT` nats.

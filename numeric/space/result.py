@@ -54,7 +54,7 @@ class SpaceUncertainty:
 
 @dataclass(frozen=True, repr=False)
 class FaultSpaceEstimate(Shown):
-    """The columns [f; g] that explain no more than the residual shows.
+    """These are the columns [f; g] that explain no more than the residual shows.
 
     basis            (n + p, n_z), orthonormal columns
     n_z              its columns, n_v + zeta for a left-invertible fault system; where `decided` is False the likeliest

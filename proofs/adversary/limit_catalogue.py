@@ -211,7 +211,7 @@ def _felt(family: Family, point: Floats) -> float:
 
 
 def _formula_differs(d: LimitEvidence) -> bool:
-    """Whether a state is lost and the formula has none, or the other way round; n = past = 2, one input."""
+    """Return whether a state is lost and the formula has none, or the other way round; n = past = 2, one input."""
     return d.uncorrelated and _regular(d) and d.equal == hides_a_state(d.experiment, covariances(d.experiment))
 
 

@@ -160,7 +160,7 @@ def crossed(t: Tables) -> Rows:
 
 
 def determinant(rows: Rows) -> Any:
-    """Expands a determinant along the first row: small matrices, floats or Fractions."""
+    """This expands a determinant along the first row: small matrices, floats or Fractions."""
     if len(rows) == 1:
         return rows[0][0]
     total = 0

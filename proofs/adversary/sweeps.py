@@ -47,7 +47,7 @@ class Sweep:
 
     @property
     def id(self) -> str:
-        """The name of the sweep in the file of results."""
+        """This is the name of the sweep in the file of results."""
         return f"{self.target} by {self.name}"
 
 

@@ -32,7 +32,7 @@ class ClaimFailure(ValueError):
 
 @dataclass(frozen=True)
 class GapClaim:
-    """For all parameter values: gap(s) = r for s in `gap_windows`, rank = s r + sum min(s, eta_i) for s = 1..windows.
+    """It was shown for all parameter values that gap(s) = r for s in `gap_windows`, rank = s r + sum min(s, eta_i) for s = 1..windows.
 
     r is the normal rank of the pencil minus n, decided by minors on `cases` branches, and the eta_i are the places where
     the gap falls; `expanded` counts the identities about the pencil that FLINT multiplied out, `rows` those about windows.
@@ -68,7 +68,8 @@ class InclusionClaim:
 
 @dataclass(frozen=True)
 class ZeroCountClaim:
-    """For all parameter values with normal rank r = m: rank [O_s T_s] = n + s m - zeta for s = lag..windows, and not before.
+    """It was shown for all parameter values with normal rank r = m that rank [O_s T_s] = n + s m - zeta for s = lag..windows, and not
+    before.
 
     zeta is n_f + n_inf, counted on `cases` branches of the `strata` with r = m by the gcd of the maximal minors of the pencil
     and by rank T_s; `values` are the triples (n_f, n_inf, lag) met.

@@ -322,7 +322,7 @@ def test_bytes(tmp_path: Path, content: bytes) -> None:
 
 @pytest.fixture(scope="module")
 def certificate() -> Any:
-    """One with a kernel and a number field in it."""
+    """Return a certificate with a kernel and a number field in it."""
     from faultspace.exact.structure.kernel_rows import kernel_representation
     from faultspace.exact.system.systems import read_system
     from faultspace.proofs.trust.structure_certificates import window_ranks

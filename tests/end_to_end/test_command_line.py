@@ -56,7 +56,7 @@ PAPER = {
 
 
 def saved(folder: Path, name: str, document: object) -> str:
-    """The path of a new file that holds the document."""
+    """Return the path of a new file that holds the document."""
     path = folder / name
     path.write_text(document if isinstance(document, str) else json.dumps(document), "utf-8")
     return str(path)

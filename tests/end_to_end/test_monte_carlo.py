@@ -19,7 +19,7 @@ NAMES = ["published", "identified", "corrected", "corrected-identified"]
 
 
 def validator() -> Any:
-    """Of the schema that comes with the package, itself checked."""
+    """Return the validator of the schema that comes with the package, itself checked."""
     schema = json.loads((resources.files("faultspace.numeric") / "schemas" / "monte_carlo.schema.json").read_text("utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)

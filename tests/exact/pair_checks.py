@@ -257,7 +257,7 @@ def check_zero_feedthrough(system: Json) -> None:
 
 
 def _zero_feedthrough_members(basis: Matrix, system: ResidualSystem) -> Matrix:
-    """Members [f; 0] of the span of the basis rows, by intersecting with the columns [x; 0]."""
+    """Return the members [f; 0] of the span of the basis rows, by intersecting with the columns [x; 0]."""
     states = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.p)).transposed()
     columns = basis.transposed()
     common = right_null_space(beside(columns, -states)).rows(range(columns.ncols))

@@ -173,7 +173,7 @@ def test_arithmetic(field: Field, data: st.DataObject) -> None:
 @SOME
 @given(data=st.data())
 def test_solving_from_the_left(field: Field, data: st.DataObject) -> None:
-    """A solution where the right side is in the row space, None exactly where the rank grows."""
+    """There is a solution where the right side is in the row space, None exactly where the rank grows."""
     rng = Random(data.draw(SEEDS))
     matrix = data.draw(matrices(field))
     known = random_matrix(rng, field, 2, matrix.nrows) @ matrix

@@ -161,7 +161,7 @@ NAMED: dict[str, Callable[[KernelRepresentation], Any]] = {
 
 
 def public_records(field: Field) -> dict[str, Any]:
-    """One of each record that a public function makes over the field."""
+    """Return one of each record that a public function makes over the field."""
     system = example(field)
     kernel = kernel_representation(system)
     found = {name: RECORDS[name](system) for name in ("system", "with inputs", "comparison", "trajectory", "structure")}

@@ -154,7 +154,7 @@ def matrix_rank(statement: Json) -> bool:
 
 
 def schur_stable(statement: Json) -> bool:
-    """All eigenvalues of A lie inside the unit circle, over Q(a) for every root a."""
+    """Say whether all eigenvalues of A lie inside the unit circle, over Q(a) for every root a."""
     parse_keys(statement, {"system"})
     return stability.is_stable(parse_system(statement["system"]))
 

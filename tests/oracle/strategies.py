@@ -26,7 +26,7 @@ SEEDS = st.integers(min_value=0, max_value=2**32 - 1)
 
 
 def field_descriptions() -> st.SearchStrategy[Json]:
-    """It draws FIELDs."""
+    """This draws FIELDs of the format."""
     return st.sampled_from(list(FIELDS.values()))
 
 

@@ -23,7 +23,7 @@ def test_primes_are_told_from_composites() -> None:
 
 
 def products(field: int, degree: int) -> set[tuple[int, ...]]:
-    """The reducible monic polynomials of that degree over GF(field), multiplied out."""
+    """Return the reducible monic polynomials of that degree over GF(field), multiplied out."""
 
     def monic(d: int) -> Iterator[tuple[int, ...]]:
         return ((*low, 1) for low in itertools.product(range(field), repeat=d))
