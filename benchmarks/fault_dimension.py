@@ -35,9 +35,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Cell:
-    """This is a kind of trials: p outputs, m faults, noise so many decibels below the outputs, the ratio of its levels, and where the
-    residual comes from.
-    """
+    """A cell has p outputs, m faults, noise so many decibels below them, a ratio of its levels, and a source of the residual."""
 
     p: int
     m: int

@@ -42,9 +42,7 @@ Preparation = Callable[[Array, Array, Setting], Call]
 
 @dataclass(frozen=True)
 class Method:
-    """A method `needs` "" (it is ours), a Python distribution, or "octave"; `gives`: "factor" (no model) or "model"; instruments as the
-    tool uses.
-    """
+    """A method `needs` "" (ours), a Python distribution, or "octave", `gives` "factor" or "model", and has its tool's `instruments`."""
 
     name: str
     words: str
@@ -236,9 +234,7 @@ SPECIAL: dict[str, Callable[[], dict[str, Any]]] = {"rates": lambda: asdict(rate
 
 
 def cpu_seconds() -> float:
-    """Return the CPU time of this process. Not time.process_time, which under a limit on CPU time moves in the kernel's ticks, 4 ms
-    here.
-    """
+    """Return this process's CPU time. Under a limit on it, time.process_time would move in the kernel's ticks, 4 ms here."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     return used.ru_utime + used.ru_stime
 

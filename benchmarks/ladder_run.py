@@ -108,9 +108,7 @@ def disagreements(run: Run) -> list[str]:
 
 
 def aims(run: Run) -> list[Aim]:
-    """Return what is aimed at: at n = 40 planted 100 times faster than the direct rank of every window; n = 80 in 5 s and 500 MB, both
-    families of systems.
-    """
+    """Judge both families: n = 40, if planted, is 100 times faster than the direct rank of every window; n = 80 takes 5 s and 500 MB."""
     found = []
     for record in run.records:
         if record.n == 40 and record.family.kind != "dense" and DIRECT in record.cells:

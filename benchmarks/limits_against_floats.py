@@ -74,9 +74,7 @@ class Comparison:
 
 
 def chosen(family: str) -> PopulationLimits:
-    """Return the first experiment of the family with a nonzero limit of PI-MOESP, by seed 0, 1, ..., of those with n = 2 where it has
-    some.
-    """
+    """Return the first experiment of the family, by seed, with a nonzero limit of PI-MOESP, of those with n = 2 where it has some."""
     drawn = [FAMILIES[family](Random(f"{family} {seed}")) for seed in range(DRAWN)]
     most = max(experiment.system.residual.n for experiment in drawn if experiment.system.residual.n <= 2)
     found_limits = (limit(experiment) for experiment in drawn if experiment.system.residual.n == most)

@@ -54,9 +54,7 @@ CELLS = ((1, 1, 10, 0.0), (2, 3, 10, 0.0), (2, 3, 20, 0.0), (2, 3, 20, 0.01))
 
 @dataclass(frozen=True)
 class Row:
-    """These are eigenvalue and Markov-parameter errors as `identification_data.errors`; NaN where the method gave no model, `who` saying
-    why.
-    """
+    """The errors are those of `identification_data.errors`, NaN where the method gave no model; then `who` says why."""
 
     who: str
     samples: str

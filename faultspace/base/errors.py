@@ -14,13 +14,11 @@ from contextlib import contextmanager
 
 
 class InvalidInput(ValueError):
-    """It is raised for input that cannot be used. The message is one line: the place, what was got, what is expected."""
+    """The input cannot be used. The message is one line: the place, what was got, what is expected."""
 
 
 class InvalidData(InvalidInput):
-    """It is raised for measured data, or a setting that goes with them, from which no answer can be had. The message is one line, as of
-    InvalidInput.
-    """
+    """No answer can be had from the measured data, or from a setting that goes with them. The message is one line, as of InvalidInput."""
 
 
 def shorten(value: object, width: int = 60) -> str:

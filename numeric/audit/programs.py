@@ -29,9 +29,7 @@ GLANCE = 0.05  # seconds between two looks at the memory: what grows by gigabyte
 
 
 class Program:
-    """This runs `command`, started when first asked, in `environment` (None: the caller's). Raises InvalidData where it cannot be
-    started.
-    """
+    """It runs `command`, from the first question on, in `environment` (None: the caller's). Raises InvalidData where it does not start."""
 
     def __init__(self, command: Sequence[str], limits: Limits, environment: Mapping[str, str] | None = None) -> None:
         self.command = shlex.join(command)

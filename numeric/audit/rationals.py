@@ -43,9 +43,7 @@ def scaled(given: Matrix, factors: Sequence[Fraction]) -> Matrix:
 
 
 def signs(seed: int, count: int) -> Array:
-    """Return signs, +-1 by bit 63 of the linear congruential generator x := 6364136223846793005 x + 1442695040888963407 mod 2^64 from
-    `seed`.
-    """
+    """Return +-1 by bit 63 of the linear congruential generator x := 6364136223846793005 x + 1442695040888963407 mod 2^64 from `seed`."""
     state, result = seed, np.empty(count)
     for k in range(count):
         state = (6364136223846793005 * state + 1442695040888963407) % 2**64

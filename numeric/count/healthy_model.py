@@ -65,9 +65,7 @@ class Spectra:
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """This is a half of the healthy record, `residual` (N, p) and `inputs` (N, n_u), with the `reference` that was learnt on the other
-    half.
-    """
+    """One half of the healthy record, `residual` (N, p) and `inputs` (N, n_u), is judged by the `reference` learnt on the other half."""
 
     reference: HealthyReference
     residual: Array

@@ -86,9 +86,7 @@ Dimensions = tuple[int, int, int]
 
 
 def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Sequence[Dimensions], full: Sequence[Dimensions]) -> Outcome:
-    """Return the outcome of a parametric claim at all these (n, p, m): IDENTITY, or what it raises where a stratum or an expansion
-    fails.
-    """
+    """Return IDENTITY for a parametric claim at all these (n, p, m), or what it raises where a stratum or an expansion fails."""
     dimensions = [*quick, *full] if bench.full else list(quick)
     strata = expanded = 0
     for done, (n, p, m) in enumerate(dimensions):

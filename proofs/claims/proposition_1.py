@@ -198,9 +198,7 @@ def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitEvidence], boo
 
 
 def smallest_seasonal(fails: Callable[[LimitEvidence], bool], taps: int, others: Sequence[str]) -> Outcome:
-    """The outcome is REFUTED by the smallest experiment with an input of period 3 that fails, and by the `others`, which are kept in
-    counterexamples/.
-    """
+    """The smallest failing experiment with an input of period 3 makes it REFUTED, and so do the `others`, kept in counterexamples/."""
     for one in in_order():
         evidence = examine_experiment("search", seasonal(one, taps))
         if not fails(evidence):

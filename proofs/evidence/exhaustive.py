@@ -95,9 +95,7 @@ def _embedded(matrix: Digits, rest: int, *, after: bool = False) -> Digits:
 
 
 def _generators(size: int, q: int) -> Iterator[tuple[Digits, Digits]]:
-    """Yield generators of GL_size(q) with their inverses: all elementary additions, and one diagonal entry running over a generating
-    set.
-    """
+    """Yield generators of GL_size(q) and their inverses: all elementary additions, and a diagonal entry running over a generating set."""
     for i in range(size):
         for j in range(size):
             if i != j:

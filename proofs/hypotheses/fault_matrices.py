@@ -90,9 +90,7 @@ def theorem_3_ii() -> Ablation[Pair]:
 
 
 def _subjects(bench: Workbench) -> Iterator[Pair]:
-    """Yield every alternative with columns in Z, at lag + 1; the others stand at the longest window whose solutions they are, if there is
-    one.
-    """
+    """Yield alternatives with columns in Z at lag + 1, the others at the longest window whose solutions they are, if there is one."""
     for d in (*bench.alternatives, *bench.records("aimed alternatives", partial(_aimed, 150 if bench.full else 40))):
         window = facets(d.system).lag + 1 if d.in_space else _longest(d.system, d.alternative)
         if window:

@@ -103,7 +103,7 @@ def test_a_white_input_that_the_fault_follows_ahead_of_time(seed: int) -> None:
 
 
 def test_lead_one_by_hand() -> None:
-    """With v(k) = u(k+1), output error finds B + AF and D + CF; with G = 0 by MOESP's regression too, with G not."""
+    """With v(k) = u(k+1), output error finds B + AF and D + CF; with G = 0 MOESP's regression finds them too, with G != 0 it does not."""
     for G, agrees in (([["0"], ["0"]], True), ([["1"], ["1"]], False)):
         found = limit(white_with_leads(SCALAR | {"G": G, "C": [["1"], ["2"]]}, 3, 2, [NONE, ONE]))
         assert found.true_AC is not None and found.moesp is not None
@@ -194,7 +194,7 @@ def test_a_fault_that_follows_the_input_unseen() -> None:
 
 @pytest.mark.parametrize("seed", range(10))
 def test_a_fault_equal_to_the_input(seed: int) -> None:
-    """With v = u of any colour, A and C are right, B + F and D + G by either regression and by either choice of instruments."""
+    """With v = u of any colour A and C come out right, and either regression with either instruments finds B + F and D + G."""
     random = Random(seed)
     n, p, nu = random.randint(1, 3), random.randint(1, 2), random.randint(1, 2)
     unit = [["1" if i == j else "0" for j in range(nu)] for i in range(nu)]
@@ -231,9 +231,7 @@ FAULTS: dict[str, Any] = {
     ],
 )
 def test_past_outputs_as_instruments_want_whiteness(fault: str, G: str, w: Any, within: bool) -> None:
-    """With v independent of u, past inputs are always right; past outputs as well only if what is ahead of them is uncorrelated with
-    them.
-    """
+    """With v independent of u, past inputs are right; past outputs are only if what is ahead of them is uncorrelated with them."""
     given = SCALAR | {"G": [["0"], [G]], "C": [["1"], ["1/3"]]}
     found = limit(driven(given, 3, 2, [[["1", "0"]], [["1/2", "0"]]], FAULTS[fault], w))
     assert found.past_inputs.equals_observability_range and unbiased(found)

@@ -125,7 +125,7 @@ def test_noise_shares_are_found() -> None:
 
 
 def test_the_least_noise_is_the_projection() -> None:
-    """It is compared with a dense least-squares solution; what is left obeys the rows."""
+    """It equals a dense least-squares solution, and what is left obeys the rows."""
     rng = np.random.default_rng(8)
     z, rows = rng.standard_normal((30, 3)), [rng.standard_normal((2, 3)), rng.standard_normal((3, 3))]
     shares = np.array([2.0, 0.5])

@@ -175,9 +175,7 @@ def test_no_pair_of_an_unobservable_system_lacks_its_unobservable_modes() -> Non
 
 
 def test_the_codimension_is_two_for_all_degrees_of_the_kernel() -> None:
-    """For all systems with (A, C) observable, r <= 4, 1 <= zeta <= 6, the degrees k_1 <= ... <= k_r, of sum zeta, decide the
-    codimension.
-    """
+    """With (A, C) observable, r <= 4 and 1 <= zeta <= 6, the degrees k_1 <= ... <= k_r, of sum zeta, decide the codimension."""
     tried = 0
     for r, zeta in product(range(1, 5), range(1, 7)):
         for degrees in (k for k in combinations_with_replacement(range(zeta + 1), r) if sum(k) == zeta):
