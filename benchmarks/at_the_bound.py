@@ -1,4 +1,4 @@
-"""How near models from faulty data come to the Cramer-Rao bound, by method, and how honest their standard errors are.
+"""This measures how near models from faulty data come to the Cramer-Rao bound, by method, and how honest their standard errors are.
 
     python benchmarks/at_the_bound.py [--systems 24] [--seed 1] [--cells paper 2in3out] [--samples 200 1000 10000] [--jobs 1]
     python benchmarks/at_the_bound.py --calibrate lags | ladder | angles | starts

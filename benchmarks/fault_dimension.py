@@ -1,4 +1,4 @@
-"""How often the fault dimension is right, undecided or wrong, on data like the paper's and on harder ones.
+"""This measures how often the fault dimension is right, undecided or wrong, on data like the paper's and on harder ones.
 
     python benchmarks/fault_dimension.py [--trials 30] [--seed 1] [--samples 1001] [--markdown]
 

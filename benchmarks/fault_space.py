@@ -1,4 +1,4 @@
-"""How near the fault space of a noisy residual comes to the true one, how honest its stated uncertainty is, and what it costs.
+"""This measures how near the fault space of a noisy residual comes to the true one, how honest its uncertainty is, and what it costs.
 
     python benchmarks/fault_space.py [--trials 20] [--seed 1]
 

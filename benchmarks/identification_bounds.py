@@ -1,4 +1,4 @@
-"""What the two routes of the compression must cost at least, and how they grow.
+"""This computes what the two routes of the compression must cost at least, and how they grow.
 
 With L = 2 s lags, c = n_u + p channels and k = 2 s n_u + s p rows of the Hankel matrix [Uf; Up; Yf] of N samples:
 

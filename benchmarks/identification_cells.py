@@ -1,4 +1,4 @@
-"""One cell of the identification benchmark: one method on one record, in a process of its own with a limit on time and address space.
+"""This measures one cell of the identification benchmark: one method on one record, in a process with a limit on time and memory.
 
     CELL      the limits of a cell: CPU seconds of the whole process, bytes of address space
     Cell      how it ended, seconds (the least of the repeats), peak memory above imports and data, errors of the model if it gave one

@@ -1,4 +1,4 @@
-"""The methods of the identification benchmark. Each is a program of its own, run in a folder with a record, that writes one line:
+"""These are the methods of the identification benchmark. Each is a program of its own, run in a folder with a record, that writes one line:
 
     RESULT {"seconds": ..., "megabytes": ..., "changed": ..., "A": ..., "B": ..., "C": ..., "D": ...}
 

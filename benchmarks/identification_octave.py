@@ -1,4 +1,4 @@
-"""Octave's part of the identification benchmark: the control package's functions and the author's own, on the record in the folder.
+"""This is Octave's part of the identification benchmark: the control package's functions and the author's own, on the record in the folder.
 
 packaged_script     moen4 or moesp of the control package
 author_script       pi_moesp.m from a clone of ggleizer/fault_id

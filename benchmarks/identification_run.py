@@ -1,4 +1,4 @@
-"""What a run of the identification benchmark has measured, and what follows from it.
+"""This records what a run of the identification benchmark has measured, and what follows from it.
 
 Run        settings with their cells, growth, rates, the study, machine, what is absent
 aims       what was hoped for and what the run says about it

@@ -1,4 +1,4 @@
-"""The 100-system study of the paper, by the author's program under Octave and by ours: seconds and median errors.
+"""This times the 100-system study of the paper, by the author's program under Octave and by ours: seconds and median errors.
 
 The author's text is taken from the clone that the user names, sections 1 to 4 of montecarlo.mlx (systems, data, estimates, errors; the
 plots are left out), and run as it stands, with two functions that Octave lacks put beside it: `tzero` calls the control package's

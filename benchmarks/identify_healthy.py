@@ -1,4 +1,4 @@
-"""How often `identify --healthy-until` finds a fault where there is none, and one of the size that it says it would see.
+"""This measures how often `identify --healthy-until` finds a fault where there is none, and one of the size that it says it would see.
 
     python benchmarks/identify_healthy.py [--trials 40] [--seed 1] [--markdown]
 

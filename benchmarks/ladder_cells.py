@@ -1,4 +1,4 @@
-"""One cell of the ladder benchmark: one method on one system, in a process of its own with a limit on time and memory.
+"""This measures one cell of the ladder benchmark: one method on one system, in a process of its own with a limit on time and memory.
 
     Budget    wall seconds for the timed part and for what precedes it, address space in MB, how often a quick cell is repeated
     Cell      how it ended, its CPU seconds (the least of the repeats), its parts, the ranks it told, its peak memory

@@ -1,4 +1,4 @@
-"""The methods of the ladder benchmark. Each is a program of its own that reads one system and writes lines:
+"""These are the methods of the ladder benchmark. Each is a program of its own that reads one system and writes lines:
 
     ready C          what is not timed is done (start, reading, building the windows); C CPU seconds were spent on it
     rank S R         rank [O_S T_S] = R, as soon as it is known

@@ -1,4 +1,4 @@
-"""What a run of the ladder benchmark has measured, and what follows from it.
+"""This records what a run of the ladder benchmark has measured, and what follows from it.
 
 SystemCells, Run  the cells of one system; all of them, with machine, limits and what was absent
 ratio             seconds of a method over ours: a number, or a lower bound where it was stopped

@@ -1,4 +1,4 @@
-"""The systems of the ladder benchmark: integer A, F, C, G of every size, of the same numbers in every run.
+"""These are the systems of the ladder benchmark: integer A, F, C, G of every size, of the same numbers in every run.
 
     Family       a kind of system and a shape: "wide" (more outputs than needed, short lags) or "tight" (p = m + 1, long lags)
     Specimen     a system as plain nested lists, and what was planted in it

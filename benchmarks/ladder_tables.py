@@ -1,4 +1,4 @@
-"""The tables of the ladder benchmark, as sheets.
+"""These are the tables of the ladder benchmark, as sheets.
 
 ratio_table       n, kind, ours (made, checked, memory), and how many times slower every other method is
 seconds_table     CPU seconds of every method

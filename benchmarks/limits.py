@@ -1,4 +1,4 @@
-"""How the cost of an exact population limit grows with n and with s.
+"""This measures how the cost of an exact population limit grows with n and with s.
 
     python benchmarks/limits.py [--states 2,4,...] [--windows 4,8,...] [--markdown]
 

@@ -82,7 +82,7 @@ def chosen(family: str) -> PopulationLimits:
 
 
 def expected(found: PopulationLimits) -> dict[tuple[str, str], Any]:
-    """Return exact vectors by method and "L" or "model"."""
+    """Return the exact vectors by method and "L" or "model"."""
     result: dict[tuple[str, str], Any] = {}
     for method, one in zip(METHODS, (found.past_inputs, found.past_outputs), strict=True):
         result[method, "L"] = floats(one.matrix).ravel()

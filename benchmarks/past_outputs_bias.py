@@ -1,4 +1,4 @@
-"""How biased past outputs are under a coloured fault: the exact limit of PO-MOESP beside what ours and a peer find in the benchmark's data.
+"""This shows how a coloured fault biases past outputs: the exact limit of PO-MOESP beside what ours and a peer find in its data.
 
     python benchmarks/past_outputs_bias.py [--largest 1000000] [--quick] [--peer-python PATH]
 

@@ -1,4 +1,4 @@
-"""Settings for every test.
+"""These are the settings for every test.
 
 ci          the profile in force: the same examples in every run, nothing remembered between runs
 explore     fresh examples and no clock, for looking further: `pytest --hypothesis-profile=explore`

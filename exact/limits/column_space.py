@@ -1,4 +1,4 @@
-"""What PI-MOESP and PO-MOESP converge to: the population limit of the projected outputs, exactly, and what its column space says of A, C.
+"""This is what PI-MOESP and PO-MOESP converge to: the population limit of the projected outputs, and what its column space says of A, C.
 
     past_input_limit             Z = Up: past inputs as instruments, PI-MOESP [V93]
     past_input_and_output_limit  Z = [Up; Yp]: PO-MOESP, as every packaged tool has it

@@ -1,4 +1,4 @@
-"""Input, fault, noise, state and output of an experiment as one linear system driven by white noise of unit covariance.
+"""Input, fault, noise, state and output of an experiment become one linear system driven by white noise of unit covariance.
 
     xi(k+1) = Phi xi(k) + Gamma e(k),   every signal = H xi(k) + J e(k),   e = (noise of u and v; noise of w)
 

@@ -1,4 +1,4 @@
-"""The bad P as a variety: its dimension in every case, and for small cases its equations written out and factored.
+"""This describes the bad P as a variety: its dimension in every case, and for small cases its equations written out and factored.
 
     BadSet              dimension and codimension in the n_z r entries of P, and the strata that give them
     bad_set             by counting parameters

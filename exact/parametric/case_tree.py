@@ -1,4 +1,4 @@
-"""Case trees: one exact algorithm run at every value of its parameters at once.
+"""A case tree runs one exact algorithm at every value of its parameters at once.
 
 An algorithm that asks of polynomials in the parameters whether they are zero, and asks it of a `Branch`, is run for all
 parameter values by `explore`: a question that the branch cannot answer splits it in two, on which the algorithm starts

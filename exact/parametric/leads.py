@@ -1,4 +1,5 @@
-"""White u and v(k) = sum_(j=0..J) phi_j u(k+j), every entry of A, B, C, D, F, G and phi_j an indeterminate: what past inputs see.
+"""This takes white u and v(k) = sum_(j=0..J) phi_j u(k+j), every entry of A, B, C, D, F, G and phi_j an indeterminate: what past inputs
+see.
 
     lead_identities   the response to a pulse of u, simulated in sympy's ring, against its closed form, multiplied out by FLINT
     LeadIdentities    the B and D that are seen, and how much was multiplied out

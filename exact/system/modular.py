@@ -1,4 +1,4 @@
-"""The image of an exact system modulo a prime: where structure is read off fast and lower bounds on ranks come from.
+"""This is the image of an exact system modulo a prime: where structure is read off fast and lower bounds on ranks come from.
 
 Image           the system over GF(l), the prime l, and over Q(a) the simple root of f that a goes to
 image           the image at the first good prime at or below a given one

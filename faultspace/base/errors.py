@@ -1,4 +1,4 @@
-"""The errors of bad input, and what their one line is made of.
+"""These are the errors of bad input, and what their one line is made of.
 
 InvalidInput    input that cannot be used: the text is one line, what was got and what is needed
 InvalidData     the same of measured data

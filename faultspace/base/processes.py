@@ -1,4 +1,4 @@
-"""Programs that are started under limits and ended with all that they started.
+"""This starts programs under limits, and ends them with all that they started.
 
 Limits               seconds of an answer, bytes that a program and its children may hold; STANDARD: a minute, 4 GiB
 session              a program started in a session of its own, so that it can be ended with what it started

@@ -1,4 +1,4 @@
-"""What an implementation offers to be tested: a few functions, all optional; those that are there declare what is tested.
+"""This is what an implementation offers to be tested: a few functions, all optional; those that are there declare what is tested.
 
     identify(y, u, order, block_rows) -> A, B, C, D       from y (N, p), u (N, n_u); any state basis
     residual(y, u, A, B, C, D) -> r                       y less the model's response to u, (N, p); any initial state

@@ -1,4 +1,4 @@
-"""Signals that do not excite: what the data cannot tell must not be told.
+"""These checks use signals that do not excite: what the data cannot tell must not be told.
 
     checks          ranks of windows are what they are; n_v is free; a fault space, a model must be refused
     sine_samples    cos(k a), cos a = 3/5: rational and without a period

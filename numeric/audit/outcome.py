@@ -1,4 +1,4 @@
-"""What an audit has found.
+"""This records what an audit has found.
 
 Audit           the result of every check, in order: a sequence, with a face for people, programs and notebooks
 FunctionTally   of the checks of one function: how many there are, passed, failed, are free; the largest ratio

@@ -1,4 +1,4 @@
-"""A program that is asked by lines and answers by lines, under a limit of time and a limit of memory.
+"""This is a program that is asked by lines and answers by lines, under a limit of time and a limit of memory.
 
 Program     starts it with the first question; `ask` sends one line and gives the next one back; `close` ends it and all that it started
 

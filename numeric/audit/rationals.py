@@ -1,4 +1,4 @@
-"""Rational matrices as the vectors hold them, and the one way in which they become floats.
+"""These are rational matrices as the vectors hold them, and the one way in which they become floats.
 
 matrix      from strings, integers or Fractions
 fractions   the entries

@@ -1,4 +1,4 @@
-"""What a check is, and what it leaves behind.
+"""This says what a check is, and what it leaves behind.
 
 Check         slug, function tested, vector, claim, effect on a user, severity, kind, and `measure`, which calls the function
 Measurement   quantity, got, bound: a distance from the exact answer, and what rounding may make of it

@@ -1,4 +1,4 @@
-"""Our own numeric branch as an implementation: what `faultspace audit` tests when nothing is named, and a pattern for adapters.
+"""This is our own numeric branch as an implementation: what `faultspace audit` tests when nothing is named, and a pattern for adapters.
 
 Its functions are the public ones of `faultspace.numeric`, those that `faultspace.identify` calls, with arrays as a record of one piece.
 Where a function of ours warns and goes on, the adapter refuses: A that the window does not determine, ranks that are not clear.

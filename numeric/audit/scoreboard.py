@@ -1,4 +1,4 @@
-"""Implementation against check: the audit of our reference and of every published package that is here, written as one JSON file.
+"""This sets implementation against check: the audit of our reference and of every published package that is here, written as one JSON file.
 
     tallies       the results of one audit, summed up by slug and function
     board         our reference and these packages

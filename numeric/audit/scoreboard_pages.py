@@ -1,4 +1,4 @@
-"""What people read of a scoreboard.
+"""This is what people read of a scoreboard.
 
 table          Markdown: a row a slug, a column an implementation; passed/asked
 findings       Markdown: each implementation's failures, with version, vector, numbers and the line that shows them again

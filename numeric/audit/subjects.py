@@ -1,4 +1,4 @@
-"""Who is put through the checks: an object in this process, an adapter by its name, a program, a published package.
+"""This says who is put through the checks: an object in this process, an adapter by its name, a program, a published package.
 
 Auditee      has `functions`, what it offers, and `perform`, which gives the result of one check and never raises for what the subject does
 InProcess    an object whose functions run in this process, without limits

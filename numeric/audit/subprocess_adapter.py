@@ -1,4 +1,4 @@
-"""An implementation in any language: a program that reads questions from standard input and writes answers to standard output, JSON lines.
+"""An implementation in any language is a program that reads questions from standard input and writes answers to standard output, as JSON.
 
 Exec        starts the program, asks it what it offers, and has a function for each; `close` ends it
 

@@ -1,4 +1,4 @@
-"""How many faults stand out of what a healthy record shows, where they act, and their signal.
+"""This counts how many faults stand out of what a healthy record shows, where they act, and their signal.
 
 `fault_dimension` knows nothing but the residual, so what it cannot tell from noise it leaves undecided. Who has a record from before the
 fault knows more: noise and model error, their sizes and colours. At each frequency

@@ -1,4 +1,4 @@
-"""What a residual looks like without a fault: measured on a healthy record, so that noise and model error become white.
+"""This learns what a residual looks like without a fault: measured on a healthy record, so that noise and model error become white.
 
 A residual of measured data is never zero: noise of unequal size and colour, and the error of the model. A healthy record
 of the same plant shows both. From it

@@ -1,4 +1,4 @@
-"""Whether the mean of a residual has moved since a healthy record: the constant fault, which no rank can show.
+"""This tells whether the mean of a residual has moved since a healthy record: the constant fault, which no rank can show.
 
 A constant signal is persistently exciting of order one only, so that a constant fault changes no rank gap. It moves the mean of r, and a
 healthy record says what means are worth: how much noise there is at frequency zero, and how much of a mean the model's error explains.

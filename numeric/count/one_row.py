@@ -1,4 +1,4 @@
-"""Maximum-likelihood kernel rows: the row polynomial N(q) that annihilates r as well as the noise allows.
+"""This fits maximum-likelihood kernel rows: the row polynomial N(q) that annihilates r as well as the noise allows.
 
 With fewer faults than outputs, r = s + w where s obeys N(q) s = 0 for at least one polynomial row N, whatever the
 fault signal is [W91]. Eliminating s leaves, for noise w of spectrum phi in every channel, the likelihood of N alone:

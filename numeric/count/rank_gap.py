@@ -1,4 +1,4 @@
-"""How many independent faults a residual carries, with the evidence, or an honest "undecided".
+"""This counts how many independent faults a residual carries, with the evidence, or an honest "undecided".
 
 For exact residuals of x+ = A x + F v, r = C x + G v with exciting v, rank R_(s+1) - rank R_s = (normal rank) + #{left indices
 above s}: it falls with s and equals the number of faults n_v from the lag on, whether or not the system is controllable or

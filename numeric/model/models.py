@@ -1,4 +1,4 @@
-"""A linear model x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) in floats: what is identified, simulated and written to files.
+"""This is a linear model x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) in floats: what is identified, simulated and written to files.
 
 StateSpaceModel         the matrices, checked and read-only, with simulation, Markov parameters and conversions
 Simulator               the response to inputs that come in pieces, many samples at a time by matrix products

@@ -1,4 +1,4 @@
-"""The residual r = y - (response of the model to u), with the initial state fitted or given.
+"""This is the residual r = y - (response of the model to u), with the initial state fitted or given.
 
 Whatever trajectory x+ = A x + B u is subtracted, r obeys the fault model x+ = A x + F v, r = C x + G v; the choice of initial
 state only decides how much free response stays in r. Fitting it by least squares takes out as much as can be.

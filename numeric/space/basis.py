@@ -1,4 +1,4 @@
-"""Maximum likelihood for a whole kernel basis: the k = p - n_v polynomial rows N(q) that annihilate r up to noise, at once.
+"""This fits a whole kernel basis by maximum likelihood: the k = p - n_v polynomial rows N(q) that annihilate r up to noise, at once.
 
 r = s + w with N(q) s = 0 whatever the faults are [W91], w of spectrum phi in every channel. Eliminating s leaves
 

@@ -1,4 +1,4 @@
-"""What every estimate of the fault space answers, and what a kernel row asks of a fault column.
+"""This is what every estimate of the fault space answers, and what a kernel row asks of a fault column.
 
     FaultSpaceEstimate   basis of the columns [f; g], its dimension, how it was found, whether it means anything and why
     SpaceUncertainty     the estimate's error to first order, a matrix that is linear in standard normal numbers, and its angle

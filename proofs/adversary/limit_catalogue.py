@@ -1,4 +1,4 @@
-"""Every attack on what is said of the limits of PI-MOESP and PO-MOESP.
+"""This lists every attack on what is said of the limits of PI-MOESP and PO-MOESP.
 
     on_the_range       the limit has all of the range of O_s: a determinant that changes its sign, a least singular value
     on_containment     the limit stays inside the range of O_s: a share outside of it

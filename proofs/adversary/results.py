@@ -1,4 +1,4 @@
-"""The file of results: what attacked each statement, how near it came, and when; checked again where that is cheap.
+"""This is the file of results: what attacked each statement, how near it came, and when; checked again where that is cheap.
 
     run_attacks    attacks run now, in parallel, as records for the file
     stored         the records of the package's file

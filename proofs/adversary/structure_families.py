@@ -1,4 +1,4 @@
-"""Families of systems, and the quantities on whose zero sets ranks drop.
+"""These are families of systems, and the quantities on whose zero sets ranks drop.
 
 Tables             A, F, C, G by rows, floats or Fractions
 free_family        every entry free

@@ -1,4 +1,4 @@
-"""Boxes gone through to the end: every system of given dimensions over GF(2) or GF(3), beyond the boxes of the corpus.
+"""Boxes are gone through to the end: every system of given dimensions over GF(2) or GF(3), beyond the boxes of the corpus.
 
     Sweep      a target, a box, its cases and the decision on one
     Swept      how far it came: whether to the end, and what it found

@@ -1,4 +1,4 @@
-"""Pairs of systems whose behaviours are compared, each with certificates that the checker has accepted.
+"""These are pairs of systems whose behaviours are compared, each with certificates that the checker has accepted.
 
 PairEvidence              two systems: equal, or the first window on which they differ; their lags and normal ranks
 AlternativeEvidence       a system and other fault matrices for the same (A, C): equal or not, inside the fault space or not

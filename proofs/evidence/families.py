@@ -1,4 +1,4 @@
-"""Systems to try a claim on: the paper's own, adversarial families with a name, and random ones of every structure.
+"""These are systems to try a claim on: the paper's own, adversarial families with a name, and random ones of every structure.
 
     paper_example         the review's section V over its cubic number field
     shift_registers       length n, F = 0 against F = e_n: equal on n samples, different on n + 1

@@ -1,4 +1,4 @@
-"""The rank formulas and theorem 1 as identities: for all parameter values at stated dimensions.
+"""The rank formulas and theorem 1 are shown as identities: for all parameter values at stated dimensions.
 
 Each function takes a `Stratification`, checks one statement on every stratum, expands what it relies on by FLINT, and
 returns a record of what it covered. A stratum on which a statement fails raises ClaimFailure, which names it.

@@ -1,4 +1,4 @@
-"""Systems that lack one hypothesis about a system and have all the others: those of the corpus lack some of them only now and then.
+"""These systems lack one hypothesis about a system and have all the others: those of the corpus lack some of them only now and then.
 
     aimed_systems     as many for each of the four hypotheses: observable, controllable, left-invertible, A stable
     other_columns     one of them with other fault columns of its Z

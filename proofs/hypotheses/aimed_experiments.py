@@ -1,4 +1,5 @@
-"""Experiments that lack one hypothesis of proposition-1 and have the others, with windows of every length; and the small ones to search.
+"""These are experiments that lack one hypothesis of proposition-1 and have the others, with windows of every length; and the small ones to
+search.
 
     aimed_experiments   as many of each family, then RANK_DROPS and UNREAD
     small_experiments   n = 1, then n = 2: every combination of a few values, for the smallest counterexample; BOX tells which

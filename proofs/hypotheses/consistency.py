@@ -1,4 +1,4 @@
-"""The hypotheses of proposition-1: how u and v may be correlated, controllability and observability, colour of u.
+"""These are the hypotheses of proposition-1: how u and v may be correlated, controllability and observability, colour of u.
 
     Driven                 an experiment with certified limits, as a subject
     consistency            the limit of PI-MOESP carries the true A and C, and both regressions the true B and D; u is white

@@ -1,4 +1,4 @@
-"""The hypotheses of theorem-3 (ii): when does a pair (Fhat P, Ghat P), taken from problem (11) at a window, give the same outputs?
+"""This drops hypotheses of theorem-3 (ii): when does a pair (Fhat P, Ghat P), from problem (11) at a window, give the same outputs?
 
 Pair          a system, other fault matrices whose columns solve problem (11) at a window, and whether the outputs are the same
 theorem_3_ii  equivalent: from a window of lag + 1 on, for P such that the normal rank stays

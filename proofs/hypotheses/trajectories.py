@@ -1,4 +1,4 @@
-"""The hypotheses of the rank gap read off data: which trajectories show m = rank R_(s+1) - rank R_s?
+"""These are the hypotheses of the rank gap read off data: which trajectories show m = rank R_(s+1) - rank R_s?
 
 Simulated              a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
 excited                with [X; V_(s+1)] of full row rank

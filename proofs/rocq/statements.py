@@ -1,4 +1,4 @@
-"""The statements of the Rocq theory read from its sources: the headlines, the words that they use, and what no source may contain.
+"""The statements of the Rocq theory are read from its sources: the headlines, the words that they use, and what no source may contain.
 
     Headline    a theorem of a file Headlines*.v: its name, its statement, its proof, its file
     Word        a definition, record or abbreviation of a file *Vocabulary.v, with the variables of the sections around it

@@ -1,4 +1,4 @@
-"""Certificates: what the exact branch found, in the form that `checker.py` accepts (the format is FORMAT.md).
+"""These certificates say what the exact branch found, in the form that `checker.py` accepts (the format is FORMAT.md).
 
     one function a kind      each takes a system or its kernel representation and returns the JSON-ready certificate
     sha256                   the name of a certificate

@@ -1,4 +1,5 @@
-"""Which hypotheses does a claim need? Each is dropped in turn, and in pairs: a counterexample that meets all the others, or none anywhere.
+"""This asks which hypotheses a claim needs. Each is dropped in turn, and in pairs: a counterexample that meets all the others, or none
+anywhere.
 
     Subject       what a claim is about, certified: a system with a window, a pair of systems, a trajectory
     Proof         theorems of Rocq that prove the conclusion, and the hypotheses they prove it from

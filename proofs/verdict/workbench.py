@@ -1,4 +1,4 @@
-"""What a check of a claim has at hand, and the ways in which it comes to a verdict.
+"""This is what a check of a claim has at hand, and the ways in which it comes to a verdict.
 
 Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, alternatives, limits
 certify       the statement on every system of the corpus that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails

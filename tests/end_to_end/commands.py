@@ -1,4 +1,4 @@
-"""Running the command line, from outside and from inside.
+"""This runs the command line, from outside and from inside.
 
 Run             exit code, standard output and standard error
 command         `python -m faultspace` in a process of its own

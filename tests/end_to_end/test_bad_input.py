@@ -1,4 +1,4 @@
-"""Whatever stands in a file: exit code 0, 1 or 2, and for bad input one line that names the file and the place, never a traceback.
+"""Whatever stands in a file, the exit code is 0, 1 or 2, and bad input gives one line that names file and place, never a traceback.
 
 SOUND           a system that is read
 changed         SOUND with other values for some keys, as the text of a file

@@ -1,4 +1,4 @@
-"""The command line as a person and as a script meet it."""
+"""These tests use the command line as a person and as a script meet it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`faultspace monte-carlo` on a handful of systems: files, JSON alone on standard output, bad arguments."""
+"""These tests run `faultspace monte-carlo` on a handful of systems: files, JSON alone on standard output, bad arguments."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from tests.end_to_end.commands import Run, call
 
 
 def broken(*_: object, **__: object) -> object:
-    """What a function of ours does that has an error in it."""
+    """This does what a function of ours does that has an error in it."""
     raise KeyError("no such\nkey")
 
 

@@ -1,4 +1,5 @@
-"""What the tests ask about pairs (Fhat P, Ghat P) of one system. Every check raises AssertionError and takes a SYSTEM of the format.
+"""This is what the tests ask about pairs (Fhat P, Ghat P) of one system. Every check raises AssertionError and takes a SYSTEM of the
+format.
 
 small_systems           every SYSTEM over GF(2) of given dimensions
 all_matrices            every matrix over GF(p) of a shape

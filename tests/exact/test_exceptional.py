@@ -1,4 +1,4 @@
-"""D(q; P) and the exceptional set: against the gcd of all maximal minors, exhaustively over GF(2), and with each line broken on purpose."""
+"""D(q; P) and the exceptional set are tested against the gcd of all maximal minors, over all of GF(2), and with each line broken."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Problem (11): windows and limit by definition, by a closed form and from data; pairs out of it.
+"""Problem (11) is tested: windows and limit by definition, by a closed form and from data; pairs out of it.
 
 closed_form     im [F; G] + [A; C] U + [U; 0], U = V* + S*, for left-invertible systems
 """

@@ -1,4 +1,4 @@
-"""What the population limits say of the consistency of PI-MOESP and PO-MOESP: each statement on random systems, each boundary by a case.
+"""The population limits tell of the consistency of PI-MOESP and PO-MOESP: each statement on random systems, each boundary by a case.
 
 "Equal to the range of O_s" needs (A, B~) controllable, B~ being the B that is seen, and a past window of n rows.
 """

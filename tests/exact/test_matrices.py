@@ -1,4 +1,4 @@
-"""Exact linear algebra on flint against sympy's, over every field; polynomials likewise.
+"""These tests compare exact linear algebra on flint with sympy's, over every field; polynomials likewise.
 
 sympy_domain        the domain of sympy that is this field
 to_domain_matrix    a Matrix as a DomainMatrix, entry by entry

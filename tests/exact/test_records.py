@@ -1,4 +1,4 @@
-"""Systems, matrices and results as values: what they are made of, that they do not change, compare, hash, pickle and print.
+"""These tests take systems, matrices and results as values, which do not change, and which compare, hash, pickle and print.
 
 SAME        one system given in many ways
 RECORDS     name -> a function from a system to a result

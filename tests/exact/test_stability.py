@@ -1,4 +1,4 @@
-"""Schur stability against roots known by construction, and against eigenvalues in floats away from the circle."""
+"""Schur stability is tested against roots known by construction, and against eigenvalues in floats away from the circle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pairs with zeros where they are wanted, and pairs that need no initial state."""
+"""These tests are about pairs with zeros where they are wanted, and pairs that need no initial state."""
 
 from __future__ import annotations
 

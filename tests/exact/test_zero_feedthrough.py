@@ -1,4 +1,4 @@
-"""G = 0: when it pins F and v, and what it leaves free."""
+"""These tests are about G = 0: when it pins F and v, and what it leaves free."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is true of every file: short modules, no path of anybody's machine, one version, no key without a source.
+"""These tests ask for what is true of every file: short modules, no path of anybody's machine, one version, no key without a source.
 
 machine_paths       absolute paths of one machine that a text mentions
 cited_keys          keys such as [V93] in the docstrings of a source

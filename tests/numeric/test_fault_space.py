@@ -1,4 +1,4 @@
-"""Problem (11) from data: spaces planted by construction, windows too short, vacuous cases, noise, units, and the
+"""Problem (11) from data is tested: spaces planted by construction, windows too short, vacuous cases, noise, units, and the
 same formulas in 50 digits.
 """
 

@@ -1,4 +1,4 @@
-"""The Cramer-Rao bound: against the Fisher information in the time domain, against a likelihood that is exact, and on functions broken."""
+"""The Cramer-Rao bound is tested against the Fisher information in time, against an exact likelihood, and on functions broken."""
 
 from __future__ import annotations
 

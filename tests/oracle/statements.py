@@ -1,4 +1,4 @@
-"""Whether the statement of a certificate is true, kind by kind, whatever its witness says.
+"""This decides whether the statement of a certificate is true, kind by kind, whatever its witness says.
 
     truth(kind, statement)          True or False; raises ValueError when the kind is unknown or the statement malformed
     premise_holds(kind, statement)  whether the minimal polynomials in the statement are irreducible

@@ -1,4 +1,4 @@
-"""The oracle's quantities against known facts, a second route each, and sheer enumeration over GF(2)."""
+"""The oracle's quantities are tested against known facts, a second route each, and sheer enumeration over GF(2)."""
 
 from __future__ import annotations
 

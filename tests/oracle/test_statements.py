@@ -1,4 +1,4 @@
-"""The truth of statements: true ones and false neighbours of every kind, planted structure, malformed ones."""
+"""The truth of statements is tested: true ones and false neighbours of every kind, planted structure, malformed ones."""
 
 from __future__ import annotations
 

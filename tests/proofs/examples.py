@@ -1,4 +1,4 @@
-"""Certificates to try the checker with, and ways to spoil them.
+"""These are certificates to try the checker with, and ways to spoil them.
 
 FIELDS, systems    small systems of every shape over Q, Q(a), Q(sqrt 2), GF(2), GF(3)
 lines, stable      pairs and systems that the kinds left-invertible-line and schur-stable are about

@@ -1,4 +1,4 @@
-"""Witnesses forged for statements that may be false: what a checker accepts of them must be true all the same.
+"""These are witnesses forged for statements that may be false: what a checker accepts of them must be true all the same.
 
     forgeries     certificates whose statement and witness come from different places, or were changed in several places at once
     false_ones    those of them that the checker accepts and the oracle denies

@@ -1,4 +1,4 @@
-"""Dropping hypotheses: the engine on subjects whose truth is known, and the ablations against the ledger."""
+"""These tests drop hypotheses: the engine on subjects whose truth is known, and the ablations against the ledger."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The checker as a command, alone in an empty folder: exit codes, what it prints, files that are no certificates."""
+"""The checker is tested as a command, alone in an empty folder: exit codes, what it prints, files that are no certificates."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The numbers, fields and systems of the checker: primes, irreducibility, what is assumed without it, which systems are equal."""
+"""These tests are about numbers, fields and systems in the checker: primes, irreducibility, what is assumed without it, equal systems."""
 
 from __future__ import annotations
 

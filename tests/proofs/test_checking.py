@@ -1,4 +1,4 @@
-"""Checking from Python: certificates as dicts and as files, systems insisted on in every form, and what Rocq is asked about."""
+"""These tests check from Python: certificates as dicts and as files, systems insisted on in every form, and what Rocq is asked about."""
 
 from __future__ import annotations
 

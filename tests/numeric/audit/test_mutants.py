@@ -55,7 +55,7 @@ def test_the_plain_check_would_not_have_seen_it(name: str, plain: str) -> None:
 
 
 def _answers_everything() -> SimpleNamespace:
-    """Some answer of the right kind whatever the question."""
+    """This gives some answer of the right kind whatever the question."""
     return SimpleNamespace(
         identify=lambda y, u, order, block_rows: (
             np.eye(order) / 2,
