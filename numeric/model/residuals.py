@@ -1,4 +1,4 @@
-"""The residual r = y - (response of the model to u), with the initial state fitted or given.
+"""This is the residual r = y - (response of the model to u), with the initial state fitted or given.
 
 Whatever trajectory x+ = A x + B u is subtracted, r obeys the fault model x+ = A x + F v, r = C x + G v; the choice of initial
 state only decides how much free response stays in r. Fitting it by least squares takes out as much as can be.
@@ -44,7 +44,7 @@ CHUNK = 1024
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ResidualSignal(Shown):
-    """The residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
+    """This is the residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
 
     `store` holds r, and `x0` (n,) is the state at the first sample; `fitted` says whether it was fitted to this record. `covariance` (p, p)
     is that of r about zero, with fitted degrees of freedom taken off; `x0_covariance` (n, n) is zero where x0 was given. `observed` is the
