@@ -1,4 +1,4 @@
-"""Certificates by the name of their kind: what `faultspace.certify` is.
+"""This makes certificates by the name of their kind: what `faultspace.certify` is.
 
 KINDS      kind of a certificate -> what it needs to know besides the system, and the function that makes it
 certify    the certificate of a kind about a system, a pair of systems, or an experiment
