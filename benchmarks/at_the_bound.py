@@ -1,7 +1,8 @@
-"""How near models from faulty data come to the Cramer-Rao bound, by method, and how honest their standard errors are.
+"""This measures how near models from faulty data come to the Cramer-Rao bound, by method, and how honest their standard errors are.
 
     python benchmarks/at_the_bound.py [--systems 24] [--seed 1] [--cells paper 2in3out] [--samples 200 1000 10000] [--jobs 1]
     python benchmarks/at_the_bound.py --calibrate lags | ladder | angles | starts
+    python benchmarks/at_the_bound.py --orders
 
 Error: Frobenius norm of the error of the first 20 Markov parameters over the root of the trace of their Cramer-Rao bound. A row a cell
 and N: median with its 95 % bootstrap interval, and the 90 % quantile, of each method; a method that gives no model counts as infinite.
@@ -10,8 +11,10 @@ and N: median with its 95 % bootstrap interval, and the 90 % quantile, of each m
     ours            arx_reduction                               ours n+1  the same told one order too high
 
 cover: share of the Markov parameters that lie in their intervals of 95 %, and of the real parts of those poles that can be known to
-DETERMINED: errors of others are not linear. seconds: CPU seconds of the
-reduction from the windows. `--calibrate` shows ours with one constant of the method changed, on the same records: what it was chosen by.
+DETERMINED: errors of others are not linear. seconds: CPU seconds of the reduction from the windows.
+
+`--orders`: the order left open: right, open in a range that holds the true one, or wrong below or above. `--calibrate` shows ours with one
+constant of the method changed, on the same records: what it was chosen by.
 """
 
 from __future__ import annotations
@@ -75,7 +78,7 @@ class Outcome:
 
 @contextmanager
 def changed(replacements: tuple[tuple[object, str, object], ...]) -> Iterator[None]:
-    """Constants replaced for a while."""
+    """The constants are replaced for a while."""
     with ExitStack() as stack:
         for place, name, value in replacements:
             stack.enter_context(patch.object(place, name, value))
@@ -83,7 +86,7 @@ def changed(replacements: tuple[tuple[object, str, object], ...]) -> Iterator[No
 
 
 def error(method: Method, trial: Trial, bound: Uncertainty) -> float:
-    """Over the bound; infinite where there is no model."""
+    """Return the error over its bound, infinite where there is no model."""
     try:
         return relative_error(method(trial), trial.model, bound)
     except InvalidData:
@@ -91,7 +94,7 @@ def error(method: Method, trial: Trial, bound: Uncertainty) -> float:
 
 
 def compared(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
-    """All methods on one record."""
+    """Return what all methods find in one record."""
     trial = cell.trial(seed, number, samples)
     bound = cramer_rao(trial.model, trial.spectra, samples)
     errors = {name: error(method, trial, bound) for name, method in METHODS.items()}
@@ -111,7 +114,7 @@ def compared(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
 
 
 def calibrated(constant: str, cell: Cell, seed: int, number: int, samples: int) -> Outcome:
-    """Ours with each value of one constant on one record."""
+    """Return the errors of our method on one record, with each value of one constant."""
     trial = cell.trial(seed, number, samples)
     bound = cramer_rao(trial.model, trial.spectra, samples)
     errors = {}
@@ -121,8 +124,18 @@ def calibrated(constant: str, cell: Cell, seed: int, number: int, samples: int) 
     return Outcome(errors)
 
 
+def order_found(cell: Cell, seed: int, number: int, samples: int) -> str:
+    """Return what was said of the order of one record."""
+    trial = cell.trial(seed, number, samples)
+    orders = arx_reduction(trial.y, trial.u).orders
+    assert orders is not None
+    if orders.least <= trial.model.n <= orders.most:
+        return "right" if orders.decided else "open"
+    return "below" if orders.most < trial.model.n else "above"
+
+
 def summary(errors: Array, rng: np.random.Generator) -> str:
-    """Median [95 % interval] q90."""
+    """Return the median with its 95 % interval, and the 90 % quantile."""
     medians = np.median(rng.choice(errors, (2000, len(errors))), axis=1)
     # Without interpolation: errors may be infinite.
     low, high = np.quantile(medians, (0.025, 0.975), method="nearest")
@@ -130,7 +143,7 @@ def summary(errors: Array, rng: np.random.Generator) -> str:
 
 
 def line(cell: Cell, samples: int, outcomes: list[Outcome], names: list[str]) -> str:
-    """One row of the table."""
+    """Return one row of the table."""
     rng = np.random.default_rng(0)
     columns = [summary(np.array([outcome.errors[name] for outcome in outcomes]), rng) for name in names]
     hits = np.sum([outcome.covered for outcome in outcomes], axis=0)
@@ -143,6 +156,16 @@ def line(cell: Cell, samples: int, outcomes: list[Outcome], names: list[str]) ->
     return f"| {cell.name} | {samples} | {len(outcomes)} | {' | '.join(columns)} |"
 
 
+def print_orders(options: argparse.Namespace, run: joblib.Parallel) -> None:
+    """The table of orders left open."""
+    answers = ("right", "open", "below", "above")
+    print(f"seed {options.seed}\n\n| cell | N | systems | {' | '.join(answers)} |\n|{'---|' * 7}")
+    for samples in options.samples:
+        for cell in (cell for cell in CELLS if cell.kind in options.cells):
+            said = list(run(joblib.delayed(order_found)(cell, options.seed, number, samples) for number in range(options.systems)))
+            print(f"| {cell.name} | {samples} | {len(said)} | {' | '.join(str(said.count(answer)) for answer in answers)} |", flush=True)
+
+
 def main() -> None:
     """Print the table in Markdown."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -151,13 +174,17 @@ def main() -> None:
     parser.add_argument("--samples", type=int, nargs="+", default=[200, 1000, 10000])
     parser.add_argument("--cells", nargs="+", default=sorted({cell.kind for cell in CELLS}), choices=sorted({cell.kind for cell in CELLS}))
     parser.add_argument("--calibrate", choices=sorted(VARIANTS))
+    parser.add_argument("--orders", action="store_true", help="how often the order is found")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
+    run = joblib.Parallel(n_jobs=options.jobs)
+    if options.orders:
+        print_orders(options, run)
+        return
     names = list(VARIANTS[options.calibrate]) if options.calibrate else [*METHODS, "ours"]
     heads = ["cell", "N", "systems", *names, *([] if options.calibrate else ["cover Markov", "cover poles", "seconds"])]
     print(f"median [95 % interval of the median] 90 % quantile of error / bound; seed {options.seed}\n")
     print(f"| {' | '.join(heads)} |\n|{'---|' * len(heads)}")
-    run = joblib.Parallel(n_jobs=options.jobs)
     for samples in options.samples:
         for cell in CELLS:
             if cell.kind not in options.cells:

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from faultspace.numeric.bound.spectra import Spectra, Spectrum, filtered, through, total, white
 from faultspace.numeric.model.models import StateSpaceModel
-from faultspace.numeric.study.experiments import LOW_PASS, NOISE_GAIN, coloured_noise, response, study_faults
+from faultspace.numeric.study.runs import LOW_PASS, NOISE_GAIN, coloured_noise, response, study_faults
 from faultspace.numeric.study.systems import study_system
 
 Array = NDArray[np.float64]

@@ -4,9 +4,9 @@
 
 count       `count_faults` on random plants of order 5 with one input (`fault_dimension.py`): p outputs, n_v faults, noise so many
             decibels below each output, equal for spread 1, else the loudest to the faintest in that ratio, in random order
-space       `fault_space_by_rows` on the systems of the study with 0 .. 3 zeros, noise 40 dB down, n_v told: with the true A, C and with
-            those that PI-MOESP finds; zeta right, undecided, wrong; distance to the true space in % of its maximum; how often the
-            stated 95 % angle holds, where zeta is right and A, C are true
+space       `fault_space_by_rows` on the systems of the study with 0 .. 3 zeros, noise 40 dB down, n_v told: with the true A, C, with those
+            of PI-MOESP and those of the weighted reduction of an ARX model; zeta right, undecided, wrong; distance to the true space in
+            % of its maximum; how often the stated 95 % angle holds, where zeta is right and A, C are true
 calibrate   means of the likelihood ratios over what they should be, where the rows are laws: what MISFITS and SHAPE_MISFIT are set by
 
 Brackets are 95 % intervals: Wilson's of a rate, the bootstrap's of a median. Seconds are CPU seconds; hold BLAS to one thread.
@@ -24,7 +24,8 @@ from fault_dimension import fault_signals, noise, random_plant
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model.models import observability_matrix
+from faultspace.numeric import arx_reduction
+from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
 from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.rows.counting import count_faults
 from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
@@ -33,7 +34,7 @@ from faultspace.numeric.rows.laws import EXTRA, SHAPE_MISFIT, tested
 from faultspace.numeric.rows.space import fault_space_by_rows
 from faultspace.numeric.space.distances import principal_angles, two_sided_error
 from faultspace.numeric.space.result import FaultSpaceEstimate, orthonormal
-from faultspace.numeric.study.experiments import NOISE_GAIN, experiment
+from faultspace.numeric.study.runs import NOISE_GAIN, study_run
 from faultspace.numeric.study.systems import N_V, N_X, StudySystem, study_system
 
 Array = NDArray[np.float64]
@@ -70,7 +71,7 @@ def record(seed: int, p: int, n_v: int, decibels: float, spread: float, samples:
 
 
 def count(seed: int, trials: int, samples: int, clock: Clock) -> None:
-    """A line a cell: right, undecided, wrong."""
+    """Print a line for each cell: how many were right, undecided, wrong."""
     for p, n_v, decibels, spread in COUNT_CELLS:
         right = undecided = wrong = 0
         begin = time.process_time()
@@ -90,12 +91,12 @@ def count(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 
 def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
-    """A line a number of zeros, and one for all of them, with true and with identified A, C."""
+    """Print a line for each number of zeros, and one for all of them, with true and with identified A, C."""
     told: list[tuple[int, str, float, float, bool, float]] = []
     for trial in clock.range(trials):
         zeros = trial % 4
         system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
-        run = experiment(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
+        run = study_run(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
         for name, A, C in models(system, run.y, run.u):
             begin = time.process_time()
             found = fault_space_by_rows(run.y, run.u, A, C, n_v=N_V)
@@ -106,7 +107,7 @@ def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
                 inside = bool(principal_angles(system.Z, basis)[-1] <= found.uncertainty.angle())
             verdict = "right" if found.zeta == zeros else "undecided" if found.zeta is None else "wrong"
             told.append((zeros, f"{name} {verdict}", 100 * two_sided_error(system.Z, basis), seconds, inside, float(found.n_z - N_V)))
-    for name in ("true", "identified"):
+    for name in ("true", "PI-MOESP", "reduction"):
         for group in ((0,), (1,), (2,), (3,), (0, 1, 2, 3)):
             part = [row for row in told if row[0] in group and row[1].startswith(name)]
             if not part:
@@ -123,17 +124,28 @@ def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 
 def models(system: StudySystem, y: Array, u: Array) -> Iterator[tuple[str, Array, Array]]:
-    """Name, A, C: the true ones, and PI-MOESP's where it finds any."""
+    """Yield a name, A and C: the true ones, PI-MOESP's and those of the weighted reduction, where these find any."""
     yield "true", system.model.A, system.model.C
-    try:
-        model = pi_moesp(y, u, order=N_X, block_rows=20).model
-    except InvalidData:
-        return
-    yield "identified", model.A, model.C
+    for name, identified in (("PI-MOESP", pi_moesp_model), ("reduction", reduced_model)):
+        try:
+            model = identified(y, u)
+        except InvalidData:
+            continue
+        yield name, model.A, model.C
+
+
+def pi_moesp_model(y: Array, u: Array) -> StateSpaceModel:
+    """Return the model of PI-MOESP with the window of the study."""
+    return pi_moesp(y, u, order=N_X, block_rows=20).model
+
+
+def reduced_model(y: Array, u: Array) -> StateSpaceModel:
+    """Return the weighted reduction of an ARX model of high order."""
+    return arx_reduction(y, u, order=N_X).model
 
 
 def aligned(system: StudySystem, found: FaultSpaceEstimate, A: Array, C: Array) -> Array:
-    """The estimate in the true state basis."""
+    """Return the estimate in the true state basis."""
     true, other = (observability_matrix(*pair, 2 * N_X) for pair in ((system.model.A, system.model.C), (A, C)))
     to_true = np.linalg.lstsq(true, other, rcond=None)[0]
     return orthonormal(np.vstack([to_true @ found.F, found.G]))
@@ -146,7 +158,7 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
     for trial in clock.range(trials):
         zeros = trial % 4
         system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
-        run = experiment(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
+        run = study_run(system, np.random.SeedSequence([seed + trial, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
         data = joint_moments(run.y, run.u, N_X + 3)
         fits = course(data, 1, N_X - zeros + 3)
         for extra, ratios in degree.items():
@@ -169,19 +181,19 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 
 def quantiles(values: list[float]) -> str:
-    """Mean and some quantiles."""
+    """Return the mean and some quantiles, as text."""
     q = np.quantile(values, [0.5, 0.9, 0.99])
     return f"mean {np.mean(values):.2f}, median {q[0]:.2f}, 90 % {q[1]:.2f}, 99 % {q[2]:.2f} of {len(values)}"
 
 
 def rate(count: int, total: int) -> str:
-    """In %, with Wilson's interval."""
+    """Return the rate in %, with Wilson's interval."""
     interval = scipy.stats.binomtest(count, total).proportion_ci(method="wilson")
     return f"{100 * count / total:.0f} [{100 * interval.low:.0f}, {100 * interval.high:.0f}] %"
 
 
 def median(errors: Array) -> str:
-    """With its bootstrap interval, and the 90 % quantile."""
+    """Return the median with its bootstrap interval, and the 90 % quantile."""
     random = np.random.default_rng(0)
     medians = np.median(random.choice(errors, (500, len(errors))), axis=1)
     low, high = np.quantile(medians, [0.025, 0.975])
@@ -195,7 +207,7 @@ class Clock:
         self.end, self.left = time.monotonic() + seconds, calls
 
     def range(self, trials: int) -> Iterator[int]:
-        """0, 1, .., trials - 1, or as far as the time of this call goes."""
+        """Yield 0, 1, .., trials - 1, or as far as the time of this call goes."""
         stop = time.monotonic() + max(self.end - time.monotonic(), 0.0) / max(self.left, 1)
         self.left -= 1
         for trial in range(trials):
@@ -205,7 +217,7 @@ class Clock:
 
 
 def main() -> None:
-    """Parse, run, print."""
+    """Parse the arguments, run what they ask for, and print it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("table", choices=("count", "space", "calibrate"))
     parser.add_argument("--trials", type=int, default=30)

@@ -11,12 +11,22 @@ fault_dimension       how many faults a residual shows, or "undecided"
 fault_space           all fault columns [f; g] that explain the residual
 reconstruct_fault     the fault signal for a chosen pair (F, G)
 
-`identify` calls these very functions, and so does the audit's reference. The folders:
+`identify` calls these very functions, and so does the audit's reference. Estimators that come nearer to what the data allow stand beside
+them, and `identify` does not call them yet:
+
+arx_reduction         A, B, C, D under strong coloured faults, with standard errors; arx_reduction_experiments: from several experiments
+cramer_rao            the least standard deviations that any unbiased estimate of A, B, C, D can have
+count_faults          how many faults act on outputs and inputs, without a model
+fault_space_by_rows   all fault columns, from the laws that outputs and inputs obey
+
+The folders:
 
 data          records, readers, checks of what comes in
-model         compression, PI-MOESP, PO-MOESP, B and D, the residual
+model         compression, PI-MOESP, PO-MOESP, ARX and its reduction, B and D, the residual
 count         the number of faults: rank gaps, kernel rows, against a healthy record
 space         the fault space, by ranks or by likelihood, with its uncertainty
+rows          the kernel rows of outputs and inputs: number of faults and fault space without a residual
+bound         the Cramer-Rao bound of the model
 signal        reconstruction, the zeros that limit it, plots
 rounding      how far rounding may carry the answers
 report        what the command writes and says

@@ -8,9 +8,9 @@ from .data.sources import record_from as record_from
 from .model.asymptotic_likelihood import arx_reduction as arx_reduction
 from .model.asymptotic_likelihood import arx_reduction_experiments as arx_reduction_experiments
 from .model.models import StateSpaceModel as StateSpaceModel
+from .model.moesp_model import MoespModel as MoespModel
+from .model.moesp_model import OrderUndecided as OrderUndecided
 from .model.order_evidence import OrderEvidence as OrderEvidence
-from .model.past_inputs import MoespModel as MoespModel
-from .model.past_inputs import OrderUndecided as OrderUndecided
 from .model.past_inputs import pi_moesp as pi_moesp
 from .model.past_inputs import pi_moesp_experiments as pi_moesp_experiments
 from .model.past_outputs import po_moesp as po_moesp

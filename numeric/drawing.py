@@ -1,6 +1,7 @@
 """Pictures of what was identified. Every function draws into `ax` (a matplotlib Axes; a new figure without one) and returns it.
 
 plot_singular_values          of PI-MOESP, with the order
+plot_conditions               singular values of the conditions on a fault column, with the dimension of the fault space
 plot_window_ranks             singular values of R_s and R_(s+1), with thresholds and chosen ranks
 plot_zeros_and_poles          in the complex plane, with the unit circle
 plot_measured_and_simulated   outputs and the model's, one below the other
@@ -8,7 +9,6 @@ plot_fault_signal             the reconstructed signals, the samples shaded that
 plot_stored_signal            the same for a signal of any length in a store
 plot_residual                 a residual, one output below the other
 plot_levels                   what the best law on so many mixed outputs leaves, which jumps at the number of faults
-plot_principal_angles         between two subspaces, in degrees
 
 matplotlib is imported when a figure is made, so that the package does without it. Colours are ones that the colour-blind tell
 apart, and never the only difference. Long signals are drawn as the band between their extremes.
@@ -34,7 +34,6 @@ MOST_DRAWN = 1 << 15  # rows of a stored signal that are drawn: of a longer one 
 TICKS = 7
 MOST_CHANNELS = 8
 LOWEST = 1e-18  # relative: smaller singular values are drawn there
-ANGLE_FLOOR = 1e-14  # degrees, below rounding
 
 
 def plot_singular_values(values: ArrayLike, *, order: int | None = None, ax: Any = None) -> Any:
@@ -47,7 +46,25 @@ def plot_singular_values(values: ArrayLike, *, order: int | None = None, ax: Any
     ax.semilogy(count[n:], sigma[n:], "o", color=BLUE, markersize=5, fillstyle="none", label="not taken" if n else "no order taken")
     if 0 < n < len(sigma):
         ax.axvline(n + 0.5, color=GREY, linewidth=0.9, linestyle="--")
-    ax.set(xlabel="number", ylabel="singular value", title="Singular values and order")
+    ax.set(xlabel="number", ylabel="singular value (outputs scaled)", title="Singular values and order")
+    _whole_numbers(ax)
+    return _finished(ax, legend=True)
+
+
+def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any = None) -> Any:
+    """Draw the singular values of the conditions on a fault column [f; g] relative to the largest, from the largest on: the first
+    `equations` of them filled, the rest, if any, open. The legend says of the others what `others` tells. Raises InvalidData where there
+    are none.
+    """
+    sigma = _spectrum(values, "values")
+    if not len(sigma):
+        raise InvalidData("there is no condition on a fault column, so that there is nothing to draw")
+    ax = _axes(ax)
+    sigma, count = sigma / sigma[0], np.arange(1, len(sigma) + 1)
+    ax.semilogy(count[:equations], sigma[:equations], "o", color=BLUE, markersize=5, label=f"{equations} independent conditions")
+    style = {"color": BLUE, "markersize": 5, "fillstyle": "none"}
+    ax.semilogy(count[equations:], sigma[equations:], "o", label=others, **style)
+    ax.set(xlabel="number", ylabel="singular value over the largest", title="Conditions on a fault column, and the fault space")
     _whole_numbers(ax)
     return _finished(ax, legend=True)
 
@@ -106,7 +123,7 @@ class WindowRanks(Protocol):
 
 def plot_window_ranks(dimension: WindowRanks, *, window: int | None = None, ax: Any = None) -> Any:
     """Draw the singular values of R_s (circles) and R_(s+1) (squares) with their thresholds; those above are filled, the legend has the
-    ranks.
+    ranks. Under noise these are no ranks, and the legend does not call them so.
 
     `window` is s, by default the longest with a successor. Raises InvalidData for an s that was not looked at.
     """
@@ -115,20 +132,22 @@ def plot_window_ranks(dimension: WindowRanks, *, window: int | None = None, ax: 
     if not 1 <= s <= longest:
         raise InvalidData(f"window = {window} was not looked at; the record has windows 1 to {longest} with a successor each")
     ax = _axes(ax)
+    exact = dimension.regime == "rounding"
     for number, marker, colour in ((s, "o", BLUE), (s + 1, "s", ORANGE)):
         sigma = _spectrum(dimension.singular_values[number - 1], "singular values")
         rank, threshold = dimension.ranks[number - 1], dimension.thresholds[number - 1]
         count = np.arange(1, len(sigma) + 1)
-        name = "$R_{s}$" if number == s else "$R_{s+1}$"
-        ax.semilogy(count[:rank], sigma[:rank], marker, color=colour, markersize=4.5, label=f"{name}, s = {s}: rank {rank} of {len(sigma)}")
+        name = f"$R_{{{number}}}$"
+        found = f"rank {rank} of {len(sigma)}" if exact else f"{rank} of {len(sigma)} above what noise reaches"
+        ax.semilogy(count[:rank], sigma[:rank], marker, color=colour, markersize=4.5, label=f"{name}: {found}")
         ax.semilogy(count[rank:], sigma[rank:], marker, color=colour, markersize=4.5, fillstyle="none")
         style = "--" if number == s else ":"
-        ax.axhline(threshold, color=colour, linewidth=1, linestyle=style, label=f"threshold of {name}")
+        ax.axhline(threshold, color=colour, linewidth=1, linestyle=style, label=f"{'threshold' if exact else 'reach of noise'}, {name}")
     gap = dimension.gaps[s - 1]
     verdict = "undecided" if dimension.n_v is None else f"$n_v$ = {dimension.n_v}"
     counts = f"ranks differ by {gap}; {verdict}"
-    title = counts if dimension.regime == "rounding" else "noise fills every direction, their ranks do not count faults"
-    ax.set(xlabel="number", ylabel="singular value", title=f"Windows of the residual: {title}")
+    title = counts if exact else "noise fills every direction, their ranks do not count faults"
+    ax.set(xlabel="number", ylabel="singular value (channels of mean square one)", title=f"Windows of the residual: {title}")
     _whole_numbers(ax)
     return _finished(ax, legend=True)
 
@@ -181,7 +200,8 @@ def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, n
     first, last = (0, N) if trusted is None else trusted
     kept = values[first:last] if first < last else values
     middle, size = _centres(kept)
-    levels = _stacked(ax, names or [f"v{j + 1}" for j in range(m)], "signals", size)
+    own = ["v1 (in the scale of F and G)"] if m == 1 else [f"v{j + 1}" for j in range(m)]
+    levels = _stacked(ax, names or own, "signals", size)
     for j, level in enumerate(levels):
         # What is not determined may be large: the scale is that of the rest.
         drawn = np.clip((values[:, j] - middle[j]) / size[j], -1.2, 1.2)
@@ -232,36 +252,14 @@ def plot_levels(levels: Sequence[Level], n_v: int | None, *, ax: Any = None) -> 
     by_count = sorted(levels, key=lambda level: level.outputs)
     count, middle = [level.outputs for level in by_count], [level.middle for level in by_count]
     reach = [(level.largest - level.least) / 2 for level in by_count]
-    ax.errorbar(count, middle, yerr=reach, fmt="o-", color=BLUE, linewidth=1, capsize=4, label="noise left by the best law")
+    label = "noise left by the best law; bars: least to largest over the mixtures"
+    ax.errorbar(count, middle, yerr=reach, fmt="o-", color=BLUE, linewidth=1, capsize=4, label=label)
     if n_v:
         ax.axvline(n_v + 0.5, color=GREY, linestyle="--", linewidth=1, label=f"$n_v$ = {n_v}: no law up to here")
     verdict = "undecided" if n_v is None else f"{n_v}"
     ax.set(xlabel="outputs mixed", ylabel="log noise power (nats)", title=f"How many outputs still obey a common law? Faults: {verdict}")
     ax.set_xticks(count)
     return _finished(ax, legend=True)
-
-
-def plot_principal_angles(angles: ArrayLike, *, names: tuple[str, str] = ("first", "second"), ax: Any = None) -> Any:
-    """Draw principal angles (radians, ascending, as `distances.principal_angles` gives them), in degrees on a logarithmic scale."""
-    given = np.asarray(angles, dtype=np.float64).ravel()
-    if not np.all(np.isfinite(given)) or np.any(given < 0):
-        raise InvalidData("angles: got negative or not finite ones; radians from 0 to pi/2 are needed")
-    ax = _axes(ax)
-    degrees = np.maximum(np.degrees(given), ANGLE_FLOOR)
-    count = np.arange(1, len(given) + 1)
-    low = 10.0 ** np.floor(np.log10(degrees.min(initial=1.0)) - 0.5)
-    ax.set_yscale("log")
-    ax.vlines(count, low, degrees, color=BLUE, linewidth=2)
-    ax.plot(count, degrees, "o", color=BLUE, markersize=6)
-    plate = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
-    for number, angle in zip(count, degrees, strict=True):
-        text = f"{angle:.2g}°" if angle > ANGLE_FLOOR else "0°"
-        ax.annotate(text, (number, angle), xytext=(7, 0), textcoords="offset points", va="center", fontsize=9, bbox=plate)
-    ax.axhline(90, color=GREY, linewidth=0.9, linestyle="--", label="right angle")
-    ax.set(ylim=(low, 300), xlim=(0.5, len(given) + 0.9), xlabel="number", ylabel="angle (degrees)")
-    ax.set_title(f"Principal angles, {names[0]} to {names[1]}")
-    _whole_numbers(ax)
-    return _finished(ax, legend=True, place="lower right")
 
 
 def _axes(ax: Any) -> Any:
@@ -300,6 +298,7 @@ def _spectrum(values: ArrayLike, name: str) -> Array:
 
 def _whole_numbers(ax: Any) -> None:
     ticker: Any = import_module("matplotlib.ticker")
+    ax.set_xlim(left=0.4)  # there is no number zero
     ax.xaxis.set_major_locator(ticker.MaxNLocator(integer=True, min_n_ticks=1))
 
 

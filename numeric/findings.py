@@ -13,7 +13,7 @@ from .count.against_healthy import FaultsAgainstHealthy
 from .count.mean_shift import MeanShift
 from .count.rank_gap import FaultDimension
 from .data.records import Record
-from .model.past_inputs import MoespModel
+from .model.moesp_model import MoespModel
 from .model.residuals import ResidualSignal
 from .signal.reconstruction import Reconstruction
 from .signal.residual_sizes import ResidualSizes
@@ -25,7 +25,7 @@ COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Findings:
-    """What `identify` has found so far. A field is None where it was not asked for, because of what came before.
+    """This is what `identify` has found so far. A field is None where it was not asked for, because of what came before.
 
     The fields are those of `Identification`, which `identify` returns and whose docstring explains them one by one.
     """

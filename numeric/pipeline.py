@@ -41,7 +41,8 @@ from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .data.records import OnProgress, Passes, Record, silent
 from .data.sources import Source, record_from
 from .findings import Findings
-from .model.past_inputs import MoespModel, OrderUndecided, pi_moesp
+from .model.moesp_model import MoespModel, OrderUndecided
+from .model.past_inputs import pi_moesp
 from .model.residuals import ResidualSignal, growing_modes, residual
 from .result import Identification
 from .signal.residual_sizes import loudest, residual_sizes

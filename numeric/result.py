@@ -18,7 +18,7 @@ from .findings import Findings
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Identification(Findings):
-    """What `identify` found. A field is None where it was not asked for, because of what came before.
+    """This is what `identify` found. A field is None where it was not asked for, because of what came before.
 
     model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
                      stays open, for which singular_values tell the choices
@@ -38,7 +38,14 @@ class Identification(Findings):
     stated.
 
     `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
-    `to_scipy()` and `to_mat(path)` hand it to other programs.
+    `to_scipy()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there is none, and
+    ImportError where it needs a package that is not installed. Source: [V93], [G25].
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, identify
+    >>> u = np.random.default_rng(1).standard_normal((400, 1))
+    >>> identify(StateSpaceModel([[0.5]], [[1.0]], [[1.0], [2.0]], [[0.0], [1.0]]).simulate(u), u)
+    <Identification of 400 samples: order 1, n_v 0, n_z None, no signal>
     """
 
     def __repr__(self) -> str:

@@ -16,7 +16,7 @@ from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..proofs.checking import CheckedFile, ask_rocq, check_file
 from ..proofs.trust import checker
-from .consoles import answers, print_json
+from .consoles import answers, paragraph, print_json
 from .failures import NOT_AS_EXPECTED, say
 from .progress import working
 
@@ -65,13 +65,13 @@ def _show(console: Console, file: CheckedFile, *, as_json: bool) -> None:
         heading = Text.assemble((file.result, STYLES[file.result]), f"  {name}")
         if "sha256" in answer:
             heading.append(f"  {answer['kind']}, SHA-256 {answer['sha256'][:12]}")
-        console.print(heading, soft_wrap=True)
-        console.print(Text("    " + (answer.get("statement") or answer["reason"])), soft_wrap=True)
+        paragraph(console, heading)
+        paragraph(console, answer.get("statement") or answer["reason"], "    ")
         for assumption in answer.get("assumes", []):
-            console.print(Text(f"    assumed, not verified: {assumption}"), soft_wrap=True)
+            paragraph(console, assumption, "    assumed, not verified: ")
         if file.rocq is not None:
             verdict = file.rocq["result"]
-            console.print(Text.assemble("    Rocq: ", (verdict, STYLES[verdict]), f", {file.rocq['reason']}"), soft_wrap=True)
+            paragraph(console, Text.assemble((verdict, STYLES[verdict]), f", {file.rocq['reason']}"), "    Rocq: ")
 
 
 def _system(name: str) -> checker.System:

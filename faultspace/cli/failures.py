@@ -38,8 +38,7 @@ def guarded(body: Callable[[], int]) -> int:
     except MemoryError:
         say("got a task that does not fit into memory, expected a smaller one")
         return BAD_INPUT
-    except KeyboardInterrupt:
-        say("interrupted")
+    except KeyboardInterrupt:  # the command line says so, as of an interrupt that comes before the body
         return INTERRUPTED
     except BrokenPipeError:
         forget_output()

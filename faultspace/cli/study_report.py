@@ -22,7 +22,8 @@ from rich.table import Table
 
 from ..base.errors import InvalidInput, quote_path
 from ..numeric.study.cases import LIKELIHOOD
-from ..numeric.study.studies import QUANTILES, Group, Study, by_phase, by_zeros
+from ..numeric.study.groups import QUANTILES, Group, by_phase, by_zeros
+from ..numeric.study.studies import Study
 from .failures import say
 
 DOCUMENT, CASES, SUMMARY = "studies.json", "cases.csv", "summary.md"

@@ -38,7 +38,9 @@ def cramer_rao(model: StateSpaceModel, spectra: Spectra, N: int) -> Uncertainty:
     stays the same. Raises InvalidData for a model that is not stable, spectra that do not fit it, and a disturbance without power in some
     direction.
 
-    >>> from faultspace.numeric.bound.spectra import Spectra, white
+    >>> import numpy as np
+    >>> from faultspace.numeric import Spectra, StateSpaceModel, cramer_rao
+    >>> from faultspace.numeric.bound.spectra import white
     >>> static = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), [[2.0]])
     >>> cramer_rao(static, Spectra(white([[4.0]]), white([[1.0]])), 100).markov(1).tolist()
     [[[0.05]]]

@@ -28,7 +28,18 @@ Spectrum = Callable[[Array], ComplexArray]
 
 @dataclass(frozen=True)
 class Spectra:
-    """`input` (M, n_u, n_u) and `disturbance` (M, p, p), of faults and noise together, at given angles (M,)."""
+    """The spectra of the input and of the disturbance, faults and noise together, that a bound is computed from [L99].
+
+    Each is a function of angles (M,) in radians a sample. `input` returns an array of the shape (M, n_u, n_u) in squared units of u,
+    `disturbance` one of (M, p, p) in squared units of y; `white` and `filtered` of the same module make such functions. Raises nothing.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import Spectra
+    >>> from faultspace.numeric.bound.spectra import filtered, white
+    >>> spectra = Spectra(input=white([[4.0]]), disturbance=filtered([1.0], [1.0, -0.5]))
+    >>> spectra.disturbance(np.array([0.0]))[0, 0, 0].real.round(6).tolist()
+    4.0
+    """
 
     input: Spectrum
     disturbance: Spectrum

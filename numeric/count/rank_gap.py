@@ -1,4 +1,4 @@
-"""How many independent faults a residual carries, with the evidence, or an honest "undecided".
+"""This counts how many independent faults a residual carries, with the evidence, or an honest "undecided".
 
 For exact residuals of x+ = A x + F v, r = C x + G v with exciting v, rank R_(s+1) - rank R_s = (normal rank) + #{left indices
 above s}: it falls with s and equals the number of faults n_v from the lag on, whether or not the system is controllable or
@@ -59,10 +59,17 @@ DIED_OUT = 1e-6
 
 @dataclass(frozen=True, repr=False)
 class FaultDimension(Shown):
-    """The answer `n_v` (None: undecided) with its `reason` and evidence; `regime` is "rounding" or "noise".
+    """This is the number of faults `n_v` in a residual, None where it is undecided, with its `reason` and the evidence [G25].
 
-    `ranks`, `thresholds`, `margins`, `singular_values` belong to `windows`; `gaps[i]` to s = windows[i]. `levels`: what the
-    kernel-row test saw (noise regime only).
+    `regime` is "rounding" or "noise". `ranks`, `thresholds`, `margins` and `singular_values` (s p,) belong to `windows`, which count
+    samples; `gaps[i]` belongs to s = windows[i], and `channel_scales` (p,) are the units of r. `levels` are what the kernel-row test saw,
+    in the noise regime only. Raises ImportError in `plot()` without matplotlib.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_dimension
+    >>> v = np.random.default_rng(1).standard_normal((200, 1))
+    >>> fault_dimension(np.hstack([v, 2 * v]))
+    <FaultDimension: number of faults n_v: 1>
     """
 
     n_v: int | None
@@ -128,6 +135,8 @@ def fault_dimension(r: ArrayLike | Stored, *, block_rows: int | None = None, u: 
     fault, `fault_dimension_against_healthy` sees more. Raises InvalidData for NaN, constant or too few samples and for u of
     another length. Source: [G25] proposition 3, repaired; thresholds [GVL13], [DS01].
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_dimension
     >>> v = np.random.default_rng(1).standard_normal((200, 1))
     >>> fault_dimension(np.hstack([v, 2 * v])).n_v
     1

@@ -1,4 +1,4 @@
-"""A measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
+"""This is a measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
 
 stored          a SampleStore of an array; silent: progress that nobody hears
 in_memory       the samples of a result that keeps them in a store, as an array
@@ -110,10 +110,18 @@ class Channels:
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """`store` holds rows [u, y] of finite numbers, `offset` (k,) is taken off every row that is read; `format` is how they came.
+    """A measured record: y (N, p) and u (N, n_u) with the names of their channels, read in pieces and never held in memory as a whole.
 
-    `single`: whether an output was given in float32, so that it is known to float32 rounding only; `length`: samples of the store, from the
-    first on, that belong to it (None: all).
+    `len` is the number of samples, `outputs` and `inputs` are the names, `y` and `u` read all samples, and iterating gives pieces (y, u) in
+    the order of time. The `store` holds rows [u, y] of finite numbers in the units that they came in, `offset` (k,) is taken off every row
+    that is read, and `format` says how they came. `single` says whether an output was given in float32, so that it is known to float32
+    rounding only; `length` samples of the store, from the first on, belong to the record (None: all). Raises InvalidInput where the
+    disk has no room for what is written.
+
+    >>> from faultspace.numeric import record_from
+    >>> record = record_from([[1.0], [3.0]], [[0.0], [1.0]])
+    >>> len(record), record.y.tolist(), record.about_means().y.tolist()
+    (2, [[1.0], [3.0]], [[-1.0], [1.0]])
     """
 
     store: SampleStore

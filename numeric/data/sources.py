@@ -1,4 +1,4 @@
-"""Whatever holds a record, as a Record: arrays, data frames, files, pieces that come one after the other.
+"""This makes a Record of whatever holds one: arrays, data frames, files, pieces that come one after the other.
 
 record_from     the Record of arrays, frames, a path, pieces (y, u) or a Record
 Source          what the first argument may be
@@ -32,13 +32,16 @@ def record_from(
     outputs: Sequence[str] | None = None,
     on_progress: OnProgress | None = None,
 ) -> Record:
-    """Return the record of y (N, p) and u (N, n_u): arrays, or data frames, whose columns give the names, in any
-    units; or of y alone: a Record, the path of a
-    file (then `inputs` and `outputs` choose its channels), a frame (likewise), or pieces (y, u) in the order of time, read once.
+    """Return the Record of whatever holds one: arrays, data frames, a file, pieces or a Record.
+
+    y (N, p) and u (N, n_u) are arrays or data frames, whose columns give the names, one row a sample, in any units. Without u, y holds
+    both: a Record, the path of a file (`inputs` and `outputs` then choose its channels), a frame (likewise), or pieces (y, u) in the order
+    of time, which are read once and have any number of samples.
 
     `inputs` and `outputs` otherwise name the channels, u1, u2, ... and y1, y2, ... by default. Raises InvalidData for what holds no
     record, and InvalidInput for a file that cannot be read. It converts only, so that it has no source.
 
+    >>> from faultspace.numeric import record_from
     >>> record = record_from([[1.0], [2.0]], [[0.0], [1.0]], outputs=["level"])
     >>> len(record), record.inputs, record.outputs
     (2, ('u1',), ('level',))

@@ -1,4 +1,4 @@
-"""Tables in text files: which character separates the columns, whether a line names them, and their values, piece by piece.
+"""This reads tables in text files: which character separates the columns, whether a line names them, and their values, piece by piece.
 
 TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns
 SEPARATORS         the separators that are tried, with the names they have in messages
@@ -6,6 +6,11 @@ PIECE              lines parsed at once
 
 The separator is the one that splits every line of the beginning into equally many fields, more than one; lines that begin with # and empty
 lines do not count. The first line names the columns where one of its fields is no number.
+
+pandas.read_csv in chunks and pyarrow.csv.open_csv were tried instead: both take a column with a word, 1,5 or 1_000 in it for text, without
+a complaint or the line's number, and "NA" for a missing value; pandas renames a name that stands twice and fills short lines with NaN, and
+pyarrow keeps one of two columns of one name, reads 0x10 as 16 and knows no comments. Each of these would have to be looked for around the
+call, so the reader would not become shorter, and neither package need be installed here.
 """
 
 from __future__ import annotations

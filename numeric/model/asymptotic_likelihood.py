@@ -50,6 +50,7 @@ def arx_reduction(
     does not excite lags + 1 samples, an unstable plant, NaN.
 
     >>> import numpy as np
+    >>> from faultspace.numeric import arx_reduction
     >>> u = np.random.default_rng(1).standard_normal((300, 1))
     >>> y = np.zeros((300, 1))
     >>> for k in range(299):
@@ -66,10 +67,11 @@ def arx_reduction_experiments(
 ) -> ReducedModel:
     """One model of several experiments (y, u) with the same channels and units, each with an own initial state and length [W89].
 
-    Each y (N_i, p), u (N_i, n_u); arguments and result are those of `arx_reduction`. Raises InvalidData as there, and where no experiment
-    is given.
+    `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u); the other arguments and the result are those of
+    `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
 
     >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, arx_reduction_experiments
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
     >>> inputs = np.split(np.random.default_rng(1).standard_normal((300, 1)), [100])
     >>> arx_reduction_experiments([(model.simulate(u), u) for u in inputs], order=1).model.A.round(6).tolist()
@@ -87,7 +89,7 @@ def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | 
         evidence, found = order_tried(sources, lengths, carried)
         notes = found.notes
         if not evidence.decided:
-            notes += (f"the data leave orders {evidence.least} to {evidence.most} open; {evidence.best} has the best criterion",)
+            notes += (f"the data leave orders {evidence.least} to {evidence.most} open; the model has {evidence.best}",)
         found = replace(found, orders=evidence, notes=notes)
     else:
         found = reduced(merge_windows([arx_windows(source, carried) for source in sources]), n)

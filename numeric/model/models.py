@@ -1,4 +1,4 @@
-"""A linear model x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) in floats: what is identified, simulated and written to files.
+"""This is a linear model x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k) in floats: what is identified, simulated and written to files.
 
 StateSpaceModel         the matrices, checked and read-only, with simulation, Markov parameters and conversions
 Simulator               the response to inputs that come in pieces, many samples at a time by matrix products
@@ -43,9 +43,16 @@ def _matrix(values: ArrayLike, name: str) -> Array:
 
 @dataclass(frozen=True, eq=False, init=False)
 class StateSpaceModel:
-    """A (n, n), B (n, n_u), C (p, n), D (p, n_u): anything numpy reads as a matrix, copied to read-only float64.
+    """This is a linear model in floats: x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k).
 
-    InvalidData where shapes do not fit or entries are not finite. n may be 0: arrays of shape (0, 0), (0, n_u), (p, 0) and (p, n_u).
+    A (n, n), B (n, n_u), C (p, n) and D (p, n_u) are anything that numpy reads as a matrix, in the units of the data, and are copied to
+    read-only float64. n may be 0: the arrays then have the shapes (0, 0), (0, n_u), (p, 0) and (p, n_u). Raises InvalidData where shapes do
+    not fit or entries are not finite.
+
+    >>> from faultspace.numeric import StateSpaceModel
+    >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
+    >>> model.is_stable, model.simulate([1.0, 0.0, 0.0]).ravel().tolist()
+    (True, [0.0, 1.0, 0.5])
     """
 
     A: Array

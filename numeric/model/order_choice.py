@@ -1,8 +1,8 @@
 """Orders 0, 1, 2, .. tried on one record, with the evidence for each.
 
 The first part of every experiment makes models that are then tried on the part held back; the windows of both parts together, which share
-`lags` samples at the cut, are those of the whole record, on which the criterion is computed. Orders are tried until PATIENCE in a row have
-not bettered it: a lightly damped resonance takes two states, two of them four.
+`lags` samples at the cut, are those of the whole record, on which the criteria are computed. Orders are tried until PATIENCE in a row have
+not bettered the second of them: a lightly damped resonance takes two states, two of them four.
 
 order_tried     the evidence, and the model of the best order
 """
@@ -48,13 +48,12 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int) ->
                 raise
             break
         parameters = n * (whole.p + whole.n_u) + whole.p * whole.n_u
-        criterion = found.cost + parameters * np.log(whole.rows)
         one_step, free_run = _fits(training, held, n)
-        rows.append(
-            OrderRow(n, found.cost, float(criterion), 0.0, one_step, free_run, float(gaps[n - 1]) if 0 < n <= len(gaps) else float("nan"))
-        )
+        gap = float(gaps[n - 1]) if 0 < n <= len(gaps) else float("nan")
+        row = OrderRow(n, found.cost, parameters, float(found.cost + parameters * np.log(whole.rows)), 0.0, one_step, free_run, gap)
+        rows.append(row)
         models.append(found)
-        best, since = (criterion, 0) if criterion < best else (best, since + 1)
+        best, since = (row.akaike, 0) if row.akaike < best else (best, since + 1)
         if since == PATIENCE:
             break
     evidence = weighed(rows)

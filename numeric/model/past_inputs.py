@@ -1,4 +1,4 @@
-"""PI-MOESP [V93]: a state-space model from inputs and outputs with coloured additive disturbances or faults, past inputs as instruments.
+"""PI-MOESP [V93] makes a model from inputs and outputs with coloured additive disturbances or faults, past inputs as instruments.
 
 1  L31, L32, L33 from the compression of [Uf; Up; Yf]: L32 is Yf seen along the past inputs, with the future inputs projected out.
 2  The column space of L32 tends into that of O_s where the faults are uncorrelated with the inputs at lags of both signs, and to all of it
@@ -24,7 +24,7 @@ MoespModel                  the result: model, order, gap, singular values, x0, 
 Gap, choose_order           the order rule
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,131 +33,17 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ...base.sheets import Shown
-from ..data.plain import plain
 from ..data.validation import constant_channels, experiment, positive
-from ..drawing import plot_singular_values
 from ..model.compression import EPS, Compression, Pieces, compress, compress_chunks, merge
 from ..model.input_matrices import by_moesp, by_output_error, growth
 from ..model.models import Simulator, StateSpaceModel
+from ..model.moesp_model import Gap, MoespModel, OrderUndecided
 
 CLEAN = 3.0
 LEAD = 1.5
 UNDETERMINED = 1e8  # condition of O_(s-1) above which A is not determined: told of an order that was given, refused for one that was not
 EXCITED = 1e-13  # relative to its length and times the rows: what a direction of the inputs must exceed to be excited
 AMPLIFICATION = 1e6  # growth over the record up to which an unstable model is still fitted by output error: ten digits remain
-
-
-class OrderUndecided(InvalidData):
-    """No order could be chosen from data that are good enough for a model of a given order; `singular_values` are those of step 2."""
-
-    def __init__(self, message: str, singular_values: Array) -> None:
-        super().__init__(message)
-        self.singular_values = singular_values
-
-
-@dataclass(frozen=True)
-class Gap:
-    """The singular value of the order is `ratio` times the next; the largest ratio elsewhere stands beside it, and `clean` says whether
-    the rule stands behind the order."""
-
-    order: int
-    ratio: float
-    runner_up: int
-    runner_up_ratio: float
-    clean: bool
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class MoespModel(Shown):
-    """What was identified and how far to trust it.
-
-    `model` holds A (n, n), B (n, n_u), C (p, n) and D (p, n_u), which stand here too. `singular_values` are all of step 2, falling, and
-    `gap` is that at the order taken. x0 (n,) is the state at the first sample of the (first) experiment, None where no data were read for
-    it. `residual_covariance` (p, p) is the mean of r r^T for r = y - simulated y, with the parameters fitted taken off the number of
-    samples, or None. `condition_numbers` are "inputs" of [Uf; Up], "observability" of O_(s-1) and "input matrices" of the regression for
-    B, D; `route` is that of the compression. `warnings` are what a user must know; an unstable A stands there and is never altered.
-    """
-
-    model: StateSpaceModel
-    order: int
-    singular_values: Array
-    gap: Gap
-    initial_states: tuple[Array, ...]
-    residual_covariance: Array | None
-    condition_numbers: dict[str, float]
-    route: str
-    warnings: tuple[str, ...]
-
-    @property
-    def A(self) -> Array:
-        """Return the state matrix (n, n)."""
-        return self.model.A
-
-    @property
-    def B(self) -> Array:
-        """Return the input matrix (n, n_u)."""
-        return self.model.B
-
-    @property
-    def C(self) -> Array:
-        """Return the output matrix (p, n)."""
-        return self.model.C
-
-    @property
-    def D(self) -> Array:
-        """Return the direct feedthrough (p, n_u)."""
-        return self.model.D
-
-    @property
-    def x0(self) -> Array | None:
-        """Return the state (n,) at the first sample of the first experiment."""
-        return self.initial_states[0] if self.initial_states else None
-
-    def to_control(self) -> Any:
-        """Return the model as control.StateSpace. Raises ImportError without python-control."""
-        return self.model.to_control()
-
-    def to_scipy(self) -> Any:
-        """Return the model as scipy.signal.dlti."""
-        return self.model.to_scipy()
-
-    @property
-    def title(self) -> str:
-        """Return what the model is, on one short line."""
-        stability = "stable" if self.model.is_stable else "NOT stable"
-        return f"model of order {self.order}, {self.model.n_u} inputs, {self.model.p} outputs, {stability}"
-
-    def sheet(self) -> Iterator[tuple[str, str]]:
-        """Yield what there is to say of it, as pairs of a name and a value."""
-        clean = "clean" if self.gap.clean else "NOT clean"
-        yield "singular value of the order", f"{self.gap.ratio:.3g} times the next ({clean})"
-        yield "largest ratio elsewhere", f"{self.gap.runner_up_ratio:.3g}, at {self.gap.runner_up}"
-        yield "moduli of the poles", ", ".join(f"{abs(pole):.4g}" for pole in self.model.poles) or "none"
-        if self.residual_covariance is not None:
-            deviations = np.sqrt(np.diag(self.residual_covariance))
-            yield "standard deviation of the residual", ", ".join(f"{size:.4g}" for size in deviations)
-        yield from ((f"condition of the {name}", f"{value:.3g}") for name, value in self.condition_numbers.items())
-        yield from (("warning", warning) for warning in self.warnings)
-
-    def to_json(self) -> dict[str, Any]:
-        """Return a JSON-ready dict: that of the model, how it was found and how far it can be trusted."""
-        return self.model.to_json() | {
-            "order": self.order,
-            "singular_values": plain(self.singular_values),
-            "order_gap": plain(self.gap.ratio),
-            "order_gap_clean": self.gap.clean,
-            "x0": plain(self.x0),
-            "residual_covariance": plain(self.residual_covariance),
-            "condition_numbers": {name: plain(value) for name, value in self.condition_numbers.items()},
-            "route": self.route,
-            "warnings": list(self.warnings),
-        }
-
-    def plot(self, ax: Any = None) -> Any:
-        """Draw the singular values and the order into the matplotlib axes `ax`, new ones where None are given, and return them. Raises
-        ImportError without matplotlib."""
-        return plot_singular_values(self.singular_values, order=self.order, ax=ax)
 
 
 def choose_order(values: Array, floor: float, most: int) -> Gap:
@@ -431,6 +317,7 @@ def pi_moesp(
     leaves A undetermined.
 
     >>> import numpy as np
+    >>> from faultspace.numeric import pi_moesp
     >>> u = np.random.default_rng(1).standard_normal((300, 1))
     >>> y = np.zeros((300, 1))
     >>> for k in range(299):
@@ -453,10 +340,11 @@ def pi_moesp_experiments(
 ) -> MoespModel:
     """Identify one model of several experiments (y, u) with the same channels, each with an own initial state, by PI-MOESP [V93].
 
-    Each y (N_i, p) and u (N_i, n_u) may have its own length, all in the same units; arguments and result are those of `pi_moesp`. Raises
-    InvalidData as there, and where no experiment is given.
+    Each y (N_i, p) and u (N_i, n_u) may have its own number of samples, all in the same units; arguments and result are those of
+    `pi_moesp`. Raises InvalidData as there, and where no experiment is given.
 
     >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, pi_moesp_experiments
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
     >>> inputs = np.split(np.random.default_rng(1).standard_normal((300, 1)), [100])
     >>> pi_moesp_experiments([(model.simulate(u), u) for u in inputs], block_rows=5).A.round(6).tolist()

@@ -12,18 +12,20 @@ from numpy.typing import ArrayLike
 
 from ..data.validation import enough_samples, experiment, pieces, two_dimensional
 from ..model.compression import EPS, Compression, scaled_condition, window_rows, windows
-from ..model.past_inputs import MoespModel, check_compression, complete, system_range
+from ..model.moesp_model import MoespModel
+from ..model.past_inputs import check_compression, complete, system_range
 from ..model.sequential_qr import SequentialQR
 
 
 def po_moesp(y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows: int, past_rows: int | None = None) -> MoespModel:
-    """Identify the model of one experiment by past inputs and outputs [VV07, ch. 9]; it is biased where a fault or a disturbance is
-    coloured.
+    """Identify the model of one experiment by past inputs and outputs, PO-MOESP [VV07].
 
+    The model is biased where a fault or a disturbance is coloured, whatever the number of samples (chapter 9 of the source has the method).
     y (N, p) and u (N, n_u) are arrays in any units, and are not modified; arguments, order rule and result are those of `pi_moesp`, with
     p block_rows > order and singular values of the unscaled factor. Raises InvalidData as there.
 
     >>> import numpy as np
+    >>> from faultspace.numeric import po_moesp
     >>> u = np.random.default_rng(1).standard_normal((300, 1))
     >>> y = np.zeros((300, 1))
     >>> for k in range(299):

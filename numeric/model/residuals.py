@@ -1,4 +1,4 @@
-"""The residual r = y - (response of the model to u), with the initial state fitted or given.
+"""This is the residual r = y - (response of the model to u), with the initial state fitted or given.
 
 Whatever trajectory x+ = A x + B u is subtracted, r obeys the fault model x+ = A x + F v, r = C x + G v; the choice of initial
 state only decides how much free response stays in r. Fitting it by least squares takes out as much as can be.
@@ -44,12 +44,19 @@ CHUNK = 1024
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ResidualSignal(Shown):
-    """The residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
+    """This is the residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
 
     `store` holds r, and `x0` (n,) is the state at the first sample; `fitted` says whether it was fitted to this record. `covariance` (p, p)
     is that of r about zero, with fitted degrees of freedom taken off; `x0_covariance` (n, n) is zero where x0 was given. `observed` is the
     number of state directions that the record determines, `backward` the number of growing modes that were run backward, and `notes` are
-    what a user should know.
+    what a user should know. Raises ImportError in
+    `plot()` without matplotlib. Source of the fit: [GVL13] section 5.3.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, residual
+    >>> found = residual(np.ones((4, 1)), np.zeros((4, 1)), StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]), x0=[0.0])
+    >>> found, found.r.ravel().tolist()
+    (<ResidualSignal: residual of 4 samples, 1 outputs>, [1.0, 1.0, 1.0, 1.0])
     """
 
     store: SampleStore
@@ -122,6 +129,8 @@ def residual(
     Raises InvalidData for NaN, unequal lengths, channels that do not fit the
     model, fewer than n samples, and for a given x0 with a model whose modes grow by more than FORWARD over the record.
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, residual
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
     >>> u = np.ones((4, 1))
     >>> residual(model.simulate(u) + 0.25, u, model, x0=[0.0]).r.ravel().tolist()

@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
 
 from ...base.arrays import Array
@@ -24,10 +24,18 @@ ComplexArray = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False)
 class Uncertainty:
-    """`root` (K, K - n^2) with root @ root.T the covariance of T's entries in row order, in the gauge orthogonal to changes of basis.
+    """How sure a model is: standard deviations of what does not depend on the basis of the state, by the delta method [L99].
 
-    Standard deviations are in the units of what they belong to. Those of complex numbers are returned as complex numbers: the real part is
-    the deviation of the real part, the imaginary part that of the imaginary part.
+    `root` has the shape (K, K - n^2), and root @ root.T is the covariance of the entries of T = [[A, B], [C, D]] in row order, in the
+    gauge orthogonal to changes of basis. Standard deviations are in the units of what they belong to. Those of complex numbers are
+    returned as complex numbers: the real part is the deviation of the real part, the imaginary part that of the imaginary part. Raises nothing.
+
+    >>> from faultspace.numeric import Spectra, StateSpaceModel, cramer_rao
+    >>> from faultspace.numeric.bound.spectra import white
+    >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
+    >>> least = cramer_rao(model, Spectra(white([[1.0]]), white([[0.01]])), 400)
+    >>> least.markov(2).ravel().round(5).tolist(), least.poles().real.round(5).tolist()
+    ([0.005, 0.00484], [0.00325])
     """
 
     model: StateSpaceModel
@@ -38,7 +46,7 @@ class Uncertainty:
         spread = markov_jacobian(system_matrix(self.model), self.model.n, count) @ self.root
         return np.asarray(np.linalg.norm(spread, axis=1).reshape(count, self.model.p, self.model.n_u))
 
-    def transfer(self, angles: Array) -> ComplexArray:
+    def transfer(self, angles: ArrayLike) -> ComplexArray:
         """Standard deviations (M, p, n_u) of G(exp(i angle)), angles in radians a sample."""
         points = np.atleast_1d(np.asarray(angles, dtype=np.float64))
         spread = transfer_jacobian(system_matrix(self.model), self.model.n, points) @ self.root

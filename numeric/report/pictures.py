@@ -1,4 +1,4 @@
-"""The pictures of `faultspace identify`, one a file.
+"""These are the pictures of `faultspace identify`, one a file.
 
 main_picture the one picture of `Identification.plot`
 pictures     draws what the Findings holds into a folder; remarks on what could not be had
@@ -92,14 +92,16 @@ def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable
         drawings.append((outputs, WIDE, lambda figure: draw(y, simulated, names=names, first=first, ax=figure.add_subplot())))
     if answer.sizes and signal:
         near = loudest(answer.sizes.energies, len(signal.store), PICTURED)
-        drawings.append((faults, TALL, lambda figure: _draw_signal(signal, near, figure)))
+        drawings.append((faults, TALL, lambda figure: draw_signal(signal, near, figure)))
     return drawings
 
 
-def _draw_signal(signal: Reconstruction, near: tuple[int, int], figure: Any) -> None:
+def draw_signal(signal: Reconstruction, near: tuple[int, int], figure: Any) -> None:
     """Draw the whole signal above, the samples `near` below."""
     whole, detail = figure.subplots(2)
     signal.plot(whole)
     drawing.plot_stored_signal(signal.store, signal.trusted, first=near[0], last=near[1], ax=detail)
     whole.set_xlabel("")
-    detail.set_title("detail, where the residual is loudest", loc="left")
+    # A legend moves a title to the left; there is one title, wherever it stood.
+    detail.set_title("")
+    detail.set_title("Detail, where the residual is loudest", loc="left")

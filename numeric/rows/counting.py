@@ -41,10 +41,15 @@ DEPENDENT = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class FaultCount:
-    """The number of faults. `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why.
+    """The number of faults that `count_faults` finds, with what it rests on [W91].
 
-    `tests`: what was asked of k rows, by falling k; empty where there was no noise. `noise_power` (p,): what the rows leave of each output,
-    in its own units, squared; None where no rows are laws.
+    `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why. `tests`: what was asked of k rows, by
+    falling k; empty where there was no noise. `noise_power`, of shape (p,): what the rows leave of each output, in its own units, squared;
+    None where no rows are laws. Raises nothing itself.
+
+    >>> from faultspace.numeric import FaultCount
+    >>> FaultCount(None, (2, 3), "2 or 3: a fainter fault would look the same", ()).decided
+    False
     """
 
     n_v: int | None
@@ -68,6 +73,8 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
     of degree order + 3, constant outputs, and outputs that are combinations of others up to rounding. Source: [W91] for the rows, [M82]
     and [W38] for the ratios.
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import count_faults
     >>> rng = np.random.default_rng(0)
     >>> u, v = rng.standard_normal((600, 1)), rng.standard_normal((600, 1))
     >>> y = np.hstack([u + v, u - v, 2 * v]) + 0.01 * rng.standard_normal((600, 3))
@@ -91,19 +98,18 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
             tests[count] = bootstrapped(outputs, inputs, data, quick, draws) if draws else quick
         return tests[count]
 
-    # Invariant: `some` rows are laws, `more` are not.
+    # Invariant: `some` rows may be laws, `more` are not. Where more of them are laws, a doubt about fewer does not matter.
     some, more = 0, p + 1
     while more - some > 1:
         k = (some + more) // 2
         if k == 1:
             break
-        found = _holds(laws(k), data, known)
-        if found is None:
-            return _undecided(p, k, laws(k), tests)
-        some, more = (k, more) if found else (some, k)
-    if some:
-        return _answer(p - some, tests[some], tests, data)
-    return _last(p, laws, tests, data, known)
+        some, more = (some, k) if _holds(laws(k), data, known) is False else (k, more)
+    if not some:
+        return _last(p, laws, tests, data, known)
+    if _holds(tests[some], data, known) is None:
+        return _undecided(p, some, tests[some], tests)
+    return _answer(p - some, tests[some], tests, data)
 
 
 def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: JointMoments, known: Array | None) -> FaultCount:
@@ -151,8 +157,13 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
     most = max((count for count, laws in tests.items() if laws.holds), default=0)
     least = min((count for count, laws in tests.items() if laws.holds is False), default=p + 1)
     possible = tuple(range(max(p - least + 1, 0), p - most + 1))
-    limits = f"accepted from {SUFFICES:g}, refused below {FAILS:g}"
-    reason = f"{k} rows may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
+    if near.sphericity is not None and near.sphericity.level >= SUFFICES:
+        reason = (
+            f"{k} rows leave what has the shape of noise, but rows of {EXTRA} degrees more gain {near.gain:.2g} nats: try a higher order"
+        )
+    else:
+        limits = f"accepted from {SUFFICES:g}; refused, of a single row below {FAILS:g}, of several far from the shape of noise"
+        reason = f"{k} rows may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
     return FaultCount(None, possible, reason, _walk(tests))
 
 

@@ -35,8 +35,8 @@ from ..space.tapered_moments import CrossMoments, tapered_moments
 
 # Turns of colour and rows: the level moves by less than a thousandth of a nat afterwards.
 ROUNDS = 5
-# Power, beside that of a channel, that moments cannot tell from their own rounding: rows that leave less are exact.
-ROUNDING = 1e-14
+# Power, beside that of a channel, that moments cannot tell from their rounding: rows that leave less are exact, and not refined further.
+ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)

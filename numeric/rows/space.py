@@ -28,7 +28,7 @@ from ..space.largest import largest_fault_space
 from ..space.result import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
 from ..space.uncertainty import space_uncertainty
 from .bootstrap import redrawn
-from .degree import LeastDegree, freedom, least_degree, likelihood_ratio
+from .degree import MISFITS, LeastDegree, freedom, least_degree, likelihood_ratio
 from .joint import JointMoments, course, even_split, fitted, joint_moments, padded, refitted
 
 # Total degrees beyond the order by which it is tested.
@@ -45,6 +45,8 @@ def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, 
     is taken to have one colour, and the same power relative to the deviation of each output. Raises InvalidData for shapes that do not
     fit, n_v outside 1 .. p, and records too short for rows of degree n + 1. Source: [G25] problem (11), [W91].
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_space_by_rows
     >>> rng = np.random.default_rng(0)
     >>> u, v = rng.standard_normal((300, 1)), rng.standard_normal((300, 1))
     >>> y = np.hstack([u + v, u - v]) + 0.01 * rng.standard_normal((300, 2))
@@ -66,16 +68,23 @@ def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, 
     largest = largest_fault_space(coordinates.A, coordinates.C, faults)
     fits = course(data, rows, seen + BEYOND)
     chosen = least_degree(data, fits, n + faults - largest, seen)
+    misfits: Sequence[float] = MISFITS
     if draws:
         misfits = _misfits(outputs, inputs, data, fits, chosen, draws)
         chosen = least_degree(data, fits, n + faults - largest, seen, misfits)
-    return _estimate(data, fits[chosen.degree], chosen, coordinates, faults, largest)
+    return _estimate(data, fits[chosen.degree], chosen, coordinates, faults, largest, misfits[0])
 
 
 def _estimate(
-    data: JointMoments, fit: KernelBasis, chosen: LeastDegree, coordinates: ObservedCoordinates, n_v: int, largest: int
+    data: JointMoments,
+    fit: KernelBasis,
+    chosen: LeastDegree,
+    coordinates: ObservedCoordinates,
+    n_v: int,
+    largest: int,
+    misfit: float,
 ) -> FaultSpaceEstimate:
-    """What rows of the chosen total degree say."""
+    """What rows of the chosen total degree say. `misfit`, by which likelihood ratios exceed their law, widens their covariance [MN89]."""
     p, n = coordinates.C.shape
     n_z = n_v + n - chosen.degree
     lag = max(map(len, fit.rows)) - 1
@@ -101,7 +110,7 @@ def _estimate(
         reason,
         None,
         "kernel rows",
-        space_uncertainty(rows_of_y, _selections(fit, units), fit.covariance, coordinates, columns),
+        space_uncertainty(rows_of_y, _selections(fit, units), misfit * fit.covariance, coordinates, columns),
     )
 
 

@@ -1,4 +1,4 @@
-"""The fault signal of a residual of any length: the smoother on the whole, or on pieces that overlap.
+"""This reconstructs the fault signal of a residual of any length: the smoother on the whole, or on pieces that overlap.
 
     reconstruct_fault   v of every sample, for r in memory or in a store
     Reconstruction      it, with delay, zeros, the samples to be trusted and how well it explains the residual
@@ -47,6 +47,15 @@ class Reconstruction(Solution, Shown):
     mismatch         the largest difference of neighbouring pieces where they meet, relative to the size of v there; 0 for one piece
     left, whole      (p,): sums of squares of r - simulated and of r in each output, over the samples that were asked for
     x0               (n,): the state at the first sample
+    pair             A, F, C and G, which the signal belongs to
+
+    r and `simulated` are in the units of y. Raises ImportError in `plot()` without matplotlib. Source: [HP98], [MZ10].
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import reconstruct_fault
+    >>> v = np.sin(np.arange(50.0))[:, np.newaxis]
+    >>> reconstruct_fault(np.hstack([v, 2 * v]), [[0.5]], [[0.0]], [[1.0], [0.0]], [[1.0], [2.0]])
+    <Reconstruction: fault signal of 50 samples, n_v 1: samples 0 to 49 are determined>
     """
 
     store: SampleStore
@@ -139,6 +148,7 @@ def reconstruct_fault(
     values that are not finite, more faults than outputs, a fault without any effect, or a model so unstable that the record overflows.
 
     >>> import numpy as np
+    >>> from faultspace.numeric import reconstruct_fault
     >>> v = np.sin(np.arange(50.0))[:, np.newaxis]
     >>> r = np.hstack([v, 2 * v])
     >>> found = reconstruct_fault(r, [[0.5]], [[0.0]], [[1.0], [0.0]], [[1.0], [2.0]])

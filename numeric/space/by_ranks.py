@@ -1,4 +1,4 @@
-"""Problem (11) from data: all fault columns z = [f; g] that explain no more than the residual shows.
+"""This solves problem (11) from data: all fault columns z = [f; g] that explain no more than the residual shows.
 
     fault_space              the estimate for any residual: the noise-free form where R_s has a rank to machine
                              precision, else the likelihood form
@@ -55,6 +55,8 @@ def fault_space(
     such, with `meaningful` False and a reason. Raises InvalidData for shapes that do not fit, values that are not
     finite, n_v outside 1..p, or fewer samples than the window needs.
 
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_space
     >>> v = np.random.default_rng(1).standard_normal((100, 1))
     >>> found = fault_space(np.hstack([v, 2 * v]), [[0.5]], [[1.0], [0.0]])
     >>> found.n_z, bool(np.allclose(found.G[1], 2 * found.G[0]))

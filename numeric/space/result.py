@@ -1,4 +1,4 @@
-"""What every estimate of the fault space answers, and what a kernel row asks of a fault column.
+"""This is what every estimate of the fault space answers, and what a kernel row asks of a fault column.
 
     FaultSpaceEstimate   basis of the columns [f; g], its dimension, how it was found, whether it means anything and why
     SpaceUncertainty     the estimate's error to first order, a matrix that is linear in standard normal numbers, and its angle
@@ -23,6 +23,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import Shown
 from ..data.plain import plain
+from ..drawing import plot_conditions
 
 DRAWS = 4000
 _SEED = 20250519
@@ -54,7 +55,7 @@ class SpaceUncertainty:
 
 @dataclass(frozen=True, repr=False)
 class FaultSpaceEstimate(Shown):
-    """The columns [f; g] that explain no more than the residual shows.
+    """These are the columns [f; g] that explain no more than the residual shows.
 
     basis            (n + p, n_z), orthonormal columns
     n_z              its columns, n_v + zeta for a left-invertible fault system; where `decided` is False the likeliest
@@ -72,6 +73,15 @@ class FaultSpaceEstimate(Shown):
     error_bound      bound on the sine of the angle to the true space from rounding and conditioning; None with noise
     method           "noise-free", "least squares" or "likelihood" ("none" where no equation was found)
     uncertainty      of the likelihood form: the angle to the true space with a confidence, n_z taken as right; else None
+
+    f is in the units of the state and g in those of y, each for a fault in units of its own. Raises nothing itself; `fault_space`,
+    which makes it, raises InvalidData. Source: [G25] problem (11).
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_space
+    >>> v = np.random.default_rng(1).standard_normal((100, 1))
+    >>> fault_space(np.hstack([v, 2 * v]), [[0.5]], [[1.0], [0.0]])
+    <FaultSpaceEstimate: fault space of dimension 1 (undecided), n_v 1>
     """
 
     basis: Array
@@ -139,6 +149,15 @@ class FaultSpaceEstimate(Shown):
             "F": plain(None if known is None else self.F),
             "G": plain(None if known is None else self.G),
         }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the singular values of the conditions, those taken for zero open, into the matplotlib axes `ax`, new ones where None are
+        given, and return them. Raises InvalidData where there is no condition, and ImportError without matplotlib."""
+        values, others = self.singular_values, f"taken for zero: dimension {self.n_z}"
+        if self.method in ("likelihood", "kernel rows"):
+            # Rows of a fit have so many solutions by their degrees: that these values are zero is no evidence, and they are not drawn.
+            values, others = values[: self.equations], f"the other {self.n_z} are zero by the fit: dimension {self.n_z}"
+        return plot_conditions(values, self.equations, others=others, ax=ax)
 
     @property
     def zeta(self) -> int | None:

@@ -1,4 +1,4 @@
-"""The figures of the Monte Carlo study, redrawn: vacuous cases set apart, random subspaces beside every error.
+"""This redraws the figures of the Monte Carlo study: vacuous cases set apart, random subspaces beside every error.
 
     error_histogram           how many cases have which error, vacuous ones hatched
     errors_by_zeros           a box for each number of zeros and each estimator, with the median of a random subspace
@@ -6,8 +6,8 @@
     errors_against_circle     each case's error over the distance of its nearest zero to the unit circle
     study_figure              all of them on one page
 
-Each of the first four draws a `Study` on `ax`, a new one unless given, and returns it. Errors are in percent on logarithmic axes, because
-they span decades. matplotlib is imported inside and only needed here.
+Each of the first four draws the cases of a study on `ax`, a new one unless given, and returns it. Errors are in percent on logarithmic
+axes, because they span decades. matplotlib is imported inside and only needed here.
 """
 
 from __future__ import annotations
@@ -17,20 +17,21 @@ from typing import Any
 import numpy as np
 
 from .cases import LIKELIHOOD, PAPER, Case
-from .studies import Group, Study, by_phase, by_zeros, cases_by_phase, cases_by_zeros
+from .groups import Group, StudyCases, by_phase, by_zeros, cases_by_phase, cases_by_zeros
 
 # A palette that is told apart in grey print and by colour-blind readers (Okabe and Ito).
 COLOURS = {0: "#999999", 1: "#0072B2", 2: "#E69F00", 3: "#009E73"}
 ESTIMATORS = {PAPER: "#56B4E9", LIKELIHOOD: "#F0E442"}
 NAMES = {PAPER: "published estimator", LIKELIHOOD: "likelihood"}
 RANDOM, INK = "#D55E00", "#222222"
-BASELINE = "a random subspace"
+BASELINE = "random subspaces, median"
+BOXES = "boxes: quartiles about the median in figures; whiskers: 10 % and 90 % quantiles; in brackets: number of cases"
 BINS = 24
 # Errors below this, in percent, are drawn there.
 LEAST = 1e-2
 
 
-def error_histogram(study: Study, ax: Any = None, *, estimator: str = PAPER) -> Any:
+def error_histogram(study: StudyCases, ax: Any = None, *, estimator: str = PAPER) -> Any:
     """Draw the number of cases by error, coloured by number of zeros; vacuous cases have no error and stand hatched at the left edge."""
     ax = _axes(ax)
     drawn = [case for case in study.cases if _percent(study, case, estimator) is not None and not case.vacuous]
@@ -58,7 +59,7 @@ def error_histogram(study: Study, ax: Any = None, *, estimator: str = PAPER) -> 
     return _plain(ax)
 
 
-def errors_by_zeros(study: Study, ax: Any = None) -> Any:
+def errors_by_zeros(study: StudyCases, ax: Any = None) -> Any:
     """Draw a box plot: quartiles, whiskers from 10 to 90 %, all cases as points, the median in figures; the random subspace's median as a
     bar."""
     ax = _axes(ax)
@@ -67,7 +68,7 @@ def errors_by_zeros(study: Study, ax: Any = None) -> Any:
     return _plain(ax)
 
 
-def errors_by_phase(study: Study, ax: Any = None) -> Any:
+def errors_by_phase(study: StudyCases, ax: Any = None) -> Any:
     """Draw the same for systems without zeros, with all zeros in the unit circle, and with a zero outside."""
     ax = _axes(ax)
     _boxes(ax, study, by_phase(study), cases_by_phase(study))
@@ -75,8 +76,8 @@ def errors_by_phase(study: Study, ax: Any = None) -> Any:
     return _plain(ax)
 
 
-def errors_against_circle(study: Study, ax: Any = None, *, estimator: str = PAPER) -> Any:
-    """Draw the error over the distance of the nearest zero to the unit circle, both logarithmic; open marks: one zero or more outside the
+def errors_against_circle(study: StudyCases, ax: Any = None, *, estimator: str = PAPER) -> Any:
+    """Draw the error over the distance of the nearest zero to the unit circle, both logarithmic; open marks: not all zeros inside the
     circle."""
     ax = _axes(ax)
     for k, colour in COLOURS.items():
@@ -86,7 +87,7 @@ def errors_against_circle(study: Study, ax: Any = None, *, estimator: str = PAPE
             drawn = [(x, y) for x, y in points if x is not None and y is not None]
             if drawn:
                 x, y = np.array(drawn).T
-                label = f"{_zeros(k)}, {'all inside' if minimum_phase else 'one outside'}"
+                label = f"{_zeros(k)}, {'all inside' if minimum_phase else 'not all inside'}"
                 face = colour if minimum_phase else "none"
                 ax.scatter(x, y, 16, facecolors=face, edgecolors=colour, linewidths=0.9, alpha=0.85, label=label)
     ax.set_xscale("log")
@@ -101,7 +102,7 @@ def errors_against_circle(study: Study, ax: Any = None, *, estimator: str = PAPE
     return _plain(ax)
 
 
-def study_figure(study: Study) -> Any:
+def study_figure(study: StudyCases) -> Any:
     """Make a figure with all plots, histogram and circle for each estimator, made without any window system: save it with
     `figure.savefig`."""
     from matplotlib.figure import Figure
@@ -123,11 +124,11 @@ def study_figure(study: Study) -> Any:
     errors_by_phase(study, boxes[1])
     vacuous = sum(case.vacuous for case in study.cases)
     note = f"; {vacuous} vacuous" if vacuous else ""
-    figure.suptitle(f"{len(study.cases)} systems, {study.plan.title}{note}\nerror: {study.plan.metric_text}", fontsize="medium")
+    figure.suptitle(f"{len(study.cases)} systems, {study.plan.title}{note}\nerror: {study.plan.metric_text}\n{BOXES}", fontsize="medium")
     return figure
 
 
-def _boxes(ax: Any, study: Study, groups: list[Group], members: dict[str, list[Case]]) -> None:
+def _boxes(ax: Any, study: StudyCases, groups: list[Group], members: dict[str, list[Case]]) -> None:
     """Draw the groups of one label together, one box for each estimator."""
     spread = np.random.default_rng(0)
     labels, estimators = list(members), study.plan.estimators
@@ -156,10 +157,20 @@ def _boxes(ax: Any, study: Study, groups: list[Group], members: dict[str, list[C
         if not alone:
             box["label"] = _once(ax, NAMES[group.estimator])
         line = {"color": INK, "linewidth": 1.8}
+        plate = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.8}
         ax.bxp([stats], [place], widths=0.62 * width, showfliers=False, patch_artist=True, boxprops=box, medianprops=line)
         errors = np.array([error for case in members[group.label] if (error := _percent(study, case, group.estimator)) is not None])
         ax.plot(place + width * spread.uniform(-0.22, 0.22, errors.size), errors, ".", color=INK, markersize=3, alpha=0.35)
-        ax.text(place + 0.34 * width, middle, f"{middle:.2g}", va="center", fontsize="small" if alone else "x-small", color=INK)
+        ax.text(
+            place + 0.34 * width,
+            middle,
+            f"{middle:.2g}",
+            va="center",
+            fontsize="small" if alone else "x-small",
+            color=INK,
+            bbox=plate,
+            zorder=4,
+        )
     ax.set_xticks(range(len(labels)), ticks)
     ax.set_xlim(-0.6, len(labels) - 0.4)
     ax.set_yscale("log")
@@ -176,13 +187,13 @@ def _once(ax: Any, label: str) -> str | None:
     return None if label in ax.get_legend_handles_labels()[1] else label
 
 
-def _percent(study: Study, case: Case, estimator: str) -> float | None:
+def _percent(study: StudyCases, case: Case, estimator: str) -> float | None:
     """Return the error to draw; None where there is none."""
     error = study.error(case, estimator)
     return None if error is None else max(100 * error, LEAST)
 
 
-def _title(what: str, study: Study, estimator: str) -> str:
+def _title(what: str, study: StudyCases, estimator: str) -> str:
     return f"{what}: {NAMES[estimator]}" if len(study.plan.estimators) > 1 else what
 
 
@@ -199,6 +210,8 @@ def _zeros(k: int) -> str:
 def _percent_axis(axis: Any) -> None:
     ticks = [0.01, 0.1, 1, 10, 100]
     axis.set_ticks(ticks, ["≤ 0.01", "0.1", "1", "10", "100"])
+    # No minor ticks below the least error: no scale goes on there.
+    axis.set_ticks([k * tick for tick in ticks[:-1] for k in range(2, 10)], minor=True)
 
 
 def _plain(ax: Any) -> Any:

@@ -1,6 +1,6 @@
-"""The Monte Carlo study of the paper: how far the estimated fault space lies from the true one, over many random systems.
+"""This is the Monte Carlo study of the paper: how far the estimated fault space lies from the true one, over many random systems.
 
-    monte_carlo            a plan carried out: a Study
+    monte_carlo          a plan carried out: a Study
     PUBLISHED            the published settings and metric: s = 5, rank R_s taken as n_x + s n_v - zeros, noise "of 40 dB" that is 43 dB
                          down, error = angles between [F; G] and the estimate over n_v pi/2
     IDENTIFIED           as published, but with A, B, C, D from PI-MOESP on the same data in place of the true ones
@@ -8,10 +8,7 @@
                          space and the estimate over its maximum; the library's estimator beside the published one
     CORRECTED_IDENTIFIED as corrected, with identified A, B, C, D
     STUDIES              these plans by name
-    Plan, Study          the records: what to do, and what came of it, a Case (`study_cases`) for each system
-    Group                the cases of one kind by one estimator: quantiles, and the median with its confidence interval
-    by_zeros, by_phase   a study's groups, by number of zeros and by minimum phase; cases_by_zeros, cases_by_phase their cases
-    median_interval      the distribution-free 95 % confidence interval of a median
+    Study                what came of a plan: a Case for each system, read by people, programs and notebooks
 
 What is wrong with the published numbers, and how a case says so. With no zeros rank R_5 = 15 of 15 rows: there is no null row, every
 column is a solution, and [F; G] lies in all of R^8. Such a case is marked `vacuous`: its error is zero by construction, for any data.
@@ -33,37 +30,22 @@ with the cases of a shorter one, and all studies see the same systems and faults
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-import scipy.special
 
 from ...base.errors import InvalidData
+from ...base.sheets import Shown
 from ..data.validation import positive
-from .cases import LIKELIHOOD, PAPER, Case, corrected_case, corrected_identified_case, identified_case, published_case
+from .cases import LIKELIHOOD, PAPER, corrected_case, corrected_identified_case, identified_case, published_case
+from .groups import Group, Plan, StudyCases, by_phase, by_zeros
+from .plots import errors_by_zeros
 from .runs import SAMPLES
 from .workers import Progress, in_order
 
 SEED = 1907
-QUANTILES = (0.1, 0.25, 0.5, 0.75, 0.9)
-CONFIDENCE = 0.95
-
-
-@dataclass(frozen=True)
-class Plan:
-    """The plan says what a study does with each system. `metric` names the field of `Errors` that is its error, and `worth` is the
-    number of systems that are worth the start of a process."""
-
-    name: str
-    title: str
-    metric: str
-    metric_text: str
-    estimators: tuple[str, ...]
-    case: Callable[[int, np.random.SeedSequence, int], Case]
-    worth: int
-
 
 _CONTAINMENT = "angles from [F; G] to the estimate (containment) over n_v pi/2; at most 71 %"
 _TWO_SIDED = "two-sided distance between the true fault space and the estimate, over its maximum"
@@ -87,50 +69,28 @@ CORRECTED_IDENTIFIED = Plan(
 STUDIES = {plan.name: plan for plan in (PUBLISHED, IDENTIFIED, CORRECTED, CORRECTED_IDENTIFIED)}
 
 
-@dataclass(frozen=True)
-class Group:
-    """The group holds the cases of one kind by one estimator; a field is None where there is nothing to report.
+@dataclass(frozen=True, repr=False)
+class Study(StudyCases, Shown):
+    """The study is a plan carried out on so many systems: `cases` in order, `seed`, `samples` of each record, `seconds` taken.
 
-    It says how many cases there are and how many of them are vacuous, have no error, or have the true dimension; the quantiles 10, 25, 50,
-    75, 90 % of the error with the confidence interval of its median; the median by containment alone, over that metric's own maximum (it is
-    low where the estimate holds [F; G] but has a wrong dimension); and the median of a random subspace.
+    `summary()` tells people the errors, `plot()` draws them, and `to_json()` hands everything to other programs. Raises ImportError in
+    `plot()` without matplotlib. Source: [G25] section V.
     """
 
-    label: str
-    estimator: str
-    cases: int
-    vacuous: int
-    failed: int
-    right_dimension: int
-    quantiles: tuple[float, ...] | None
-    interval: tuple[float, float] | None
-    containment_median: float | None
-    random_median: float
-
     @property
-    def median(self) -> float | None:
-        """Return the median of the error, as a fraction."""
-        return None if self.quantiles is None else self.quantiles[QUANTILES.index(0.5)]
+    def title(self) -> str:
+        """Return what the study is, on one short line."""
+        return f"Monte Carlo study, {self.plan.name}: {len(self.cases)} system{'' if len(self.cases) == 1 else 's'}"
 
-
-@dataclass(frozen=True)
-class Study:
-    """Cases in order; `seconds` is the time taken."""
-
-    plan: Plan
-    seed: int
-    samples: int
-    cases: tuple[Case, ...]
-    seconds: float
-
-    def error(self, case: Case, estimator: str = PAPER) -> float | None:
-        """Return the study's error of a case by an estimator; None where there is no estimate."""
-        errors = case.estimates[estimator].errors
-        return None if errors is None else float(getattr(errors, self.plan.metric))
-
-    def random_error(self, case: Case) -> float:
-        """Return the study's error of a random subspace."""
-        return float(getattr(case.random, self.plan.metric))
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield what there is to say of it, as pairs of a name and a value: the settings, then a line for each group of cases."""
+        yield "plan", self.plan.title
+        yield "error", self.plan.metric_text
+        yield "records", f"{self.samples} samples each, seed {self.seed}"
+        for heading, groups in (("errors by number of finite zeros", by_zeros(self)), ("errors by phase", by_phase(self))):
+            yield heading, ""
+            for group in groups:
+                yield f"{group.label}, {group.estimator}", _in_words(group)
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready record: settings, tables, cases. Equal studies give equal records but for "seconds"."""
@@ -151,6 +111,11 @@ class Study:
             "cases": [asdict(case) for case in self.cases],
         }
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the errors by number of finite zeros into the matplotlib axes `ax`, new ones where None are given, and return them. Raises
+        ImportError without matplotlib."""
+        return errors_by_zeros(self, ax)
+
 
 def monte_carlo(
     plan: Plan | str,
@@ -168,7 +133,8 @@ def monte_carlo(
     "corrected", "corrected-identified". `systems` random systems are drawn, a quarter for each number of zeros from 0 to 3, with records of
     `samples` samples each; equal seeds give equal cases. `jobs` processes share the work (None: all cores, as far as they are worth their
     start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `on_progress` is called with (done,
-    total, seconds left) as cases come in. The Study has `cases`, whose errors are fractions of the metric's maximum, and `to_json()`.
+    total, seconds left) as cases come in. The Study has `cases`, whose errors are fractions of the metric's maximum, `summary()`, `plot()`
+    and `to_json()`.
     Source: [G25] section V; [YL16] for the distances.
 
     Raises InvalidData for an unknown plan, for numbers out of range and for a cluster that cannot be used.
@@ -191,60 +157,22 @@ def monte_carlo(
     return Study(plan, seed, samples, tuple(cases), time.perf_counter() - start)
 
 
-def cases_by_zeros(study: Study) -> dict[str, list[Case]]:
-    """Return the cases by number of zeros: "0 zeros", "1 zero", ..."""
-    kinds: dict[str, list[Case]] = {}
-    for case in sorted(study.cases, key=lambda case: case.n_zeros):
-        kinds.setdefault(f"{case.n_zeros} zero{'' if case.n_zeros == 1 else 's'}", []).append(case)
-    return kinds
+def _in_words(group: Group) -> str:
+    """Return what the errors of a group are: the median with what surrounds it, or why there are none."""
+    systems = f"{group.cases} system{'' if group.cases == 1 else 's'}"
+    if group.quantiles is None:
+        return f"{systems}, all refused"
+    if group.vacuous == group.cases:
+        return f"{systems}, all vacuous: no null row, the error is zero by construction"
+    low, *_, high = group.quantiles
+    said = [f"{systems}, median {_percent(group.median)}, 10 % and 90 % quantiles {_percent(low)} and {_percent(high)}"]
+    if group.interval is not None:
+        said.append(f"the median lies in {_percent(group.interval[0])} .. {_percent(group.interval[1])} with 95 % confidence")
+    said.append(f"a random subspace has {_percent(group.random_median)}")
+    said.append(f"dimension right in {group.right_dimension}")
+    said += [f"{count} {what}" for count, what in ((group.vacuous, "vacuous"), (group.failed, "refused")) if count]
+    return "; ".join(said)
 
 
-def cases_by_phase(study: Study) -> dict[str, list[Case]]:
-    """Return the cases without zeros, the minimum-phase ones, and those with a zero outside the unit circle; kinds that have a case."""
-    kinds = {
-        "no zeros": [case for case in study.cases if not case.zeros],
-        "minimum phase": [case for case in study.cases if case.zeros and case.minimum_phase],
-        "not minimum phase": [case for case in study.cases if case.zeros and not case.minimum_phase],
-    }
-    return {label: cases for label, cases in kinds.items() if cases}
-
-
-def by_zeros(study: Study) -> list[Group]:
-    """Return a group for each number of zeros and each estimator."""
-    return _groups(study, cases_by_zeros(study))
-
-
-def by_phase(study: Study) -> list[Group]:
-    """Return a group for each kind of phase and each estimator."""
-    return _groups(study, cases_by_phase(study))
-
-
-def median_interval(values: list[float]) -> tuple[float, float] | None:
-    """Return the order statistics between which the median lies with a probability of 95 % or more, whatever the distribution; None for
-    fewer than six values, which have no such pair."""
-    count = len(values)
-    below = scipy.special.bdtr(np.arange(count), count, 0.5)  # P(at most k values lie below the median)
-    k = int(np.sum(below <= (1 - CONFIDENCE) / 2))
-    ordered = sorted(values)
-    return (ordered[k - 1], ordered[count - k]) if k else None
-
-
-def _groups(study: Study, kinds: dict[str, list[Case]]) -> list[Group]:
-    return [_group(study, label, cases, name) for label, cases in kinds.items() for name in study.plan.estimators]
-
-
-def _group(study: Study, label: str, cases: list[Case], estimator: str) -> Group:
-    errors = [error for case in cases if (error := study.error(case, estimator)) is not None]
-    contained = [found.containment for case in cases if (found := case.estimates[estimator].errors) is not None]
-    return Group(
-        label=label,
-        estimator=estimator,
-        cases=len(cases),
-        vacuous=sum(case.vacuous for case in cases),
-        failed=len(cases) - len(errors),
-        right_dimension=sum(case.estimates[estimator].n_z == case.n_z for case in cases),
-        quantiles=tuple(float(value) for value in np.quantile(errors, QUANTILES)) if errors else None,
-        interval=median_interval(errors),
-        containment_median=float(np.median(contained)) if contained else None,
-        random_median=float(np.median([study.random_error(case) for case in cases])),
-    )
+def _percent(value: float | None) -> str:
+    return "unknown" if value is None else f"{100 * value:.2g} %"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from faultspace.numeric.model import reduced_model, weighted_reduction
 from faultspace.numeric.model.invariants import half_transfers, system_matrix
 from faultspace.numeric.model.residuals import residual
 from faultspace.numeric.model.weighted_reduction import Reduction, circle
-from faultspace.numeric.study.experiments import NOISE_GAIN, experiment
+from faultspace.numeric.study.runs import NOISE_GAIN, study_run
 from faultspace.numeric.study.systems import study_system
 
 PLANT = StateSpaceModel(
@@ -75,7 +76,7 @@ def divergence(model: StateSpaceModel, data: Faulty) -> float:
     """N times the power of the error under the true weight: chi-squared with PARAMETERS degrees of freedom where the bound is attained."""
     angles = circle(256)
     plant = np.array(half_transfers(system_matrix(data.plant), 2, angles)[0])
-    weight = np.linalg.inv(data.spectra.disturbance(angles))
+    weight: Any = np.linalg.inv(data.spectra.disturbance(angles))
     return Reduction(angles, plant, weight, data.spectra.input(angles), len(data.y)).cost(system_matrix(model), model.n)
 
 
@@ -129,7 +130,7 @@ def test_without_the_ladder_descent_sticks(monkeypatch: pytest.MonkeyPatch) -> N
         monkeypatch.setattr(weighted_reduction, "RUNG", rung)
         for number in (2, 4):
             system = study_system(number % 4, np.random.SeedSequence([77, number]))
-            run = experiment(system, np.random.SeedSequence([78, number]), level=0.01 / NOISE_GAIN)
+            run = study_run(system, np.random.SeedSequence([78, number]), level=0.01 / NOISE_GAIN)
             costs.append(arx_reduction(run.y, run.u, order=5).cost)
     assert costs[0] <= 1.01 * costs[2] and 2 * costs[1] < costs[3]
 

@@ -1,8 +1,9 @@
-"""The Cramer-Rao bound: against the Fisher information in the time domain, against a likelihood that is exact, and on functions broken."""
+"""The Cramer-Rao bound is tested against the Fisher information in time, against an exact likelihood, and on functions broken."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -28,13 +29,17 @@ NOISE = np.diag([0.04, 0.09])
 COLOURED = Spectra(filtered([1.0, 0.5], [1.0]), total(through(FAULT, filtered([1.0], [1.0, -0.6])), white(NOISE)))
 
 
+def inverse(spectrum: Any) -> Any:
+    return np.linalg.inv(spectrum)
+
+
 def impulse_of(model: StateSpaceModel, pole: float, count: int) -> Array:
-    """(count, p, 1): of the model driven through 1 / (1 - pole q^-1)."""
+    """Return the impulse response (count, p, 1) of the model driven through 1 / (1 - pole q^-1)."""
     return np.asarray(scipy.signal.lfilter([1.0], [1.0, -pole], model.markov(count), axis=0))
 
 
 def in_the_time_domain(samples: int) -> Array:
-    """The expected information of so many samples from rest, by the Toeplitz covariance of the disturbance: the slow twin."""
+    """Return the expected information of so many samples from rest, by the Toeplitz covariance of the disturbance: the slow twin."""
     matrix, step, long = system_matrix(PLANT), 1e-6, 400
     h = impulse_of(FAULT, 0.6, long)[:, :, 0]
     lags = [h[lag:].T @ h[: long - lag] + NOISE * (lag == 0) for lag in range(samples)]  # E v(k + lag) v(k)'
@@ -50,7 +55,8 @@ def in_the_time_domain(samples: int) -> Array:
         d[1:] += 0.5 * d[:-1].copy()
         toeplitz = np.vstack([np.column_stack([d[i - j] if i >= j else np.zeros(2) for j in range(samples)]) for i in range(samples)])
         whitened.append(scipy.linalg.solve_triangular(root, toeplitz, lower=True).ravel())
-    return np.array(whitened) @ np.array(whitened).T
+    rows = np.array(whitened)
+    return np.asarray(rows @ rows.T, dtype=np.float64)
 
 
 def agrees_in_time(bound: Bound) -> bool:
@@ -131,7 +137,7 @@ def test_more_disturbance_or_less_input_never_helps() -> None:
 
 def test_the_gauge_is_what_no_data_tell() -> None:
     angles = np.linspace(0.1, 3, 50)
-    reduction = Reduction(angles, np.zeros((50, 2, 1), complex), np.linalg.inv(COLOURED.disturbance(angles)), COLOURED.input(angles), 10)
+    reduction = Reduction(angles, np.zeros((50, 2, 1), complex), inverse(COLOURED.disturbance(angles)), COLOURED.input(angles), 10)
     values = np.linalg.eigvalsh(reduction.information(system_matrix(PLANT), 2))
     across = off_gauge(system_matrix(PLANT), 2)
     assert np.all(np.abs(values[:4]) < 1e-10 * values[-1]) and values[4] > 1e-6 * values[-1]

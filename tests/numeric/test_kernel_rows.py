@@ -20,7 +20,7 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.rows import bootstrap, laws, remainder
 from faultspace.numeric.rows.counting import count_faults
 from faultspace.numeric.rows.degree import least_degree
-from faultspace.numeric.rows.joint import course, even_split, fitted, joint_moments, joint_moments_experiments
+from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
 from faultspace.numeric.rows.space import fault_space_by_rows
 from faultspace.numeric.space.distances import principal_angles
 from faultspace.numeric.space.largest import largest_fault_space
@@ -29,7 +29,7 @@ from tests.numeric.planted import Planted, coloured, planted, simulate
 
 
 def joint_record(system: Planted, seed: int, samples: int, decibels: float | None, *, inputs: int = 1) -> tuple[Any, Any]:
-    """y (N, p) and u (N, inputs) of a system with white faults and inputs, and low-pass noise so far below each output."""
+    """Return y (N, p) and u (N, inputs) of a system with white faults and inputs, and low-pass noise so far below each output."""
     rng = np.random.default_rng([seed, 77])
     B, D = rng.standard_normal((len(system.A), inputs)), rng.standard_normal((len(system.C), inputs))
     u, v = rng.standard_normal((samples, inputs)), rng.standard_normal((samples, system.m))
@@ -39,7 +39,7 @@ def joint_record(system: Planted, seed: int, samples: int, decibels: float | Non
 
 
 def spans(rows: list[Any], angle: float) -> Any:
-    """Orthonormal basis (p, k) of the row space of N_y at a point of the unit circle."""
+    """Return an orthonormal basis (p, k) of the row space of N_y at a point of the unit circle."""
     N = np.array([np.exp(1j * angle * np.arange(len(row))) @ row for row in rows])
     return scipy.linalg.orth(N.T)
 
@@ -59,7 +59,7 @@ def test_without_noise_the_rows_are_those_of_the_exact_branch(seed: int, p: int,
     total = sum(indices)
     assert tuple(indices) == even_split(total, len(indices)), "a case with another split says nothing about this one"
     fits = course(data, len(indices), total)
-    assert fits[-1].level < -34 and (total == 0 or fits[-2].level > -20)
+    assert np.exp(fits[-1].level) < ROUNDING and (total == 0 or fits[-2].level > -20)
     found = [row[:, :p] for row in data.in_units(fits[-1].rows)]
     for angle in (0.0, 0.7, 2.5):
         true = spans([floats(row.coefficients) for row in exact.rows], angle)
@@ -125,7 +125,7 @@ def test_noise_shares_are_found() -> None:
 
 
 def test_the_least_noise_is_the_projection() -> None:
-    """Against a dense least-squares solution; what is left obeys the rows."""
+    """It equals a dense least-squares solution, and what is left obeys the rows."""
     rng = np.random.default_rng(8)
     z, rows = rng.standard_normal((30, 3)), [rng.standard_normal((2, 3)), rng.standard_normal((3, 3))]
     shares = np.array([2.0, 0.5])
@@ -274,6 +274,14 @@ def test_zeros_are_counted_and_the_space_found(zeros: tuple[float, ...]) -> None
     )
     back = np.vstack([np.linalg.solve(T, other.F), other.G / [[1e3], [1], [1]]])
     assert other.n_z == found.n_z and principal_angles(found.basis, np.linalg.qr(back)[0])[-1] < 1e-5
+
+
+def test_the_bootstrap_decides_the_degree_too() -> None:
+    system = planted(25, (0.5,), n=2, p=2, m=1)
+    y, u = joint_record(system, 25, 500, 40)
+    quick, careful = (fault_space_by_rows(y, u, system.A, system.C, n_v=1, draws=draws) for draws in (0, 3))
+    assert careful.n_z == quick.n_z == 2 and careful.margin != quick.margin
+    np.testing.assert_array_equal(careful.basis, quick.basis)
 
 
 def test_two_rows_and_no_noise() -> None:

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
 from faultspace.numeric.count.healthy_model import healthy_reference
-from faultspace.numeric.model.past_inputs import MoespModel, pi_moesp
+from faultspace.numeric.model.moesp_model import MoespModel
+from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.model.residuals import residual
 
 Array = NDArray[np.float64]
@@ -52,7 +53,7 @@ def identified(y: Array, u: Array) -> tuple[MoespModel, Array]:
 
 @cache
 def identified_as_measured() -> tuple[MoespModel, Array]:
-    """The model from the record without an injected fault, and its residual."""
+    """Return the model from the record without an injected fault, and its residual."""
     return identified(*record())
 
 

@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import drawing
 from faultspace.numeric.count.rank_gap import FaultDimension, fault_dimension
+from faultspace.numeric.report.pictures import draw_signal
+from faultspace.numeric.signal.reconstruction import reconstruct_fault
 
 Figure: Any = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed").Figure
 Array = NDArray[np.float64]
@@ -63,7 +65,7 @@ def drawings(dimension: FaultDimension) -> Iterator[Callable[[Any], Any]]:
     yield lambda ax: drawing.plot_zeros_and_poles([0.5 + 0.2j, 0.5 - 0.2j], [2.0], ax=ax)
     yield lambda ax: drawing.plot_measured_and_simulated(signal, signal + 0.1, ax=ax)
     yield lambda ax: drawing.plot_fault_signal(signal, trusted=(20, 480), ax=ax)
-    yield lambda ax: drawing.plot_principal_angles([1e-9, 0.3, 1.5], ax=ax)
+    yield lambda ax: drawing.plot_conditions([2.0, 1.0, 1e-9], 2, others="dimension 1", ax=ax)
 
 
 @pytest.mark.parametrize("number", range(6))
@@ -150,11 +152,28 @@ def test_long_signals_keep_their_extremes(axes: Any) -> None:
     assert len(band.get_paths()[0].vertices) < 10_000
 
 
-def test_angles_are_in_degrees_and_zero_has_a_place(axes: Any) -> None:
-    drawing.plot_principal_angles([0.0, np.pi / 6, np.pi / 2], ax=axes)
-    degrees = points(axes, 0)[1]
-    assert np.allclose(degrees[1:], [30, 90]) and 0 < degrees[0] < 1e-12
-    assert "30°" in words(axes) and "0°" in words(axes)
+def test_conditions_taken_for_zero_are_open_and_as_many_as_the_dimension(axes: Any) -> None:
+    drawing.plot_conditions([4.0, 2.0, 1.0, 1e-9, 0.0], 3, others="dimension 2", ax=axes)
+    assert points(axes, 0)[1].tolist() == [1.0, 0.5, 0.25] and points(axes, 1)[0].tolist() == [4, 5]
+    assert np.all(points(axes, 1)[1] > 0) and axes.lines[1].get_fillstyle() == "none"
+    assert "3 independent conditions" in words(axes) and "dimension 2" in words(axes)
+
+
+def test_under_noise_no_rank_is_shown(axes: Any) -> None:
+    noise = np.random.default_rng(4).standard_normal((400, 2))
+    counted = fault_dimension(noise)
+    assert counted.regime == "noise"
+    drawing.plot_window_ranks(counted, ax=axes)
+    assert "above what noise reaches" in words(axes) and "rank " not in words(axes)
+
+
+def test_the_detail_of_a_fault_signal_has_one_title() -> None:
+    r = np.random.default_rng(1).standard_normal((600, 2))
+    signal = reconstruct_fault(r, [[0.5]], [[1.0]], [[1.0], [0.0]], [[0.0], [1.0]])
+    picture = Figure()
+    draw_signal(signal, (100, 400), picture)
+    for ax in picture.axes:
+        assert [bool(ax.get_title(place)) for place in ("left", "center", "right")].count(True) == 1
 
 
 @pytest.mark.parametrize(
@@ -165,7 +184,8 @@ def test_angles_are_in_degrees_and_zero_has_a_place(axes: Any) -> None:
         lambda: drawing.plot_zeros_and_poles([np.inf]),
         lambda: drawing.plot_measured_and_simulated(np.zeros(4), np.zeros(5)),
         lambda: drawing.plot_fault_signal([np.nan]),
-        lambda: drawing.plot_principal_angles([-0.1]),
+        lambda: drawing.plot_conditions([-0.1], 1, others=""),
+        lambda: drawing.plot_conditions([], 0, others=""),
     ],
 )
 def test_what_cannot_be_drawn_is_refused(draw: Callable[[], Any]) -> None:

@@ -1,6 +1,6 @@
-"""What the functions of the room return: read by people, programs, notebooks and by the functions that come next.
+"""What the functions of the room return is read by people, programs, notebooks and by the functions that come next.
 
-chain      one record with a fault and the result of every step
+chain      one record with a fault and the result of every step, and a small study
 RESULTS    the results that have a summary, a JSON form and a short repr
 """
 
@@ -17,13 +17,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from faultspace import example_data, numeric
+from faultspace import example_data, monte_carlo, numeric
 from faultspace.base.errors import InvalidData, InvalidInput
 from faultspace.base.sheets import Shown
 from faultspace.numeric.model.models import StateSpaceModel
 
 Array = NDArray[np.float64]
-RESULTS = ("model", "residual", "dimension", "space", "signal")
+RESULTS = ("model", "residual", "dimension", "space", "signal", "study")
 needs_matplotlib = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is None, reason="matplotlib is not installed")
 
 
@@ -37,7 +37,9 @@ def chain() -> dict[str, Any]:
     signal = numeric.reconstruct_fault(rest, model.A, space.F[:, :1], model.C, space.G[:, :1])
     whole = numeric.identify(y, u, order=3, dt=0.5, inputs=example_data.INPUTS, outputs=example_data.OUTPUTS)
     dimension = numeric.fault_dimension(rest, u=u)
-    return {"y": y, "u": u, "model": model, "residual": rest, "dimension": dimension, "space": space, "signal": signal, "whole": whole}
+    study = monte_carlo("published", systems=8, samples=200, jobs=1)
+    steps = {"model": model, "residual": rest, "dimension": dimension, "space": space, "signal": signal}
+    return {"y": y, "u": u, **steps, "whole": whole, "study": study}
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -52,13 +54,41 @@ def test_a_result_is_read_by_people_programs_and_notebooks(name: str, chain: dic
 
 
 @needs_matplotlib
-@pytest.mark.parametrize("name", ["model", "residual", "dimension", "signal", "whole"])
+@pytest.mark.parametrize("name", ["model", "residual", "dimension", "space", "signal", "study", "whole"])
 def test_a_result_draws_itself_into_the_axes_given(name: str, chain: dict[str, Any]) -> None:
     from matplotlib.figure import Figure
 
     ax: Any = Figure(layout="constrained").add_subplot()
     assert chain[name].plot(ax) is ax
     assert ax.lines or ax.collections
+
+
+def test_a_study_tells_of_every_group_and_which_are_vacuous(chain: dict[str, Any]) -> None:
+    said = chain["study"].summary()
+    for label in ("0 zeros", "1 zero", "2 zeros", "3 zeros", "minimum phase", "not minimum phase"):
+        assert f"    {label}, paper " in said
+    assert said.count("2 systems, all vacuous: no null row") == 2  # as systems without zeros, and as systems without phase
+    middle = chain["study"].to_json()["by_zeros"][1]["quantiles"][2]
+    assert f"2 systems, median {100 * middle:.2g} %" in said
+
+
+@needs_matplotlib
+def test_a_fault_space_draws_what_its_dimension_rests_on(chain: dict[str, Any]) -> None:
+    from matplotlib.figure import Figure
+
+    fitted, B, D = chain["space"], example_data.F, example_data.G
+    r = StateSpaceModel(example_data.A, B, example_data.C, D).simulate(np.random.default_rng(5).standard_normal((400, 1)))
+    exact = numeric.fault_space(r, example_data.A, example_data.C)
+    assert (exact.method, fitted.method) == ("noise-free", "likelihood")
+    for space, shown in ((exact, exact.n_z), (fitted, 0)):  # what is zero by the fit is no evidence
+        ax: Any = Figure(layout="constrained").add_subplot()
+        space.plot(ax)
+        assert [len(line.get_ydata()) for line in ax.lines] == [space.equations, shown]
+        assert f"dimension {space.n_z}" in ax.get_legend().get_texts()[1].get_text()
+    nothing = numeric.fault_space(np.random.default_rng(3).standard_normal((400, 1)), [[0.5]], [[1.0]])
+    assert not nothing.meaningful
+    with pytest.raises(InvalidData, match="nothing to draw"):
+        nothing.plot()
 
 
 def test_each_function_takes_what_the_one_before_returns(chain: dict[str, Any]) -> None:

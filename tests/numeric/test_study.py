@@ -1,4 +1,4 @@
-"""The Monte Carlo study: its systems by construction, its cases whatever the workers, its vacuous cases, and the paper's example."""
+"""The Monte Carlo study is tested: systems by construction, cases whatever the workers, vacuous cases, and the paper's example."""
 
 from __future__ import annotations
 
@@ -14,8 +14,9 @@ from faultspace.numeric.study import runs
 from faultspace.numeric.study.cases import LIKELIHOOD, PAPER, Case, Errors
 from faultspace.numeric.study.example_v import behaviour_ranks, exact_fault_space, example_v, lines, published_ranks, recorded_errors, tally
 from faultspace.numeric.study.example_v import system as example_system
+from faultspace.numeric.study.groups import by_phase, by_zeros, median_interval
 from faultspace.numeric.study.runs import NOISE_GAIN, response, study_run
-from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, by_phase, by_zeros, median_interval, monte_carlo
+from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, monte_carlo
 from faultspace.numeric.study.systems import pencil_zeros, study_system
 
 # Medians of the author's own run, 25 systems for each number of zeros, in percent, read off the plot that his notebook keeps.

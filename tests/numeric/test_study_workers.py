@@ -10,7 +10,8 @@ import pytest
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.study import workers as study_workers
-from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Plan, Study, monte_carlo
+from faultspace.numeric.study.groups import Plan
+from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, monte_carlo
 from faultspace.numeric.study.workers import in_order
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,8 +41,8 @@ def problem(plant: StateSpaceModel, count: int = 40, seed: int = 1) -> Reduction
     return Reduction(angles, half_transfers(system_matrix(plant), plant.n, angles)[0], positive(plant.p), positive(plant.n_u), 100)  # type: ignore[arg-type]
 
 
-def by_differences(function: Callable[[Array], Array], matrix: Array, step: float = 1e-6) -> Array:
-    """The Jacobian of a function of T by central differences."""
+def by_differences(function: Callable[[Array], Any], matrix: Array, step: float = 1e-6) -> Any:
+    """Return the Jacobian of a function of T by central differences."""
     columns = []
     for entry in range(matrix.size):
         change = np.zeros(matrix.size)

@@ -31,14 +31,15 @@ FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
 
 def covered(certificate: dict[str, Any]) -> bool:
-    """Whether the certificate is of a covered kind, over the rational numbers."""
+    """Return whether the certificate is of a covered kind, over the rational numbers."""
     return certificate["kind"] in COVERED and '"field"' not in json.dumps(certificate)
 
 
 def small_ones() -> list[dict[str, Any]]:
-    """Yields certificates of every covered kind, systems without states, faults or outputs among them."""
+    """Returns certificates of every covered kind, each once, systems without states, faults or outputs among them."""
     made = [c for system in SYSTEMS.values() for c in of_one_system(system)]
-    return [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
+    every = [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
+    return [*{json.dumps(c): c for c in every}.values()]
 
 
 @needs_rocq

@@ -18,7 +18,7 @@ from faultspace.proofs.rocq.build import DIGESTS, NoRocq, compile_file, compiled
 from faultspace.proofs.rocq.locks import held
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import read
-from faultspace.proofs.verdict.ledger import Claim, Reading, load
+from faultspace.proofs.verdict.ledger import Reading, load
 from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Verdict
 
 CLAIM = "proposition-3"
@@ -29,7 +29,7 @@ TEXTS = sources()
 def _no_systems(monkeypatch: pytest.MonkeyPatch) -> None:
     """The systems say what the ledger expects, at once: what is tried here is Rocq's part."""
 
-    def agrees(claim: Claim, reading: Reading, bench: object) -> ReadingResult:
+    def agrees(reading: Reading, bench: object, decided: object) -> ReadingResult:
         return ReadingResult(reading, Outcome(Verdict(reading.expected), "as expected"), 0.0)
 
     monkeypatch.setattr(verification, "_check", agrees)
