@@ -36,9 +36,10 @@ def covered(certificate: dict[str, Any]) -> bool:
 
 
 def small_ones() -> list[dict[str, Any]]:
-    """Yields certificates of every covered kind, systems without states, faults or outputs among them."""
+    """Returns certificates of every covered kind, each once, systems without states, faults or outputs among them."""
     made = [c for system in SYSTEMS.values() for c in of_one_system(system)]
-    return [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
+    every = [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
+    return [*{json.dumps(c): c for c in every}.values()]
 
 
 @needs_rocq
