@@ -16,7 +16,8 @@ from faultspace.exact.algebra.fields import QQ
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import export as rocq_export
 from faultspace.proofs.rocq.build import NotProved
-from faultspace.proofs.rocq.export import COVERED, NotCovered, Terms, exported, translated
+from faultspace.proofs.rocq.export import COVERED, Terms, exported, translated
+from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomputed, theory
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.trust import checker
