@@ -6,7 +6,7 @@ fault knows more: noise and model error, their sizes and colours. At each freque
     covariance of r = that of the healthy residual + H(f) S_v(f) H(f)*,  rank of the second term at most n_v, and n_v at almost all f
                       for faults of full spectrum; H = C (zI - A)^-1 F + G
 
-Count. l_1 >= l_2 >= ..: roots of the tapered covariance of the record against the healthy one, whitened (`healthy_reference`). With j
+Count. l_1 >= l_2 >= ..: roots of the tapered covariance of the record against the healthy one, whitened (`healthy_model.py`). With j
 faults, on the p - j dimensional space of combinations w with w* H = 0 both covariances are those of noise, and by Courant and Fischer
 l_(j+1) is at most the largest root there. That has an exact law (`largest_root`) whatever the noise; so a threshold at its quantile is
 exceeded with the stated chance at most, shared among the frequencies by Bonferroni's inequality and raised by the strain that the
@@ -15,7 +15,7 @@ healthy record showed there.
 Set after looking. The form of the threshold is derived; four settings were revised by hand after seeing what they did to a measured record
 of 28 outputs (with and without a fault added) and to the simulated cells of `benchmarks/fault_dimension.py`: the default level (.01 at
 first, when a stretch of measured data without fault came 2 % above an early form of the threshold; now .001), the most lags of the
-predictor and the least number of tapers (`healthy_reference`), and the rule for turning directions below with its share TURNED. Rates on
+predictor and the least number of tapers (`healthy_model.py`), and the rule for turning directions below with its share TURNED. Rates on
 those two are therefore optimistic for other data.
 
     n_v             the largest count over the frequencies; 0: none is seen. By chance alone it is too large with at most the probability

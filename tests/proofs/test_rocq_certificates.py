@@ -16,7 +16,8 @@ from faultspace.exact.algebra.fields import QQ
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import export as rocq_export
 from faultspace.proofs.rocq.build import NotProved
-from faultspace.proofs.rocq.export import COVERED, NotCovered, Terms, exported, translated
+from faultspace.proofs.rocq.export import COVERED, Terms, exported, translated
+from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomputed, theory
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.trust import checker
@@ -25,7 +26,8 @@ from tests.proofs.examples import RANKS, ROOTED, K, S, certificates, spoiled, wr
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems
 
 needs_rocq = pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
-SHIPPED = [json.loads(one.read_text("utf-8")) for one in resources.files("faultspace.proofs").joinpath("certificates").iterdir()]
+KEPT = resources.files("faultspace.proofs").joinpath("certificates").iterdir()
+SHIPPED = [json.loads(one.read_text("utf-8")) for one in KEPT if re.fullmatch(r".+-.+\.json", one.name)]
 EVERY = 101  # mutation is tried
 FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
