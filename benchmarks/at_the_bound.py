@@ -1,4 +1,4 @@
-"""How near models from faulty data come to the Cramer-Rao bound, by method, and how honest their standard errors are.
+"""This measures how near models from faulty data come to the Cramer-Rao bound, by method, and how honest their standard errors are.
 
     python benchmarks/at_the_bound.py [--systems 24] [--seed 1] [--cells paper 2in3out] [--samples 200 1000 10000] [--jobs 1]
     python benchmarks/at_the_bound.py --calibrate lags | ladder | angles | starts
@@ -78,7 +78,7 @@ class Outcome:
 
 @contextmanager
 def changed(replacements: tuple[tuple[object, str, object], ...]) -> Iterator[None]:
-    """Constants replaced for a while."""
+    """The constants are replaced for a while."""
     with ExitStack() as stack:
         for place, name, value in replacements:
             stack.enter_context(patch.object(place, name, value))
@@ -86,7 +86,7 @@ def changed(replacements: tuple[tuple[object, str, object], ...]) -> Iterator[No
 
 
 def error(method: Method, trial: Trial, bound: Uncertainty) -> float:
-    """Over the bound; infinite where there is no model."""
+    """Return the error over its bound, infinite where there is no model."""
     try:
         return relative_error(method(trial), trial.model, bound)
     except InvalidData:
@@ -94,7 +94,7 @@ def error(method: Method, trial: Trial, bound: Uncertainty) -> float:
 
 
 def compared(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
-    """All methods on one record."""
+    """Return what all methods find in one record."""
     trial = cell.trial(seed, number, samples)
     bound = cramer_rao(trial.model, trial.spectra, samples)
     errors = {name: error(method, trial, bound) for name, method in METHODS.items()}
@@ -114,7 +114,7 @@ def compared(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
 
 
 def calibrated(constant: str, cell: Cell, seed: int, number: int, samples: int) -> Outcome:
-    """Ours with each value of one constant on one record."""
+    """Return the errors of our method on one record, with each value of one constant."""
     trial = cell.trial(seed, number, samples)
     bound = cramer_rao(trial.model, trial.spectra, samples)
     errors = {}
@@ -125,7 +125,7 @@ def calibrated(constant: str, cell: Cell, seed: int, number: int, samples: int) 
 
 
 def order_found(cell: Cell, seed: int, number: int, samples: int) -> str:
-    """What was said of the order of one record."""
+    """Return what was said of the order of one record."""
     trial = cell.trial(seed, number, samples)
     orders = arx_reduction(trial.y, trial.u).orders
     assert orders is not None
@@ -135,7 +135,7 @@ def order_found(cell: Cell, seed: int, number: int, samples: int) -> str:
 
 
 def summary(errors: Array, rng: np.random.Generator) -> str:
-    """Median [95 % interval] q90."""
+    """Return the median with its 95 % interval, and the 90 % quantile."""
     medians = np.median(rng.choice(errors, (2000, len(errors))), axis=1)
     # Without interpolation: errors may be infinite.
     low, high = np.quantile(medians, (0.025, 0.975), method="nearest")
@@ -143,7 +143,7 @@ def summary(errors: Array, rng: np.random.Generator) -> str:
 
 
 def line(cell: Cell, samples: int, outcomes: list[Outcome], names: list[str]) -> str:
-    """One row of the table."""
+    """Return one row of the table."""
     rng = np.random.default_rng(0)
     columns = [summary(np.array([outcome.errors[name] for outcome in outcomes]), rng) for name in names]
     hits = np.sum([outcome.covered for outcome in outcomes], axis=0)

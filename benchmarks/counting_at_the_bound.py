@@ -71,7 +71,7 @@ def record(seed: int, p: int, n_v: int, decibels: float, spread: float, samples:
 
 
 def count(seed: int, trials: int, samples: int, clock: Clock) -> None:
-    """A line a cell: right, undecided, wrong."""
+    """Print a line for each cell: how many were right, undecided, wrong."""
     for p, n_v, decibels, spread in COUNT_CELLS:
         right = undecided = wrong = 0
         begin = time.process_time()
@@ -91,7 +91,7 @@ def count(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 
 def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
-    """A line a number of zeros, and one for all of them, with true and with identified A, C."""
+    """Print a line for each number of zeros, and one for all of them, with true and with identified A, C."""
     told: list[tuple[int, str, float, float, bool, float]] = []
     for trial in clock.range(trials):
         zeros = trial % 4
@@ -124,7 +124,7 @@ def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 
 def models(system: StudySystem, y: Array, u: Array) -> Iterator[tuple[str, Array, Array]]:
-    """Name, A, C: the true ones, PI-MOESP's and those of the weighted reduction, where these find any."""
+    """Yield a name, A and C: the true ones, PI-MOESP's and those of the weighted reduction, where these find any."""
     yield "true", system.model.A, system.model.C
     for name, identified in (("PI-MOESP", pi_moesp_model), ("reduction", reduced_model)):
         try:
@@ -135,17 +135,17 @@ def models(system: StudySystem, y: Array, u: Array) -> Iterator[tuple[str, Array
 
 
 def pi_moesp_model(y: Array, u: Array) -> StateSpaceModel:
-    """PI-MOESP with the window of the study."""
+    """Return the model of PI-MOESP with the window of the study."""
     return pi_moesp(y, u, order=N_X, block_rows=20).model
 
 
 def reduced_model(y: Array, u: Array) -> StateSpaceModel:
-    """An ARX model of high order, reduced with its weight."""
+    """Return the weighted reduction of an ARX model of high order."""
     return arx_reduction(y, u, order=N_X).model
 
 
 def aligned(system: StudySystem, found: FaultSpaceEstimate, A: Array, C: Array) -> Array:
-    """The estimate in the true state basis."""
+    """Return the estimate in the true state basis."""
     true, other = (observability_matrix(*pair, 2 * N_X) for pair in ((system.model.A, system.model.C), (A, C)))
     to_true = np.linalg.lstsq(true, other, rcond=None)[0]
     return orthonormal(np.vstack([to_true @ found.F, found.G]))
@@ -181,19 +181,19 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 
 def quantiles(values: list[float]) -> str:
-    """Mean and some quantiles."""
+    """Return the mean and some quantiles, as text."""
     q = np.quantile(values, [0.5, 0.9, 0.99])
     return f"mean {np.mean(values):.2f}, median {q[0]:.2f}, 90 % {q[1]:.2f}, 99 % {q[2]:.2f} of {len(values)}"
 
 
 def rate(count: int, total: int) -> str:
-    """In %, with Wilson's interval."""
+    """Return the rate in %, with Wilson's interval."""
     interval = scipy.stats.binomtest(count, total).proportion_ci(method="wilson")
     return f"{100 * count / total:.0f} [{100 * interval.low:.0f}, {100 * interval.high:.0f}] %"
 
 
 def median(errors: Array) -> str:
-    """With its bootstrap interval, and the 90 % quantile."""
+    """Return the median with its bootstrap interval, and the 90 % quantile."""
     random = np.random.default_rng(0)
     medians = np.median(random.choice(errors, (500, len(errors))), axis=1)
     low, high = np.quantile(medians, [0.025, 0.975])
@@ -207,7 +207,7 @@ class Clock:
         self.end, self.left = time.monotonic() + seconds, calls
 
     def range(self, trials: int) -> Iterator[int]:
-        """0, 1, .., trials - 1, or as far as the time of this call goes."""
+        """Yield 0, 1, .., trials - 1, or as far as the time of this call goes."""
         stop = time.monotonic() + max(self.end - time.monotonic(), 0.0) / max(self.left, 1)
         self.left -= 1
         for trial in range(trials):
@@ -217,7 +217,7 @@ class Clock:
 
 
 def main() -> None:
-    """Parse, run, print."""
+    """Parse the arguments, run what they ask for, and print it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("table", choices=("count", "space", "calibrate"))
     parser.add_argument("--trials", type=int, default=30)

@@ -43,7 +43,7 @@ def planted(n: int, m: int, zeta: int) -> ResidualSystem:
 
 
 def expanded(pencil: Exceptional) -> int:
-    """The number of terms of D expanded in q and the entries of P, multiplied out in a polynomial ring from the h_J."""
+    """Return the number of terms of D expanded in q and the entries of P, multiplied out in a polynomial ring from the h_J."""
     forms = forms_of_determinant(pencil)
     names = [f"p{i}_{j}" for i in range(pencil.n_z) for j in range(pencil.columns)]
     ring, q, *entries = sympy.ring(["q", *names], sympy.QQ)

@@ -1,4 +1,4 @@
-"""How often the fault dimension is right, undecided or wrong, on data like the paper's and on harder ones.
+"""This measures how often the fault dimension is right, undecided or wrong, on data like the paper's and on harder ones.
 
     python benchmarks/fault_dimension.py [--trials 30] [--seed 1] [--samples 1001] [--markdown]
 
@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Cell:
-    """p outputs, m faults, noise so many decibels below the outputs, the ratio of its levels, and where the residual comes from."""
+    """A cell has p outputs, m faults, noise so many decibels below them, a ratio of its levels, and a source of the residual."""
 
     p: int
     m: int
@@ -77,7 +77,7 @@ class Plant:
     G: Array
 
     def respond(self, state: Array, u: Array, v: Array) -> tuple[Array, Array]:
-        """What v (and the initial state) and what u do to the outputs, (N, p) each."""
+        """Return what v (and the initial state) and what u do to the outputs, (N, p) each."""
         driven = np.zeros(len(self.A))
         by_fault, by_input = np.empty((len(u), len(self.C))), np.empty((len(u), len(self.C)))
         for k in range(len(u)):
@@ -96,7 +96,7 @@ def random_plant(random: np.random.Generator, p: int, m: int, n: int = 5) -> Pla
 
 
 def noise(random: np.random.Generator, samples: int, levels: Array) -> Array:
-    """Low-pass noise of the paper with these standard deviations."""
+    """Return low-pass noise of the paper with these standard deviations."""
     white = random.standard_normal((samples + 64, len(levels)))
     low = scipy.signal.lfilter([0.17, 0.5, 0.5, 0.17], [1.0, 0.0, 0.33, 0.0], white, axis=0)[64:]
     return np.asarray(low / low.std(axis=0) * levels)

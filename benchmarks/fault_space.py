@@ -1,4 +1,4 @@
-"""How near the fault space of a noisy residual comes to the true one, how honest its stated uncertainty is, and what it costs.
+"""This measures how near the fault space of a noisy residual comes to the true one, how honest its uncertainty is, and what it costs.
 
     python benchmarks/fault_space.py [--trials 20] [--seed 1]
 
@@ -43,7 +43,7 @@ WINDOWS = (10, 20, 30, 60)
 
 @dataclass(frozen=True)
 class Trial:
-    """A residual r (N, p) with the truth about it: A, C, Z (n + p, n_v + zeros), n_v."""
+    """This is a residual r (N, p) with the truth about it: A, C, Z (n + p, n_v + zeros), n_v."""
 
     r: Array
     A: Array
@@ -62,7 +62,7 @@ def paper_like(zeros: int, samples: int, seed: int) -> Trial:
 
 
 def two_rows(shape: tuple[int, int, int], samples: int, seed: int) -> Trial:
-    """A random stable system without zeros and with two kernel rows more than none."""
+    """Return a random stable system without zeros and with two kernel rows more than none."""
     n, p, n_v = shape
     rng = np.random.default_rng([seed, *shape, samples])
     A = rng.standard_normal((n, n))
@@ -78,7 +78,7 @@ def _noisy(r: Array, rng: np.random.Generator) -> Array:
 
 
 def angle(trial: Trial, basis: Array) -> float:
-    """Degrees; 90 for a wrong number of columns."""
+    """Return the largest angle to the true space in degrees, 90 for a wrong number of columns."""
     return 90.0 if basis.shape != trial.Z.shape else float(np.degrees(principal_angles(trial.Z, basis)[-1]))
 
 
@@ -94,13 +94,13 @@ def by_null_rows(trial: Trial, s: int) -> Array:
 
 
 def one_at_a_time(trial: Trial) -> FaultSpaceEstimate:
-    """The likelihood form without its joint step."""
+    """Return the estimate of the likelihood form without its joint step."""
     with patch.object(noisy_fault_space, "joint_basis", return_value=None):
         return fault_space_by_likelihood(trial.r, trial.A, trial.C, n_v=trial.n_v)
 
 
 def verdicts(trials: list[Trial], answers: list[FaultSpaceEstimate]) -> str:
-    """How often the number of zeros is right / undecided / wrong."""
+    """Return how often the number of zeros is right / undecided / wrong."""
     right = sum(a.decided and a.n_z == t.Z.shape[1] for t, a in zip(trials, answers, strict=True))
     undecided = sum(not a.decided for a in answers)
     return f"{right}/{undecided}/{len(answers) - right - undecided}"
@@ -132,7 +132,7 @@ def line(label: str, samples: int, trials: list[Trial], seed: int) -> str:
 
 
 def seconds_by_window(seed: int) -> str:
-    """The paper's example, p = 2, N = 1001, s = 10 .. 60: seconds of the exact-rank form, and the exponent of the growth."""
+    """Time the paper's example, p = 2, N = 1001, s = 10 .. 60: seconds of the exact-rank form, and the exponent of the growth."""
     A = np.array([[0, 1, 0], [0, 0, 1], [-0.25, 0.75, 0.25]])
     root = float(min(np.roots([4, -1, -3, 1]).real))
     F, C = np.array([[1.0], [root], [root**2]]), np.eye(2, 3)

@@ -36,7 +36,7 @@ GROWING = ("ours", "ours-gram", "ours-qr")
 
 
 def settings(samples: int) -> tuple[Setting, ...]:
-    """Ascending cost; the last with sensor noise, without which one fault in three outputs makes the whole data Gram singular."""
+    """Return settings by cost, the last with sensor noise: without it one fault in three outputs makes the whole data Gram singular."""
     shapes = ((1, 1, 10, 0.0), (2, 3, 10, 0.0), (2, 3, 20, 0.0), (2, 3, 20, NOISE))
     return tuple(Setting(n_u, p, s, samples, noise) for n_u, p, s, noise in shapes)
 

@@ -1,4 +1,4 @@
-"""What the two routes of the compression must cost at least, and how they grow.
+"""This computes what the two routes of the compression must cost at least, and how they grow.
 
 With L = 2 s lags, c = n_u + p channels and k = 2 s n_u + s p rows of the Hankel matrix [Uf; Up; Yf] of N samples:
 
@@ -40,7 +40,7 @@ class Rates:
 
 
 def flops(route: str, setting: Setting) -> float:
-    """Of "ours-gram", "ours-qr", or "plain Gram"."""
+    """Return the operations of "ours-gram", "ours-qr", or "plain Gram"."""
     N, s, c = setting.samples, setting.block_rows, setting.n_u + setting.p
     k = 2 * s * setting.n_u + s * setting.p
     return {"ours-gram": 2.0 * N * 2 * s * c**2, "ours-qr": 2.0 * N * k**2, "plain Gram": 1.0 * N * k**2}[route]
@@ -52,7 +52,7 @@ def bound(route: str, setting: Setting, rates: Rates) -> float:
 
 
 def rates_here() -> Rates:
-    """Measured in this process, whose libraries must have one thread."""
+    """Measure the rates in this process, whose libraries must have one thread."""
     from scipy.linalg import blas
 
     matrix = np.asfortranarray(np.random.default_rng(1).standard_normal((SIZE, SIZE)))
@@ -66,7 +66,7 @@ def measure_rates() -> Rates:
 
 
 def best(*measured: Rates) -> Rates:
-    """The highest rates: on a busy machine the ones nearest the truth, and the strictest for us."""
+    """Return the highest rates: on a busy machine the ones nearest the truth, and the strictest for us."""
     return Rates(max(each.dgemm for each in measured), max(each.dsyrk for each in measured))
 
 
@@ -80,7 +80,7 @@ def _least(call: Callable[[], object]) -> float:
 
 
 def exponent(points: Sequence[tuple[float, float]]) -> float | None:
-    """The slope through (x, seconds); None with fewer than three points."""
+    """Return the slope through (x, seconds); None with fewer than three points."""
     if len(points) < 3:
         return None
     x, y = np.log(np.array(points, dtype=np.float64)).T

@@ -1,4 +1,4 @@
-"""One cell of the identification benchmark: one method on one record, in a process of its own with a limit on time and address space.
+"""This measures one cell of the identification benchmark: one method on one record, in a process with a limit on time and memory.
 
     CELL      the limits of a cell: CPU seconds of the whole process, bytes of address space
     Cell      how it ended, seconds (the least of the repeats), peak memory above imports and data, errors of the model if it gave one
@@ -45,7 +45,7 @@ class Cell:
 
 
 def measure(command: list[str], setting: Setting, folder: Path, limits: Limits) -> Cell:
-    """The command on the record in `folder`, stopped at the limit."""
+    """Run the command on the record in `folder`, stopped at the limit."""
     process = session(
         command,
         address_space=limits.memory,
@@ -79,7 +79,7 @@ def measure(command: list[str], setting: Setting, folder: Path, limits: Limits) 
 
 
 def cell_of(answer: dict[str, object], setting: Setting) -> Cell:
-    """The cell that a method tells: seconds, megabytes, whether y or u was written to, and A, B, C, D where it gives a model."""
+    """Return the cell that a method tells: seconds, megabytes, whether y or u was written to, and A, B, C, D where it gives a model."""
     seconds, megabytes = answer["seconds"], answer.get("megabytes")
     assert isinstance(seconds, float | int) and (megabytes is None or isinstance(megabytes, float | int))
     changed = bool(answer.get("changed"))
@@ -93,12 +93,12 @@ def cell_of(answer: dict[str, object], setting: Setting) -> Cell:
 
 
 def environment() -> dict[str, str]:
-    """One thread everywhere, no display, and the tree on Python's path."""
+    """Return an environment with one thread everywhere, no display, and the tree on Python's path."""
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     threads = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
     return os.environ | threads | {"PYTHONPATH": path, "MPLBACKEND": "Agg"}
 
 
 def python_command(name: str, *arguments: str) -> list[str]:
-    """The command that runs a Python method of this benchmark."""
+    """Return the command that runs a Python method of this benchmark."""
     return [sys.executable, "-m", "benchmarks.identification_methods", name, *arguments]

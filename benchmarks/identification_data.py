@@ -46,14 +46,14 @@ class Setting:
 
 @dataclass(frozen=True)
 class System:
-    """x+ = A x + B u + F v, y = C x + D u + G v as two models of one A and C."""
+    """This is x+ = A x + B u + F v, y = C x + D u + G v as two models of one A and C."""
 
     from_input: StateSpaceModel
     from_fault: StateSpaceModel
 
 
 def system(n_u: int, p: int) -> System:
-    """Random B, C, D, F, G beside the fixed POLES, in rotated coordinates."""
+    """Return random B, C, D, F, G beside the fixed POLES, in rotated coordinates."""
     random = np.random.default_rng((SEED, n_u, p))
     blocks = np.diag([pole.real for pole in map(complex, POLES)])
     blocks[2, 3], blocks[3, 2] = POLES[2].imag, POLES[3].imag
@@ -84,7 +84,7 @@ def record(setting: Setting) -> tuple[Array, Array]:
 
 
 def write(setting: Setting, folder: Path) -> None:
-    """y.bin and u.bin (float64, one sample after the other) and setting.json into the folder."""
+    """Write y.bin and u.bin (float64, one sample after the other) and setting.json into the folder."""
     y, u = record(setting)
     y.tofile(folder / "y.bin")
     u.tofile(folder / "u.bin")

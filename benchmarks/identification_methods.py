@@ -1,4 +1,4 @@
-"""The methods of the identification benchmark. Each is a program of its own, run in a folder with a record, that writes one line:
+"""These are the methods of the identification benchmark. Each is a program of its own, run in a folder with a record, that writes one line:
 
     RESULT {"seconds": ..., "megabytes": ..., "changed": ..., "A": ..., "B": ..., "C": ..., "D": ...}
 
@@ -42,7 +42,7 @@ Preparation = Callable[[Array, Array, Setting], Call]
 
 @dataclass(frozen=True)
 class Method:
-    """`needs`: "" for ours, a Python distribution, or "octave"; `gives`: "factor" (no model) or "model"; instruments as the tool uses."""
+    """A method `needs` "" (ours), a Python distribution, or "octave", `gives` "factor" or "model", and has its tool's `instruments`."""
 
     name: str
     words: str
@@ -69,7 +69,7 @@ class Method:
         return f"{self.needs} {version(self.needs)}" if self.needs else f"numpy {np.__version__}, scipy {version('scipy')}"
 
     def command(self, setting: Setting, fault_id: Path | None) -> list[str]:
-        """What runs it in the folder of the record."""
+        """Return what runs it in the folder of the record."""
         if self.needs != "octave":
             return python_command(self.name)
         if self.name == "fault-id":
@@ -112,7 +112,7 @@ def _compression(route: str) -> Preparation:
 
 
 def _ib01ad(algorithm: str, y: Array, u: Array, setting: Setting) -> Array:
-    """SLICOT's factor R and the singular values: one sequential block, no past data, order by the gap (not used)."""
+    """Return SLICOT's factor R and the singular values: one sequential block, no past data, order by the gap (not used)."""
     import ctrlsys
 
     _, factor, _, _, info = ctrlsys.ib01ad("M", algorithm, "N", "O", "N", "N", setting.block_rows, setting.n_u, setting.p, u, y, 0.0, -1.0)
@@ -134,7 +134,7 @@ def _ctrlsys_factor(algorithm: str) -> Preparation:
 
 
 def _ctrlsys(y: Array, u: Array, setting: Setting) -> Call:
-    """A and C from ib01bd, whose B and D are wrong with info = 0; B, D and x0 from ib01cd, which SLICOT offers for that."""
+    """Return A and C from ib01bd, whose B and D are wrong with info = 0; B, D and x0 from ib01cd, which SLICOT offers for that."""
     import ctrlsys
 
     s, n_u, p = setting.block_rows, setting.n_u, setting.p
@@ -234,13 +234,13 @@ SPECIAL: dict[str, Callable[[], dict[str, Any]]] = {"rates": lambda: asdict(rate
 
 
 def cpu_seconds() -> float:
-    """CPU time of this process. Not time.process_time, which under a limit on CPU time moves in the kernel's ticks, 4 ms here."""
+    """Return this process's CPU time. Under a limit on it, time.process_time would move in the kernel's ticks, 4 ms here."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     return used.ru_utime + used.ru_stime
 
 
 def run(name: str, folder: Path) -> dict[str, Any]:
-    """The method on the record in the folder: what it tells."""
+    """Run the method on the record in the folder, and return what it tells."""
     prepare = PREPARATIONS[name]
     setting, y, u = read(folder)
     prepare(y[:WARM].copy(), u[:WARM].copy(), setting)()
@@ -267,7 +267,7 @@ def run(name: str, folder: Path) -> dict[str, Any]:
 
 
 def _status(field: str) -> int | None:
-    """A field of Linux's account of this process, in KB."""
+    """Return a field of Linux's account of this process, in KB."""
     file = Path("/proc/self/status")
     if not file.exists():
         return None
@@ -275,7 +275,7 @@ def _status(field: str) -> int | None:
 
 
 def _reset_peak() -> int | None:
-    """The resident KB from which a new peak counts; None where the system does not let the peak be reset."""
+    """Return the resident KB from which a new peak counts; None where the system does not let the peak be reset."""
     try:
         Path("/proc/self/clear_refs").write_text("5")
     except OSError:

@@ -1,4 +1,4 @@
-"""Octave's part of the identification benchmark: the control package's functions and the author's own, on the record in the folder.
+"""This is Octave's part of the identification benchmark: the control package's functions and the author's own, on the record in the folder.
 
 packaged_script     moen4 or moesp of the control package
 author_script       pi_moesp.m from a clone of ggleizer/fault_id
@@ -94,7 +94,7 @@ def octave_command(script: str) -> list[str]:
 
 @cache
 def octave_missing() -> str | None:
-    """Why the scripts cannot run here, or None."""
+    """Return why the scripts cannot run here, or None."""
     if shutil.which(PROGRAM) is None:
         return f"the program {PROGRAM} is not installed"
     loaded = subprocess.run(octave_command("pkg load control"), capture_output=True, check=False, stdin=subprocess.DEVNULL)

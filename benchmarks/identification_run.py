@@ -1,4 +1,4 @@
-"""What a run of the identification benchmark has measured, and what follows from it.
+"""This records what a run of the identification benchmark has measured, and what follows from it.
 
 Run        settings with their cells, growth, rates, the study, machine, what is absent
 aims       what was hoped for and what the run says about it
@@ -25,7 +25,7 @@ FASTER, STUDY_FASTER, MEGABYTES, OVER_BOUND = 10.0, 20.0, 64.0, 4.0
 
 @dataclass(frozen=True)
 class Run:
-    """A whole run: `cells[setting][method]`, `grown[what][method]` as pairs (setting, cell)."""
+    """This is a whole run: `cells[setting][method]`, `grown[what][method]` as pairs (setting, cell)."""
 
     machine: dict[str, str]
     limits: Limits
@@ -47,7 +47,7 @@ class Aim:
 
 
 def fastest_peer(cells: Mapping[str, Cell], models: set[str]) -> tuple[str, float] | None:
-    """The quickest finished peer among `models`, with its seconds."""
+    """Return the quickest finished peer among `models`, with its seconds."""
     found = [(cell.seconds, name) for name, cell in cells.items() if name not in OURS and name in models and cell.outcome == "finished"]
     return (min(found)[1], min(found)[0]) if found else None
 
@@ -95,7 +95,7 @@ def aims(run: Run, models: set[str]) -> list[Aim]:
 
 
 def slopes(run: Run) -> dict[str, dict[str, float | None]]:
-    """For each quantity that grows, the exponent of each method's seconds."""
+    """Return, for each quantity that grows, the exponent of each method's seconds."""
     return {
         what: {
             name: exponent([(grown(what, setting), cell.seconds) for setting, cell in pairs if cell.outcome == "finished"])
@@ -106,7 +106,7 @@ def slopes(run: Run) -> dict[str, dict[str, float | None]]:
 
 
 def to_json(run: Run, models: set[str]) -> dict[str, Any]:
-    """Everything measured, and what was derived from it."""
+    """Return everything measured, and what was derived from it."""
     return {
         "machine": run.machine,
         "limits": {"seconds": run.limits.seconds, "megabytes": run.limits.memory >> 20},

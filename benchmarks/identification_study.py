@@ -1,4 +1,4 @@
-"""The 100-system study of the paper, by the author's program under Octave and by ours: seconds and median errors.
+"""This times the 100-system study of the paper, by the author's program under Octave and by ours: seconds and median errors.
 
 The author's text is taken from the clone that the user names, sections 1 to 4 of montecarlo.mlx (systems, data, estimates, errors; the
 plots are left out), and run as it stands, with two functions that Octave lacks put beside it: `tzero` calls the control package's
@@ -62,7 +62,7 @@ def sections(notebook: Path) -> list[str]:
 
 
 def author_study(fault_id: Path) -> str:
-    """The program that times sections 1 to 4 and tells the median error."""
+    """Return the program that times sections 1 to 4 and tells the median error."""
     code = [text.replace("close all;", "") for text in sections(fault_id / "montecarlo.mlx")[:SECTIONS]]
     head = f'pkg load control; warning off; addpath ("{fault_id}"); addpath ("{fault_id / "Monte Carlo"}"); addpath (pwd);\nbegun = tic;\n'
     tail = 'printf ("RESULT {\\"seconds\\": %.6g, \\"error\\": %.6g}\\n", toc (begun), 100 * median ([scenario.error]));\n'
@@ -70,7 +70,7 @@ def author_study(fault_id: Path) -> str:
 
 
 def study_here() -> dict[str, Any]:
-    """Our side, in this process: the study once to warm up, then on one process and on all cores."""
+    """Return what our side takes, in this process: the study once to warm up, then on one process and on all cores."""
     import numpy as np
 
     from faultspace.numeric.study.studies import PUBLISHED, monte_carlo

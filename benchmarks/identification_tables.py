@@ -1,4 +1,4 @@
-"""The tables of the identification benchmark, as sheets.
+"""These are the tables of the identification benchmark, as sheets.
 
 time_table      seconds and extra memory of every method in every setting
 error_table     eigenvalue and Markov-parameter errors of the models

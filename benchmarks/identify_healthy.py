@@ -1,4 +1,4 @@
-"""How often `identify --healthy-until` finds a fault where there is none, and one of the size that it says it would see.
+"""This measures how often `identify --healthy-until` finds a fault where there is none, and one of the size that it says it would see.
 
     python benchmarks/identify_healthy.py [--trials 40] [--seed 1] [--markdown]
 
@@ -37,7 +37,7 @@ def plant(random: np.random.Generator) -> StateSpaceModel:
 
 
 def noise(random: np.random.Generator, samples: int) -> Array:
-    """Correlated noise of one random colour and very unequal levels, some per cent of the outputs."""
+    """Return correlated noise of one random colour and very unequal levels, some per cent of the outputs."""
     white = random.standard_normal((samples + 200, 3)) @ (np.eye(3) + 0.5 * random.standard_normal((3, 3)))
     coloured = lfilter([1.0, random.uniform(-0.8, 0.8)], [1.0, -random.uniform(-0.8, 0.8)], white, axis=0)[200:]
     return np.asarray(coloured * 10.0 ** random.uniform(-2.5, -0.5, 3))

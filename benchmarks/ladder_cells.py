@@ -1,4 +1,4 @@
-"""One cell of the ladder benchmark: one method on one system, in a process of its own with a limit on time and memory.
+"""This measures one cell of the ladder benchmark: one method on one system, in a process of its own with a limit on time and memory.
 
     Budget    wall seconds for the timed part and for what precedes it, address space in MB, how often a quick cell is repeated
     Cell      how it ended, its CPU seconds (the least of the repeats), its parts, the ranks it told, its peak memory
@@ -49,7 +49,7 @@ class Cell:
 
 
 def measure(method: Method, system: System, limits: Budget) -> Cell:
-    """The method on the system; a quick one again, keeping the quickest run and the largest memory."""
+    """Run the method on the system; a quick one runs again, keeping the quickest run and the largest memory."""
     best = _once(method, system, limits)
     for _ in range(limits.repeats - 1):
         if best.outcome != "finished" or best.seconds > BRIEF:
@@ -125,7 +125,7 @@ def _listen(process: subprocess.Popen[bytes], limits: Budget) -> tuple[list[str]
 
 
 def read_lines(lines: list[str], system: System) -> Cell:
-    """What the lines say. The outcome is "setup" before `ready`, then "running", then "finished"."""
+    """Return what the lines say. The outcome is "setup" before `ready`, then "running", then "finished"."""
     outcome, seconds = "setup", 0.0
     parts: dict[str, float] = {}
     ranks: dict[int, int] = {}
@@ -153,6 +153,6 @@ def ranks_from_indices(indices: list[int], p: int, windows: int) -> dict[int, in
 
 
 def _environment() -> dict[str, str]:
-    """One thread everywhere, and the tree on Python's path."""
+    """Return an environment with one thread everywhere, and the tree on Python's path."""
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     return os.environ | {"PYTHONPATH": path, "OMP_NUM_THREADS": "1", "GC_MARKERS": "1", "GC_NPROCS": "1"}

@@ -1,4 +1,4 @@
-"""The methods of the ladder benchmark. Each is a program of its own that reads one system and writes lines:
+"""These are the methods of the ladder benchmark. Each is a program of its own that reads one system and writes lines:
 
     ready C          what is not timed is done (start, reading, building the windows); C CPU seconds were spent on it
     rank S R         rank [O_S T_S] = R, as soon as it is known
@@ -64,7 +64,7 @@ class Method:
         return f"{self.needs} {found.group() if found else '?'}"
 
     def command(self, system: System, folder: Path) -> list[str]:
-        """The command line, after what it reads has been written into the folder."""
+        """Return the command line, after what it reads has been written into the folder."""
         if self.script is None:
             file = folder / "system.json"
             file.write_text(json.dumps(system), "utf-8")

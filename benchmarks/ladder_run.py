@@ -1,4 +1,4 @@
-"""What a run of the ladder benchmark has measured, and what follows from it.
+"""This records what a run of the ladder benchmark has measured, and what follows from it.
 
 SystemCells, Run  the cells of one system; all of them, with machine, limits and what was absent
 ratio             seconds of a method over ours: a number, or a lower bound where it was stopped
@@ -28,7 +28,7 @@ FIRST_OF_SLOPE = 10  # below it starting costs are all there is
 
 @dataclass(frozen=True)
 class SystemCells:
-    """One system and the cell of every method that is installed."""
+    """This is one system and the cell of every method that is installed."""
 
     family: Family
     n: int
@@ -48,13 +48,13 @@ class Run:
 
     @property
     def methods(self) -> list[str]:
-        """The methods that were measured, ours first."""
+        """These are the methods that were measured, ours first."""
         return list(self.records[0].cells) if self.records else []
 
 
 @dataclass(frozen=True)
 class Ratio:
-    """How many times slower than ours; `at_least` where the method was stopped."""
+    """This is how many times slower a method is than ours; `at_least` where the method was stopped."""
 
     value: float
     at_least: bool
@@ -78,7 +78,7 @@ def ratio(record: SystemCells, method: str) -> Ratio | None:
 
 
 def exponent(run: Run, family: Family, method: str) -> float | None:
-    """None with fewer than three finished cells from n = 10 on."""
+    """Return the slope of log seconds over log n; None with fewer than three finished cells from n = 10 on."""
     points = [
         (log(record.n), log(record.cells[method].seconds))
         for record in run.records
@@ -108,7 +108,7 @@ def disagreements(run: Run) -> list[str]:
 
 
 def aims(run: Run) -> list[Aim]:
-    """At n = 40 planted 100 times faster than the direct rank of every window; n = 80 in 5 s and 500 MB, both families of systems."""
+    """Judge both families: n = 40, if planted, is 100 times faster than the direct rank of every window; n = 80 takes 5 s and 500 MB."""
     found = []
     for record in run.records:
         if record.n == 40 and record.family.kind != "dense" and DIRECT in record.cells:
@@ -128,7 +128,7 @@ def aims(run: Run) -> list[Aim]:
 
 
 def machine(methods: Sequence[Method]) -> dict[str, str]:
-    """What a reader must know to judge the times."""
+    """Return what a reader must know to judge the times."""
     facts = {"cores": str(os.cpu_count()), "processor": platform.machine(), "system": platform.system()}
     facts["python"] = platform.python_version()
     if hasattr(os, "getloadavg"):
@@ -137,7 +137,7 @@ def machine(methods: Sequence[Method]) -> dict[str, str]:
 
 
 def to_json(run: Run) -> dict[str, Any]:
-    """Everything measured, and what was derived from it."""
+    """Return everything measured, and what was derived from it."""
     records = []
     for record in run.records:
         ratios = {name: asdict(r) for name in run.methods if name != OURS and (r := ratio(record, name)) is not None}

@@ -1,4 +1,4 @@
-"""The ladder benchmark in the languages of Macaulay2 and Singular: scripts that speak the protocol of `ladder_methods`.
+"""This is the ladder benchmark in the languages of Macaulay2 and Singular: scripts that speak the protocol of `ladder_methods`.
 
 macaulay2_ranks     rank of every window, built there from A, F, C, G
 macaulay2_kernel    degrees of minimal generators of the left kernel of the pencil [[qI - tA, -tF], [tC, tG]]: the left minimal indices

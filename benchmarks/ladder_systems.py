@@ -1,4 +1,4 @@
-"""The systems of the ladder benchmark: integer A, F, C, G of every size, of the same numbers in every run.
+"""These are the systems of the ladder benchmark: integer A, F, C, G of every size, of the same numbers in every run.
 
     Family       a kind of system and a shape: "wide" (more outputs than needed, short lags) or "tight" (p = m + 1, long lags)
     Specimen     a system as plain nested lists, and what was planted in it
@@ -21,7 +21,7 @@ Rows = list[list[int]]
 
 @dataclass(frozen=True)
 class Specimen:
-    """A system, entries integers. Planted ones name V*: `subspace` (n x k) spans it, `feedback` K (m x n) keeps it.
+    """This is a system with integer entries. Planted ones name V*: `subspace` (n x k) spans it, `feedback` K (m x n) keeps it.
 
     That is, (A + F K) V is in V and (C + G K) V = 0.
     """
@@ -123,7 +123,7 @@ def _entries(rng: random.Random, nrows: int, ncols: int, largest: int = 3) -> Ro
 
 
 def _unimodular(rng: random.Random, size: int) -> tuple[Rows, Rows]:
-    """A product of `size` random transvections and its inverse."""
+    """Return a product of `size` random transvections and its inverse."""
     forward = [[int(i == j) for j in range(size)] for i in range(size)]
     backward = [row[:] for row in forward]
     for _ in range(size):

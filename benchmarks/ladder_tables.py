@@ -1,4 +1,4 @@
-"""The tables of the ladder benchmark, as sheets.
+"""These are the tables of the ladder benchmark, as sheets.
 
 ratio_table       n, kind, ours (made, checked, memory), and how many times slower every other method is
 seconds_table     CPU seconds of every method
@@ -15,7 +15,7 @@ from benchmarks.sheets import Sheet
 
 
 def ratio_table(run: Run) -> Sheet:
-    """Ours, and how many times slower the others are."""
+    """Return the table of our times, and of how many times slower the others are."""
     peers = [name for name in run.methods if name != OURS]
     head = ["system", "p, m", "n", "made s", "checked s", "MB", *peers]
     rows = []
@@ -35,7 +35,7 @@ def ratio_table(run: Run) -> Sheet:
 
 
 def seconds_table(run: Run) -> Sheet:
-    """CPU seconds; '> x' where the method was stopped after x."""
+    """Return the table of CPU seconds, '> x' where the method was stopped after x."""
     rows = [[str(record.family), str(record.n), *(_outcome(record.cells[name]) for name in run.methods)] for record in run.records]
     return Sheet("CPU seconds", ["system", "n", *run.methods], rows)
 

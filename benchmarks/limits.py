@@ -1,4 +1,4 @@
-"""How the cost of an exact population limit grows with n and with s.
+"""This measures how the cost of an exact population limit grows with n and with s.
 
     python benchmarks/limits.py [--states 2,4,...] [--windows 4,8,...] [--markdown]
 
@@ -94,7 +94,7 @@ def measured(given: Experiment) -> dict[str, Any]:
 
 
 def _dense(process: JointProcess) -> Any:
-    """vec P from the Kronecker system of as many unknowns as P has entries."""
+    """Solve for vec P in the Kronecker system of as many unknowns as P has entries."""
     Phi, size = process.Phi.elements(), process.Phi.nrows
     drive = (process.Gamma @ process.Gamma.transposed()).flint.entries()
     table = []

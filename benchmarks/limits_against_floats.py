@@ -74,7 +74,7 @@ class Comparison:
 
 
 def chosen(family: str) -> PopulationLimits:
-    """The first experiment of the family with a nonzero limit of PI-MOESP, by seed 0, 1, ..., of those with n = 2 where it has some."""
+    """Return the first experiment of the family, by seed, with a nonzero limit of PI-MOESP, of those with n = 2 where it has some."""
     drawn = [FAMILIES[family](Random(f"{family} {seed}")) for seed in range(DRAWN)]
     most = max(experiment.system.residual.n for experiment in drawn if experiment.system.residual.n <= 2)
     found_limits = (limit(experiment) for experiment in drawn if experiment.system.residual.n == most)
@@ -82,7 +82,7 @@ def chosen(family: str) -> PopulationLimits:
 
 
 def expected(found: PopulationLimits) -> dict[tuple[str, str], Any]:
-    """Exact vectors by method and "L" or "model"."""
+    """Return the exact vectors by method and "L" or "model"."""
     result: dict[tuple[str, str], Any] = {}
     for method, one in zip(METHODS, (found.past_inputs, found.past_outputs), strict=True):
         result[method, "L"] = floats(one.matrix).ravel()
@@ -107,7 +107,7 @@ def estimated(experiment: Experiment, y: Any, u: Any, wanted: dict[tuple[str, st
 
 
 def sample_limits(y: Any, u: Any, s: int, past: int) -> tuple[Any, Any]:
-    """(1/N) Yf Pi Z' for Z = Up and Z = [Up; Yp], N the number of columns."""
+    """Return (1/N) Yf Pi Z' for Z = Up and Z = [Up; Yp], N the number of columns."""
     nu, p = u.shape[1], y.shape[1]
     gram = DisplacementGram(nu + p, past + s)
     gram.append(np.hstack([u, y]))
@@ -128,7 +128,7 @@ def sample_limits(y: Any, u: Any, s: int, past: int) -> tuple[Any, Any]:
 
 
 def distance(estimates: Any, exact: Any) -> float:
-    """Standard errors of the mean between the mean and the exact vector, the largest over entries."""
+    """Return standard errors of the mean between the mean and the exact vector, the largest over entries."""
     table = np.asarray(estimates)
     error = table.std(axis=0, ddof=1) / np.sqrt(len(table))
     return float(np.max(np.abs(table.mean(axis=0) - exact) / np.maximum(error, ROUNDING * size(exact))))
@@ -171,7 +171,7 @@ def table(rows: list[Comparison]) -> Sheet:
 
 
 def drawn(rows: list[Comparison], file: Path) -> None:
-    """Two panels, L and model: a colour for each family, dashed for PO-MOESP, grey for slope -1/2."""
+    """Draw two panels, L and model: a colour for each family, dashed for PO-MOESP, grey for slope -1/2."""
     import matplotlib
 
     matplotlib.use("Agg")

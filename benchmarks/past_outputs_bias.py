@@ -1,4 +1,4 @@
-"""How biased past outputs are under a coloured fault: the exact limit of PO-MOESP beside what ours and a peer find in the benchmark's data.
+"""This shows how a coloured fault biases past outputs: the exact limit of PO-MOESP beside what ours and a peer find in its data.
 
     python benchmarks/past_outputs_bias.py [--largest 1000000] [--quick] [--peer-python PATH]
 
@@ -54,7 +54,7 @@ CELLS = ((1, 1, 10, 0.0), (2, 3, 10, 0.0), (2, 3, 20, 0.0), (2, 3, 20, 0.01))
 
 @dataclass(frozen=True)
 class Row:
-    """Eigenvalue and Markov-parameter errors as `identification_data.errors`; NaN where the method gave no model, `who` saying why."""
+    """The errors are those of `identification_data.errors`, NaN where the method gave no model; then `who` says why."""
 
     who: str
     samples: str
@@ -78,7 +78,9 @@ class FreeOrder:
 
 
 def benchmark_experiment(setting: Setting) -> Experiment:
-    """past = s = block_rows. The levels of fault and noise are the floats nearest to the roots of exact ratios of variances."""
+    """Return the benchmark's setting as an exact experiment, past = s = block_rows. The levels of fault and noise are the floats nearest
+    to the roots of exact ratios of variances.
+    """
     both, driven = (_power(_experiment(setting, fault, 0.0)) for fault in (1.0, 0.0))
     size = sqrt(driven / setting.p)
     return _experiment(setting, sqrt(driven / (both - driven)), setting.noise * size)
@@ -110,7 +112,7 @@ def _rational(matrix: Any) -> list[list[str]]:
 
 
 def predicted(found: PopulationLimits, order: int, *, past_outputs: bool) -> tuple[StateSpaceModel, Any]:
-    """The limit of the model at this order, and the singular values of L Cov(Z | Uf)^-1/2 that it is cut from.
+    """Return the limit of the model at this order, and the singular values of L Cov(Z | Uf)^-1/2 that it is cut from.
 
     Floats begin at the square root: left singular vectors of the weighted L, A and C from their shift, B and D by exact output error.
     """
@@ -137,7 +139,7 @@ def predicted(found: PopulationLimits, order: int, *, past_outputs: bool) -> tup
 
 
 def free_order(found: PopulationLimits) -> FreeOrder:
-    """At the order that a gap in the singular values would tell."""
+    """Return what is found at the order that a gap in the singular values would tell."""
     limit, residual, given = found.past_outputs, found.experiment.system.residual, found.experiment.system
     state = state_part(column_basis(limit.matrix), residual.p)
     poles = markov = False

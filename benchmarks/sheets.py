@@ -1,4 +1,4 @@
-"""Tables of a benchmark, on a terminal and in Markdown.
+"""This shows tables of a benchmark, on a terminal and in Markdown.
 
 Sheet       a title, a head, rows of texts
 markdown    sheets and notes as Markdown

@@ -39,7 +39,7 @@ def claims_table() -> list[str]:
 
 
 def hypotheses_table() -> list[str]:
-    """The table of hypotheses.md, a row an ablation: what the ledger expects, PROVED where it names theorems that say so."""
+    """Return the table of hypotheses.md, a row an ablation: what the ledger expects, PROVED where it names theorems that say so."""
     heads = "claim", "conclusion", "needed", "not needed: PROVED", "no counterexample found", "follows from the others"
     rows = [f"| {' | '.join(heads)} |", "|---" * len(heads) + "|"]
     expected = expected_without()
@@ -53,7 +53,7 @@ def hypotheses_table() -> list[str]:
 
 
 def verdict(claim: Claim) -> Verdict:
-    """The verdict that the ledger expects of a claim where there is Rocq."""
+    """Return the verdict that the ledger expects of a claim where there is Rocq."""
     return of_readings([(one, Verdict(one.proved)) for one in claim.readings], in_parts=claim.in_parts)
 
 
@@ -73,7 +73,7 @@ def picture() -> str:
 
 
 def attacks_table() -> list[str]:
-    """The table of adversary.md, a row an attack, from the stored results."""
+    """Return the table of adversary.md, a row an attack, from the stored results."""
     rows = ["| statement | attacked by | outcome | tried | how near |", "|---|---|---|---|---|"]
     before = None
     for record in stored():
@@ -95,7 +95,7 @@ def tried(record: AttackRecord) -> str:
 
 
 def nearest(record: AttackRecord) -> str:
-    """The least value, or the largest where any value but zero refutes; nothing where the attack went to the zero set itself."""
+    """Return the least value, or the largest where any value but zero refutes; nothing where the attack went to the zero set itself."""
     if record["outcome"] != "none found" or record["aim"] == SWEPT:
         return ""
     if record["aim"] == Aim.STRATUM:

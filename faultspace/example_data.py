@@ -35,7 +35,7 @@ G = np.array([[0.4], [0.0], [1.0]])
 
 @dataclass(frozen=True, eq=False)
 class FaultyRecord:
-    """u (N, 2), y (N, 3), and the fault signal v (N, 1) that nobody measures."""
+    """This is u (N, 2), y (N, 3), and the fault signal v (N, 1) that nobody measures."""
 
     u: Array
     y: Array
@@ -43,7 +43,7 @@ class FaultyRecord:
 
 
 def faulty_record(samples: int = SAMPLES, *, seed: int = SEED) -> FaultyRecord:
-    """The record of so many samples: random inputs, a coloured fault signal, sensor noise of deviation 0.035."""
+    """Return the record of so many samples: random inputs, a coloured fault signal, sensor noise of deviation 0.035."""
     draw = np.random.default_rng(seed)
     u = draw.standard_normal((samples, 2))
     white = draw.standard_normal(samples + 1)

@@ -32,7 +32,7 @@ EXPERIMENTS = {
 
 
 def content(name: str) -> bytes:
-    """The file behind `example:NAME`. Raises InvalidInput for a name that is none."""
+    """Return the file behind `example:NAME`. Raises InvalidInput for a name that is none."""
     stem = name.removeprefix(PREFIX)
     if stem not in DESCRIPTIONS | EXPERIMENTS:
         raise InvalidInput(f"got example {shorten(stem)}, expected one of {', '.join(DESCRIPTIONS | EXPERIMENTS)}")

@@ -25,7 +25,7 @@ COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Findings:
-    """What `identify` has found so far. A field is None where it was not asked for, because of what came before.
+    """This is what `identify` has found so far. A field is None where it was not asked for, because of what came before.
 
     The fields are those of `Identification`, which `identify` returns and whose docstring explains them one by one.
     """

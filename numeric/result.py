@@ -18,7 +18,7 @@ from .findings import Findings
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Identification(Findings):
-    """What `identify` found. A field is None where it was not asked for, because of what came before.
+    """This is what `identify` found. A field is None where it was not asked for, because of what came before.
 
     model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
                      stays open, for which singular_values tell the choices

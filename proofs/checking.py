@@ -47,16 +47,16 @@ class Checked(Shown):
 
     @property
     def title(self) -> str:
-        """Whether the statement holds without an assumption."""
+        """This says whether the statement holds without an assumption."""
         return "verified under an assumption" if self.assumes else "verified"
 
     def sheet(self) -> list[tuple[str, str]]:
-        """The statement, the assumptions and what Rocq says, as (name, value) pairs."""
+        """Return the statement, the assumptions and what Rocq says, as (name, value) pairs."""
         rocq = [] if self.rocq is None else [("Rocq", f"{self.rocq.result}, {self.rocq.reason}")]
         return [("statement", self.statement), *(("assumed, not verified", text) for text in self.assumes), *rocq]
 
     def to_json(self) -> dict[str, Any]:
-        """The object with the statement, the assumptions and, where Rocq was asked, its answer."""
+        """Return the object with the statement, the assumptions and, where Rocq was asked, its answer."""
         rocq = {} if self.rocq is None else {"rocq": {"result": self.rocq.result, "reason": self.rocq.reason}}
         return {"statement": self.statement, "assumes": self.assumes, **rocq}
 
@@ -81,27 +81,27 @@ class CheckedFile(Shown):
 
     @property
     def result(self) -> str:
-        """The checker's word on the file."""
+        """This is the checker's word on the file."""
         return str(self.answer["result"])
 
     @property
     def title(self) -> str:
-        """The file and the result."""
+        """This is the file and the result."""
         return f"{quote_path(self.answer['file'])}: {self.result}"
 
     def sheet(self) -> list[tuple[str, str]]:
-        """The statement or the reason, the assumptions and what Rocq says, as (name, value) pairs."""
+        """Return the statement or the reason, the assumptions and what Rocq says, as (name, value) pairs."""
         pairs = [(name, self.answer[name]) for name in ("statement", "reason", "sha256") if name in self.answer]
         pairs += [("assumed, not verified", text) for text in self.answer.get("assumes", ())]
         return pairs if self.rocq is None else [*pairs, ("Rocq", f"{self.rocq['result']}, {self.rocq['reason']}")]
 
     def to_json(self) -> dict[str, Any]:
-        """The object that `faultspace check --json` prints of a file."""
+        """Return the object that `faultspace check --json` prints of a file."""
         return {**self.answer} if self.rocq is None else {**self.answer, "rocq": {**self.rocq}}
 
 
 def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Iterable[Any] = (), *, rocq: bool = False) -> Checked:
-    """What a certificate proves, decided by the checker, which trusts nothing that the certificate says.
+    """Return what a certificate proves, decided by the checker, which trusts nothing that the certificate says.
 
     `certificate` is the JSON-ready dict that `certify` returns, or the name of a certificate's file. Each of `systems` must be one that the
     statement is about: systems, experiments, JSON-ready dicts or names of their files. With `rocq` the kernel of Rocq recomputes what the
@@ -171,7 +171,7 @@ def ask_rocq(files: Sequence[CheckedFile], progress: Progress = lambda stage, do
 
 
 def _subject(given: Any) -> checker.System:
-    """What a statement must be about, as the checker reads it, on a meter of its own."""
+    """Return what a statement must be about, as the checker reads it, on a meter of its own."""
     if isinstance(given, checker.System):
         return given
     if isinstance(given, (ResidualSystem, FaultySystem, Experiment)):
@@ -189,7 +189,7 @@ def _recomputed(certificates: Sequence[Any], progress: Progress = lambda stage, 
 
 
 def _read_again(file: CheckedFile) -> Any:
-    """The certificate that the checker has verified; None where the file holds another one now."""
+    """Return the certificate that the checker has verified; None where the file holds another one now."""
     try:
         certificate = checker.load(file.answer["file"])
         return certificate if checker.sha256(certificate) == file.answer["sha256"] else None

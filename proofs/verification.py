@@ -103,7 +103,7 @@ class _Machine:
 
 
 def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
-    """The theorems that these claims name."""
+    """Return the theorems that these claims name."""
     names = {name for claim in claims for reading in claim.readings for name in reading.theorems}
     ids = {claim.id for claim in claims}
     names |= {name for one in ablations() if one.claim in ids and one.proof is not None for name in one.proof.theorems}
@@ -121,7 +121,7 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
 
 
 def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
-    """PROVED where the theorems were checked and nothing else spoke against it."""
+    """The verdict becomes PROVED where the theorems were checked and nothing else spoke against it."""
     names, outcome = result.reading.theorems, result.outcome
     if not names or outcome.verdict == Verdict.ERROR:
         return result
@@ -139,7 +139,7 @@ def _with_theorems(result: ReadingResult, machine: _Machine) -> ReadingResult:
 
 
 def _row_with_theorems(row: Row, machine: _Machine) -> Row:
-    """PROVED where theorems that do without what is dropped were checked, and no subject spoke against it."""
+    """The verdict becomes PROVED where theorems that do without what is dropped were checked, and no subject spoke against it."""
     if not row.theorems or row.verdict != Verdict.CERTIFIED:
         return row
     if machine.failure is not None:

@@ -1,4 +1,4 @@
-"""Settings for every test.
+"""These are the settings for every test.
 
 ci          the profile in force: the same examples in every run, nothing remembered between runs
 explore     fresh examples and no clock, for looking further: `pytest --hypothesis-profile=explore`
@@ -31,14 +31,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.hookimpl(optionalhook=True, tryfirst=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """The scheduler that steals, where `-n` alone was given; xdist's own otherwise."""
+    """Return the scheduler that steals, where `-n` alone was given; xdist's own otherwise."""
     from xdist.scheduler import WorkStealingScheduling
 
     return WorkStealingScheduling(config, log) if config.getvalue("dist") == "load" else None
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """In the process that starts the others."""
+    """The theory is compiled once, in the process that starts the others."""
     if getattr(session.config.option, "numprocesses", None):
         from faultspace.proofs.rocq.build import BrokenTheory, NoRocq, compiled_theory
 

@@ -1,4 +1,4 @@
-"""The fields that exact linear algebra runs over: Q, GF(p) and Q(a), behind one interface.
+"""These are the fields that exact linear algebra runs over: Q, GF(p) and Q(a), behind one interface.
 
     Rationals()                     Q; elements are flint.fmpq
     PrimeField(p)                   GF(p), p a prime below 2^64; elements are flint.nmod

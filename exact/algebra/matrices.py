@@ -1,4 +1,4 @@
-"""Immutable exact matrices over any of the three fields, and the linear algebra that everything else is written in.
+"""These are immutable exact matrices over any of the three fields, and the linear algebra that everything else is written in.
 
     Matrix                  nrows x ncols over `field`; zero dimensions are ordinary
     beside, stacked         [X Y], [X; Y]

@@ -1,4 +1,4 @@
-"""Exact objects in the notation of the field, as plain text for tables.
+"""This writes exact objects in the notation of the field, as plain text for tables.
 
 entry              one field element; long ones are cut in the middle
 polynomial         coefficients by ascending power as a polynomial in q

@@ -1,4 +1,4 @@
-"""Polynomials over any of the fields: what certificates about zeros are made of.
+"""These are polynomials over any of the fields: what certificates about zeros are made of.
 
     Poly                tuple of field elements by ascending power, no trailing zeros; () is zero
     add, negative, multiply, divide, monic, gcd

@@ -14,17 +14,17 @@ from typing import Any, TypeGuard
 
 
 def is_rational(value: object) -> TypeGuard[Any]:
-    """Whether it is a sympy Rational."""
+    """Return whether it is a sympy Rational."""
     return _is(value, "sympy", "Rational")
 
 
 def is_matrix(value: object) -> TypeGuard[Any]:
-    """Whether it is a sympy Matrix, mutable or not."""
+    """Return whether it is a sympy Matrix, mutable or not."""
     return _is(value, "sympy", "MatrixBase")
 
 
 def is_domain_matrix(value: object) -> TypeGuard[Any]:
-    """Whether it is a sympy DomainMatrix."""
+    """Return whether it is a sympy DomainMatrix."""
     return _is(value, "sympy.polys.matrices", "DomainMatrix")
 
 

@@ -1,4 +1,4 @@
-"""What PI-MOESP and PO-MOESP converge to: the population limit of the projected outputs, exactly, and what its column space says of A, C.
+"""This is what PI-MOESP and PO-MOESP converge to: the population limit of the projected outputs, and what its column space says of A, C.
 
     past_input_limit             Z = Up: past inputs as instruments, PI-MOESP [V93]
     past_input_and_output_limit  Z = [Up; Yp]: PO-MOESP, as every packaged tool has it
@@ -27,7 +27,7 @@ from .moments import WindowCovariances
 
 @dataclass(frozen=True)
 class StatePart:
-    """A (n x n) and C (p x n) with the limit's column space equal to that of C, CA, ..., CA^(s-1); unique up to similarity."""
+    """This is A (n x n) and C (p x n) with the limit's column space equal to that of C, CA, ..., CA^(s-1); unique up to similarity."""
 
     A: Matrix
     C: Matrix

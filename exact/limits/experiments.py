@@ -1,4 +1,4 @@
-"""The experiments whose population limits are asked for: a system, its signals as filters of white noise, and two windows.
+"""These are the experiments whose population limits are asked for: a system, its signals as filters of white noise, and two windows.
 
     Experiment        system (with B, D), s, past, u_filter, v_filter, w_filter or None
     read_experiment   from the dict of an exact file

@@ -1,4 +1,4 @@
-"""Which systems of two states a coloured input hides a state of, exactly: u scalar, past = 2, u and v uncorrelated at all lags.
+"""This tells which systems of two states a coloured input hides a state of, exactly: u scalar, past = 2, u and v uncorrelated at all lags.
 
     hides_a_state     whether the limit of PI-MOESP has rank below 2, by a formula and not by that limit
     reflections       the reflection coefficients of u, by Levinson's recursion from its covariances

@@ -1,4 +1,4 @@
-"""What B and D converge to once A and C are given, exactly, by either regression.
+"""This computes what B and D converge to once A and C are given, exactly, by either regression.
 
     by_output_error   minimises the stationary E|y - G(q)u|^2 over B, D with G(q) = C (qI - A)^-1 B + D
     by_moesp          least squares in the Frobenius norm of Pi (Cov(Yf,Uf) Cov(Uf,Uf)^-1 - T_s(B, D)), Pi on the complement of O_s [V93]

@@ -1,4 +1,4 @@
-"""Stein and discrete Lyapunov equations over Q, solved exactly without ever forming an n^2 x n^2 system.
+"""Stein and discrete Lyapunov equations over Q are solved exactly without ever forming an n^2 x n^2 system.
 
     stein              X = S X T' + R, given a polynomial that annihilates T
     state_covariance   P = Phi P Phi' + Gamma Gamma' of a joint process, block by block, checked by substitution

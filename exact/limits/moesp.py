@@ -1,4 +1,4 @@
-"""Everything that is known exactly about the population limit of an experiment, as `faultspace limit` prints it.
+"""This is everything that is known exactly about the population limit of an experiment, as `faultspace limit` prints it.
 
 PopulationLimits   both limits, the regressions for B and D, their bias
 limit              from an Experiment, or from what an experiment's file holds

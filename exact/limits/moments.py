@@ -1,4 +1,4 @@
-"""Stationary covariances of an experiment's signals, and of windows of them.
+"""These are stationary covariances of an experiment's signals, and of windows of them.
 
     Covariances        of a joint process: sequences and block Toeplitz matrices
     covariances        from an Experiment; solves the Lyapunov equation

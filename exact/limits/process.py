@@ -1,4 +1,4 @@
-"""Input, fault, noise, state and output of an experiment as one linear system driven by white noise of unit covariance.
+"""Input, fault, noise, state and output of an experiment become one linear system driven by white noise of unit covariance.
 
     xi(k+1) = Phi xi(k) + Gamma e(k),   every signal = H xi(k) + J e(k),   e = (noise of u and v; noise of w)
 
@@ -118,7 +118,7 @@ def joint_process(experiment: Experiment) -> JointProcess:
 
 
 def _filtered(one: Filter, line: DelayLine, start: int, size: int, noise: int) -> Signal:
-    """sum_j U_j z(k-j), with z(k) = e(k) - sum_j d_j z(k-j) put in."""
+    """Return sum_j U_j z(k-j), with z(k) = e(k) - sum_j d_j z(k-j) put in."""
     first, nothing = one.numerator[0], Matrix.zero(QQ, one.channels, one.noise)
     blocks = []
     for j in range(1, line.length + 1):

@@ -1,4 +1,4 @@
-"""A pair with the finite zeros that one wants, and a pair whose fault can be recovered without the initial state.
+"""This makes a pair with the finite zeros that one wants, and a pair whose fault can be recovered without the initial state.
 
     ZeroAssignment        P with D(q; P) = unit * desired, and the pair
     assign_zeros          P for a desired polynomial: of degree at most zeta, a multiple of `fixed`; the other zeros are infinite

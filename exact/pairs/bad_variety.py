@@ -1,4 +1,4 @@
-"""The bad P as a variety: its dimension in every case, and for small cases its equations written out and factored.
+"""This describes the bad P as a variety: its dimension in every case, and for small cases its equations written out and factored.
 
     BadSet              dimension and codimension in the n_z r entries of P, and the strata that give them
     bad_set             by counting parameters
@@ -205,7 +205,7 @@ def _codimension(degrees: Sequence[int], indices: Sequence[int]) -> int:
 
 
 def _factors(constant: Any, powers: Sequence[tuple[Any, int]]) -> tuple[tuple[Any, int], ...]:
-    """The constant, unless it is 1, and the powers."""
+    """Return the constant, unless it is 1, and the powers."""
     return (*([(sympy.sympify(constant), 1)] if constant != 1 else []), *((g, int(e)) for g, e in powers))
 
 

@@ -1,4 +1,4 @@
-"""det(X + q Y) of square matrices over any field, as a polynomial in q: the one determinant behind the exceptional set.
+"""This computes det(X + q Y) of square matrices over any field, as a polynomial in q: the one determinant behind the exceptional set.
 
     linear_determinant   the polynomial: by values at integer points over Q, by deflation over the other fields
     by_values            as many determinants as the degree may have coefficients, then interpolation; needs that many points

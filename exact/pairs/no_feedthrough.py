@@ -1,4 +1,4 @@
-"""What G = 0 adds: how far a zero feedthrough pins the fault matrix F, and with it the fault signal v.
+"""This tells what G = 0 adds: how far a zero feedthrough pins the fault matrix F, and with it the fault signal v.
 
     ZeroFeedthrough      U = {u : [u; 0] in Z}, what G = 0 leaves free, and whether that is im F alone
     zero_feedthrough     of a left-invertible system with G = 0

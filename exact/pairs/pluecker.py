@@ -1,4 +1,4 @@
-"""D(q; P) in the Pluecker coordinates of P, by Cauchy-Binet on the pencil itself: never expanded in P.
+"""This is D(q; P) in the Pluecker coordinates of P, by Cauchy-Binet on the pencil itself: never expanded in P.
 
     PlueckerForms        h_J(q) for every r-subset J of the basis columns of Z: D(q; P) = sum over J of det(P_J) h_J(q)
     forms_of_determinant from the minors of q b - a (Laplace expansion), zeta x zeta

@@ -1,4 +1,4 @@
-"""Which P give a pair (Fhat P, Ghat P) with the behaviour of the system, and with which zeros: the polynomial D(q; P).
+"""This tells which P give a pair (Fhat P, Ghat P) with the behaviour of the system, and with which zeros: the polynomial D(q; P).
 
     Exceptional          Z = im [Fhat; Ghat], U = {u : [u; 0] in Z}, and the coordinates b of [U; 0] and a of [A U; C U] in Z
     exceptional          of a kernel representation

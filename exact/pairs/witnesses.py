@@ -1,4 +1,4 @@
-"""Pairs by construction: good ones with entries 0 and 1, and bad ones of full column rank wherever there are any.
+"""These are pairs by construction: good ones with entries 0 and 1, and bad ones of full column rank wherever there are any.
 
     good_columns         r basis columns of Z that are themselves a good pair: P has one 1 a column and D(point; P) != 0
     GoodColumns          the columns, the point, the verdict

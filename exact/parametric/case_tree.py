@@ -1,4 +1,4 @@
-"""Case trees: one exact algorithm run at every value of its parameters at once.
+"""A case tree runs one exact algorithm at every value of its parameters at once.
 
 An algorithm that asks of polynomials in the parameters whether they are zero, and asks it of a `Branch`, is run for all
 parameter values by `explore`: a question that the branch cannot answer splits it in two, on which the algorithm starts
@@ -127,7 +127,7 @@ class Branch:
 
     @property
     def nonvanishing(self) -> tuple[Any, ...]:
-        """The polynomials required not to vanish, as sympy expressions."""
+        """These are the polynomials required not to vanish, as sympy expressions."""
         return tuple(polynomial.as_expr() for polynomial, vanishes in self.decisions if not vanishes)
 
     @property
@@ -305,7 +305,7 @@ def explore(root: Branch, run: Callable[[Branch], Result]) -> Cases[Result]:
 
 
 def refine(cases: Cases[Result], run: Callable[[Branch, Result], Other]) -> Cases[tuple[Result, Other]]:
-    """The cases with `run` done on each of them, split further where `run` asks for it."""
+    """Return the cases with `run` done on each of them, split further where `run` asks for it."""
     finer: list[tuple[Branch, tuple[Result, Other]]] = []
     for root, result in cases:
 
@@ -402,5 +402,5 @@ def _gcd(content: int, f: Polynomial) -> int:
 
 
 def _simplicity(f: Polynomial) -> tuple[int, int, list[tuple[int, ...]]]:
-    """Few terms, then low degree; the exponents make the choice the same in every run."""
+    """Return a key by which few terms come first, then low degree; the exponents make the choice the same in every run."""
     return len(f), max((sum(exponents) for exponents in f), default=0), sorted(f)

@@ -1,4 +1,4 @@
-"""The exceptional polynomial with every entry of A, C, F, G and of P an indeterminate: genericity as an identity, not a sample.
+"""This is the exceptional polynomial with every entry of A, C, F, G and of P an indeterminate: genericity as an identity, not a sample.
 
     generic_exceptional                       all entries indeterminate
     generic_exceptional_without_feedthrough   G = 0, the others indeterminate; m < p, m <= n

@@ -1,4 +1,5 @@
-"""White u and v(k) = sum_(j=0..J) phi_j u(k+j), every entry of A, B, C, D, F, G and phi_j an indeterminate: what past inputs see.
+"""This takes white u and v(k) = sum_(j=0..J) phi_j u(k+j), every entry of A, B, C, D, F, G and phi_j an indeterminate: what past inputs
+see.
 
     lead_identities   the response to a pulse of u, simulated in sympy's ring, against its closed form, multiplied out by FLINT
     LeadIdentities    the B and D that are seen, and how much was multiplied out
@@ -88,7 +89,7 @@ def lead_identities(n: int, nu: int, m: int, p: int, J: int) -> LeadIdentities:
 
 
 def _pulse_response(entries: dict[str, Table], ring: Ring, J: int, end: int) -> dict[int, Table]:
-    """y(t), -J <= t < end, p x nu: one column for a pulse in each input, by stepping through time."""
+    """Return y(t), -J <= t < end, p x nu: one column for a pulse in each input, by stepping through time."""
     A, B, C, D, F, G = (entries[letter] for letter in "abcdfg")
     n, nu, zero = len(A), len(D[0]), ring.zero
     state: Table = [[zero] * nu for _ in range(n)]

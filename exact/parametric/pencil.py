@@ -1,4 +1,4 @@
-"""Normal rank and zeros of the pencil P(q) = [[q I - A, -F], [C, G]] for all parameter values of a branch.
+"""This computes normal rank and zeros of the pencil P(q) = [[q I - A, -F], [C, G]] for all parameter values of a branch.
 
 Nothing here uses the windows [O_s T_s]: the normal rank comes from minors of P in ZZ[entries][q], the finite zeros from
 the greatest common divisor of its maximal minors, the infinite ones from an ordinary elimination of T_s. That makes them

@@ -1,4 +1,4 @@
-"""What `parametric_pencil` states about a branch, expanded again by FLINT.
+"""FLINT expands again what `parametric_pencil` states about a branch.
 
 Minors are expanded along rows here and found by a characteristic polynomial there; P(q) and T_s are built from their
 definitions a second time. Each function raises IdentityFailure at the first statement that does not hold.

@@ -1,4 +1,4 @@
-"""The rank profile of [O_s T_s] for every value of the entries of A, C, F, G, at small dimensions.
+"""This is the rank profile of [O_s T_s] for every value of the entries of A, C, F, G, at small dimensions.
 
 The residual system is x+ = A x + F v, r = C x + G v with n states, m faults, p outputs. Its rows (k, i), output i at time
 k, are taken in the order of time, so one elimination gives the ranks of all windows at once: a row that depends on earlier

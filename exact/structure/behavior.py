@@ -1,4 +1,4 @@
-"""Inclusion and equality of output behaviours, on a window and in full, with a word that separates them where they differ.
+"""This decides inclusion and equality of output behaviours, on a window and in full, with a word that separates them where they differ.
 
     Separation          a word (x0, v) of one system on `window` samples and a kernel row of the other that it violates
     separation          the shortest word of `inner` that is none of `outer`, or None: then B(inner) is contained in B(outer)

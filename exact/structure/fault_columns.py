@@ -1,4 +1,4 @@
-"""Problem (11): all fault columns z = [f; g] that explain no more than the system does, on a window and in the limit.
+"""This solves problem (11): all fault columns z = [f; g] that explain no more than the system does, on a window and in the limit.
 
     FaultSpace          the solution space at a window; `basis` = [F_z; G_z]' in reduced row echelon form, dim x (n + p)
     fault_space         of a kernel representation; window None: the limit Z, reached from lag + 1 samples on

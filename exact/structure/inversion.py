@@ -123,7 +123,7 @@ def ambiguous_word(system: ResidualSystem, samples: int, *, known_state: bool) -
 
 
 def _zero_output_pairs(system: ResidualSystem, target: Matrix) -> Matrix:
-    """The columns [x; v] of the result span {C x + G v = 0, A x + F v in the column space of `target`}."""
+    """Return the columns [x; v] of the result span {C x + G v = 0, A x + F v in the column space of `target`}."""
     moves = beside(system.A, system.F, -target)
     outputs = beside(system.C, system.G, Matrix.zero(system.field, system.p, target.ncols))
     return right_null_space(stacked(moves, outputs)).rows(range(system.n + system.m))

@@ -1,4 +1,4 @@
-"""The kernel representation N(q) r = 0 of the output behaviour: one object that settles every window.
+"""This is the kernel representation N(q) r = 0 of the output behaviour: one object that settles every window.
 
     KernelRow              one row N(q) = sum c_k q^k of degree mu, with its pivot output
     KernelRepresentation   the rows, ascending by degree; the image (prime, root) that proves them complete

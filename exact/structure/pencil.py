@@ -1,4 +1,4 @@
-"""The system pencil P(q) = [[qI - A, -F], [C, G]]: its zeros, finite and infinite, and its right minimal indices.
+"""This is the system pencil P(q) = [[qI - A, -F], [C, G]]: its zeros, finite and infinite, and its right minimal indices.
 
     right_minimal_indices        degrees of a minimal basis of {w(q) : P(q) w(q) = 0}: the left ones of the transposed system
     infinite_zero_orders         delta_1 <= ... <= delta_r: #{delta <= k} = rank T_(k+1) - rank T_k
@@ -42,7 +42,7 @@ class NullPolynomial:
 
 @dataclass(frozen=True)
 class PencilParts:
-    """P(q) = constant + q slope, both (n + p) x (n + m)."""
+    """This is P(q) = constant + q slope, both (n + p) x (n + m)."""
 
     constant: Matrix
     slope: Matrix

@@ -1,4 +1,4 @@
-"""Coefficients of the kernel rows, once their shape is known: one exact linear solve.
+"""This finds coefficients of the kernel rows, once their shape is known: one exact linear solve.
 
     leads                      (mu, output) for every output that depends on earlier ones from sample mu on
     integer_relations          over Q and Q(a); flint's p-adic lifting, which stops as soon as the answer is recognised

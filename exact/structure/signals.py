@@ -1,4 +1,4 @@
-"""Exact trajectories, their Hankel matrices, and rank and problem (11) read off data instead of a model.
+"""These are exact trajectories, their Hankel matrices, and rank and problem (11) read off data instead of a model.
 
     Trajectory           x (N+1) x n, v N x m, r N x p, time-major
     simulate             the trajectory from x0 under v

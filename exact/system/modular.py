@@ -1,4 +1,4 @@
-"""The image of an exact system modulo a prime: where structure is read off fast and lower bounds on ranks come from.
+"""This is the image of an exact system modulo a prime: where structure is read off fast and lower bounds on ranks come from.
 
 Image           the system over GF(l), the prime l, and over Q(a) the simple root of f that a goes to
 image           the image at the first good prime at or below a given one
@@ -31,7 +31,7 @@ class Image:
 
 
 def primes_below(start: int) -> Iterator[int]:
-    """Primes at or below `start`, descending."""
+    """Yield primes at or below `start`, descending."""
     candidate = start
     while candidate > 1:
         if fmpz(candidate).is_prime():

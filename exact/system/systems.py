@@ -1,4 +1,4 @@
-"""The systems that statements are about: immutable, exact, written and read as JSON-ready dicts.
+"""These are the systems that statements are about: immutable, exact, written and read as JSON-ready dicts.
 
     ResidualSystem     x(k+1) = A x + F v,        r = C x + G v        n states, m faults, p outputs
     FaultySystem       x(k+1) = A x + B u + F v,  y = C x + D u + G v  the same with nu inputs; `.residual` forgets them

@@ -1,4 +1,4 @@
-"""The arrays of floats that the room numeric works on.
+"""These are the arrays of floats that the room numeric works on.
 
 Array       any numpy array of float64, whatever its shape; signals are time-major, one row a sample
 """

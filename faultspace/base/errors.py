@@ -1,4 +1,4 @@
-"""The errors of bad input, and what their one line is made of.
+"""These are the errors of bad input, and what their one line is made of.
 
 InvalidInput    input that cannot be used: the text is one line, what was got and what is needed
 InvalidData     the same of measured data
@@ -14,15 +14,15 @@ from contextlib import contextmanager
 
 
 class InvalidInput(ValueError):
-    """Input that cannot be used. The message is one line: the place, what was got, what is expected."""
+    """The input cannot be used. The message is one line: the place, what was got, what is expected."""
 
 
 class InvalidData(InvalidInput):
-    """Measured data, or a setting that goes with them, from which no answer can be had. The message is one line, as of InvalidInput."""
+    """No answer can be had from the measured data, or from a setting that goes with them. The message is one line, as of InvalidInput."""
 
 
 def shorten(value: object, width: int = 60) -> str:
-    """`repr(value)`, cut to `width` characters and to one line."""
+    """Return `repr(value)`, cut to `width` characters and to one line."""
     try:
         text = repr(value)
     except (ValueError, RecursionError):  # integers beyond Python's printing limit, deep nesting
@@ -32,7 +32,7 @@ def shorten(value: object, width: int = 60) -> str:
 
 
 def quote_path(name: str) -> str:
-    """The name itself where it prints on one line without doubt, else quoted."""
+    """Return the name itself where it prints on one line without doubt, else quoted."""
     return name if name.isprintable() and name == name.strip() and name else repr(name)
 
 

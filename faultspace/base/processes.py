@@ -1,4 +1,4 @@
-"""Programs that are started under limits and ended with all that they started.
+"""This starts programs under limits, and ends them with all that they started.
 
 Limits               seconds of an answer, bytes that a program and its children may hold; STANDARD: a minute, 4 GiB
 session              a program started in a session of its own, so that it can be ended with what it started
@@ -59,7 +59,7 @@ def kill_session(leader: int) -> None:
 
 
 def family(pid: int) -> list[psutil.Process]:
-    """The process and its descendants; none where it is gone."""
+    """Return the process and its descendants; none where it is gone."""
     with suppress(psutil.Error):
         first = psutil.Process(pid)
         return [first, *first.children(recursive=True)]
@@ -67,7 +67,7 @@ def family(pid: int) -> list[psutil.Process]:
 
 
 def resident(processes: Iterable[psutil.Process]) -> int:
-    """Bytes that the processes hold (shared pages are counted once for each)."""
+    """Return bytes that the processes hold (shared pages are counted once for each)."""
     total = 0
     for one in processes:
         with suppress(psutil.Error):

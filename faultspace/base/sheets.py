@@ -17,7 +17,7 @@ NAME_WIDTH = 36
 
 
 def line(name: str, value: str) -> str:
-    """One pair of a sheet on one line, the values of a sheet below each other."""
+    """Return one pair of a sheet on one line, the values of a sheet below each other."""
     return f"    {name:<{NAME_WIDTH}}{value}" if value else f"  {name}"
 
 
@@ -27,14 +27,14 @@ class Shown(ABC):
     @property
     @abstractmethod
     def title(self) -> str:
-        """What the record is about, on one short line."""
+        """This is what the record is about, on one short line."""
 
     @abstractmethod
     def sheet(self) -> Sheet:
         """These pairs are what there is to say of the record."""
 
     def summary(self) -> str:
-        """The record in words: the title, then a line for each pair of the sheet. It is what the command of the same name prints."""
+        """Return the record in words: the title, then a line for each pair of the sheet. It is what the command of the same name prints."""
         return "\n".join([self.title, *(line(name, value) for name, value in self.sheet())])
 
     def __repr__(self) -> str:

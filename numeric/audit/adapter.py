@@ -1,4 +1,4 @@
-"""What an implementation offers to be tested: a few functions, all optional; those that are there declare what is tested.
+"""This is what an implementation offers to be tested: a few functions, all optional; those that are there declare what is tested.
 
     identify(y, u, order, block_rows) -> A, B, C, D       from y (N, p), u (N, n_u); any state basis
     residual(y, u, A, B, C, D) -> r                       y less the model's response to u, (N, p); any initial state
@@ -65,7 +65,7 @@ class Simulates(Protocol):
 
 
 class RanksWindows(Protocol):
-    """An implementation that ranks Hankel matrices."""
+    """This is an implementation that ranks Hankel matrices."""
 
     def window_ranks(self, r: Array, windows: int) -> Sequence[int]: ...
 
@@ -77,25 +77,25 @@ class CountsFaults(Protocol):
 
 
 class FindsFaults(Protocol):
-    """An implementation that finds fault matrices."""
+    """This is an implementation that finds fault matrices."""
 
     def fault_space(self, r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Any: ...
 
 
 class Reconstructs(Protocol):
-    """An implementation that reconstructs fault signals."""
+    """This is an implementation that reconstructs fault signals."""
 
     def reconstruct(self, r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> Any: ...
 
 
 class KnowsStructure(Protocol):
-    """An implementation that finds zeros. A mapping with some names of `ZeroStructure` will do."""
+    """This is an implementation that finds zeros. A mapping with some names of `ZeroStructure` will do."""
 
     def structure(self, A: Array, F: Array, C: Array, G: Array) -> ZeroStructure | Mapping[str, Any]: ...
 
 
 def offered(implementation: object) -> dict[str, Function]:
-    """name -> function for those of FUNCTIONS that the implementation has. Raises InvalidData where it has none."""
+    """Return name -> function for those of FUNCTIONS that the implementation has. Raises InvalidData where it has none."""
     found = {name: getattr(implementation, name) for name in FUNCTIONS if callable(getattr(implementation, name, None))}
     if not found:
         raise InvalidData(f"the adapter has none of the functions {', '.join(FUNCTIONS)}: define one at least")
@@ -125,7 +125,7 @@ def guarded(function: Function) -> Function:
 
 
 def load(name: str) -> object:
-    """The adapter of that name, an instance where it is a class. Raises InvalidData."""
+    """Return the adapter of that name, an instance where it is a class. Raises InvalidData."""
     place, _, attribute = name.rpartition(":")
     if not place:
         place, attribute = name, ""

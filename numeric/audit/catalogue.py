@@ -1,4 +1,4 @@
-"""Every check that there is, and the choice among them.
+"""This collects every check that there is, and the choice among them.
 
 MODULES      the modules that have checks, in the order in which they are asked
 all_checks   every check, in that order

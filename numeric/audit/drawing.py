@@ -17,13 +17,13 @@ from .rationals import matrix
 
 
 def drawn(rng: Random, height: int, width: int, denominator: int) -> Matrix:
-    """Digits over a denominator, none of them zero."""
+    """Return digits over a denominator, none of them zero."""
     digits = [d for d in range(-9, 10) if d]
     return matrix([[Fraction(rng.choice(digits), denominator) for _ in range(width)] for _ in range(height)], width)
 
 
 def stable(rng: Random, n: int) -> Matrix:
-    """Entries over 16 or a multiple of it, spectral radius below 0.9."""
+    """Return entries over 16 or a multiple of it, spectral radius below 0.9."""
     entries = [[rng.randint(-12, 12) for _ in range(n)] for _ in range(n)]
     radius = float(np.max(np.abs(np.linalg.eigvals(np.array(entries, dtype=float)))))
     denominator = 16 * max(1, int(np.ceil(radius / 14.4)))

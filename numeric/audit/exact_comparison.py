@@ -33,7 +33,7 @@ from .records import Broken
 
 
 def lifted(values: Any, name: str, shape: tuple[int, int]) -> Matrix:
-    """A float matrix over Q. Raises Broken for another shape and for entries that are not finite numbers."""
+    """Return a float matrix over Q. Raises Broken for another shape and for entries that are not finite numbers."""
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
@@ -58,7 +58,7 @@ def polynomial_from_the_top(A: Matrix) -> list[Fraction]:
 
 
 def transfer(A: Matrix, B: Matrix, C: Matrix, D: Matrix, z: int) -> Matrix:
-    """D + C (zI - A)^-1 B. Raises Broken where z is a pole."""
+    """Return D + C (zI - A)^-1 B. Raises Broken where z is a pole."""
     unit = Matrix.identity(QQ, A.nrows)
     try:
         return D + C @ solve(Matrix(QQ, A.nrows, A.nrows, unit.flint * fmpq(z)) - A, B)
@@ -67,7 +67,7 @@ def transfer(A: Matrix, B: Matrix, C: Matrix, D: Matrix, z: int) -> Matrix:
 
 
 def roots(ascending: Sequence[Any]) -> tuple[complex, ...]:
-    """All roots with multiplicity, each the midpoint of a certified enclosure, by modulus and then argument."""
+    """Return all roots with multiplicity, each the midpoint of a certified enclosure, by modulus and then argument."""
     polynomial = fmpq_poly([fmpq(c.numerator, c.denominator) if isinstance(c, Fraction) else c for c in ascending])
     enclosed: Any = polynomial.numer().complex_roots()
     found = [complex(root) for root, times in enclosed for _ in range(times)]
@@ -87,7 +87,7 @@ def distances(got: Sequence[Matrix], exact: Sequence[Matrix]) -> Array:
 
 
 def matched(got: Sequence[complex], exact: Sequence[complex]) -> tuple[list[int], Array]:
-    """For each exact number, in order, the index of the one that it is paired with, and their distance."""
+    """Return, for each exact number, in order, the index of the one that it is paired with, and their distance."""
     gaps = np.array([[abs(theirs - mine) for mine in got] for theirs in exact], dtype=float).reshape(len(exact), len(got))
     rows, columns = scipy.optimize.linear_sum_assignment(gaps)
     return [int(j) for j in columns], np.asarray(gaps[rows, columns])

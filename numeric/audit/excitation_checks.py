@@ -1,4 +1,4 @@
-"""Signals that do not excite: what the data cannot tell must not be told.
+"""These checks use signals that do not excite: what the data cannot tell must not be told.
 
     checks          ranks of windows are what they are; n_v is free; a fault space, a model must be refused
     sine_samples    cos(k a), cos a = 3/5: rational and without a period
@@ -45,12 +45,12 @@ def sine_samples(count: int) -> list[Fraction]:
 
 
 def unexciting_inputs(samples: int) -> dict[str, Matrix]:
-    """Of one channel: a constant and a sine, exciting of order one and two."""
+    """Return two inputs of one channel: a constant and a sine, exciting of order one and two."""
     return {"constant": matrix([[Fraction(3, 2)]] * samples, 1), "sine": matrix([[x] for x in sine_samples(samples)], 1)}
 
 
 def response(model: IdentificationVector, u: Matrix) -> Matrix:
-    """The exact outputs from the vector's initial state under another input."""
+    """Return the exact outputs from the vector's initial state under another input."""
     return simulate(ResidualSystem(model.A, model.B, model.C, model.D), model.x0, u).residuals
 
 

@@ -59,7 +59,7 @@ class FaultView:
         return [Fraction(1) if self.largest_unit is None else Fraction(10) ** (self.largest_unit - 4 * i) for i in range(p)]
 
     def system(self, given: ResidualSystem) -> ResidualSystem:
-        """(T A T^-1, T F, M C T^-1, M G), M the permutation and the units."""
+        """Return (T A T^-1, T F, M C T^-1, M G), M the permutation and the units."""
         T, inverse = self.basis(given.n)
         outputs, units = self.outputs(given.p), self.units(given.p)
         C, G = (scaled(one.rows(outputs).transposed(), units).transposed() for one in (given.C, given.G))
@@ -89,7 +89,8 @@ VIEWS = (
 
 @dataclass(frozen=True, eq=False)
 class FaultVector:
-    """A residual r of x(k+1) = A x + F v, r = C x + G v from x0, exactly; `space`: basis columns [f; g] (n + p, n_z) of all solutions.
+    """This is a residual r of x(k+1) = A x + F v, r = C x + G v from x0, exactly; `space`: basis columns [f; g] (n + p, n_z) of all
+    solutions.
 
     ranks: of R_1, R_2, ... over all columns of each. gaps: (certified lower bound on the least nonzero, upper on the largest singular
     value of R_s), each channel divided by its unit of `channel_units`. lag: from lag + 1 block rows on a window suffices. bounds:
@@ -124,11 +125,11 @@ class FaultVector:
         return all(low > CLEAR * high * sqrt(height) for (low, high), height in zip(self.gaps, rows, strict=True))
 
     def seen(self, slug: str) -> FaultVector:
-        """The view of that slug, or the vector itself."""
+        """Return the view of that slug, or the vector itself."""
         return self if slug == AS_GIVEN.slug else self.views[slug]
 
     def to_json(self) -> dict[str, Any]:
-        """With the exact residual spelt out; views say how theirs comes from it."""
+        """Return the vector in JSON with the exact residual spelt out; views say how theirs comes from it."""
         whole = {name: getattr(self, name).to_json() for name in ("v", "r")}
         views = [{"slug": slug, **view._how(), **view._what()} for slug, view in self.views.items()]
         return {"slug": self.slug, **whole, **self._what(), "views": views}
@@ -221,7 +222,7 @@ class UnexcitingVector:
 
 
 def channel_units(r: Matrix) -> list[Fraction]:
-    """The power of ten nearest to the root mean square of each channel of r (N, p)."""
+    """Return the power of ten nearest to the root mean square of each channel of r (N, p)."""
     values = floats(r)
     sizes = np.max(np.abs(values), axis=0)
     mean = sizes * np.sqrt(np.mean((values / sizes) ** 2, axis=0))
@@ -234,7 +235,7 @@ def in_channel_units(r: Matrix) -> Matrix:
 
 
 def gaps_to_json(r: Matrix, gaps: tuple[tuple[float, float], ...]) -> dict[str, Any]:
-    """Certified singular values with the units that they are in."""
+    """Return the certified singular values with the units that they are in."""
     values = [{"least_nonzero_above": low, "largest_below": high} for low, high in gaps]
     return {"channel_units": [str(unit) for unit in channel_units(r)], "singular_values": values}
 

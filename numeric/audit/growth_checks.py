@@ -1,7 +1,8 @@
 """How memory and time grow with the length of the record: in proportion, or with its square.
 
     checks              for every function that reads a record
-    footprint, Spent    peak memory beyond what was there and CPU seconds, of this process and all that it started
+    footprint, Held     peak memory beyond what was there, of this process and all that it started
+    timed, Spent        their CPU seconds, taken without a look at the memory, which itself takes time
     exponent            log of the ratio of two costs over that of the lengths
 
 The bound on the exponent is midway between linear and quadratic. What stays under a floor costs nobody anything and counts as no growth;
@@ -13,7 +14,6 @@ from __future__ import annotations
 
 import os
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -39,36 +39,50 @@ SEED = 20250523
 
 
 @dataclass
-class Spent:
-    """Bytes and seconds, filled in when the work is done."""
+class Held:
+    """Bytes, filled in when the work is done."""
 
     memory: float = 0.0
+
+
+@dataclass
+class Spent:
+    """Seconds, filled in when the work is done."""
+
     seconds: float = 0.0
 
 
 @contextmanager
-def footprint() -> Iterator[Spent]:
-    """What the body costs this process and its children."""
-    spent, done = Spent(), threading.Event()
-    whole = psutil.Process()
-    before, begun = _held(), _seconds(whole)
-    watched = [before, 0.0]  # peak; the watcher's own seconds
+def footprint() -> Iterator[Held]:
+    """The memory that the body costs this process and its children, looked at every few milliseconds."""
+    spent, done, before = Held(), threading.Event(), _held()
+    peak = before
 
     def watch() -> None:
+        nonlocal peak
         while not done.wait(EVERY):
-            watched[0] = max(watched[0], _held())
-            watched[1] = time.thread_time()
+            peak = max(peak, _held())
 
     watcher = threading.Thread(target=watch, daemon=True)
     watcher.start()
     try:
         yield spent
     finally:
-        peak = _held()
+        last = _held()
         done.set()
         watcher.join()
-        spent.memory = max(watched[0], peak) - before
-        spent.seconds = max(_seconds(whole) - begun - watched[1], 0.0)
+        spent.memory = max(peak, last) - before
+
+
+@contextmanager
+def timed() -> Iterator[Spent]:
+    """The CPU seconds that the body costs this process and its children."""
+    spent, whole = Spent(), psutil.Process()
+    begun = _seconds(whole)
+    try:
+        yield spent
+    finally:
+        spent.seconds = max(_seconds(whole) - begun, 0.0)
 
 
 def _held() -> float:
@@ -101,25 +115,31 @@ def checks() -> Iterator[Check]:
 
 def _grows(slug: str, name: str, effect: str) -> Check:
     def measure(function: Function) -> Iterator[Measurement]:
-        small, large = (_cost(function, question(name, length)) for length in LENGTHS)
         if slug.startswith("memory"):
-            got = exponent((small.memory, large.memory), LENGTHS, MEMORY_FLOOR)
-            yield Measurement("exponent of memory", got, BOUND)
+            less, more = (_memory(function, question(name, length)) for length in LENGTHS)
+            yield Measurement("exponent of memory", exponent((less, more), LENGTHS, MEMORY_FLOOR), BOUND)
             return
-        got = exponent((small.seconds, large.seconds), LENGTHS, TIME_FLOOR)
+        small, large = (_time(function, question(name, length)) for length in LENGTHS)
+        got = exponent((small, large), LENGTHS, TIME_FLOOR)
         if got > BOUND:
             lengths = LENGTHS[1], 2 * LENGTHS[1]
-            further = _cost(function, question(name, lengths[1]))
-            got = min(got, exponent((large.seconds, further.seconds), lengths, TIME_FLOOR))
+            further = _time(function, question(name, lengths[1]))
+            got = min(got, exponent((large, further), lengths, TIME_FLOOR))
         yield Measurement("exponent of time", got, BOUND)
 
     return Check(slug, name, f"N{LENGTHS[0]}-N{LENGTHS[1]}", None, effect, Severity.NUISANCE, measure)
 
 
-def _cost(function: Function, arguments: tuple[Any, ...]) -> Spent:
+def _memory(function: Function, arguments: tuple[Any, ...]) -> float:
     with footprint() as spent:
         function(*arguments)
-    return spent
+    return spent.memory
+
+
+def _time(function: Function, arguments: tuple[Any, ...]) -> float:
+    with timed() as spent:
+        function(*arguments)
+    return spent.seconds
 
 
 def question(name: str, length: int) -> tuple[Any, ...]:

@@ -52,7 +52,7 @@ def checks() -> Iterator[Check]:
 def _recovery(
     slug: str, effect: str, vector: IdentificationVector, outputs: Sequence[int], inputs: Sequence[int], *units: Sequence[Fraction]
 ) -> Check:
-    """Recovery with output i read from outputs[i] and multiplied by units[0][i], inputs likewise."""
+    """Return recovery with output i read from outputs[i] and multiplied by units[0][i], inputs likewise."""
 
     def measure(function: Function) -> Iterator[Measurement]:
         y = scaled(vector.y.columns(outputs), units[0])
@@ -78,7 +78,7 @@ def _from_parts(slug: str, effect: str, vector: IdentificationVector, parts: Seq
 
 
 def matrices(answer: Any, n: int, n_u: int, p: int) -> tuple[Matrix, Matrix, Matrix, Matrix]:
-    """(A, B, C, D) over Q. Raises Broken for anything but four matrices of these sizes."""
+    """Return (A, B, C, D) over Q. Raises Broken for anything but four matrices of these sizes."""
     try:
         A, B, C, D = answer
     except (TypeError, ValueError):
@@ -94,7 +94,7 @@ def models_off(
     *units: Sequence[Fraction],
     part: str | None = None,
 ) -> Iterator[Measurement]:
-    """Markov parameters, transfer function, characteristic polynomial and poles of an answer against the vector's.
+    """Yield Markov parameters, transfer function, characteristic polynomial and poles of an answer against the vector's.
 
     Each of them is told by its worst entry. Bounds are those of the whole record or of `part`, and move with the units as the entries do.
     """

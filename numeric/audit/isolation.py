@@ -21,7 +21,7 @@ LOADING = 120.0  # seconds for Python and the adapter's imports, whatever a chec
 
 
 class Isolated:
-    """The adapter `name` (see `adapter.load`). `functions`: what it offers. Raises InvalidData where it cannot be loaded."""
+    """This is the adapter `name` (see `adapter.load`). `functions`: what it offers. Raises InvalidData where it cannot be loaded."""
 
     def __init__(self, name: str, limits: Limits = STANDARD) -> None:
         self._name = name

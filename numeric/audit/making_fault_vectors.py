@@ -40,7 +40,7 @@ CLEAR = 10.0  # how far above the noise's norm the least singular value must be,
 
 
 def fault_systems() -> list[tuple[str, ResidualSystem]]:
-    """Left-invertible systems with m < p, all stable."""
+    """Return left-invertible systems with m < p, all stable."""
     rng = Random("faults")
 
     def plain(n: int, m: int, p: int) -> ResidualSystem:
@@ -81,7 +81,7 @@ def fault_systems() -> list[tuple[str, ResidualSystem]]:
 
 
 def _nearly_twice(system: ResidualSystem) -> tuple[Matrix, Matrix]:
-    """F and G with a second column a millionth away from the first."""
+    """Return F and G with a second column a millionth away from the first."""
     rng = Random("nearly")
     F, G = (matrix([[row[0], row[0] + Fraction(rng.randint(1, 9), 10**7)] for row in fractions(one)], 2) for one in (system.F, system.G))
     return F, G
@@ -146,8 +146,8 @@ def _residual_bound(r: Matrix, system: ResidualSystem, size: Fraction) -> float:
 
 
 def _signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix) -> float | None:
-    """None where a zero on or outside the unit circle lets errors of the last samples grow backwards into the record, and where rounding
-    may make so much of the signal that nothing is asked.
+    """Return None where a zero on or outside the unit circle lets errors of the last samples grow backwards into the record, and where
+    rounding may make so much of the signal that nothing is asked.
     """
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
     start = floats(x0).ravel()
@@ -159,7 +159,9 @@ def _signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix) -> float | None
 
 
 def singular_values(H: Matrix) -> tuple[float, float]:
-    """(below the least nonzero, above the largest) singular value of H, certified: root enclosures of the exact polynomial of H H'."""
+    """Return (below the least nonzero, above the largest) singular value of H, certified: root enclosures of the exact polynomial of H
+    H'.
+    """
     polynomial = (H @ H.transposed()).flint.charpoly()
     enclosures = [root.real for root, _ in polynomial.numer().complex_roots() if not root.contains(0)]
     lowest, highest = min(float(one.lower()) for one in enclosures), max(float(one.upper()) for one in enclosures)
@@ -201,7 +203,7 @@ def _unexciting(slug: str, system: ResidualSystem, v: Matrix, visible: int) -> U
 
 
 def noisy_vectors() -> list[NoisyVector]:
-    """Faults a thousand times the noise, whose deviation is one."""
+    """Return faults a thousand times the noise, whose deviation is one."""
     systems = dict(fault_systems())
     return [_noisy(f"{slug}-in-noise", systems[slug]) for slug in ("one-fault", "delayed", "longest-lag", "two-faults")]
 
@@ -225,7 +227,7 @@ def _noise_norm(vector: NoisyVector, s: int) -> float:
 
 
 def _enclosed_from_below(vector: NoisyVector, ranks: Sequence[int]) -> list[float]:
-    """Below the least nonzero singular value of the exact R_s, s = 1, 2, ..., in balls.
+    """Return bounds from below on the least nonzero singular value of the exact R_s, s = 1, 2, ..., in balls.
 
     The eigenvalues of P = R_s R_s' + t N' N, the rows of N the left null space of [O_s T_s], are those of R_s R_s' that are not zero and
     those of t N N': the least of them all is below, |P^-8|^(-1/8) below that, and that P has an inverse shows the rank of R_s.
@@ -250,7 +252,7 @@ def _enclosed_from_below(vector: NoisyVector, ranks: Sequence[int]) -> list[floa
 
 
 def _simulated(vector: NoisyVector) -> list[list[arb]]:
-    """r without noise, enclosed. The states are exact: balls would grow with |A|, however stable A is."""
+    """Return r without noise, enclosed. The states are exact: balls would grow with |A|, however stable A is."""
     v = matrix([[int(one) for one in row] for row in vector.drawn()[0]], vector.system.m)
     exact = simulate(vector.system, Matrix.zero(vector.system.field, vector.system.n, 1), v).residuals
     return [[arb(x) for x in row] for row in exact.elements()]

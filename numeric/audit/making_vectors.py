@@ -74,7 +74,7 @@ def _identification(n: int, n_u: int, p: int, feedthrough: bool, moving: bool, s
 
 
 def _long_window() -> IdentificationVector:
-    """Twenty block rows. The entries of A are halves, so that so many samples do not grow too long to write."""
+    """Return a vector for twenty block rows. The entries of A are halves, so that so many samples do not grow too long to write."""
     rng = Random("long window")
     halves = [[1, 1, 0, 1], [-1, 0, 1, 0], [0, 0, 1, 1], [0, 0, 0, -1]]
     A = matrix([[Fraction(entry, 2) for entry in row] for row in halves], 4)
@@ -160,7 +160,7 @@ def structure_vectors() -> list[StructureVector]:
 
 
 def _otherwise(system: ResidualSystem) -> list[tuple[str, ResidualSystem]]:
-    """In another state basis, with outputs turned round, and in other units."""
+    """Return the system with a name each: in another state basis, with outputs turned round, and in other units."""
     units = [Fraction(2) ** (10 - 13 * i) for i in range(system.p)]
     C, G = (scaled(one.transposed(), units).transposed() for one in (system.C, system.G))
     basis, turned = FaultView("", other_basis=True), FaultView("", reversed_outputs=True)
@@ -179,7 +179,9 @@ def _structure(slug: str, system: ResidualSystem, known: Structure) -> Structure
 
 
 def zero_bound(system: ResidualSystem, zero: complex) -> float:
-    """SMALL (rows + columns) eps |P| |x| |y| / |y* E x| for the right null vector x of P(z) and the best left one y, E = diag(I, 0)."""
+    """Return SMALL (rows + columns) eps |P| |x| |y| / |y* E x| for the right null vector x of P(z) and the best left one y, E = diag(I,
+    0).
+    """
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
     n, m, p = system.n, system.m, system.p
     pencil = np.block([[zero * np.eye(n) - A, -F], [C, G]])
@@ -196,7 +198,7 @@ def zero_bound(system: ResidualSystem, zero: complex) -> float:
 
 
 def consistency_vectors() -> list[ConsistencyVector]:
-    """One channel with a = 1/2; two inputs and two outputs. Both faults have c = 9/10."""
+    """Return two recipes: one channel with a = 1/2; two inputs and two outputs. Both faults have c = 9/10."""
     one = FaultySystem(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), matrix([[1]], 1), matrix([[0]], 1))
     two = FaultySystem(
         ResidualSystem.of([["1/2", "1/4"], ["-1/4", "1/2"]], [["1"], ["-1"]], [["1", "0"], ["1/2", "1"]], [["1"], ["0"]]),
@@ -234,7 +236,7 @@ MAKERS: dict[str, Callable[[], Sequence[Any]]] = {
 
 
 def documents() -> dict[str, dict[str, Any]]:
-    """File name -> document, computed anew by the exact branch."""
+    """Return file name -> document, computed anew by the exact branch."""
     return {
         f"{kind}.json": {"format": FORMAT, "kind": kind, "rounding": ROUNDING, "vectors": [one.to_json() for one in MAKERS[kind]()]}
         for kind in KINDS

@@ -1,4 +1,4 @@
-"""What an audit has found.
+"""This records what an audit has found.
 
 Audit           the result of every check, in order: a sequence, with a face for people, programs and notebooks
 FunctionTally   of the checks of one function: how many there are, passed, failed, are free; the largest ratio
@@ -27,7 +27,7 @@ class FunctionTally:
 
     @property
     def free(self) -> int:
-        """So many checks cannot fail."""
+        """This is how many checks cannot fail."""
         return self.checks - self.passed - self.failed
 
 
@@ -55,26 +55,26 @@ class Audit(Shown, Sequence[CheckResult]):
 
     @property
     def functions(self) -> tuple[FunctionTally, ...]:
-        """The tally of each function, those with a failure first."""
+        """This is the tally of each function, those with a failure first."""
         names = dict.fromkeys(one.function for one in self.results)
         tallies = [_tally(name, [one for one in self.results if one.function == name]) for name in names]
         return tuple(sorted(tallies, key=lambda tally: not tally.failed))  # stable: else in the order of the checks
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """The failures in words, a text for each slug and function, with the line that shows the first of them again."""
+        """These are the failures in words, a text for each slug and function, with the line that shows the first of them again."""
         name = quote_path(self.adapter)
         groups = [(message(first, name), [one.vector for one in others]) for first, *others in grouped(self.failed)]
         return tuple(f"{words} Also: {', '.join(vectors)}." if vectors else words for words, vectors in groups)
 
     @property
     def title(self) -> str:
-        """How many checks of which functions, and how many failed."""
+        """This says how many checks there are of which functions, and how many failed."""
         names = ", ".join(dict.fromkeys(one.function for one in self.results))
         return f"{len(self)} checks of {names or 'nothing'}: {len(self.failed)} failed"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """A line for each function, then the failures in words."""
+        """Yield a line for each function, then the failures in words."""
         for one in self.functions:
             ratio = "" if one.largest_ratio is None else f", largest ratio {one.largest_ratio:.2g}"
             yield one.function, f"{one.passed} of {one.checks} passed, {one.failed} failed, {one.free} free{ratio}"
@@ -82,7 +82,7 @@ class Audit(Shown, Sequence[CheckResult]):
             yield "failed", words
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-ready, as `faultspace audit --json` prints it."""
+        """Return what is ready for JSON, as `faultspace audit --json` prints it."""
         return {"adapter": self.adapter, "failed": len(self.failed), "records": [one.to_json() for one in self.results]}
 
 

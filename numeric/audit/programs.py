@@ -1,4 +1,4 @@
-"""A program that is asked by lines and answers by lines, under a limit of time and a limit of memory.
+"""This is a program that is asked by lines and answers by lines, under a limit of time and a limit of memory.
 
 Program     starts it with the first question; `ask` sends one line and gives the next one back; `close` ends it and all that it started
 
@@ -29,7 +29,7 @@ GLANCE = 0.05  # seconds between two looks at the memory: what grows by gigabyte
 
 
 class Program:
-    """`command`, started when first asked, in `environment` (None: the caller's). Raises InvalidData where it cannot be started."""
+    """It runs `command`, from the first question on, in `environment` (None: the caller's). Raises InvalidData where it does not start."""
 
     def __init__(self, command: Sequence[str], limits: Limits, environment: Mapping[str, str] | None = None) -> None:
         self.command = shlex.join(command)

@@ -1,4 +1,4 @@
-"""Rational matrices as the vectors hold them, and the one way in which they become floats.
+"""These are rational matrices as the vectors hold them, and the one way in which they become floats.
 
 matrix      from strings, integers or Fractions
 fractions   the entries
@@ -23,7 +23,7 @@ ROUNDING = "each rational to the nearest IEEE binary64, ties to even, once"
 
 
 def matrix(rows: Sequence[Sequence[Any]], width: int) -> Matrix:
-    """Over Q, from strings, integers or Fractions; `width` for matrices without rows."""
+    """Return a matrix over Q, from strings, integers or Fractions; `width` for matrices without rows."""
     return Matrix.of([[str(entry) for entry in row] for row in rows], shape=(len(rows), width))
 
 
@@ -33,7 +33,7 @@ def fractions(given: Matrix) -> list[list[Fraction]]:
 
 
 def floats(given: Matrix) -> Array:
-    """Each entry correctly rounded; a new array at every call."""
+    """Return each entry correctly rounded; a new array at every call."""
     return np.array([[float(x) for x in row] for row in fractions(given)], dtype=np.float64).reshape(given.shape)
 
 
@@ -43,7 +43,7 @@ def scaled(given: Matrix, factors: Sequence[Fraction]) -> Matrix:
 
 
 def signs(seed: int, count: int) -> Array:
-    """+-1 by bit 63 of the linear congruential generator x := 6364136223846793005 x + 1442695040888963407 mod 2^64 from `seed`."""
+    """Return +-1 by bit 63 of the linear congruential generator x := 6364136223846793005 x + 1442695040888963407 mod 2^64 from `seed`."""
     state, result = seed, np.empty(count)
     for k in range(count):
         state = (6364136223846793005 * state + 1442695040888963407) % 2**64

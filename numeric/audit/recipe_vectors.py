@@ -30,7 +30,7 @@ def _complexes(values: tuple[complex, ...]) -> list[list[float]]:
 
 @dataclass(frozen=True, eq=False)
 class ConsistencyVector:
-    """A system from rest with u white and one fault v(k) = c v(k-1) + e(k), both independent.
+    """This is a system from rest with u white and one fault v(k) = c v(k-1) + e(k), both independent.
 
     The first n_u `samples` signs are the channels of u one after the other, the next are e. biased_poles: those of the first left singular
     vectors of the exact limit with past outputs as instruments, `block_rows` = past rows. The bound is half the largest distance of a pole
@@ -86,7 +86,7 @@ class ConsistencyVector:
 
 @dataclass(frozen=True, eq=False)
 class NoisyVector:
-    """The residual of m white faults from rest, plus white noise in every output.
+    """This is the residual of m white faults from rest, plus white noise in every output.
 
     The first m `samples` signs are the channels of v one after the other, the next p, times `noise`, are added to the outputs. ranks: of
     the exact R_s for s = 1, 2, ... gaps: certified, of each window (least nonzero singular value of R_s, norm of the noise's Hankel

@@ -1,4 +1,4 @@
-"""What a check is, and what it leaves behind.
+"""This says what a check is, and what it leaves behind.
 
 Check         slug, function tested, vector, claim, effect on a user, severity, kind, and `measure`, which calls the function
 Measurement   quantity, got, bound: a distance from the exact answer, and what rounding may make of it
@@ -29,7 +29,7 @@ class Refused(Exception):
 
 
 class Broken(Exception):
-    """The implementation crashed, hung, or answered what is no answer."""
+    """It is raised where the implementation crashed, hung, or answered what is no answer."""
 
 
 class NotOffered(Exception):
@@ -72,7 +72,7 @@ class Measurement:
 
     @property
     def ratio(self) -> float:
-        """got / bound: at most one where all is well."""
+        """This is got / bound: at most one where all is well."""
         if isnan(self.got):
             return inf
         return self.got / self.bound if self.bound > 0 else (0.0 if self.got == 0 else inf)
@@ -80,7 +80,7 @@ class Measurement:
 
 @dataclass(frozen=True)
 class Named:
-    """What a check and its result are called by."""
+    """This is what a check and its result are called by."""
 
     slug: str
     function: str
@@ -98,13 +98,13 @@ class Named:
 
     @property
     def names(self) -> tuple[str, str, str]:
-        """For itself, with that of other functions, with all of its slug."""
+        """These are its names for itself, with that of other functions, with all of its slug."""
         return self.full_name, self.name, self.slug
 
 
 @dataclass(frozen=True)
 class Check(Named):
-    """One question to one function on one vector. `measure` takes the guarded function and gives measurements.
+    """This is one question to one function on one vector. `measure` takes the guarded function and gives measurements.
 
     `claim`: the statement in the ledger that the expected answer rests on, None where it is plain good manners.
     """
@@ -138,13 +138,13 @@ class CheckResult(Named):
         return self.kind != Demand.FREE and self.verdict not in (Status.PASS, Status.NOT_OFFERED)
 
     def to_json(self) -> dict[str, Any]:
-        """JSON-ready; numbers that are not finite as strings."""
+        """Return what is ready for JSON; numbers that are not finite as strings."""
         values = {name: str(value) if isinstance(value, float) and abs(value) == inf else value for name, value in asdict(self).items()}
         return {"check": self.name, **values, "failed": self.failed}
 
 
 def perform(check: Check, function: Function) -> CheckResult:
-    """The result of one check on a guarded function."""
+    """Return the result of one check on a guarded function."""
     begun = time.perf_counter()
     worst: Measurement | None = None
     detail = ""
@@ -175,7 +175,7 @@ def broken(check: Check, failure: Exception, seconds: float) -> CheckResult:
 
 
 def grouped(results: Iterable[CheckResult]) -> list[list[CheckResult]]:
-    """Those of one slug and function stand together, in their order."""
+    """Return the results grouped: those of one slug and function stand together, in their order."""
     groups: dict[tuple[str, str], list[CheckResult]] = {}
     for one in results:
         groups.setdefault((one.slug, one.function), []).append(one)
@@ -183,7 +183,7 @@ def grouped(results: Iterable[CheckResult]) -> list[list[CheckResult]]:
 
 
 def message(result: CheckResult, adapter: str = "ADAPTER") -> str:
-    """What went wrong, what it does to a user, by how much, and the line that shows it again."""
+    """Return what went wrong, what it does to a user, by how much, and the line that shows it again."""
     measured = "" if result.ratio is None else f" {result.quantity}: got {result.got:.3g}," if result.got is not None else " got NaN,"
     if result.ratio is not None and result.bound is not None:
         measured += f" bound {result.bound:.3g}, ratio {result.ratio:.3g}."

@@ -1,4 +1,4 @@
-"""Our own numeric branch as an implementation: what `faultspace audit` tests when nothing is named, and a pattern for adapters.
+"""This is our own numeric branch as an implementation: what `faultspace audit` tests when nothing is named, and a pattern for adapters.
 
 Its functions are the public ones of `faultspace.numeric`, those that `faultspace.identify` calls, with arrays as a record of one piece.
 Where a function of ours warns and goes on, the adapter refuses: A that the window does not determine, ranks that are not clear.
@@ -39,7 +39,7 @@ def residual(y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Arra
 
 
 def window_ranks(r: Array, windows: int) -> tuple[int, ...]:
-    """At the rounding threshold, channels in unit mean square."""
+    """Return the ranks at the rounding threshold, channels in unit mean square."""
     data = signal(r, "r")
     enough_samples(len(data), (data.shape[1] + 1) * windows - 1, f"a window of {windows} block rows", data.shape)
     return rounding_ranks(data / channel_sizes(data), windows, unit=EPS).ranks

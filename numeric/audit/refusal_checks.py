@@ -1,4 +1,4 @@
-"""What must be refused: data and arguments for which every answer is wrong. To refuse is to raise or to return nothing.
+"""This is what must be refused: data and arguments for which every answer is wrong. To refuse is to raise or to return nothing.
 
 checks      NaN, infinity, short data, unequal lengths, an order that cannot be, a window at the lag, shapes that do not fit, faults
             that no residual tells apart; where a right answer is possible all the same, it may be given instead

@@ -27,7 +27,8 @@ SECONDS, GIBIBYTES = 60.0, 4.0
 
 @dataclass(frozen=True)
 class ExpectedFailure:
-    """Of the check `name`: a slug (then all of its vectors), slug[vector], or slug[vector]-function where several functions have it.
+    """This is an expected failure of the check `name`: a slug (then all of its vectors), slug[vector], or slug[vector]-function where
+    several functions have it.
 
     `reason` says why it fails and who knows of it. To hang or to crash is never expected.
     """

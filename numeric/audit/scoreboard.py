@@ -1,4 +1,4 @@
-"""Implementation against check: the audit of our reference and of every published package that is here, written as one JSON file.
+"""This sets implementation against check: the audit of our reference and of every published package that is here, written as one JSON file.
 
     tallies       the results of one audit, summed up by slug and function
     board         our reference and these packages
@@ -52,7 +52,7 @@ def board(names: Sequence[str], seconds: float, on_progress: Callable[[str, int,
 
 
 def merged(new: Board, old: Board) -> Board:
-    """The new entries in place of old ones of their name; in the order of PEERS, our own first."""
+    """Return the new entries in place of old ones of their name; in the order of PEERS, our own first."""
     entries = {one.name: one for one in (*old.audited, *new.audited)}
     order = ["faultspace", *(one.name for one in PEERS)]
     return Board(tuple(entries[name] for name in order if name in entries))

@@ -1,4 +1,4 @@
-"""What people read of a scoreboard.
+"""This is what people read of a scoreboard.
 
 table          Markdown: a row a slug, a column an implementation; passed/asked
 findings       Markdown: each implementation's failures, with version, vector, numbers and the line that shows them again
@@ -25,7 +25,7 @@ end, written by hand.
 
 
 def table(board: Board) -> str:
-    """A row a slug and function in the order of our own audit, which offers every function."""
+    """Return a row for each slug and function, in the order of our own audit, which offers every function."""
     rows = list(dict.fromkeys((one.slug, one.function) for audited in board.audited for one in audited.tallies))
     names = [audited.name for audited in board.audited]
     lines = ["| check | function | " + " | ".join(names) + " |", "|---" * (2 + len(names)) + "|"]
@@ -57,7 +57,7 @@ def _cell(audited: Audited, slug: str, function: str) -> str:
 
 
 def findings(board: Board) -> str:
-    """One section an implementation that fails."""
+    """Return one section for each implementation that fails."""
     parts = [HEAD]
     for audited in board.audited:
         failed = [one for one in audited.tallies if one.failed]
@@ -76,7 +76,7 @@ def findings(board: Board) -> str:
 
 
 def _alike(failed: Sequence[Tally]) -> list[list[Tally]]:
-    """Failures of one function that begin at the same vector with the same quantity: one error seen in several views."""
+    """Return failures of one function that begin at the same vector with the same quantity: one error seen in several views."""
     groups: dict[tuple[object, ...], list[Tally]] = {}
     for one in failed:
         key = (one.function, one.vector, one.verdict, one.quantity, one.quantity or one.detail)

@@ -39,7 +39,7 @@ class Tally:
 
 @dataclass(frozen=True)
 class Audited:
-    """One implementation. `title`: what it is; `seconds`: what the audit took."""
+    """This is one implementation. `title`: what it is; `seconds`: what the audit took."""
 
     name: str
     title: str
@@ -61,7 +61,7 @@ class Board:
 
     @staticmethod
     def from_json(data: Any) -> Board:
-        """The board that `to_json` wrote. Raises InvalidData for another format."""
+        """Return the board that `to_json` wrote. Raises InvalidData for another format."""
         if not isinstance(data, dict) or data.get("format") != FORMAT:
             raise InvalidData(f"a scoreboard has the format {FORMAT!r}")
         return Board(tuple(Audited(**{**one, "tallies": tuple(Tally(**row) for row in one["tallies"])}) for one in data["audited"]))

@@ -36,7 +36,7 @@ def _check(slug: str, vector: StructureVector, claim: str, effect: str, compare:
 
 
 def _structure(answer: ZeroStructure | Mapping[str, Any], names: Sequence[str]) -> Any:
-    """Something with these attributes. Of a mapping that lacks one of them the check does not ask."""
+    """Return something with these attributes. Of a mapping that lacks one of them the check does not ask."""
     if not isinstance(answer, Mapping):
         return answer
     lacking = [name for name in names if name not in answer]

@@ -1,4 +1,4 @@
-"""Who is put through the checks: an object in this process, an adapter by its name, a program, a published package.
+"""This says who is put through the checks: an object in this process, an adapter by its name, a program, a published package.
 
 Auditee      has `functions`, what it offers, and `perform`, which gives the result of one check and never raises for what the subject does
 InProcess    an object whose functions run in this process, without limits
@@ -36,7 +36,7 @@ class Auditee(Protocol):
 
 
 class InProcess:
-    """An object with one or more of the functions. Raises InvalidData where it has none."""
+    """This is an object with one or more of the functions. Raises InvalidData where it has none."""
 
     def __init__(self, implementation: object) -> None:
         self._called = {name: guarded(one) for name, one in offered(implementation).items()}
@@ -74,7 +74,7 @@ def opened(adapter: object, command: Command | None, peer: str | None, limits: L
 
 
 def label(adapter: object, command: Command | None, peer: str | None) -> str:
-    """The words after `faultspace audit` that name the same subject; of an object that no name leads to, ADAPTER."""
+    """Return the words after `faultspace audit` that name the same subject; of an object that no name leads to, ADAPTER."""
     if peer is not None:
         return f"--peer {peer}"
     if command is not None:

@@ -1,4 +1,4 @@
-"""An implementation in any language: a program that reads questions from standard input and writes answers to standard output, JSON lines.
+"""An implementation in any language is a program that reads questions from standard input and writes answers to standard output, as JSON.
 
 Exec        starts the program, asks it what it offers, and has a function for each; `close` ends it
 
@@ -44,8 +44,8 @@ ANSWERS = {
 
 
 class Exec:
-    """The program `command` (a shell-like string or a list) as an implementation. Raises InvalidData where it does not start or does not
-    say what it offers.
+    """This is the program `command` (a shell-like string or a list) as an implementation. Raises InvalidData where it does not start or
+    does not say what it offers.
     """
 
     def __init__(self, command: str | Sequence[str], limits: Limits = STANDARD) -> None:
@@ -90,7 +90,7 @@ class Exec:
         return values if len(values) > 1 else values[0]
 
     def _ask(self, question: dict[str, Any]) -> dict[str, Any]:
-        """One line out, one line in. NaN and infinities are written as the strings "NaN", "Infinity", "-Infinity"."""
+        """Send one line and read one line. NaN and infinities are written as the strings "NaN", "Infinity", "-Infinity"."""
         line = json.dumps(_finite(question), allow_nan=False).encode()
         try:
             answer = json.loads(self._program.ask(line))

@@ -53,7 +53,7 @@ __all__ = [
 
 @dataclass(frozen=True, eq=False)
 class IdentificationVector:
-    """x(k+1) = A x + B u, y = C x + D u from x0, exactly; `bounds` for an order-`order` model from `block_rows` block rows.
+    """This is x(k+1) = A x + B u, y = C x + D u from x0, exactly; `bounds` for an order-`order` model from `block_rows` block rows.
 
     bounds: "markov" (2 n + 2, p, n_u), "characteristic_polynomial" (n,) for z^(n-1), ..., 1, "transfer" (points, p, n_u), "poles" (n,)
     in the order of `poles`. parts: slug -> (first, last, bounds of the same names) for the record cut to samples first .. last - 1.
@@ -111,7 +111,9 @@ class IdentificationVector:
 
 @dataclass(frozen=True, eq=False)
 class StructureVector:
-    """zeros: the finite invariant zeros, correct to rounding, with `zero_bounds` for each; not asked for where not left-invertible."""
+    """This is a system with its structure. zeros: the finite invariant zeros, correct to rounding, with `zero_bounds` for each; not asked
+    for where not left-invertible.
+    """
 
     slug: str
     system: ResidualSystem
@@ -163,7 +165,7 @@ KINDS = tuple(_READERS)
 
 @cache
 def shipped(kind: str) -> tuple[Any, ...]:
-    """The vectors of one of KINDS that come with the package, as the class of that kind."""
+    """Return the vectors of one of KINDS that come with the package, as the class of that kind."""
     text = files("faultspace.numeric.audit").joinpath(f"data/{kind}.json").read_text("utf-8")
     document = json.loads(text)
     if document["format"] != FORMAT:

@@ -1,4 +1,4 @@
-"""How many faults stand out of what a healthy record shows, where they act, and their signal.
+"""This counts how many faults stand out of what a healthy record shows, where they act, and their signal.
 
 `fault_dimension` knows nothing but the residual, so what it cannot tell from noise it leaves undecided. Who has a record from before the
 fault knows more: noise and model error, their sizes and colours. At each frequency
@@ -60,7 +60,7 @@ halves are compared at all, and against the geometric mean, was settled after lo
 
 @dataclass(frozen=True, eq=False)
 class FaultsAgainstHealthy:
-    """How many faults stand out of what the healthy record shows, with the evidence.
+    """This is how many faults stand out of what the healthy record shows, with the evidence.
 
     `n_v` is the count (None where it is undecided), and `reason` says why. `roots` and `thresholds` of shape (centres, p) belong to the
     `frequencies` (centres,) in cycles a sample, and `counts` (centres,) are the roots above. A fault of less than `visible` times its noise
@@ -97,7 +97,7 @@ class FaultsAgainstHealthy:
 
 @dataclass(frozen=True, eq=False)
 class FaultDirection:
-    """The direction of one fault and its signal.
+    """This is the direction of one fault and its signal.
 
     `z` = [F; G] (n + p,) has unit norm, and F is empty without A and C. `signal` (N,) is zero before the first whitened sample and is
     shrunk at each frequency by the share that noise explains. `strength` is the mean of |w* x|^2 / (w* w), which is one for noise alone.

@@ -1,4 +1,4 @@
-"""A residual with the A and C of its model, checked once for everything that estimates faults from them.
+"""This is a residual with the A and C of its model, checked once for everything that estimates faults from them.
 
 Arguments    r (N, p), A (n, n), C (p, n), n_v or None, block_rows s, and the longest window that the record and the
 order suggest

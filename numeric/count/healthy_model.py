@@ -1,4 +1,4 @@
-"""What a residual looks like without a fault: measured on a healthy record, so that noise and model error become white.
+"""This learns what a residual looks like without a fault: measured on a healthy record, so that noise and model error become white.
 
 A residual of measured data is never zero: noise of unequal size and colour, and the error of the model. A healthy record
 of the same plant shows both. From it
@@ -65,7 +65,7 @@ class Spectra:
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """A half of the healthy record, `residual` (N, p) and `inputs` (N, n_u), with the `reference` that was learnt on the other half."""
+    """One half of the healthy record, `residual` (N, p) and `inputs` (N, n_u), is judged by the `reference` learnt on the other half."""
 
     reference: HealthyReference
     residual: Array

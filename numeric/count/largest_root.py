@@ -1,4 +1,4 @@
-"""How large the largest ratio of two sample covariances grows by chance alone: the null law behind a count of faults.
+"""This tells how large the largest ratio of two sample covariances grows by chance alone: the null law behind a count of faults.
 
 S1 and S0 are means of K1 and K0 outer products x x^* of independent complex Gaussian vectors x of dimension d, all of one covariance. The
 roots of det(S1 - l S0) = 0 are then distributed as follows, whatever that covariance [K64]: with b = K1 l / (K0 + K1 l) in (0, 1)

@@ -1,4 +1,4 @@
-"""Whether the mean of a residual has moved since a healthy record: the constant fault, which no rank can show.
+"""This tells whether the mean of a residual has moved since a healthy record: the constant fault, which no rank can show.
 
 A constant signal is persistently exciting of order one only, so that a constant fault changes no rank gap. It moves the mean of r, and a
 healthy record says what means are worth: how much noise there is at frequency zero, and how much of a mean the model's error explains.
@@ -90,7 +90,7 @@ class MeanReference:
 
 @dataclass(frozen=True, eq=False)
 class MeanShift:
-    """The verdict on the mean of a residual, with its evidence.
+    """This is the verdict on the mean of a residual, with its evidence.
 
     `shifted` is None where it is undecided, and `reason` says why. `shift` (p,) is the estimate in units of r, and `deviations` (p,) are
     its standard deviations. `channels` numbers the outputs whose own shift is beyond chance. `statistic` is T^2, held against `threshold`

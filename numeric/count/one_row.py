@@ -1,4 +1,4 @@
-"""Maximum-likelihood kernel rows: the row polynomial N(q) that annihilates r as well as the noise allows.
+"""This fits maximum-likelihood kernel rows: the row polynomial N(q) that annihilates r as well as the noise allows.
 
 With fewer faults than outputs, r = s + w where s obeys N(q) s = 0 for at least one polynomial row N, whatever the
 fault signal is [W91]. Eliminating s leaves, for noise w of spectrum phi in every channel, the likelihood of N alone:
@@ -70,7 +70,7 @@ class WindowMoments:
 
 @dataclass(frozen=True)
 class FittedRow:
-    """A kernel row that was fitted.
+    """This is a kernel row that was fitted.
 
     `coefficients` (degree+1, p) have unit norm and make N(q) = sum_j coefficients[j] q^j; `level` is in nats; `noise_colour` is the monic
     autoregression (1, a_1, ..) of the noise; `flat` says whether the last step gained less than `FLAT` nats.

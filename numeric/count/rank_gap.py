@@ -1,4 +1,4 @@
-"""How many independent faults a residual carries, with the evidence, or an honest "undecided".
+"""This counts how many independent faults a residual carries, with the evidence, or an honest "undecided".
 
 For exact residuals of x+ = A x + F v, r = C x + G v with exciting v, rank R_(s+1) - rank R_s = (normal rank) + #{left indices
 above s}: it falls with s and equals the number of faults n_v from the lag on, whether or not the system is controllable or
@@ -59,7 +59,7 @@ DIED_OUT = 1e-6
 
 @dataclass(frozen=True, repr=False)
 class FaultDimension(Shown):
-    """The number of faults `n_v` in a residual, None where it is undecided, with its `reason` and the evidence [G25].
+    """This is the number of faults `n_v` in a residual, None where it is undecided, with its `reason` and the evidence [G25].
 
     `regime` is "rounding" or "noise". `ranks`, `thresholds`, `margins` and `singular_values` (s p,) belong to `windows`, which count
     samples; `gaps[i]` belongs to s = windows[i], and `channel_scales` (p,) are the units of r. `levels` are what the kernel-row test saw,

@@ -1,4 +1,4 @@
-"""The Hankel matrix R_s of a residual, compressed once to a triangular factor, and the coordinates in which its ranks
+"""This is the Hankel matrix R_s of a residual, compressed once to a triangular factor, and the coordinates in which its ranks
 are decided.
 
     hankel_factor        L, (p s, p s) with L L' = R_s R_s', by sequential QR: the only place where N enters

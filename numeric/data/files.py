@@ -1,4 +1,4 @@
-"""Measured data from files: named columns of CSV, Parquet, NPZ, NPY and MAT files as inputs and outputs.
+"""This reads measured data from files: named columns of CSV, Parquet, NPZ, NPY and MAT files as inputs and outputs.
 
 read_record     the chosen channels of a file, as a Record
 split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate

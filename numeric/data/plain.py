@@ -1,4 +1,4 @@
-"""Numbers as JSON has them.
+"""These are numbers as JSON has them.
 
 plain    lists and numbers of an array: null for what is not finite, [real, imaginary] for what is complex
 """

@@ -1,4 +1,4 @@
-"""A measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
+"""This is a measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
 
 stored          a SampleStore of an array; silent: progress that nobody hears
 in_memory       the samples of a result that keeps them in a store, as an array

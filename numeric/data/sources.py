@@ -1,4 +1,4 @@
-"""Whatever holds a record, as a Record: arrays, data frames, files, pieces that come one after the other.
+"""This makes a Record of whatever holds one: arrays, data frames, files, pieces that come one after the other.
 
 record_from     the Record of arrays, frames, a path, pieces (y, u) or a Record
 Source          what the first argument may be

@@ -1,4 +1,4 @@
-"""Tables in text files: which character separates the columns, whether a line names them, and their values, piece by piece.
+"""This reads tables in text files: which character separates the columns, whether a line names them, and their values, piece by piece.
 
 TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns
 SEPARATORS         the separators that are tried, with the names they have in messages

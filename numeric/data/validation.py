@@ -1,4 +1,4 @@
-"""What the float methods accept as data, and what they say to the rest; what they refuse is InvalidData.
+"""This says what the float methods accept as data, and what they say to the rest; what they refuse is InvalidData.
 
 Arrays are time-major: one row a sample, one column a channel; a 1-d array is one channel. Integers, booleans, float32 and strided arrays
 are read as float64; the caller's arrays are never written to. Data too long for memory come in pieces, converted and checked one by one.

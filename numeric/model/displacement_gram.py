@@ -1,4 +1,4 @@
-"""The Gram matrix of a block Hankel matrix from its first block row: neighbours along a block diagonal differ by two end terms.
+"""This is the Gram matrix of a block Hankel matrix from its first block row: neighbours along a block diagonal differ by two end terms.
 
 With H[(l, c), j] = w(j + l)[c], j = 0..N'-1, the blocks of G = H H^T are G[i, j] = sum_k w(k+i) w(k+j)^T, so that
 

@@ -1,4 +1,4 @@
-"""What an identification by MOESP returns: the model with the account of its order, or the error that no order could be chosen.
+"""This is what an identification by MOESP returns: the model with the account of its order, or the error that no order could be chosen.
 
 MoespModel       the model, how it was found and how far to trust it
 Gap              the gap in the singular values at the order taken
@@ -20,7 +20,7 @@ from .models import StateSpaceModel
 
 
 class OrderUndecided(InvalidData):
-    """The error that no order could be chosen, from data that are good enough for a model of a given order [V93].
+    """This is the error that no order could be chosen, from data that are good enough for a model of a given order [V93].
 
     `pi_moesp` and `po_moesp` raise it where the singular values have no gap to trust; it is an InvalidData, whose `singular_values`,
     falling and as many as the number of rows of the projected outputs, tell what could be chosen. Raises nothing itself; `identify` never
@@ -55,7 +55,7 @@ class Gap:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MoespModel(Shown):
-    """The model that PI-MOESP identified [V93], and how far to trust it.
+    """This is the model that PI-MOESP identified [V93], and how far to trust it.
 
     `model` holds A (n, n), B (n, n_u), C (p, n) and D (p, n_u), which stand here too. `singular_values` are all of step 2, falling, and
     `gap` is that at the order taken. x0 (n,) is the state at the first sample of the (first) experiment, None where no data were read for

@@ -1,4 +1,4 @@
-"""PI-MOESP [V93]: a state-space model from inputs and outputs with coloured additive disturbances or faults, past inputs as instruments.
+"""PI-MOESP [V93] makes a model from inputs and outputs with coloured additive disturbances or faults, past inputs as instruments.
 
 1  L31, L32, L33 from the compression of [Uf; Up; Yf]: L32 is Yf seen along the past inputs, with the future inputs projected out.
 2  The column space of L32 tends into that of O_s where the faults are uncorrelated with the inputs at lags of both signs, and to all of it

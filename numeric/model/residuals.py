@@ -1,4 +1,4 @@
-"""The residual r = y - (response of the model to u), with the initial state fitted or given.
+"""This is the residual r = y - (response of the model to u), with the initial state fitted or given.
 
 Whatever trajectory x+ = A x + B u is subtracted, r obeys the fault model x+ = A x + F v, r = C x + G v; the choice of initial
 state only decides how much free response stays in r. Fitting it by least squares takes out as much as can be.
@@ -44,7 +44,7 @@ CHUNK = 1024
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ResidualSignal(Shown):
-    """The residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
+    """This is the residual r (N, p) of a model, in the units of y, with the initial state that it was taken from.
 
     `store` holds r, and `x0` (n,) is the state at the first sample; `fitted` says whether it was fitted to this record. `covariance` (p, p)
     is that of r about zero, with fitted degrees of freedom taken off; `x0_covariance` (n, n) is zero where x0 was given. `observed` is the
@@ -321,8 +321,10 @@ def _fit(parts: SplitModel, error: Array) -> tuple[Array, Array, int]:
 def _state_covariance(parts: SplitModel, r: Array, directions: Array) -> Array:
     """Return the covariance of theta for a stationary r: D D' Phi' Cov(r) Phi D D', lags up to N^(1/3), Bartlett weights."""
     reach = min(int(np.ceil(len(r) ** (1 / 3))), len(r) - 1)
-    middle = np.zeros((parts.basis.shape[0],) * 2)
+    n = parts.basis.shape[0]
+    middle = np.zeros((n, n))
     lagged = [(1.0 - lag / (reach + 1)) * (r[lag:].T @ r[: len(r) - lag]) / len(r) for lag in range(reach + 1)]
+    lagged[0] /= 2.0  # every term is added with its transpose
     largest = 0.0
     for start, _, phi in parts.chunks():
         size = float(np.max(np.abs(phi), initial=0.0))
@@ -331,10 +333,15 @@ def _state_covariance(parts: SplitModel, r: Array, directions: Array) -> Array:
             continue
         before = min(start, reach)
         longer = np.concatenate([parts.rows(start - before, start), phi]) if before else phi
+        # Outputs come first, so that a covariance meets all samples of the chunk in one product of matrices.
+        outputs = np.ascontiguousarray(longer.transpose(1, 0, 2))
+        p, samples, _ = outputs.shape
+        weighted = np.zeros((p, len(phi), n))
         for lag, covariance in enumerate(lagged):
             skip = max(lag - before, 0)
-            now, then = phi[skip:], longer[before + skip - lag : len(longer) - lag]
-            term = np.einsum("kpi,pq,kqj->ij", now, covariance, then, optimize=True)
-            middle += term if lag == 0 else term + term.T
+            then = outputs[:, before + skip - lag : samples - lag]
+            weighted[:, skip:] += (covariance @ then.reshape(p, then.shape[1] * n)).reshape(then.shape)
+        term = outputs[:, before:].reshape(p * len(phi), n).T @ weighted.reshape(p * len(phi), n)
+        middle += term + term.T
     inverse = directions @ directions.T
     return np.asarray(inverse @ middle @ inverse)

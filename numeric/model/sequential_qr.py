@@ -1,4 +1,4 @@
-"""The triangular factor of a block Hankel matrix, appended to block by block: exact to rounding whatever the condition of the data.
+"""This is the triangular factor of a block Hankel matrix, appended to block by block: exact to rounding whatever the condition of the data.
 
 A row of the Hankel matrix H is a pair (lag, channel): H[(l, c), j] = w(j + l)[c] for the joint signal w = [u, y]. The factor R is upper
 triangular with R.T @ R = H @ H.T; only R and one block of columns are held. [VV07] calls R.T the L of the LQ (RQ) factorisation.

@@ -1,4 +1,4 @@
-"""The published way to the fault space: make the range of R_s into that of a Toeplitz matrix of the model.
+"""This is the published way to the fault space: make the range of R_s into that of a Toeplitz matrix of the model.
 
     toeplitz_factorisation   n_z columns [f; g] for a given rank of R_s
     U                        the left singular vectors of R_s that belong to the rank: block rows U_1 .. U_s of p rows each

@@ -1,4 +1,4 @@
-"""An Identification for other programs: python-control, scipy.signal and MATLAB.
+"""This hands an Identification over for other programs: python-control, scipy.signal and MATLAB.
 
 to_control   control.StateSpace with the names of the channels
 to_scipy     scipy.signal.dlti

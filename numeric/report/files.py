@@ -1,4 +1,4 @@
-"""What `faultspace identify` writes of the Findings: JSON and the files of its folder.
+"""This is what `faultspace identify` writes of the Findings: JSON and the files of its folder.
 
 document     the JSON-ready dict of --json (schemas/identify.schema.json)
 write        all files, written elsewhere first and then renamed into place; says which, and what is missing and why

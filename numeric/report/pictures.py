@@ -1,4 +1,4 @@
-"""The pictures of `faultspace identify`, one a file.
+"""These are the pictures of `faultspace identify`, one a file.
 
 main_picture the one picture of `Identification.plot`
 pictures     draws what the Findings holds into a folder; remarks on what could not be had

@@ -1,4 +1,4 @@
-"""What `faultspace identify` says to people: the Findings as lines of Markdown, on the terminal and in summary.md.
+"""This is what `faultspace identify` says to people: the Findings as lines of Markdown, on the terminal and in summary.md.
 
 summary     the lines: model, faults, fault space, fault signal, notes, what to try next
 advice      what to try next, from what was found

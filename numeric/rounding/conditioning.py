@@ -1,5 +1,5 @@
-"""How far rounding can carry an identified model from the one that exact arithmetic makes of the same data: to first order, from norms
-that the floats themselves show.
+"""This bounds how far rounding can carry an identified model from the one that exact arithmetic makes of the same data: to first order,
+from norms that the floats themselves show.
 
 Backward error. The factor L of H = [Uf; Up; Yf] is that of H + E. By QR each row of E is at most r (5 m + 35) u times its row of H for
 r reflections of length m, u = 2^-53: counted from the analysis of one reflection in [H02, section 19.3]. By the Gram, G = H H' is wrong

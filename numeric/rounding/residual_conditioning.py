@@ -1,4 +1,4 @@
-"""How far rounding can carry the residual and the fault signal from their exact values: to first order.
+"""This bounds how far rounding carries the residual and the fault signal from the exact ones, to first order.
 
 The exact model may be given by rational matrices of which the floats are the correct roundings: entries wrong by u = 2^-53, like the data.
 

@@ -1,4 +1,4 @@
-"""How much of a residual n_v signals explain, and how much of mere noise they would.
+"""This tells how much of a residual n_v signals explain, and how much of mere noise they would.
 
     noise_share     the largest share of noise that n_v signals can explain, from the spectra of the noise
     against         the matrix spectrum Phi(f) of a residual without fault, or, where none is known, noise that is independent from output

@@ -1,4 +1,4 @@
-"""The fault signal of a residual of any length: the smoother on the whole, or on pieces that overlap.
+"""This reconstructs the fault signal of a residual of any length: the smoother on the whole, or on pieces that overlap.
 
     reconstruct_fault   v of every sample, for r in memory or in a store
     Reconstruction      it, with delay, zeros, the samples to be trusted and how well it explains the residual

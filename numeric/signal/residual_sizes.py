@@ -1,4 +1,4 @@
-"""How large a residual of any length is, and the stretch of it that is held in memory to count faults.
+"""This tells how large a residual of any length is, and the stretch of it that is held in memory to count faults.
 
 residual_sizes  the size of each channel, of the whole and of the samples that the model is from, and the energy of each part
 ResidualSizes   what it returns

@@ -1,4 +1,4 @@
-"""The fault signal of one stretch of the residual in memory: v and x such that the simulated residual equals the given one.
+"""This smooths the fault signal of one stretch of the residual in memory: v and x such that the simulated residual equals the given one.
 
     smoothed            the smoother for r, A, F, C, G, with the initial state known or not
     Solution            delay, zeros, the samples to be trusted, and why not the others

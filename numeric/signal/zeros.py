@@ -71,7 +71,7 @@ def _complement_of_reached(L: Array, B: Array) -> Array:
 
 
 def _null_space(matrix: Array) -> Array:
-    """Return orthonormal columns."""
+    """Return orthonormal columns that span the null space."""
     if 0 in matrix.shape:
         return np.eye(matrix.shape[1])
     _, values, right = np.linalg.svd(matrix)

@@ -1,4 +1,4 @@
-"""Maximum likelihood for a whole kernel basis: the k = p - n_v polynomial rows N(q) that annihilate r up to noise, at once.
+"""This fits a whole kernel basis by maximum likelihood: the k = p - n_v polynomial rows N(q) that annihilate r up to noise, at once.
 
 r = s + w with N(q) s = 0 whatever the faults are [W91], w of spectrum phi in every channel. Eliminating s leaves
 
@@ -45,7 +45,7 @@ TINY = float(np.finfo(float).tiny)
 
 @dataclass(frozen=True)
 class KernelBasis:
-    """The rows of a kernel basis, how much noise they leave, and how sure they are.
+    """These are the rows of a kernel basis, how much noise they leave, and how sure they are.
 
     `rows` are k arrays (eta_i + 1, p) of unit norm with N_i(q) = sum_j rows[i][j] q^j, `level` is in nats, `noise_colour` is the monic
     autoregression of the noise, `spectrum` (bands,) is the phi that follows from it, of mean logarithm zero, `within` is as it was given,

@@ -1,4 +1,4 @@
-"""The fault space from a noisy residual, where R_s has full rank and no null row is exact.
+"""This estimates the fault space from a noisy residual, where R_s has full rank and no null row is exact.
 
     fault_space_by_likelihood      kernel rows by maximum likelihood with noise colour: the better estimator
     fault_space_by_least_squares   null rows by the singular value decomposition, weighted by their uncertainty: no

@@ -1,4 +1,4 @@
-"""Problem (11) from data: all fault columns z = [f; g] that explain no more than the residual shows.
+"""This solves problem (11) from data: all fault columns z = [f; g] that explain no more than the residual shows.
 
     fault_space              the estimate for any residual: the noise-free form where R_s has a rank to machine
                              precision, else the likelihood form

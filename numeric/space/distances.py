@@ -1,4 +1,4 @@
-"""How far one subspace lies from another.
+"""This measures how far one subspace lies from another.
 
     principal_angles        radians, ascending, min(dim U, dim V) of them, accurate when they are tiny and when they
                             are right

@@ -1,4 +1,4 @@
-"""How far rounding may have turned a fault space found from exact ranks: a bound a posteriori, direction by direction.
+"""This bounds how far rounding may have turned a fault space found from exact ranks: a bound a posteriori, direction by direction.
 
 With R = U S V' the scaled Hankel matrix, N = U_2' its null rows, M their conditions, W the solutions of M W = 0 and Q the
 orthonormal basis of B W that is answered (B: back to the given coordinates), to first order

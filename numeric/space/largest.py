@@ -1,4 +1,4 @@
-"""How large a fault space can be for a given A and C, whatever the faults.
+"""This tells how large a fault space can be for a given A and C, whatever the faults.
 
     observability_indices    nu_1 <= .. <= nu_p of (A, C): rank O_s - rank O_(s-1) of them are at least s
     largest_fault_space      the most that n_z can be for m faults: n + m - (nu_1 + .. + nu_(p-m))

@@ -1,4 +1,4 @@
-"""What every estimate of the fault space answers, and what a kernel row asks of a fault column.
+"""This is what every estimate of the fault space answers, and what a kernel row asks of a fault column.
 
     FaultSpaceEstimate   basis of the columns [f; g], its dimension, how it was found, whether it means anything and why
     SpaceUncertainty     the estimate's error to first order, a matrix that is linear in standard normal numbers, and its angle
@@ -55,7 +55,7 @@ class SpaceUncertainty:
 
 @dataclass(frozen=True, repr=False)
 class FaultSpaceEstimate(Shown):
-    """The columns [f; g] that explain no more than the residual shows.
+    """These are the columns [f; g] that explain no more than the residual shows.
 
     basis            (n + p, n_z), orthonormal columns
     n_z              its columns, n_v + zeta for a left-invertible fault system; where `decided` is False the likeliest

@@ -1,4 +1,4 @@
-"""A kernel basis of maximum likelihood for given A, C, from a fault space estimated row by row.
+"""This makes a kernel basis of maximum likelihood for given A, C, from a fault space estimated row by row.
 
 joint_basis   all p - n_v rows at once, with the row degrees that the data accept
 complement    P with orthonormal rows and P O_s = 0: a true kernel row is g P, because A and C are known

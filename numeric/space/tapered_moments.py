@@ -1,4 +1,4 @@
-"""Cross-spectral moments of the windows of r, tapered so that a spectral null of the noise stays one.
+"""These are cross-spectral moments of the windows of r, tapered so that a spectral null of the noise stays one.
 
     psi             psi(k) = [r(k); ..; r(k+eta)], so that N(q) r (k) = N psi(k) for coefficients N = [N_0 .. N_eta]
     CrossMoments    Hermitian second moments of psi in frequency bands: all that a kernel basis asks of the data

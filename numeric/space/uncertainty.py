@@ -1,4 +1,4 @@
-"""How far an estimated fault space may lie from the true one: an angle with a confidence.
+"""This tells how far an estimated fault space may lie from the true one: an angle with a confidence.
 
     space_uncertainty   from a kernel basis of maximum likelihood, whose coefficients have a covariance
 

@@ -1,4 +1,4 @@
-"""One system of the Monte Carlo study: drawn, measured, estimated and judged.
+"""One system of the Monte Carlo study is drawn, measured, estimated and judged.
 
     published_case, corrected_case               with the true A, B, C, D
     identified_case, corrected_identified_case   with A, B, C, D from PI-MOESP on the same data

@@ -1,4 +1,4 @@
-"""The figures of the Monte Carlo study, redrawn: vacuous cases set apart, random subspaces beside every error.
+"""This redraws the figures of the Monte Carlo study: vacuous cases set apart, random subspaces beside every error.
 
     error_histogram           how many cases have which error, vacuous ones hatched
     errors_by_zeros           a box for each number of zeros and each estimator, with the median of a random subspace

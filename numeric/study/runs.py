@@ -1,4 +1,4 @@
-"""What is measured in the Monte Carlo study: inputs, faults and noise of one run, each from the run's own seed.
+"""This makes what is measured in the Monte Carlo study: inputs, faults and noise of one run, each from the run's own seed.
 
     StudyRun         inputs u, outputs y, faults v of one run, with the noise that was added
     study_run        one run of a system

@@ -1,4 +1,4 @@
-"""The Monte Carlo study of the paper: how far the estimated fault space lies from the true one, over many random systems.
+"""This is the Monte Carlo study of the paper: how far the estimated fault space lies from the true one, over many random systems.
 
     monte_carlo          a plan carried out: a Study
     PUBLISHED            the published settings and metric: s = 5, rank R_s taken as n_x + s n_v - zeros, noise "of 40 dB" that is 43 dB

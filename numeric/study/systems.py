@@ -1,4 +1,4 @@
-"""The random systems of the Monte Carlo study, each from a seed of its own.
+"""These are the random systems of the Monte Carlo study, each from a seed of its own.
 
     StudySystem      A, B, C, D with fault matrices F, G, the finite zeros they were built with, and the fault space Z
     study_system     a random stable system with n = 5, n_u = 1, p = 3, n_v = 2 and a given number of finite zeros

@@ -1,4 +1,4 @@
-"""One task after another, over the cores of this machine or over a Dask cluster, with the time that remains.
+"""This runs one task after another, over the cores of this machine or over a Dask cluster, with the time that remains.
 
     in_order      the results of the tasks, in their order, whoever worked on them
     Progress      called with (done, total, seconds left) as results come in

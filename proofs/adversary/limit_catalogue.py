@@ -1,4 +1,4 @@
-"""Every attack on what is said of the limits of PI-MOESP and PO-MOESP.
+"""This lists every attack on what is said of the limits of PI-MOESP and PO-MOESP.
 
     on_the_range       the limit has all of the range of O_s: a determinant that changes its sign, a least singular value
     on_containment     the limit stays inside the range of O_s: a share outside of it
@@ -211,7 +211,7 @@ def _felt(family: Family, point: Floats) -> float:
 
 
 def _formula_differs(d: LimitEvidence) -> bool:
-    """Whether a state is lost and the formula has none, or the other way round; n = past = 2, one input."""
+    """Return whether a state is lost and the formula has none, or the other way round; n = past = 2, one input."""
     return d.uncorrelated and _regular(d) and d.equal == hides_a_state(d.experiment, covariances(d.experiment))
 
 

@@ -1,4 +1,4 @@
-"""The file of results: what attacked each statement, how near it came, and when; checked again where that is cheap.
+"""This is the file of results: what attacked each statement, how near it came, and when; checked again where that is cheap.
 
     run_attacks    attacks run now, in parallel, as records for the file
     stored         the records of the package's file
@@ -70,12 +70,12 @@ def stored() -> tuple[AttackRecord, ...]:
 
 
 def refuting(record: AttackRecord) -> bool:
-    """Whether the record tells of a counterexample, or of a change of sign that proves one."""
+    """Return whether the record tells of a counterexample, or of a change of sign that proves one."""
     return bool(record["outcome"] != NONE)
 
 
 def stale(attack: Attack | Sweep, records: Sequence[AttackRecord]) -> bool:
-    """Whether the records have none of this attack on the statement as it is now."""
+    """Return whether the records have none of this attack on the statement as it is now."""
     digest = _digest(attack.target)
     return not any(record["attack"] == attack.id and record["statement_sha256"] == digest for record in records)
 

@@ -1,4 +1,4 @@
-"""From a float close to the zero set to a rational point on it.
+"""This goes from a float close to the zero set to a rational point on it.
 
     simple             the points of few digits around a float
     rational_roots     the rational zeros of a rational function of one parameter, known by exact values: reconstructed, then factored

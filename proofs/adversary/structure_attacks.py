@@ -227,7 +227,7 @@ def _early_space(d: Evidence) -> bool:
 
 
 def _right_anyway(d: Evidence) -> bool:
-    """Whether the gap is m from n on, without controllability."""
+    """Return whether the gap is m from n on, without controllability."""
     return (
         not d.controllable
         and d.observable

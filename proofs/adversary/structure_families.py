@@ -1,4 +1,4 @@
-"""Families of systems, and the quantities on whose zero sets ranks drop.
+"""These are families of systems, and the quantities on whose zero sets ranks drop.
 
 Tables             A, F, C, G by rows, floats or Fractions
 free_family        every entry free
@@ -160,7 +160,7 @@ def crossed(t: Tables) -> Rows:
 
 
 def determinant(rows: Rows) -> Any:
-    """Expands a determinant along the first row: small matrices, floats or Fractions."""
+    """This expands a determinant along the first row: small matrices, floats or Fractions."""
     if len(rows) == 1:
         return rows[0][0]
     total = 0

@@ -1,4 +1,4 @@
-"""Boxes gone through to the end: every system of given dimensions over GF(2) or GF(3), beyond the boxes of the corpus.
+"""Boxes are gone through to the end: every system of given dimensions over GF(2) or GF(3), beyond the boxes of the corpus.
 
     Sweep      a target, a box, its cases and the decision on one
     Swept      how far it came: whether to the end, and what it found
@@ -47,7 +47,7 @@ class Sweep:
 
     @property
     def id(self) -> str:
-        """The name of the sweep in the file of results."""
+        """This is the name of the sweep in the file of results."""
         return f"{self.target} by {self.name}"
 
 

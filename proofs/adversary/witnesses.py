@@ -1,4 +1,4 @@
-"""What an attack has found, once the checker has accepted it.
+"""This is what an attack has found, once the checker has accepted it.
 
 Found       a counterexample in words, with the certificates that show it
 confirmed   the Witness of a counterexample at a point, once each of its certificates is accepted

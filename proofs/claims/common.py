@@ -55,7 +55,7 @@ def zeros(system: ResidualSystem) -> Iterator[Certificate]:
 
 
 def spaces(window: Callable[[ResidualSystem], int]) -> Show:
-    """A function that yields certificates of ranks, of left-invertibility, and of the fault space at the window and in the limit."""
+    """Return a function that yields certificates of ranks, of left-invertibility, and of the fault space at the window and in the limit."""
 
     def show(system: ResidualSystem) -> Iterator[Certificate]:
         yield from ranks_and_inversion(system)
@@ -70,7 +70,7 @@ GAP_BOX = Box(total=5, largest_n=3, largest_m=2, largest_p=3)
 
 
 def wrong_gap(delay: Callable[[Facts], Integers]) -> Callable[[Facts], Flags]:
-    """A test that finds observable left-invertible systems with gap(s) != m for some s >= max(l, n - 1, 1)."""
+    """Return a test that finds observable left-invertible systems with gap(s) != m for some s >= max(l, n - 1, 1)."""
 
     def candidate(facts: Facts) -> Flags:
         bound = np.maximum(delay(facts), max(facts.n - 1, 1))
@@ -86,7 +86,7 @@ Dimensions = tuple[int, int, int]
 
 
 def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Sequence[Dimensions], full: Sequence[Dimensions]) -> Outcome:
-    """The outcome of a parametric claim at all these (n, p, m): IDENTITY, or what it raises where a stratum or an expansion fails."""
+    """Return IDENTITY for a parametric claim at all these (n, p, m), or what it raises where a stratum or an expansion fails."""
     dimensions = [*quick, *full] if bench.full else list(quick)
     strata = expanded = 0
     for done, (n, p, m) in enumerate(dimensions):
@@ -99,7 +99,7 @@ def identity(bench: Workbench, claim: Callable[[Stratification], Any], quick: Se
 
 
 def under_assumption_4(known_state: bool) -> Test:
-    """A test that asks whether a system is observable and left-invertible with some delay, for a known or unknown initial state."""
+    """Return a test that asks whether a system is observable and left-invertible with some delay, for a known or unknown initial state."""
 
     def applies(e: Evidence) -> bool:
         return e.observable and e.left_invertible and delay_of(e, known_state) is not None
@@ -108,12 +108,12 @@ def under_assumption_4(known_state: bool) -> Test:
 
 
 def delay_of(e: Evidence, known_state: bool) -> int | None:
-    """The delay of left inversion in one of its two senses."""
+    """Return the delay of left inversion in one of its two senses."""
     return e.delay_known_state if known_state else e.delay_unknown_state
 
 
 def gap_is_m_from(bound: Callable[[Evidence], int]) -> Test:
-    """A test that asks whether gap(s) = m for every s >= max(bound, 1)."""
+    """Return a test that asks whether gap(s) = m for every s >= max(bound, 1)."""
 
     def holds(e: Evidence) -> bool:
         start = max(bound(e), 1)

@@ -45,7 +45,7 @@ def parametric(bench: Workbench) -> Outcome:
 
 
 def agrees(pair: PairByPolynomial) -> bool:
-    """Whether D and the certificates say the same of a pair."""
+    """Return whether D and the certificates say the same of a pair."""
     if not pair.polynomial:
         return pair.pair_normal_rank < pair.normal_rank and not pair.equal
     zeros = len(pair.polynomial) - 1 + pair.infinite_zeros
@@ -53,12 +53,12 @@ def agrees(pair: PairByPolynomial) -> bool:
 
 
 def words(pair: PairByPolynomial) -> str:
-    """The pair as it stands in an outcome."""
+    """Return the pair as it stands in an outcome."""
     return f"{pair.system} with F' = {pair.pair.F}, G' = {pair.pair.G}"
 
 
 def show(pair: PairByPolynomial) -> Iterator[Certificate]:
-    """Certificates of what the pair is: equivalent or not, its normal rank, its zeros."""
+    """Yield certificates of what the pair is: equivalent or not, its normal rank, its zeros."""
     kernels = kernel_representation(pair.system), kernel_representation(pair.pair)
     yield comparison_certificate(*kernels)
     yield make.window_ranks(kernels[1])

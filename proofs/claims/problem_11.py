@@ -84,7 +84,7 @@ def first_block_column(bench: Workbench) -> Outcome:
 
 
 def _first_column_vanishes(system: ResidualSystem, z: Matrix, window: int) -> bool:
-    """Whether every left null row of [O_s T_s] annihilates (g, C f, C A f, ...)."""
+    """Return whether every left null row of [O_s T_s] annihilates (g, C f, C A f, ...)."""
     x, outputs = z.rows(range(system.n)), [z.rows(range(system.n, system.n + system.p))]
     for _ in range(window - 1):
         outputs.append(system.C @ x)

@@ -41,7 +41,7 @@ BOX = "n = m = nu = 1, F = 1, D = 0, p <= 2, A in {0, 1/2}, entries of B, C, G i
 
 
 def drives(inputs: Sequence[tuple[list[str], list[str]]], phis: Sequence[list[str]]) -> list[Drive]:
-    """Functions that give a system the input u and the fault v(k) = sum phi_j u(k+j), for each u and phi."""
+    """Return functions that give a system the input u and the fault v(k) = sum phi_j u(k+j), for each u and phi."""
     return [partial(_lead, u=u, den=den, phi=phi) for u, den in inputs for phi in phis]
 
 
@@ -189,7 +189,7 @@ def parametric(bench: Workbench) -> Outcome:
 
 
 def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitEvidence], bool], scope: str) -> Outcome:
-    """REFUTED by the first of the small experiments that fails, as the checker has accepted it."""
+    """The outcome is REFUTED by the first of the small experiments that fails, as the checker has accepted it."""
     for experiment in experiments_in_order(inputs):
         evidence = examine_experiment("search", experiment)
         if fails(evidence):
@@ -198,7 +198,7 @@ def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitEvidence], boo
 
 
 def smallest_seasonal(fails: Callable[[LimitEvidence], bool], taps: int, others: Sequence[str]) -> Outcome:
-    """REFUTED by the smallest experiment with an input of period 3 that fails, and by the `others`, which are kept in counterexamples/."""
+    """The smallest failing experiment with an input of period 3 makes it REFUTED, and so do the `others`, kept in counterexamples/."""
     for one in in_order():
         evidence = examine_experiment("search", seasonal(one, taps))
         if not fails(evidence):
@@ -216,14 +216,14 @@ def show(evidence: LimitEvidence) -> list[Certificate]:
 
 
 def show_words(evidence: LimitEvidence) -> str:
-    """The experiment as it stands in an outcome."""
+    """Return the experiment as it stands in an outcome."""
     e = evidence.experiment
     u, v = e.u_filter.to_json(), e.v_filter.to_json()
     return f"{e.system.residual}, B={e.system.B}, D={e.system.D}, s = {e.s}, past = {e.past}, u = {u}, v = {v}".replace("'", "")
 
 
 def certify_limits(records: Sequence[LimitEvidence], holds: Callable[[LimitEvidence], bool]) -> Outcome:
-    """The outcome of the statement `holds` on all of these experiments."""
+    """Return the outcome of the statement `holds` on all of these experiments."""
     return certify_records(records, [e for e in records if not holds(e)], show_words, show, unit="experiments")
 
 
@@ -240,7 +240,7 @@ def _regular(e: LimitEvidence) -> bool:
 
 
 def _seen(e: LimitEvidence) -> tuple[Matrix, Matrix]:
-    """The B and D that output error sees where v leads u."""
+    """Return the B and D that output error sees where v leads u."""
     residual, B, D = e.experiment.system.residual, e.experiment.system.B, e.experiment.system.D
     delay = len(e.experiment.u_filter.numerator) - 1
     phi = [e.experiment.v_filter.numerator[delay - j] for j in range(delay + 1)]

@@ -57,7 +57,7 @@ def not_both(bench: Workbench) -> Outcome:
 
 
 def _regressions_right(found: PopulationLimits) -> list[str]:
-    """The regressions that give the true B and D with the true A and C."""
+    """Return the regressions that give the true B and D with the true A and C."""
     both = {"output error": found.true_AC, "MOESP's regression": found.moesp}
     return [name for name, one in both.items() if one is not None and found.bias(one).B.is_zero() and found.bias(one).D.is_zero()]
 

@@ -60,7 +60,7 @@ def equality_as_many_faults(bench: Workbench) -> Outcome:
 
 
 def _partner(kernel: KernelRepresentation) -> KernelRepresentation | None:
-    """A system whose fault columns are moved by solutions of problem (11) on lag samples that are none on lag + 1."""
+    """Return a system whose fault columns are moved by solutions of problem (11) on lag samples that are none on lag + 1."""
     system: ResidualSystem = kernel.system
     space, rng = fault_space(kernel, kernel.lag), random.Random(str(system))
     for _ in range(60):

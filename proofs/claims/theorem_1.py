@@ -87,7 +87,7 @@ def parametric(bench: Workbench) -> Outcome:
 
 
 def _smallest_pair(*, same_A_and_C: bool) -> Outcome:
-    """REFUTED by the first system of the box that has a partner equal on n samples but not on n + 1, with its first partner."""
+    """The first system of the box with a partner equal on n samples but not on n + 1 makes it REFUTED, with its first partner."""
     for dimensions in BOX.dimensions():
         n, m, p = dimensions
         box = Box(total=sum(dimensions), largest_n=n, largest_m=m, largest_p=p, least_m=m)

@@ -74,7 +74,7 @@ def criterion_window_n(bench: Workbench) -> Outcome:
 def _smallest_bad_pair(
     window: Callable[[KernelRepresentation], int], counts: Callable[[KernelRepresentation], bool], scope: str
 ) -> Outcome:
-    """REFUTED by the first system and P of full column rank whose pair counts and is not equivalent."""
+    """The outcome is REFUTED by the first system and P of full column rank whose pair counts and is not equivalent."""
     for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
         kernel = kernel_representation(system)
         space = fault_space(kernel, window(kernel))

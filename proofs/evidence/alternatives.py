@@ -1,4 +1,4 @@
-"""Pairs of systems whose behaviours are compared, each with certificates that the checker has accepted.
+"""These are pairs of systems whose behaviours are compared, each with certificates that the checker has accepted.
 
 PairEvidence              two systems: equal, or the first window on which they differ; their lags and normal ranks
 AlternativeEvidence       a system and other fault matrices for the same (A, C): equal or not, inside the fault space or not
@@ -73,7 +73,7 @@ def comparison_certificate(first: KernelRepresentation, second: KernelRepresenta
 
 
 def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, weight: int = 1) -> PairEvidence:
-    """The evidence on two systems: equality or the first difference, and their lags, each certified."""
+    """Return the evidence on two systems: equality or the first difference, and their lags, each certified."""
     kernels = kernel_representation(first), kernel_representation(second)
     verdict = comparison_certificate(*kernels)
     certificates = [verdict, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
@@ -89,7 +89,7 @@ def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, wei
 
 
 def examine_alternative(origin: str, system: ResidualSystem, alternative: ResidualSystem, weight: int = 1) -> AlternativeEvidence:
-    """The evidence on other fault matrices: whether they make the same outputs, and whether they lie in the fault space."""
+    """Return the evidence on other fault matrices: whether they make the same outputs, and whether they lie in the fault space."""
     kernels = kernel_representation(system), kernel_representation(alternative)
     space = make.fault_space(kernels[0], fault_space(kernels[0]))
     certificates = [comparison_certificate(*kernels), space, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
@@ -200,7 +200,7 @@ def _alternatives(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSys
 
 
 def _choices(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
-    """P of several kinds: generic, sparse, of unit columns and rank-deficient."""
+    """Yield P of several kinds: generic, sparse, of unit columns and rank-deficient."""
     for density in (1.0, 0.5, 0.3):
         yield Matrix.of(
             [[rng.randint(-3, 3) if rng.random() < density else 0 for _ in range(cols)] for _ in range(rows)], shape=(rows, cols)

@@ -33,7 +33,7 @@ Progress = Callable[[str, int, int], None]
 
 @dataclass(frozen=True, repr=False)
 class Evidence(Structure):
-    """The structure of a system as accepted certificates state it.
+    """This is the structure of a system as accepted certificates state it.
 
     `origin` says in words how the system was made, and `weight` how many systems it stands for (the size of an orbit, else 1).
     `window_ranks` are rank [O_s T_s] and `space_dimensions` the dimensions of problem (11) for s = 1, ..., n + 2, each from a certificate
@@ -48,7 +48,7 @@ class Evidence(Structure):
 
     @property
     def without_feedthrough(self) -> int:
-        """The dimension of the members (f, g = 0) of the fault space."""
+        """This is the dimension of the members (f, g = 0) of the fault space."""
         return self.fault_space.dimension - rank(self.fault_space.G)
 
 
@@ -67,7 +67,7 @@ def describe(evidence: Iterable[Evidence]) -> str:
 
 
 def examine(origin: str, system: ResidualSystem, weight: int = 1) -> Evidence:
-    """Certificates of everything that the claims ask about a system, accepted by the checker, read back into a structure.
+    """Return certificates of everything that the claims ask about a system, accepted by the checker, read back into a structure.
 
     Raises checker.Rejected or checker.Malformed where the checker does not accept one, and ArithmeticError where two of them disagree.
     """
@@ -172,7 +172,7 @@ def _exhaustive_boxes(full: bool) -> Iterator[tuple[int, int, int, int]]:
 
 
 def _limits(q: int, full: bool) -> tuple[int, int, int]:
-    """The largest n, p, m of the exhaustive box over GF(q)."""
+    """Return the largest n, p, m of the exhaustive box over GF(q)."""
     if q == 2:
         return (2, 3, 2) if full else (2, 2, 1)
     return (2, 2, 1) if full else (1, 2, 1)

@@ -27,14 +27,14 @@ Digits = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Orbit:
-    """A system of least number in its orbit, and the size of the orbit."""
+    """This is a system of least number in its orbit, and the size of the orbit."""
 
     system: ResidualSystem
     size: int
 
 
 def all_systems(q: int, n: int, p: int, m: int) -> Iterator[ResidualSystem]:
-    """All q^((n+p)(n+m)) systems over GF(q), one after the other."""
+    """Yield all q^((n+p)(n+m)) systems over GF(q), one after the other."""
     digits = _all_digits(q, (n + p) * (n + m))
     for row in digits:
         yield _system(row, q, n, p, m)
@@ -95,7 +95,7 @@ def _embedded(matrix: Digits, rest: int, *, after: bool = False) -> Digits:
 
 
 def _generators(size: int, q: int) -> Iterator[tuple[Digits, Digits]]:
-    """Generators of GL_size(q) with their inverses: all elementary additions, and one diagonal entry running over a generating set."""
+    """Yield generators of GL_size(q) and their inverses: all elementary additions, and a diagonal entry running over a generating set."""
     for i in range(size):
         for j in range(size):
             if i != j:

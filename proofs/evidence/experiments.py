@@ -39,7 +39,7 @@ Rows = list[list[str]]
 
 @dataclass(frozen=True)
 class LimitEvidence:
-    """What accepted certificates say of an experiment and of its signals.
+    """This is what accepted certificates say of an experiment and of its signals.
 
     `past_lags`: v(k) is uncorrelated with u(k-l) for all l >= 1; `same_time`: for l = 0; `leads`: for all l <= -1.
 
@@ -70,12 +70,12 @@ class LimitEvidence:
 
     @property
     def uncorrelated(self) -> bool:
-        """Whether u and v are uncorrelated at all lags of both signs."""
+        """This says whether u and v are uncorrelated at all lags of both signs."""
         return self.past_lags and self.same_time and self.leads
 
     @property
     def output_error_right(self) -> bool:
-        """Whether output error with the true A and C gives the true B and D."""
+        """This says whether output error with the true A and C gives the true B and D."""
         return self.state_inputs == (self.experiment.system.B, self.experiment.system.D)
 
     @property
@@ -85,23 +85,23 @@ class LimitEvidence:
 
     @property
     def autoregressive(self) -> bool:
-        """Whether u is autoregressive of order at most s."""
+        """This says whether u is autoregressive of order at most s."""
         u = self.experiment.u_filter
         return len(u.numerator) == 1 and u.memory <= self.experiment.s
 
     @property
     def nilpotent(self) -> bool:
-        """Whether A^n = 0."""
+        """This says whether A^n = 0."""
         return not any(rational_characteristic_polynomial(self.experiment.system.residual.A)[:-1])
 
     @property
     def past_of_input(self) -> bool:
-        """Whether past >= n + the order of the filter of u, from which on a longer past brings nothing new."""
+        """This says whether past >= n + the order of the filter of u, from which on a longer past brings nothing new."""
         return self.experiment.past >= self.experiment.system.residual.n + self.experiment.u_filter.memory
 
     @property
     def one_sided(self) -> bool:
-        """Whether u and v are uncorrelated at all lags l >= 0, as the assumption is printed."""
+        """This says whether u and v are uncorrelated at all lags l >= 0, as the assumption is printed."""
         return self.past_lags and self.same_time
 
 
@@ -195,14 +195,14 @@ def _system(random: Random, m: int, nu: int) -> dict[str, Any]:
 
 
 def experiment_of(system: dict[str, Any], u: object, v: object, w: object = None, past: int | None = None) -> Experiment:
-    """The experiment with s = n + 1 block rows, and as many of the past where nothing else is said."""
+    """Return the experiment with s = n + 1 block rows, and as many of the past where nothing else is said."""
     n = len(system["A"])
     given = system | {"s": n + 1, "past": past or n + 1, "u_filter": u, "v_filter": v}
     return read_experiment(given if w is None else given | {"w_filter": w})
 
 
 def leading(system: dict[str, Any], u: Sequence[str], den: Sequence[str], phi: Sequence[str], past: int | None = None) -> Experiment:
-    """The experiment with u = (sum u_j q^-j / den) e and v(k) = sum_j phi_j u(k+j), all of it delayed by the largest lead."""
+    """Return the experiment with u = (sum u_j q^-j / den) e and v(k) = sum_j phi_j u(k+j), all of it delayed by the largest lead."""
     delay = len(phi) - 1
     product = [Fraction(0)] * (len(u) + delay)
     for j, weight in enumerate(phi):
@@ -225,7 +225,7 @@ def _independent(random: Random) -> Experiment:
 
 
 def _independent_autoregressive(random: Random) -> Experiment:
-    """One or two inputs of order 0 to s, with F and G as they come and D = 0."""
+    """Return one or two inputs of order 0 to s, with F and G as they come and D = 0."""
     m, nu = 1, random.randint(1, 2)
     system = _system(random, m, nu)
     n = len(system["A"])
@@ -276,7 +276,7 @@ def _degenerate(random: Random) -> Experiment:
 
 
 def _period(random: Random) -> Experiment:
-    """Members of the family of period three that lose a rank, and some beside them; with a longer past as well."""
+    """Return members of the family of period three that lose a rank, and some beside them; with a longer past as well."""
     one = random.choice(in_order(7))
     near = replace(one, a=one.a * random.choice((1, 1, Fraction(99, 100))))
     return seasonal(near, random.choice((1, 3)), random.choice((2, 2, 3, 8)))
@@ -308,12 +308,12 @@ def _autoregressive(random: Random) -> Experiment:
 
 
 def following(system: dict[str, Any], gain: str) -> Experiment:
-    """The experiment in which u is white and v(k) = gain u(k-1)."""
+    """Return the experiment in which u is white and v(k) = gain u(k-1)."""
     return experiment_of(system, [[["1"]]], [[["0"]], [[gain]]])
 
 
 def independent_white(system: dict[str, Any]) -> Experiment:
-    """The experiment in which u and v are white, each of its own noise."""
+    """Return the experiment in which u and v are white, each of its own noise."""
     return experiment_of(system, [[["1", "0"]]], [[["0", "1"]]])
 
 

@@ -1,4 +1,4 @@
-"""Systems to try a claim on: the paper's own, adversarial families with a name, and random ones of every structure.
+"""These are systems to try a claim on: the paper's own, adversarial families with a name, and random ones of every structure.
 
     paper_example         the review's section V over its cubic number field
     shift_registers       length n, F = 0 against F = e_n: equal on n samples, different on n + 1
@@ -20,7 +20,7 @@ from ...exact.system.systems import FaultySystem, ResidualSystem, read_system
 
 
 def paper_example() -> FaultySystem:
-    """The example of the paper as published: A, B, C, D, G rational, F an eigenvector (1, a, a^2) of A, 4a^3 - a^2 - 3a + 1 = 0."""
+    """Return the example of the paper as published: A, B, C, D, G rational, F an eigenvector (1, a, a^2) of A, 4a^3 - a^2 - 3a + 1 = 0."""
     system = read_system(
         {
             "field": {"minimal_polynomial": ["1", "-3", "-1", "4"]},
@@ -92,7 +92,7 @@ def adversarial() -> Iterator[tuple[str, ResidualSystem]]:
 
 
 def random_systems(field: Field, count: int, seed: int, largest: int = 4) -> Iterator[ResidualSystem]:
-    """`count` systems with n <= largest, p <= 3, m <= 3 over a field, structures drawn in turn."""
+    """Yield `count` systems with n <= largest, p <= 3, m <= 3 over a field, structures drawn in turn."""
     rng = random.Random(f"{field} {seed}")
     makers = (_sparse, _planted, _unobservable, _uncontrollable, _dependent_faults, _feedback_scrambled)
     for i in range(count):
@@ -162,7 +162,7 @@ def _dependent_faults(rng: random.Random, field: Field, n: int, p: int, m: int) 
 
 
 def _feedback_scrambled(rng: random.Random, field: Field, n: int, p: int, m: int) -> ResidualSystem:
-    """A nilpotent chain behind a feedback and an output injection: many zeros, long lags."""
+    """Return a nilpotent chain behind a feedback and an output injection: many zeros, long lags."""
     base = _of(
         field,
         [[int(j == i + 1) for j in range(n)] for i in range(n)],

@@ -23,6 +23,6 @@ WITHOUT_RANK = (
 
 
 def kept(name: str) -> Experiment:
-    """The experiment that stands in counterexamples/NAME.json."""
+    """Return the experiment that stands in counterexamples/NAME.json."""
     text = resources.files("faultspace.proofs").joinpath("counterexamples", f"{name}.json").read_text(encoding="utf-8")
     return read_experiment(json.loads(text), where=name)

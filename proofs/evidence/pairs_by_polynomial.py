@@ -37,7 +37,7 @@ MOST_STATES = 3
 
 @dataclass(frozen=True)
 class PairByPolynomial:
-    """A pair (Fhat P, Ghat P), by its polynomial and by accepted certificates.
+    """This is a pair (Fhat P, Ghat P), by its polynomial and by accepted certificates.
 
     `polynomial` is D(q; P), monic, ascending, as written, and () for a bad P. The rest is what accepted certificates say.
 
@@ -64,12 +64,13 @@ class PairByPolynomial:
 
 @lru_cache(maxsize=1 << 16)
 def pencil_of(system: ResidualSystem) -> Exceptional:
-    """The pencil [P | q b - a] of the system's fault space."""
+    """Return the pencil [P | q b - a] of the system's fault space."""
     return exceptional(kernel_representation(system))
 
 
 def examine_by_polynomial(origin: str, purpose: str, system: ResidualSystem, P: Matrix, wanted: object, weight: int) -> PairByPolynomial:
-    """The record of a P (n_z x r): D(q; P), and the certified zeros, normal rank and equivalence of its pair, with the system's own zeros.
+    """Return the record of a P (n_z x r): D(q; P), and the certified zeros, normal rank and equivalence of its pair, with the system's own
+    zeros.
 
     Raises checker.Rejected or checker.Malformed where the checker does not accept a certificate.
     """
@@ -132,7 +133,7 @@ def _all(batch: list[tuple[str, ResidualSystem, int]]) -> list[PairByPolynomial]
 
 
 def _choices(system: ResidualSystem) -> Iterator[tuple[str, Matrix, object]]:
-    """Triples of a purpose, a P, and the polynomial wanted or None."""
+    """Yield triples of a purpose, a P, and the polynomial wanted or None."""
     pencil, rng = pencil_of(system), random.Random(str(system))
     field, shape = system.field, (pencil.n_z, pencil.columns)
     yield "good", good_columns(pencil).verdict.P, None
@@ -164,5 +165,5 @@ def _systems(full: bool) -> Iterator[tuple[str, ResidualSystem, int]]:
 
 
 def _hashable(coefficients: object) -> tuple[object, ...]:
-    """Written coefficients as a tuple; entries of Q(a), which are lists, become tuples."""
+    """Return written coefficients as a tuple; entries of Q(a), which are lists, become tuples."""
     return tuple(tuple(c) if isinstance(c, list) else c for c in coefficients)  # type: ignore[attr-defined]

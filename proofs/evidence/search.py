@@ -31,7 +31,7 @@ CHUNK = 20000
 
 @dataclass(frozen=True)
 class Box:
-    """All systems with least <= n, p, m, n <= largest_n, ..., n + m + p <= total and entries in {-1, 0, 1}."""
+    """These are all systems with least <= n, p, m, n <= largest_n, ..., n + m + p <= total and entries in {-1, 0, 1}."""
 
     total: int
     largest_n: int
@@ -46,7 +46,7 @@ class Box:
         )
 
     def dimensions(self) -> list[tuple[int, int, int]]:
-        """The (n, m, p) of the box in the order of the search."""
+        """Return the (n, m, p) of the box in the order of the search."""
         ranges = (range(1, self.largest_n + 1), range(self.least_m, self.largest_m + 1), range(1, self.largest_p + 1))
         found = [(n, m, p) for n, m, p in product(*ranges) if n + m + p <= self.total]
         return sorted(found, key=lambda d: (sum(d), *d))
@@ -54,7 +54,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Facts:
-    """Systems of the same dimensions, one a row: A (N, n, n), F (N, n, m), C (N, p, n), G (N, p, m), integer entries."""
+    """These are systems of the same dimensions, one a row: A (N, n, n), F (N, n, m), C (N, p, n), G (N, p, m), integer entries."""
 
     A: Integers
     F: Integers
@@ -68,15 +68,15 @@ class Facts:
 
     @property
     def m(self) -> int:
-        """The number of faults."""
+        """This is the number of faults."""
         return int(self.F.shape[2])
 
     def system(self, index: int) -> ResidualSystem:
-        """One of the systems, as an exact one."""
+        """Return one of the systems, as an exact one."""
         return ResidualSystem.of(*(part[index].tolist() for part in (self.A, self.F, self.C, self.G)))
 
     def window(self, s: int) -> Integers:
-        """The matrix [O_s T_s] of every system."""
+        """Return the matrix [O_s T_s] of every system."""
         count, p = len(self.A), self.C.shape[1]
         built = np.zeros((count, p * s, self.n + self.m * s), dtype=np.int64)
         row, markov = self.C, [self.G]
@@ -89,19 +89,19 @@ class Facts:
         return built
 
     def rank(self, s: int) -> Integers:
-        """The rank of [O_s T_s] of every system."""
+        """Return the rank of [O_s T_s] of every system."""
         if s not in self._ranks:
             self._ranks[s] = ranks(self.window(s))
         return self._ranks[s]
 
     def rank_from_rest(self, s: int) -> Integers:
-        """The rank of T_s of every system."""
+        """Return the rank of T_s of every system."""
         if s not in self._ranks_from_rest:
             self._ranks_from_rest[s] = ranks(self.window(s)[:, :, self.n :])
         return self._ranks_from_rest[s]
 
     def gap(self, s: int) -> Integers:
-        """The difference rank [O_(s+1) T_(s+1)] - rank [O_s T_s] of every system."""
+        """Return the difference rank [O_(s+1) T_(s+1)] - rank [O_s T_s] of every system."""
         return self.rank(s + 1) - self.rank(s)
 
     @cached_property
@@ -120,17 +120,17 @@ class Facts:
 
     @cached_property
     def left_invertible(self) -> Flags:
-        """Whether rank T_(n+1) - rank T_n = m, for every system."""
+        """This says whether rank T_(n+1) - rank T_n = m, for every system."""
         return np.asarray(self.rank_from_rest(self.n + 1) - self.rank_from_rest(self.n) == self.m)
 
     @cached_property
     def delay_known_state(self) -> Integers:
-        """The least l with rank T_(l+1) - rank T_l = m for every system; n + 1 where there is none."""
+        """This is the least l with rank T_(l+1) - rank T_l = m for every system; n + 1 where there is none."""
         return self._least(lambda s: np.asarray(self.rank_from_rest(s + 1) - self.rank_from_rest(s) == self.m))
 
     @cached_property
     def delay_unknown_state(self) -> Integers:
-        """The least l with rank [O_(l+1) T_(l+1)] = m + the rank without the columns of v(0); n + 1 where there is none."""
+        """This is the least l with rank [O_(l+1) T_(l+1)] = m + the rank without the columns of v(0); n + 1 where there is none."""
 
         def determined(s: int) -> Flags:
             built = self.window(s + 1)
@@ -185,7 +185,7 @@ def ranks(matrices: Integers) -> Integers:
 
 
 def chunks(box: Box) -> Iterator[Facts]:
-    """The systems of a box in order, in batches of the same dimensions."""
+    """Yield the systems of a box in order, in batches of the same dimensions."""
     for n, m, p in box.dimensions():
         length = (n + p) * (n + m)
         total = 3**length
@@ -198,12 +198,12 @@ def chunks(box: Box) -> Iterator[Facts]:
 
 
 def systems_in_order(box: Box, test: Callable[[Facts], Flags]) -> Iterator[ResidualSystem]:
-    """The systems of the box that pass the vectorised test, in order."""
+    """Yield the systems of the box that pass the vectorised test, in order."""
     for facts in chunks(box):
         for index in np.flatnonzero(test(facts)):
             yield facts.system(int(index))
 
 
 def smallest(box: Box, test: Callable[[Facts], Flags], confirm: Callable[[ResidualSystem], bool]) -> ResidualSystem | None:
-    """The first system of the box that passes the vectorised test and the exact one; None where there is none."""
+    """Return the first system of the box that passes the vectorised test and the exact one; None where there is none."""
     return next((system for system in systems_in_order(box, test) if confirm(system)), None)

@@ -37,13 +37,13 @@ class Seasonal:
 
     @property
     def size(self) -> int:
-        """The number by which the family is ordered."""
+        """This is the number by which the family is ordered."""
         return sum(abs(x.numerator) + x.denominator for x in (self.t, self.d, self.a, self.b))
 
 
 @cache
 def in_order(largest: int = LARGEST_DENOMINATOR) -> tuple[Seasonal, ...]:
-    """The members that lose a rank, t, d and b with denominators up to `largest`, 0 < d, b < 1, 0 < t < 1 + d."""
+    """Return the members that lose a rank, t, d and b with denominators up to `largest`, 0 < d, b < 1, 0 < t < 1 + d."""
     small = sorted({Fraction(i, j) for j in range(1, largest + 1) for i in range(1, j)})
     found = []
     for d, b, whole in product(small, small, (0, 1)):
@@ -58,7 +58,7 @@ def in_order(largest: int = LARGEST_DENOMINATOR) -> tuple[Seasonal, ...]:
 
 
 def seasonal(one: Seasonal, taps: int = 1, past: int = 2) -> Experiment:
-    """The experiment of a member, with v(k) = f(k) + ... + f(k - taps + 1) of its own white f, F = e1 and G = 0."""
+    """Return the experiment of a member, with v(k) = f(k) + ... + f(k - taps + 1) of its own white f, F = e1 and G = 0."""
     return read_experiment(
         {
             "A": [[str(one.t), str(-one.d)], ["1", "0"]],

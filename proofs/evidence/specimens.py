@@ -19,13 +19,13 @@ from ..trust.structure_certificates import Certificate
 
 
 def specimens() -> list[Certificate]:
-    """The certificates, each of a true statement, so that none is refused."""
+    """Return the certificates, each of a true statement, so that none is refused."""
     inclusion = make.behaviour_inclusion(_system(QQ, 1), kernel_representation(_system(QQ, 1)))
     return [*over(PrimeField(2)), *over(PrimeField(3)), inclusion, *stable()]
 
 
 def over(field: Field) -> Iterator[Certificate]:
-    """One certificate of each kind that has a meaning over a finite field."""
+    """Yield one certificate of each kind that has a meaning over a finite field."""
     x, other = _system(field, 1), _system(field, 0)
     kernel = kernel_representation(x)
     yield make.window_ranks(kernel)
@@ -44,7 +44,7 @@ def over(field: Field) -> Iterator[Certificate]:
 
 
 def stable() -> Iterator[Certificate]:
-    """Certificates of stability with complex eigenvalues of modulus 1 / sqrt 2, and with sqrt(2) / 2 in both embeddings."""
+    """Yield certificates of stability with complex eigenvalues of modulus 1 / sqrt 2, and with sqrt(2) / 2 in both embeddings."""
     root = NumberField((Fraction(-2), Fraction(0), Fraction(1)))
     for A, field in (([["1/2", "-1/2"], ["1/2", "1/2"]], QQ), ([[["0", "1/2"], 1], [0, ["0", "-1/2"]]], root)):
         yield make.schur_stable(ResidualSystem.of(A, [[1], [0]], [[1, 0]], [[0]], field=field))

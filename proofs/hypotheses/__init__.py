@@ -29,7 +29,7 @@ from .trajectories import excited, persistently_excited
 
 
 def ablations() -> tuple[Ablation[Any], ...]:
-    """Every ablation, by the order of its claim."""
+    """Return every ablation, by the order of its claim."""
     return (
         consistency(),
         consistency_coloured(),

@@ -1,4 +1,4 @@
-"""Systems that lack one hypothesis about a system and have all the others: those of the corpus lack some of them only now and then.
+"""These systems lack one hypothesis about a system and have all the others: those of the corpus lack some of them only now and then.
 
     aimed_systems     as many for each of the four hypotheses: observable, controllable, left-invertible, A stable
     other_columns     one of them with other fault columns of its Z
@@ -36,12 +36,12 @@ Table = list[list[str]]
 
 
 def aimed_evidence(bench: Workbench) -> list[Evidence]:
-    """The evidence on the aimed systems of the effort."""
+    """Return the evidence on the aimed systems of the effort."""
     return bench.records("aimed systems", lambda: [examine("aimed", s) for s in (*HIDDEN_ZEROS, *aimed_systems(400 if bench.full else 80))])
 
 
 def aimed_systems(count: int) -> Iterator[ResidualSystem]:
-    """`count` systems over Q for each hypothesis; they lack it and no other."""
+    """Yield `count` systems over Q for each hypothesis; they lack it and no other."""
     for lacked in HYPOTHESES:
         random, found = Random(lacked), 0
         while found < count:
@@ -68,7 +68,7 @@ def _drawn(random: Random, lacked: str) -> ResidualSystem:
 
 
 def other_columns(system: ResidualSystem) -> ResidualSystem:
-    """The system (A, Fhat P, C, Ghat P) with a random P of m columns."""
+    """Return the system (A, Fhat P, C, Ghat P) with a random P of m columns."""
     random, space = Random(str(system)), fault_space(kernel_representation(system))
     rows = [[random.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
     return with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))

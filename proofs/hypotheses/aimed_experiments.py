@@ -1,4 +1,5 @@
-"""Experiments that lack one hypothesis of proposition-1 and have the others, with windows of every length; and the small ones to search.
+"""These are experiments that lack one hypothesis of proposition-1 and have the others, with windows of every length; and the small ones to
+search.
 
     aimed_experiments   as many of each family, then RANK_DROPS and UNREAD
     small_experiments   n = 1, then n = 2: every combination of a few values, for the smallest counterexample; BOX tells which
@@ -38,7 +39,7 @@ def experiment(system: dict[str, Any], s: int, past: int, u: Filter, v: Filter) 
 
 
 def drop(t: str, d: str, a: str, b: str, s: int, C: Rows) -> Experiment:
-    """A member of the family of RANK_DROPS, whether or not the rank drops there."""
+    """Return a member of the family of RANK_DROPS, whether or not the rank drops there."""
     none, den = [["0"]] * len(C), ["1", *["0"] * (2 * s + 2)]
     den[s + 1], den[2 * s + 2] = a, b
     system = {"A": [[t, str(-Fraction(d))], ["1", "0"]], "B": [["1"], ["0"]], "F": [["1"], ["0"]], "C": C, "D": none, "G": none}
@@ -58,7 +59,7 @@ UNREAD = experiment(_READ_LATE | {"C": ONE_OUTPUT}, 2, 2, WHITE, INDEPENDENT)
 
 
 def aimed_experiments(count: int) -> Iterator[Experiment]:
-    """`count` experiments of each family over Q, then the fixed ones."""
+    """Yield `count` experiments of each family over Q, then the fixed ones."""
     for family in FAMILIES:
         random = Random(family)
         for _ in range(count):
@@ -122,7 +123,7 @@ BOX = (
 
 
 def small_experiments() -> Iterator[Experiment]:
-    """The experiments of BOX, the smaller n first."""
+    """Yield the experiments of BOX, the smaller n first."""
     delayed: Filter = {"num": [[["0", "0"]], [["1", "0"]]], "den": ["1"]}
     both = (WHITE, INDEPENDENT)
     drives = (both, (MOVING_AVERAGE, INDEPENDENT), (WHITE, delayed), (WHITE, WHITE), (delayed, WHITE))

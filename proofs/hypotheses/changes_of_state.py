@@ -26,7 +26,7 @@ from ...exact.system.systems import ResidualSystem
 
 
 def similarity(first: ResidualSystem, second: ResidualSystem) -> Matrix | None:
-    """T (n x n) with A T = T A' and C T = C', invertible; None where there is none.
+    """Return T (n x n) with A T = T A' and C T = C', invertible; None where there is none.
 
     The solutions T_0 + sum t_i K_i of these linear equations have a determinant of degree at most n in the t_i: over Q and Q(a) it vanishes
     identically iff it does so for all natural t_i of sum at most n; over a prime field all t are tried.
@@ -54,7 +54,7 @@ def similarity(first: ResidualSystem, second: ResidualSystem) -> Matrix | None:
 
 
 def columns_moved(first: ResidualSystem, second: ResidualSystem) -> Matrix | None:
-    """T (n x n), invertible, with X T = X'; None where the two ranks differ, which they do not where the outputs are the same."""
+    """Return T (n x n), invertible, with X T = X'; None where the two ranks differ, which they do not where the outputs are the same."""
     if first.n != second.n:
         return None
     rows = kernel_representation(first).rows
@@ -76,7 +76,7 @@ def columns_moved(first: ResidualSystem, second: ResidualSystem) -> Matrix | Non
 
 
 def moved(system: ResidualSystem, T: Matrix) -> ResidualSystem:
-    """The system with T x as its state: (T A T^-1, T F, C T^-1, G)."""
+    """Return the system with T x as its state: (T A T^-1, T F, C T^-1, G)."""
     inverse = solve_left(T, Matrix.identity(system.field, system.n))
     if inverse is None:
         raise ArithmeticError("a change of the state is not invertible")
@@ -129,7 +129,7 @@ def _entries(random: Random, nrows: int, ncols: int, scale: int = 1) -> Matrix:
 
 
 def _solution(matrix: Matrix, right_side: Matrix) -> Matrix | None:
-    """Some X with M X = R, or None where there is none."""
+    """Return some X with M X = R, or None where there is none."""
     found = solve_left(matrix.transposed(), right_side.transposed())
     return None if found is None else found.transposed()
 

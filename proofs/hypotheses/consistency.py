@@ -1,4 +1,4 @@
-"""The hypotheses of proposition-1: how u and v may be correlated, controllability and observability, colour of u.
+"""These are the hypotheses of proposition-1: how u and v may be correlated, controllability and observability, colour of u.
 
     Driven                 an experiment with certified limits, as a subject
     consistency            the limit of PI-MOESP carries the true A and C, and both regressions the true B and D; u is white
@@ -46,7 +46,7 @@ class Driven:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """The numbers n + m + p + nu, then n, m, p, nu, s, past, then how long the experiment is in words."""
+        """These are the numbers n + m + p + nu, then n, m, p, nu, s, past, then how long the experiment is in words."""
         e = self.record.experiment
         r, nu = e.system.residual, e.system.nu
         return (r.n + r.m + r.p + nu, r.n, r.m, r.p, nu, e.s, e.past, len(str(self)))
@@ -63,7 +63,7 @@ class Driven:
 
     @property
     def accepted(self) -> int:
-        """The number of accepted certificates."""
+        """This is the number of accepted certificates."""
         return self.record.accepted
 
     @cached_property
@@ -88,12 +88,12 @@ UNCORRELATED: dict[str, Callable[[Driven], bool]] = {
 
 
 def consistency() -> Ablation[Driven]:
-    """The ablation with the hypothesis that is usually made, u white."""
+    """Return the ablation with the hypothesis that is usually made, u white."""
     return _ablation("consistency", {**UNCORRELATED, "u white": lambda x: x.record.white})
 
 
 def consistency_coloured() -> Ablation[Driven]:
-    """The ablation with the weaker hypothesis that is enough, u autoregressive of order at most s."""
+    """Return the ablation with the weaker hypothesis that is enough, u autoregressive of order at most s."""
     return _ablation("consistency-coloured", {**UNCORRELATED, "u autoregressive of order at most s": lambda x: x.autoregressive})
 
 
@@ -111,7 +111,7 @@ def _ablation(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -> 
 
 
 def driven(record: LimitEvidence) -> Driven:
-    """The subject that is made of an experiment with certified limits."""
+    """Return the subject that is made of an experiment with certified limits."""
     found = limit(record.experiment)
     state, residual = found.past_inputs.state, record.experiment.system.residual
     read = None if state is None else similarity(_without_faults(residual), _model(state.A, state.C))

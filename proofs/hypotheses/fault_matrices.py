@@ -1,4 +1,4 @@
-"""The hypotheses of theorem-3 (ii): when does a pair (Fhat P, Ghat P), taken from problem (11) at a window, give the same outputs?
+"""This drops hypotheses of theorem-3 (ii): when does a pair (Fhat P, Ghat P), from problem (11) at a window, give the same outputs?
 
 Pair          a system, other fault matrices whose columns solve problem (11) at a window, and whether the outputs are the same
 theorem_3_ii  equivalent: from a window of lag + 1 on, for P such that the normal rank stays
@@ -31,7 +31,7 @@ BOX = Box(total=5, largest_n=1, largest_m=2, largest_p=2)
 
 @dataclass(frozen=True)
 class Pair:
-    """A system and other fault matrices for its (A, C), as a subject.
+    """This is a system and other fault matrices for its (A, C), as a subject.
 
     `alternative` has the (A, C) of `system` and columns [F'; G'] that solve its problem (11) at the window.
     """
@@ -45,12 +45,12 @@ class Pair:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """The numbers n + m + p, then n, m, p, then the window."""
+        """These are the numbers n + m + p, then n, m, p, then the window."""
         return (*size(self.system), self.window)
 
     @property
     def field(self) -> str:
-        """The field in words, as it is printed."""
+        """This is the field in words, as it is printed."""
         return str(self.system.field)
 
     @property
@@ -72,7 +72,7 @@ HYPOTHESES: dict[str, Callable[[Pair], bool]] = {
 
 
 def theorem_3_ii() -> Ablation[Pair]:
-    """The ablation of the claim that the pair is equivalent to the system."""
+    """Return the ablation of the claim that the pair is equivalent to the system."""
     return Ablation(
         name="equivalent-pair",
         claim="theorem-3-ii",
@@ -90,7 +90,7 @@ def theorem_3_ii() -> Ablation[Pair]:
 
 
 def _subjects(bench: Workbench) -> Iterator[Pair]:
-    """Every alternative with columns in Z, at lag + 1; the others stand at the longest window whose solutions they are, if there is one."""
+    """Yield alternatives with columns in Z at lag + 1, the others at the longest window whose solutions they are, if there is one."""
     for d in (*bench.alternatives, *bench.records("aimed alternatives", partial(_aimed, 150 if bench.full else 40))):
         window = facets(d.system).lag + 1 if d.in_space else _longest(d.system, d.alternative)
         if window:
@@ -119,7 +119,7 @@ def _longest(system: ResidualSystem, alternative: ResidualSystem) -> int:
 
 
 def _smallest(bench: Workbench, dropped: Sequence[str]) -> Found[Pair]:
-    """The first system, window and P, in this order, that meets what is kept and is not equivalent."""
+    """Return the first system, window and P, in this order, that meets what is kept and is not equivalent."""
     kept = [test for name, test in HYPOTHESES.items() if name not in dropped]
 
     def counterexamples(poor: bool) -> Iterator[Pair]:

@@ -40,7 +40,7 @@ def every_polynomial_is_reached(pencil: Exceptional) -> bool:
 
 
 def wanted(pencil: Exceptional) -> Iterator[Poly]:
-    """The polynomials: a nonzero constant, a random one of each degree up to zeta, q^zeta, (q - c)^zeta and c q^zeta + ... + 1."""
+    """Yield the polynomials: a nonzero constant, a random one of each degree up to zeta, q^zeta, (q - c)^zeta and c q^zeta + ... + 1."""
     field, zeta, random = pencil.system.field, pencil.zeta, Random(str(pencil.system))
     size = min(field.p, 7) if isinstance(field, PrimeField) else 7
 

@@ -46,18 +46,18 @@ class Compared:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """The sum of both n + m + p, then the first's n, m, p, then the window."""
+        """This is the sum of both n + m + p, then the first's n, m, p, then the window."""
         one, two = self.first, self.second
         return (one.n + one.m + one.p + two.n + two.m + two.p, one.n, one.m, one.p, self.window or 0)
 
     @property
     def field(self) -> str:
-        """The field in words, as it is printed."""
+        """This is the field in words, as it is printed."""
         return str(self.first.field)
 
     @property
     def both(self) -> tuple[ResidualSystem, ResidualSystem]:
-        """The two systems, the first one first."""
+        """These are the two systems, the first one first."""
         return self.first, self.second
 
     @cached_property
@@ -77,7 +77,7 @@ class Compared:
 
 
 def same_a_and_c(pair: Compared) -> bool:
-    """Whether the two systems share A and C."""
+    """Return whether the two systems share A and C."""
     return pair.first.A == pair.second.A and pair.first.C == pair.second.C
 
 
@@ -92,7 +92,7 @@ MODEL: dict[str, Callable[[Compared], bool]] = {
 
 
 def theorem_1() -> Ablation[Compared]:
-    """The ablation of the claim that behaviours equal on a window of n + 1 samples are equal for ever."""
+    """Return the ablation of the claim that behaviours equal on a window of n + 1 samples are equal for ever."""
 
     def long_enough(pair: Compared) -> bool:
         return pair.window is not None and pair.window >= max(pair.first.n, pair.second.n) + 1
@@ -111,7 +111,7 @@ def theorem_1() -> Ablation[Compared]:
 
 
 def theorem_3_i() -> Ablation[Compared]:
-    """The ablation of the claim that the columns of an equivalent system with as many states lie in Z after some change of its state."""
+    """Drop hypotheses of: the columns of an equivalent system with as many states lie in Z after some change of its state."""
     words = "the columns [T F'; G'] of an equivalent system lie in Z, for some change T of its state"
     return _of_equivalent("columns-in-Z", words, _columns_in_space, Proof(("columns_after_change_of_state",)))
 
@@ -143,18 +143,18 @@ def _columns_in_space(pair: Compared) -> bool:
 
 
 def _same_model(pair: Compared) -> bool:
-    """Whether the columns of the second lie in Z in the coordinates in which it has the (A, C) of the first."""
+    """Return whether the columns of the second lie in Z in the coordinates in which it has the (A, C) of the first."""
     return pair.similarity is not None and columns_in_space(pair.first, moved(pair.second, pair.similarity))
 
 
 def columns_in_space(first: ResidualSystem, second: ResidualSystem) -> bool:
-    """Whether the columns [F'; G'] of the second solve problem (11) of the first."""
+    """Return whether the columns [F'; G'] of the second solve problem (11) of the first."""
     basis = fault_space(kernel_representation(first)).basis
     return rank(stacked(basis, stacked(second.F, second.G).transposed())) == basis.nrows
 
 
 def _agreeing(bench: Workbench) -> Iterator[Compared]:
-    """Every pair that agrees on s samples, for each s where it does up to n + 2; its certificates count once."""
+    """Yield every pair that agrees on s samples, for each s where it does up to n + 2; its certificates count once."""
     for d in (*bench.pairs, *_made(bench)):
         last = max(d.first.n, d.second.n) + 2 if d.first_difference is None else d.first_difference - 1
         for s in range(1, last + 1):
@@ -162,7 +162,7 @@ def _agreeing(bench: Workbench) -> Iterator[Compared]:
 
 
 def _equivalent(bench: Workbench) -> Iterator[Compared]:
-    """Pairs with equal behaviours and as many states, with other fault matrices for the same (A, C) or with other (A, C)."""
+    """Yield pairs with equal behaviours and as many states, with other fault matrices for the same (A, C) or with other (A, C)."""
     for alternative in bench.alternatives:
         if alternative.equal:
             yield Compared(alternative.system, alternative.alternative, None, True, alternative.weight, alternative.accepted)
@@ -172,7 +172,7 @@ def _equivalent(bench: Workbench) -> Iterator[Compared]:
 
 
 def _made(bench: Workbench) -> list[PairEvidence]:
-    """Certified pairs: equivalent ones whose (A, C) differ, and aimed systems with other fault columns of Z for the same (A, C)."""
+    """Yield certified pairs: equivalent ones whose (A, C) differ, and aimed systems with other fault columns of Z for the same (A, C)."""
     others, aimed = (800, 100) if bench.full else (120, 25)
 
     def made() -> list[PairEvidence]:
@@ -185,7 +185,7 @@ def _made(bench: Workbench) -> list[PairEvidence]:
 def _groups(
     box: Box, dropped: Sequence[str], key: Callable[[ResidualSystem], object]
 ) -> Iterator[tuple[ResidualSystem, list[ResidualSystem]]]:
-    """Every system of the box in order, with all those of its dimensions that share its key."""
+    """Yield every system of the box in order, with all those of its dimensions that share its key."""
     for n, m, p in box.dimensions():
         here = Box(total=n + m + p, largest_n=n, largest_m=m, largest_p=p, least_m=m)
         systems = [s for s in systems_in_order(here, flags(ALONE - set(dropped), "both ")) if (s.n, s.m, s.p) == (n, m, p)]
@@ -223,7 +223,7 @@ def _smallest_agreeing(bench: Workbench, dropped: Sequence[str]) -> Found[Compar
 
 
 def _smallest_outside(holds: Callable[[Compared], bool], bench: Workbench, dropped: Sequence[str]) -> Found[Compared]:
-    """The first system with an equivalent one for which the conclusion fails."""
+    """Return the first system with an equivalent one for which the conclusion fails."""
 
     def counterexamples(poor: bool) -> Iterator[Compared]:
         for first, group in _groups(SMALLER, dropped, lambda s: column_basis(window_matrix(s, 2 * s.n + 1))):

@@ -53,7 +53,7 @@ def _normal_rank(facts: Facts) -> Integers:
 
 
 def _zeta(facts: Facts) -> Integers:
-    """The number n less the left minimal indices, read off a late window."""
+    """Return the number n less the left minimal indices, read off a late window."""
     late = facts.n + 1
     return facts.n - facts.rank(late) + late * _normal_rank(facts)
 
@@ -64,7 +64,7 @@ SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
 
 
 def codimension() -> Ablation[Windowed]:
-    """bad-set: codimension at least two.
+    """Return the ablation of bad-set's claim that the codimension is at least two.
 
     Why r, controllability and left-invertibility play no part: a hypersurface of bad P is f(P) = 0 with f irreducible, and f divides every
     coefficient of D(q; P). The bad set is invariant under P -> P V, det V = 1, so that f is a polynomial in the r x r minors of P (the
@@ -81,7 +81,7 @@ def codimension() -> Ablation[Windowed]:
 
 
 def bad_of_full_rank() -> Ablation[Windowed]:
-    """The ablation of the claim, in bad-set, that some P of full column rank is bad."""
+    """Return the ablation of the claim, in bad-set, that some P of full column rank is bad."""
 
     def exists(subject: Windowed) -> bool:
         return isinstance(bad_pair(pencil_of(subject.evidence.system)), BadPair)
@@ -110,7 +110,7 @@ def _of_pencils(name: str, words: str, conclusion: Condition, proof: Proof | Non
 
 
 def _show(system: ResidualSystem) -> Iterator[Certificate]:
-    """Certificates of Z, of the indices, and of a bad P of full column rank where there is one."""
+    """Yield certificates of Z, of the indices, and of a bad P of full column rank where there is one."""
     pencil = pencil_of(system)
     yield make.fault_space(pencil.kernel, pencil.space)
     yield make.window_ranks(pencil.kernel)
@@ -130,22 +130,22 @@ class Chosen:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """The numbers n + m + p, then n, m, p."""
+        """These are the numbers n + m + p, then n, m, p."""
         return size(self.record.system)
 
     @property
     def weight(self) -> int:
-        """The number of systems in the orbit."""
+        """This is the number of systems in the orbit."""
         return self.record.weight
 
     @property
     def field(self) -> str:
-        """The field in words, as it is printed."""
+        """This is the field in words, as it is printed."""
         return str(self.record.system.field)
 
     @property
     def accepted(self) -> int:
-        """The number of accepted certificates."""
+        """This is the number of accepted certificates."""
         return self.record.accepted
 
     @property
@@ -167,7 +167,7 @@ def _subjects(bench: Workbench) -> Iterator[Chosen]:
 
 
 def _aimed(count: int) -> list[PairByPolynomial]:
-    """Pairs of random P, two for each aimed system."""
+    """Return pairs of random P, two for each aimed system."""
     found = []
     for system in aimed_systems(count):
         pencil, rng = pencil_of(system), Random(str(system))
@@ -218,7 +218,7 @@ def _as_many(subject: Chosen) -> bool:
 
 
 def _smallest_pair(hypotheses: Mapping[str, Callable[[Chosen], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Chosen]:
-    """The first system and P, in this order, that meets what is kept and has another number of zeros."""
+    """Return the first system and P, in this order, that meets what is kept and has another number of zeros."""
     kept = [test for name, test in hypotheses.items() if name not in dropped]
 
     def counterexamples(poor: bool) -> Iterator[Chosen]:

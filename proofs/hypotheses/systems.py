@@ -44,14 +44,14 @@ def _formula(subject: Windowed) -> bool:
 
 
 def _formula_look(facts: Facts, s: int) -> Flags:
-    """Whether the formula surely holds: of left-invertible systems, whose zeta is read off a late rank; others stay open."""
+    """Return whether the formula surely holds: of left-invertible systems, whose zeta is read off a late rank; others stay open."""
     late = facts.n + 1
     zeta = facts.n + late * facts.m - facts.rank(late)
     return np.asarray(facts.left_invertible & (facts.rank(s) == facts.n + s * facts.m - zeta))
 
 
 def _settled(facts: Facts, s: int) -> Flags:
-    """Whether no left minimal index is above s - 1."""
+    """Return whether no left minimal index is above s - 1."""
     return np.asarray(facts.gap(s - 1) == facts.gap(facts.n + 1))
 
 
@@ -60,7 +60,7 @@ LIMIT_REACHED = Condition(lambda w: w.evidence.space_dimensions[w.window - 1] ==
 
 
 def rank_formula() -> Ablation[Windowed]:
-    """The ablation of theorem-2 with the zeros of the pencil."""
+    """Return the ablation of theorem-2 with the zeros of the pencil."""
     hypotheses = {**MODEL, "s >= n": from_n()}
     conclusion = Condition(_formula, _formula_look)
     proof = _proof("theorem_2", "lag_at_most_n", uses={INVERTIBLE, "s >= n"})
@@ -68,7 +68,7 @@ def rank_formula() -> Ablation[Windowed]:
 
 
 def gap() -> Ablation[Windowed]:
-    """The ablation of proposition-3 as the paper bounds s."""
+    """Return the ablation of proposition-3 as the paper bounds s."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= n": from_n()}
     proof = _proof("proposition_3", uses={INVERTIBLE, "s >= n"})
     implied = {"s >= l": "a left-invertible system is inverted with delay n at most (theorem left_invertible_delay), so l <= n <= s"}
@@ -76,7 +76,7 @@ def gap() -> Ablation[Windowed]:
 
 
 def gap_from_lag() -> Ablation[Windowed]:
-    """The ablation of proposition-3 with the sharp bound on s."""
+    """Return the ablation of proposition-3 with the sharp bound on s."""
     hypotheses = {**MODEL, "s >= l": FROM_DELAY, "s >= lag": from_lag()}
     proof = _proof("proposition_3_lag", uses={INVERTIBLE, "s >= lag"})
     return windowed("gap-from-lag", "proposition-3", "gap(s) = m", hypotheses, GAP_IS_M, delays, proof=proof)
@@ -91,7 +91,7 @@ def solutions() -> Ablation[Windowed]:
 
 
 def solutions_from_lag() -> Ablation[Windowed]:
-    """The same ablation with the sharp bound on s."""
+    """Return the same ablation with the sharp bound on s."""
     hypotheses = {**MODEL, "s >= lag + 1": from_lag(1)}
     words = "the solutions of problem (11) at s are Z"
     proof = _proof("problem_11_lag", uses={"s >= lag + 1"})
@@ -99,7 +99,7 @@ def solutions_from_lag() -> Ablation[Windowed]:
 
 
 def columns() -> Ablation[Windowed]:
-    """The ablation of the claim on the number of columns of (Fhat, Ghat)."""
+    """Return the ablation of the claim on the number of columns of (Fhat, Ghat)."""
     conclusion = Condition(
         lambda w: w.evidence.fault_space.dimension == w.evidence.system.m + w.evidence.zeta, lambda f, s: f.left_invertible
     )
@@ -135,7 +135,7 @@ def range_of_f() -> Ablation[Windowed]:
 
 
 def signal_from_known_state() -> Ablation[Windowed]:
-    """The ablation of trajectory-recovered where v is found from the outputs and x(0)."""
+    """Return the ablation of trajectory-recovered where v is found from the outputs and x(0)."""
     conclusion = Condition(lambda w: w.evidence.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n))
     words = "the outputs and x(0) determine v"
     proof = _proof("trajectory_state_known", uses={INVERTIBLE})
@@ -144,7 +144,7 @@ def signal_from_known_state() -> Ablation[Windowed]:
 
 
 def signal_from_unknown_state() -> Ablation[Windowed]:
-    """The ablation of trajectory-recovered where v is found from the outputs alone."""
+    """Return the ablation of trajectory-recovered where v is found from the outputs alone."""
     zeros_hidden = "as many finite zeros as unobservable modes"
     hypotheses = {**MODEL, zeros_hidden: ONLY_UNOBSERVABLE}
     conclusion = Condition(lambda w: w.evidence.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n))

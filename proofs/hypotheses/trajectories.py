@@ -1,4 +1,4 @@
-"""The hypotheses of the rank gap read off data: which trajectories show m = rank R_(s+1) - rank R_s?
+"""These are the hypotheses of the rank gap read off data: which trajectories show m = rank R_(s+1) - rank R_s?
 
 Simulated              a system, an initial state, a fault signal, a window, and what accepted certificates say of the data
 excited                with [X; V_(s+1)] of full row rank
@@ -32,7 +32,7 @@ BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
 
 @dataclass(frozen=True)
 class Simulated:
-    """A trajectory of a system, as a subject.
+    """This is a trajectory of a system, as a subject.
 
     `gap` is rank R_(s+1) - rank R_s, `excitation` the rank of [X; V_(s+1)], both of certificates; `order` that of persistency of v.
     """
@@ -54,12 +54,12 @@ class Simulated:
 
     @property
     def field(self) -> str:
-        """The field in words, as it is printed."""
+        """This is the field in words, as it is printed."""
         return str(self.system.field)
 
     @property
     def degenerate(self) -> str:
-        """Why the system would be a poor witness."""
+        """This says why the system would be a poor witness."""
         return degenerate(self.system)
 
     def __str__(self) -> str:
@@ -75,7 +75,7 @@ PERSISTENT = "v persistently exciting of order n + s + 1"
 
 
 def excited() -> Ablation[Simulated]:
-    """The ablation with full row rank of [X; V_(s+1)], where the paper's assumption has s."""
+    """Return the ablation with full row rank of [X; V_(s+1)], where the paper's assumption has s."""
 
     def full(record: Simulated) -> bool:
         return record.excitation == record.system.n + record.system.m * (record.window + 1)
@@ -84,7 +84,7 @@ def excited() -> Ablation[Simulated]:
 
 
 def persistently_excited() -> Ablation[Simulated]:
-    """The ablation with persistency of v of order n + s + 1, whatever the modes that F does not reach do."""
+    """Return the ablation with persistency of v of order n + s + 1, whatever the modes that F does not reach do."""
 
     def persistent(record: Simulated) -> bool:
         return record.order >= record.system.n + record.window + 1
@@ -107,7 +107,7 @@ def _ablation(name: str, hypotheses: Mapping[str, Callable[[Simulated], bool]], 
 
 
 def signals(system: ResidualSystem, s: int, count: int) -> Iterator[tuple[Matrix, Matrix]]:
-    """Pairs (x0, v): the zero state with a constant v and with a pulse, then `count` random ones, with entries in {-1, 0, 1}."""
+    """Yield pairs (x0, v): the zero state with a constant v and with a pulse, then `count` random ones, with entries in {-1, 0, 1}."""
     rng = random.Random(f"{system} {s}")
     samples = (system.m + 1) * (system.n + s + 1) + system.n + 2
     field: Field = system.field
@@ -153,7 +153,7 @@ def _made(full: bool) -> list[Simulated]:
 
 
 def _smallest(hypotheses: Mapping[str, Callable[[Simulated], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Simulated]:
-    """The first system and window, in this order, with one of the signals that meets what is kept and shows another gap."""
+    """Return the first system and window, in this order, with one of the signals that meets what is kept and shows another gap."""
     kept = {name: test for name, test in hypotheses.items() if name not in dropped}
     excitation_kept = FULL_ROW_RANK in kept or PERSISTENT in kept
 

@@ -36,7 +36,7 @@ class Windowed:
 
     @property
     def size(self) -> tuple[int, ...]:
-        """The numbers n + m + p, then n, m, p, then the window."""
+        """These are the numbers n + m + p, then n, m, p, then the window."""
         return (*size(self.evidence.system), self.window)
 
     @property
@@ -46,17 +46,17 @@ class Windowed:
 
     @cached_property
     def field(self) -> str:
-        """The field in words, as it is printed."""
+        """This is the field in words, as it is printed."""
         return str(self.evidence.system.field)
 
     @property
     def accepted(self) -> int:
-        """The number of accepted certificates, which count once a system, at its first window."""
+        """This is the number of accepted certificates, which count once a system, at its first window."""
         return self.evidence.accepted if self.window <= 1 else 0
 
     @cached_property
     def degenerate(self) -> str:
-        """Why the system would be a poor witness."""
+        """This says why the system would be a poor witness."""
         return degenerate(self.evidence.system)
 
     def __str__(self) -> str:
@@ -65,7 +65,7 @@ class Windowed:
 
 @dataclass(frozen=True)
 class Condition:
-    """A hypothesis or a conclusion about a system and a window.
+    """This is a hypothesis or a conclusion about a system and a window.
 
     `holds` decides on certificates. `first_look` at integer systems leaves out what surely violates it (of a hypothesis) or surely meets it
     (of a conclusion).
@@ -82,12 +82,12 @@ STABLE = Condition(lambda w: facets(w.evidence.system).stable, lambda f, s: nilp
 
 
 def from_n(extra: int = 0) -> Condition:
-    """The condition s >= n + extra."""
+    """Return the condition s >= n + extra."""
     return Condition(lambda w: w.window >= w.evidence.system.n + extra, lambda f, s: np.full(len(f.A), s >= f.n + extra))
 
 
 def from_lag(extra: int = 0) -> Condition:
-    """The condition s >= lag + extra."""
+    """Return the condition s >= lag + extra."""
 
     def first_look(facts: Facts, s: int) -> Flags:
         reached = facts.gap(s - extra) == facts.gap(facts.n + 1) if s > extra else np.zeros(len(facts.A), dtype=np.bool_)
@@ -125,7 +125,7 @@ def windowed(
     proof: Proof | None = None,
     implied: Mapping[str, str] | None = None,
 ) -> Ablation[Windowed]:
-    """The ablation on every system of the corpus and every aimed one that is in the scope, at every window."""
+    """Return the ablation on every system of the corpus and every aimed one that is in the scope, at every window."""
 
     def subjects(bench: Workbench) -> Iterator[Windowed]:
         for evidence in (*bench.corpus, *aimed_evidence(bench)):

@@ -65,11 +65,11 @@ Check [fieldType of rat].
 
 
 class NoRocq(Exception):
-    """Raised where there is no coqc, or where it finds no MathComp."""
+    """It is raised where there is no coqc, or where it finds no MathComp."""
 
 
 class BrokenTheory(Exception):
-    """Raised where a file does not compile."""
+    """It is raised where a file does not compile."""
 
 
 class Poisoned(BrokenTheory):
@@ -174,7 +174,9 @@ def _digests(folder: Path) -> dict[str, str]:
 
 
 def _whole(folder: Path, texts: dict[str, str]) -> bool:
-    """Whether the folder is there as it was compiled, from these sources. Raises Poisoned where somebody else may have put it there."""
+    """Return whether the folder is there as it was compiled, from these sources. Raises Poisoned where somebody else may have put it
+    there.
+    """
     try:
         same = bool(json.loads((folder / DIGESTS).read_text("utf-8")) == _digests(folder))
     except (OSError, ValueError):

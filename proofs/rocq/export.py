@@ -43,7 +43,7 @@ Local Open Scope ring_scope.
 
 
 class NotCovered(Exception):
-    """Raised where the checks in Rocq do not speak of this kind or this field."""
+    """It is raised where the checks in Rocq do not speak of this kind or this field."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class Listed:
 
     @cached_property
     def term(self) -> str:
-        """As a term of type listed."""
+        """Return the value as a term of type listed."""
         return f"Listed {whole(self.den)} {' '.join(map(table, (self.A, self.F, self.C, self.G)))}"
 
     def named(self, name: str) -> str:

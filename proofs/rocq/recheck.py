@@ -1,4 +1,4 @@
-"""The theory compiled anew whatever the cache holds, and read once more by the second checker, coqchk.
+"""The theory is compiled anew whatever the cache holds, and read once more by the second checker, coqchk.
 
     recheck        removes the compiled theory from the cache, compiles it from our sources, has coqchk read it where coqchk is there
     second_check   has coqchk read all files of a compiled theory; raises NotProved where one rests on anything

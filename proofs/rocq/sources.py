@@ -1,4 +1,4 @@
-"""The sources of the theory: the files of Rocq below proofs/theory, one folder a topic.
+"""These are the sources of the theory: the files of Rocq below proofs/theory, one folder a topic.
 
     THEORY    the folder of the theory
     paths     file name -> where the file lies; file names are unique, whatever their folder

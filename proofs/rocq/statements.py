@@ -1,4 +1,4 @@
-"""The statements of the Rocq theory read from its sources: the headlines, the words that they use, and what no source may contain.
+"""The statements of the Rocq theory are read from its sources: the headlines, the words that they use, and what no source may contain.
 
     Headline    a theorem of a file Headlines*.v: its name, its statement, its proof, its file
     Word        a definition, record or abbreviation of a file *Vocabulary.v, with the variables of the sections around it
@@ -70,7 +70,7 @@ class Word:
 
     @property
     def key(self) -> str:
-        """The name of the word with its file, which tells it from all other words."""
+        """This is the name of the word with its file, which tells it from all other words."""
         return f"{self.file.removesuffix('.v')}.{self.name}"
 
 
@@ -207,7 +207,7 @@ def _sentences(text: str) -> Iterator[str]:
 
 
 def _opening(found: Sequence[str]) -> str:
-    """What a file opens with, but for the files that it requires without importing them: these bring no name into sight."""
+    """Return what a file opens with, but for the files that it requires without importing them: these bring no name into sight."""
     return " ".join(one for one in found if OPENING.match(one) and not _only_required(one))
 
 

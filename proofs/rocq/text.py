@@ -17,7 +17,7 @@ from ..trust import checker
 
 
 def whole(number: int) -> str:
-    """An integer as a term, where integers are expected. Nothing but integers: what becomes text here is read by Rocq."""
+    """Return an integer as a term, where integers are expected. Nothing but integers: what becomes text here is read by Rocq."""
     if type(number) is not int:
         raise TypeError(f"got a {type(number).__name__}, expected an integer")
     checker.charge(500 + (number.bit_length() ** 2 >> 9))

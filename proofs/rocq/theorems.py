@@ -44,7 +44,9 @@ ALL = "all together"
 
 @dataclass(frozen=True)
 class Theorems:
-    """`statements`: theorem -> its statement in Rocq's words; all closed under the global context. `locks`: theorem -> its SHA-256."""
+    """These are theorems of the theory. `statements`: theorem -> its statement in Rocq's words; all closed under the global context.
+    `locks`: theorem -> its SHA-256.
+    """
 
     version: str
     statements: Mapping[str, str]

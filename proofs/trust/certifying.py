@@ -1,4 +1,4 @@
-"""Certificates by the name of their kind: what `faultspace.certify` is.
+"""This makes certificates by the name of their kind: what `faultspace.certify` is.
 
 KINDS      kind of a certificate -> what it needs to know besides the system, and the function that makes it
 certify    the certificate of a kind about a system, a pair of systems, or an experiment
@@ -23,7 +23,7 @@ from .structure_certificates import Certificate, Unprovable
 
 
 class _Kind(NamedTuple):
-    """What a kind needs to know beside its subject, what it may be given, and its maker, which gets subject and options."""
+    """This is what a kind needs to know beside its subject, what it may be given, and its maker, which gets subject and options."""
 
     needed: tuple[str, ...]
     optional: tuple[str, ...]
@@ -94,7 +94,7 @@ OF_LIMITS = ("input-limit", "moesp-limit")
 
 
 def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **options: Any) -> Certificate:
-    """The certificate of this kind about a system: a statement with a witness, as a JSON-ready dict that `check` can decide.
+    """Return the certificate of this kind about a system: a statement with a witness, as a JSON-ready dict that `check` can decide.
 
     `subject` is an exact system (its inputs play no part), or, for "moesp-limit" and "input-limit", an Experiment or the dict of an
     experiment's file. Some kinds take options: `other`, a second system, for "behaviour-difference", "behaviour-equality",

@@ -60,7 +60,9 @@ if 0 < sys.get_int_max_str_digits() < 19730:  # Python's own bound is below that
 
 
 class Meter:
-    """What a certificate has cost so far: work in all, the bytes that its matrices hold now; and the numbers that its fields have read."""
+    """This is what a certificate has cost so far: work in all, the bytes that its matrices hold now; and the numbers that its fields have
+    read.
+    """
 
     __slots__ = ("held", "memos", "work")
 
@@ -90,7 +92,7 @@ expect = partial(require, error=Malformed)
 
 
 def begin() -> Meter:
-    """A meter at zero, for what is done next; what was remembered of the last one is let go."""
+    """Return a meter at zero, for what is done next; what was remembered of the last one is let go."""
     for memo in last.memos if (last := _meter.get(None)) else []:
         memo.clear()
     _meter.set(meter := Meter())
@@ -107,7 +109,7 @@ def charge(work: int, room: int = 0) -> Meter:
 
 
 def rational(value: Json, where: str, integral: bool = False) -> tuple[int, int]:
-    """(numerator, denominator) of a RATIONAL or, integral, of an INTEGER; reduced."""
+    """Return (numerator, denominator) of a RATIONAL or, integral, of an INTEGER; reduced."""
     match = NUMBER.fullmatch(value) if type(value) is str else None
     expect(type(value) is int or (match and not (integral and match[2])), f"{where}: expected {'an integer' if integral else 'a rational'}")
     charge(2000 + (len(match[0]) ** 2 >> 6 if match else value.bit_length() ** 2 >> 8))
@@ -117,13 +119,13 @@ def rational(value: Json, where: str, integral: bool = False) -> tuple[int, int]
 
 
 def index(value: Json, where: str, largest: int = MAX_DIMENSION * MAX_WINDOW) -> int:
-    """An INDEX up to the largest."""
+    """Return an INDEX up to the largest."""
     expect(type(value) is int and 0 <= value <= largest, f"{where}: expected an integer in 0..{largest}")
     return int(value)
 
 
 def items(value: Json, where: str, most: int = MAX_WINDOW, least: int = 0) -> list[Json]:
-    """A list with least..most items."""
+    """Return a list with least..most items."""
     expect(type(value) is list and least <= len(value) <= most, f"{where}: expected a list of {least} to {most} items")
     return list(value)
 
@@ -137,7 +139,7 @@ def keys(value: Json, names: str, where: str) -> dict[str, Json]:
 
 @cache
 def is_prime(number: int) -> bool:
-    """Miller-Rabin, right for every number below 2^64."""
+    """Say whether the number is prime, by Miller-Rabin, which is right for every number below 2^64."""
     bases = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)
     if number <= bases[-1]:
         return number in bases
@@ -163,7 +165,7 @@ def echelon(vectors: Iterable[list[int]], prime: int) -> list[tuple[int, list[in
 
 
 def binary_form(rows: list[list[int]], prime: int) -> list[int]:
-    """det(a X + b Y) modulo a prime from the m rows of [X Y]: the coefficients of a^m, a^(m-1) b, ..., b^m."""
+    """Return det(a X + b Y) modulo a prime from the m rows of [X Y]: the coefficients of a^m, a^(m-1) b, ..., b^m."""
     m, minors = len(rows), {0: [1]}  # the minors of the rows so far by their columns, as the bits of a number
     charge((1000 + 100 * m) * (m + 1) << m, (400 + 50 * m) << m)
     for row in rows:
@@ -178,7 +180,7 @@ def binary_form(rows: list[list[int]], prime: int) -> list[int]:
 
 
 def common_denominator(numbers: Iterable[int]) -> int:
-    """The least common multiple."""
+    """Return the least common multiple."""
     found = 1
     for number in {*numbers}:
         charge(500 + (found.bit_length() * number.bit_length() >> 8))
@@ -187,7 +189,7 @@ def common_denominator(numbers: Iterable[int]) -> int:
 
 
 def inside_circle(f: list[int]) -> bool:
-    """Whether all roots of a polynomial, coefficients descending, lie inside the unit circle, by Schur and Cohn."""
+    """Return whether all roots of a polynomial, coefficients descending, lie inside the unit circle, by Schur and Cohn."""
     while len(f) > 1 and abs(f[0]) > abs(f[-1]):
         bits = max(map(int.bit_length, f))
         charge(len(f) * (1000 + (bits**2 >> 6)), len(f) * (80 + bits))
@@ -248,7 +250,7 @@ class Mat:
         return isinstance(other, Mat) and not self + other.times(-1)
 
     def times(self, top: int, bottom: int = 1) -> Mat:
-        """The matrix times top / bottom."""
+        """Return the matrix times top / bottom."""
         a, b = top.bit_length(), bottom.bit_length()
         charge(b * self.den.bit_length() >> 11)
         charge(len(self.rows) * (1000 + self.nc * (100 + (a >> 4) + (a * self.bits >> 11))), room(len(self.rows), self.nc, a + self.bits))
@@ -258,22 +260,22 @@ class Mat:
         return any(map(any, self.rows))
 
     def at(self, rows: Sequence[int], columns: Sequence[int]) -> Mat:
-        """These rows and columns, not over Q(a)."""
+        """Return these rows and columns, not over Q(a)."""
         charge(len(rows) * (1000 + len(columns) * 100), room(len(rows), len(columns), self.bits))
         return Mat(self.field, [[self.rows[i][j] for j in columns] for i in rows], len(columns), self.den)
 
     @property
     def T(self) -> Mat:
-        """The transpose, not over Q(a)."""
+        """This is the transpose, not over Q(a)."""
         charge(self.nc * (1000 + len(self.rows) * 100), room(self.nc, len(self.rows), self.bits))
         return Mat(self.field, [[row[j] for row in self.rows] for j in range(self.nc)], len(self.rows), self.den)
 
     def rank(self) -> int:
-        """The rank modulo the prime, never more than the rank."""
+        """Return the rank modulo the prime, never more than the rank."""
         return len(echelon(self.residues(), self.field.modulus[0]))
 
     def residues(self) -> list[list[int]]:
-        """The rows over K modulo the prime of the modular bound, a going to its root; Rejected when a denominator vanishes."""
+        """Return the rows over K modulo the prime of the modular bound, a going to its root; Rejected when a denominator vanishes."""
         d, prime, root = self.field.degree, *self.field.modulus
         height = len(self.rows) // d
         charge(self.den.bit_length() + height * (500 + self.nc * (150 + self.bits)), room(height, self.nc // d, 64))
@@ -283,12 +285,12 @@ class Mat:
 
 
 def room(nr: int, nc: int, bits: int) -> int:
-    """The bytes that a matrix of that shape takes, with numbers of so many bits."""
+    """Return the bytes that a matrix of that shape takes, with numbers of so many bits."""
     return 400 + nr * (100 + nc * (40 + bits // 7))
 
 
 def product(left: Polynomial, right: Polynomial) -> Polynomial:
-    """The product of polynomial matrices."""
+    """Return the product of polynomial matrices."""
     terms = Polynomial()
     for (i, a), (j, b) in ((x, y) for x in left.items() for y in right.items()):
         terms[i + j] = terms[i + j] + a @ b if i + j in terms else a @ b
@@ -319,7 +321,7 @@ class Field:
         self.powers = [*accumulate(repeat(a, max(d - 1, 1)), Mat.__matmul__, initial=self.scalar(1, 1, 1))]  # 1, a, a^2, ...
 
     def scalar(self, nr: int, nc: int, value: int = 0) -> Mat:
-        """The matrix, nr x nc over K, with the value on its diagonal: zero, or the identity."""
+        """Return the matrix, nr x nc over K, with the value on its diagonal: zero, or the identity."""
         nr, nc = nr * self.degree, nc * self.degree
         charge(nr * (1000 + nc * 120), room(nr, nc, value.bit_length()))
         return Mat(self, [[value * (i == j) for j in range(nc)] for i in range(nr)], nc)
@@ -356,18 +358,18 @@ class Field:
         return self.known[key]
 
     def matrix(self, value: Json, nr: int, nc: int, where: str, integral: bool = False) -> Mat:
-        """A MATRIX of that shape; with no entries, [] or the right number of empty rows."""
+        """Return a MATRIX of that shape; with no entries, [] or the right number of empty rows."""
         charge(1000 + nr * (500 + 600 * nc), 100 * nr * (nc + 1))
         rows = items([[]] * nr if value == [] and nc == 0 else value, where, nr, nr)
         grid = [[self.entry(x, f"{where}[{i}]", integral) for x in items(row, f"{where}[{i}]", nc, nc)] for i, row in enumerate(rows)]
         return self.assembled(grid, nc) if nc else self.scalar(nr, 0)
 
     def columns(self, value: Json, size: int, where: str, most: int = MAX_WINDOW, least: int = 0) -> list[Mat]:
-        """A list of VECTORs, as columns."""
+        """Return a list of VECTORs, as columns."""
         return [self.matrix([[x] for x in items(vector, where, size, size)], size, 1, where) for vector in items(value, where, most, least)]
 
     def polynomial(self, value: Json, nr: int, nc: int, where: str) -> Polynomial:
-        """A POLYMATRIX of that shape."""
+        """Return a POLYMATRIX of that shape."""
         table = [[items(f, where) for f in items(row, where, nc, nc)] for row in items(value, where, nr, nr)]
         powers = range(max((len(f) for row in table for f in row), default=0))
         return {k: c for k in powers if (c := self.matrix([[f[k] if k < len(f) else 0 for f in row] for row in table], nr, nc, where))}
@@ -383,13 +385,15 @@ class Field:
         self.modulus = prime, root
 
     def usable(self, prime: Json) -> int:
-        """A prime below 2^64 that divides no denominator and not the leading coefficient of the minimal polynomial, if there is one."""
+        """Return a prime below 2^64 that divides no denominator and not the leading coefficient of the minimal polynomial, if there is
+        one.
+        """
         require(is_prime(index(prime, "prime", MAX_PRIME)), f"{prime} is not a prime")
         require(self.bad % prime, f"{prime} divides a denominator or the leading coefficient of the minimal polynomial")
         return int(prime)
 
     def irreducible(self, w: Json) -> bool:
-        """Whether f is shown to be irreducible, where its degree is above 1. Rejected when what is given is wrong."""
+        """Return whether f is shown to be irreducible, where its degree is above 1. Rejected when what is given is wrong."""
         if "irreducible" not in w:
             return self.degree == 1
         given, f, d = keys(w["irreducible"], "modulo? eisenstein?", "irreducible"), self.f, self.degree
@@ -462,7 +466,7 @@ class System:
         self.words = f"({', '.join(f'{name}={shorten(data[name])}' for name in 'AFCG')}){dimensions}{over}"
 
     def window(self, s: int, states: bool = True, faults: bool = True) -> Mat:
-        """[O_s T_s], or one of the two."""
+        """Return [O_s T_s], or one of the two."""
         charge(400 * s * s, 40 * s * s)
         powers, blank = [*accumulate(repeat(self.A, s), Mat.__matmul__, initial=self.C)], self.field.scalar(self.p, self.m)
         markov = [self.G, *(power @ self.F for power in powers)]
@@ -516,7 +520,9 @@ class System:
             require(found[min(k, len(found) - 1)] == above, f"the bounds do not meet at sample {k}: {above} above")
 
     def kernel(self, w: Json, window: int | None = None) -> tuple[list[list[Mat]], list[list[list[Mat]]]]:
-        """The KROWS (coefficients), of degree below any window, once admissible, annihilating and meeting; and their condition rows."""
+        """Return the KROWS (coefficients), of degree below any window, once admissible, annihilating and meeting; and their condition
+        rows.
+        """
         rows = self.field.triangular_rows(w["kernel"], "coefficients", self.p, MAX_WINDOW if window is None else window)
         self.met_by(rows, window)
         return rows, self.annihilated_by(rows)
@@ -691,7 +697,7 @@ class Experiment(System):
         self.words += f" with nu={self.nu}, {', '.join(f'{name}={shorten(data[name])}' for name in ('B', 'D', *self.OWN) if name in data)}"
 
     def filter(self, value: Json, height: int, where: str, width: int | None = None) -> list[tuple[Mat, Mat]]:
-        """N_i and -d_i of a FILTER, i = 0, 1, ..."""
+        """Return N_i and -d_i of a FILTER, i = 0, 1, ..."""
         given = keys(value, "num den", where) if type(value) is dict else {"num": value, "den": [1]}
         num, den = (items(given[key], where, MAX_DIMENSION, 1) for key in ("num", "den"))
         pairs = [rational(d, where) for d in den]
@@ -706,7 +712,7 @@ class Experiment(System):
         return list(zip(forward, [unit.times(-top, bottom) for top, bottom in pairs] + [unit.times(0) for _ in extra], strict=False))
 
     def process(self, B: Mat, D: Mat) -> tuple[Mat, Mat, Mat, Mat]:
-        """Phi, Gamma, H, J with these in the place of B and D."""
+        """Return Phi, Gamma, H, J with these in the place of B and D."""
         zero, joined, first, steps = self.field.scalar, self.field.assembled, self.chain[0][0], range(1, len(self.chain))
         height, size = len(first.rows), len(first.rows) * len(steps)
         charge(400 * len(steps) ** 2, 40 * len(steps) ** 2)
@@ -720,7 +726,7 @@ class Experiment(System):
         return Phi, joined([[into @ first], *enter], first.nc), H, direct @ first
 
     def covariances(self, value: Json, samples: int, width: int, B: Mat, D: Mat) -> tuple[Mat, Mat, Mat, Mat]:
-        """Phi, H, Cov(xi(k+1), t(k)) and Cov(z(0..samples-1), t(0..samples-1)), t the first `width` of the channels of z: u, or all.
+        """Return Phi, H, Cov(xi(k+1), t(k)) and Cov(z(0..samples-1), t(0..samples-1)), t the first `width` of the channels of z: u, or all.
 
         The value is Cov(xi), or for t = u the part Cov(xi, (s_1; ...; s_L)) that is enough.
         """
@@ -739,7 +745,7 @@ class Experiment(System):
         return Phi, H, following, self.field.assembled(grid, samples * width)
 
     def places(self, samples: range, channels: range, width: int) -> list[int]:
-        """Where these channels stand in (z(0); z(1); ...) with `width` channels a sample."""
+        """Return where these channels stand in (z(0); z(1); ...) with `width` channels a sample."""
         charge(100 * len(samples) * len(channels), 50 * len(samples) * len(channels))
         return [k * width + i for k in samples for i in channels]
 
@@ -798,7 +804,7 @@ MATRICES |= {"residual-hankel": "x0 v window", "excitation": "x0 v window"}
 
 
 class Kind(NamedTuple):
-    """What verifies it, keys of the statement and of the witness, the statement in words, and the proof in a line."""
+    """This is what verifies a kind, keys of the statement and of the witness, the statement in words, and the proof in a line."""
 
     check: Callable[..., None]
     statement: str
@@ -868,20 +874,22 @@ KINDS: dict[str, Kind] = {
 
 
 class Verified(NamedTuple):
-    """The statement in words, and what it assumes beyond what was verified: nothing, or that a polynomial is irreducible."""
+    """This is the statement in words, and what it assumes beyond what was verified: nothing, or that a polynomial is irreducible."""
 
     statement: str
     assumes: list[str]
 
 
 def subject(data: Json) -> System:
-    """The EXPERIMENT where it has a filter of u, else the SYSTEM, read on a meter of its own. Raises Malformed, Rejected."""
+    """Return the EXPERIMENT where it has a filter of u, else the SYSTEM, read on a meter of its own. Raises Malformed, Rejected."""
     begin()
     return (Experiment if type(data) is dict and "u_filter" in data else System)(data)
 
 
 def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified:
-    """The statement, once verified. Raises Malformed or Rejected. Every one of `systems` (JSON or read) must be one of the statement's."""
+    """Return the statement, once verified. Raises Malformed or Rejected. Every one of `systems` (JSON or read) must be one of the
+    statement's.
+    """
     insisted = [data if isinstance(data, System) else subject(data) for data in systems]
     begin()
     keys(certificate, "format kind statement witness", "certificate")
@@ -909,7 +917,7 @@ def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified
 
 
 def content(path: str) -> bytes:
-    """What is in a file, without waiting: Malformed for what is none, such as a pipe, a device or a directory."""
+    """Return what is in a file, without waiting: Malformed for what is none, such as a pipe, a device or a directory."""
 
     def seen(status: os.stat_result) -> None:
         expect(not stat.S_ISDIR(status.st_mode), "is a directory")
@@ -928,7 +936,7 @@ def content(path: str) -> bytes:
 
 
 def parse(data: bytes) -> Json:
-    """The JSON in them, or Malformed: duplicate keys, floats, NaN, over-long numbers, more than MAX_BYTES."""
+    """Return the JSON in them, or Malformed: duplicate keys, floats, NaN, over-long numbers, more than MAX_BYTES."""
 
     def unique(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
         result = dict(pairs)
@@ -950,12 +958,12 @@ def parse(data: bytes) -> Json:
 
 
 def load(path: str) -> Json:
-    """The JSON of a file. Raises Malformed."""
+    """Return the JSON of a file. Raises Malformed."""
     return parse(content(path))
 
 
 def sha256(certificate: Json) -> str:
-    """The name of a certificate: SHA-256 over sorted keys without white space, in UTF-8."""
+    """Return the name of a certificate: SHA-256 over sorted keys without white space, in UTF-8."""
     return hashlib.sha256(json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=False).encode()).hexdigest()
 
 
@@ -963,7 +971,7 @@ CODES = {"verified": 0, "verified under an assumption": 3, "rejected": 1, "malfo
 
 
 def result_of(path: str, systems: Sequence[System]) -> dict[str, Json]:
-    """What is printed about a file."""
+    """Return what is printed about a file."""
     try:
         statement, assumes = verify(certificate := load(path), systems)
         result = "verified under an assumption" if assumes else "verified"
@@ -976,17 +984,17 @@ def result_of(path: str, systems: Sequence[System]) -> dict[str, Json]:
 
 
 def worst(results: Iterable[str]) -> int:
-    """The exit code of several files."""
+    """Return the exit code of several files."""
     return CODES[max(results, key=[*CODES].index, default="verified")]
 
 
 def quote_path(name: str) -> str:
-    """The name where it can be mistaken for nothing else on a terminal, else quoted."""
+    """Return the name where it can be mistaken for nothing else on a terminal, else quoted."""
     return name if name.isprintable() and re.fullmatch(r"[^\s:'\"\\]+", name) else ascii(name)
 
 
 class Arguments(argparse.ArgumentParser):
-    """Whose complaints hold no control characters."""
+    """This is a parser whose complaints hold no control characters."""
 
     def error(self, message: str) -> NoReturn:
         super().error(message if message.isprintable() else ascii(message))
@@ -1017,7 +1025,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def run() -> int:
-    """The exit code of the command: that of `main`, 74 where nobody takes the answer, 130 where it was interrupted."""
+    """Return the exit code of the command: that of `main`, 74 where nobody takes the answer, 130 where it was interrupted."""
     try:
         if sys.stdout is None:
             return 74

@@ -37,11 +37,11 @@ class Chain:
     annihilator: tuple[Any, ...]
 
     def covariance(self) -> Matrix:
-        """The stationary covariance of s."""
+        """Return the stationary covariance of s."""
         return stein(self.a, self.a, self.b @ self.b.transposed(), self.annihilator)
 
     def with_states(self, A: Matrix, into: Matrix, own: Matrix) -> Matrix:
-        """The covariance Cov(x, s) for x(k+1) = A x(k) + into f(k), where `own` is the covariance of s."""
+        """Return the covariance Cov(x, s) for x(k+1) = A x(k) + into f(k), where `own` is the covariance of s."""
         source = into @ (self.c @ own @ self.a.transposed() + self.first @ self.b.transposed())
         return stein(A, self.a, source, self.annihilator)
 
@@ -71,7 +71,7 @@ def past_input_and_output_limit(limits: PopulationLimits) -> Certificate:
 
 
 def output_error_inputs(limits: PopulationLimits) -> Certificate:
-    """B and D that minimise the stationary E|y - G(q)u|^2 with the true A and C.
+    """Return B and D that minimise the stationary E|y - G(q)u|^2 with the true A and C.
 
     Raises Unprovable when they are not unique, and where n + 1 block rows of u have a singular covariance.
     """
@@ -99,7 +99,7 @@ def output_error_inputs(limits: PopulationLimits) -> Certificate:
 
 
 def moesp_inputs(limits: PopulationLimits) -> Certificate:
-    """The certificate of B and D of MOESP's regression with the true A and C. Raises Unprovable when they are not unique."""
+    """Return the certificate of B and D of MOESP's regression with the true A and C. Raises Unprovable when they are not unique."""
     if limits.moesp is None:
         raise Unprovable("the regression has more than one solution")
     experiment, blocks, chain = limits.experiment, limits.blocks, _chain(limits.experiment)
@@ -152,7 +152,7 @@ def _chain(experiment: Experiment) -> Chain:
 
 
 def _annihilator(denominators: list[tuple[Any, ...]], length: int) -> tuple[Any, ...]:
-    """q^length times the product of the different q^k + d_1 q^(k-1) + ... + d_k, ascending."""
+    """Return q^length times the product of the different q^k + d_1 q^(k-1) + ... + d_k, ascending."""
     product = fmpq_poly([0] * length + [1])
     for one in {*denominators}:
         product *= fmpq_poly([*reversed(one)])
@@ -176,7 +176,9 @@ def _ascending(A: Matrix) -> list[Any]:
 def _rank_certificate(
     limits: PopulationLimits, instruments: str, covariance: Matrix, inputs: Matrix, outputs: Matrix, limit: Matrix
 ) -> Certificate:
-    """The rows that vanish on L, O_s or both, continued to (Uf; Yf) so that they vanish on the covariances and no inverse is needed."""
+    """Return the rows that vanish on L, O_s or both, continued to (Uf; Yf) so that they vanish on the covariances and no inverse is
+    needed.
+    """
     experiment, blocks = limits.experiment, limits.blocks
     seen = observability_matrix(experiment.system.residual, experiment.s)
     response = solve(blocks.uf_uf, blocks.yf_uf.transposed()).transposed()
@@ -196,7 +198,7 @@ def _rank_certificate(
 
 
 def _left_null(matrix: Matrix, profile: tuple[int, ...], response: Matrix) -> list[dict[str, Any]]:
-    """Integer rows (-r response, r) for a basis of the r with r matrix = 0, each alone at its pivot."""
+    """Return integer rows (-r response, r) for a basis of the r with r matrix = 0, each alone at its pivot."""
     dependent = [i for i in range(matrix.nrows) if i not in set(profile)]
     relations = solve_left(matrix.rows(profile), matrix.rows(dependent))
     if relations is None:
@@ -219,14 +221,14 @@ def _integral(entries: list[Any]) -> list[object]:
 
 
 def _prime(covariance: Matrix, seen: Matrix) -> int:
-    """A prime modulo which both have full column rank; Unprovable where they have not."""
+    """Return a prime modulo which both have full column rank; Unprovable where they have not."""
     if rank(covariance) < covariance.ncols:
         raise Unprovable(f"the covariance of {covariance.nrows} rows of inputs is singular")
     return _prime_of_ranks([(covariance, covariance.ncols), (seen, seen.ncols)])
 
 
 def _prime_of_ranks(matrices: list[tuple[Matrix, int]]) -> int:
-    """The largest prime of a usual size modulo which every matrix has the rank beside it."""
+    """Return the largest prime of a usual size modulo which every matrix has the rank beside it."""
     for prime in primes_below(LARGEST_PRIME):
         images = ((reduce_matrix(matrix, prime, None), size) for matrix, size in matrices)
         if all(image is not None and rank(image) >= size for image, size in images):

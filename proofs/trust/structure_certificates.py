@@ -1,4 +1,4 @@
-"""Certificates: what the exact branch found, in the form that `checker.py` accepts (the format is FORMAT.md).
+"""These certificates say what the exact branch found, in the form that `checker.py` accepts (the format is FORMAT.md).
 
     one function a kind      each takes a system or its kernel representation and returns the JSON-ready certificate
     sha256                   the name of a certificate
@@ -44,7 +44,7 @@ class Unprovable(ValueError):
 
 
 def sha256(certificate: Certificate) -> str:
-    """The name of a certificate: the SHA-256 over sorted keys without white space, in UTF-8."""
+    """Return the name of a certificate: the SHA-256 over sorted keys without white space, in UTF-8."""
     text = json.dumps(certificate, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -57,7 +57,7 @@ def accept(certificate: Certificate) -> None:
 
 
 def window_ranks(kernel: KernelRepresentation) -> Certificate:
-    """The certificate of rank [O_s T_s] for every s."""
+    """Return the certificate of rank [O_s T_s] for every s."""
     system = kernel.system
     statement = {
         "system": system.to_json(),
@@ -95,7 +95,7 @@ def left_invertible_line(first: ResidualSystem, second: ResidualSystem) -> Certi
 
 
 def inversion_delay(kernel: KernelRepresentation, *, known_state: bool) -> Certificate:
-    """The certificate of the delay of left inversion with the initial state known or unknown, or that there is none."""
+    """Return the certificate of the delay of left inversion with the initial state known or unknown, or that there is none."""
     system = kernel.system
     delay = delay_known_state(kernel) if known_state else delay_unknown_state(kernel)
     statement = {"system": system.to_json(), "initial_state": "known" if known_state else "unknown", "delay": delay}
@@ -114,7 +114,7 @@ def inversion_delay(kernel: KernelRepresentation, *, known_state: bool) -> Certi
 
 
 def behaviour_inclusion(inner: ResidualSystem, outer: KernelRepresentation) -> Certificate:
-    """The certificate that B(inner) lies in B(outer) on every window. Raises Unprovable when it does not."""
+    """Return the certificate that B(inner) lies in B(outer) on every window. Raises Unprovable when it does not."""
     if separation(inner, outer) is not None:
         raise Unprovable("the inner behaviour has a word that the outer one has not")
     statement = {"inner": inner.to_json(), "outer": outer.system.to_json()}
@@ -122,7 +122,7 @@ def behaviour_inclusion(inner: ResidualSystem, outer: KernelRepresentation) -> C
 
 
 def behaviour_equality(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
-    """The certificate that B(first) = B(second). Raises Unprovable when they differ."""
+    """Return the certificate that B(first) = B(second). Raises Unprovable when they differ."""
     if separation(first.system, second) is not None or separation(second.system, first) is not None:
         raise Unprovable("the behaviours differ")
     statement = {"first": first.system.to_json(), "second": second.system.to_json()}
@@ -141,7 +141,7 @@ def window_equality(first: KernelRepresentation, second: KernelRepresentation, w
 
 
 def behaviour_difference(first: ResidualSystem, second: KernelRepresentation) -> Certificate:
-    """The certificate of the shortest word of the first system that the second cannot make. Raises Unprovable when there is none."""
+    """Return the certificate of the shortest word of the first system that the second cannot make. Raises Unprovable when there is none."""
     found: Separation | None = separation(first, second)
     if found is None:
         raise Unprovable("every word of the first system is one of the second")
@@ -151,19 +151,19 @@ def behaviour_difference(first: ResidualSystem, second: KernelRepresentation) ->
 
 
 def fault_space(kernel: KernelRepresentation, space: FaultSpace) -> Certificate:
-    """The certificate of the solution space of problem (11) at the window of `space`, or of its limit."""
+    """Return the certificate of the solution space of problem (11) at the window of `space`, or of its limit."""
     statement = {"system": kernel.system.to_json(), "window": space.window, "basis": space.basis.to_json()}
     return _certificate("fault-space", statement, _kernel_witness(kernel, kernel.rows_within(space.window)))
 
 
 def first_column_only(kernel: KernelRepresentation, window: int, column: Matrix) -> Certificate:
-    """The certificate that N_s annihilates the first block column of T_s(z), z = column ((n + p) x 1), but not all of T_s(z)."""
+    """Return the certificate that N_s annihilates the first block column of T_s(z), z = column ((n + p) x 1), but not all of T_s(z)."""
     statement = {"system": kernel.system.to_json(), "window": window, "column": _column(column)}
     return _certificate("first-column-only", statement, _kernel_witness(kernel, kernel.rows_within(window)))
 
 
 def matrix_rank(name: str, system: ResidualSystem, *, window: int | None = None) -> Certificate:
-    """The certificate of the rank of a matrix of the system: "observability", "reachability", "toeplitz" or "window"."""
+    """Return the certificate of the rank of a matrix of the system: "observability", "reachability", "toeplitz" or "window"."""
     statement: dict[str, Any] = {"matrix": name, "system": system.to_json()}
     if name in ("toeplitz", "window"):
         statement["window"] = window
@@ -177,7 +177,7 @@ def matrix_rank(name: str, system: ResidualSystem, *, window: int | None = None)
 
 
 def data_rank(name: str, system: ResidualSystem, x0: Matrix, v: Matrix, window: int) -> Certificate:
-    """The certificate of the rank of "residual-hankel" (R_s) or "excitation" ([X; V_s]) of the trajectory from x0 under v."""
+    """Return the certificate of the rank of "residual-hankel" (R_s) or "excitation" ([X; V_s]) of the trajectory from x0 under v."""
     statement = {"matrix": name, "system": system.to_json(), "x0": _column(x0), "v": v.to_json(), "window": window}
     trajectory = simulate(system, x0, v)
     built = hankel(trajectory.residuals, window) if name == "residual-hankel" else excitation_matrix(trajectory, window)
@@ -185,7 +185,7 @@ def data_rank(name: str, system: ResidualSystem, x0: Matrix, v: Matrix, window: 
 
 
 def schur_stable(system: ResidualSystem) -> Certificate:
-    """All eigenvalues of A lie inside the unit circle, over Q(a) in every embedding.
+    """Return the certificate that all eigenvalues of A lie inside the unit circle, over Q(a) in every embedding.
 
     Raises Unprovable when they do not, InvalidInput over GF(p).
     """
@@ -195,7 +195,7 @@ def schur_stable(system: ResidualSystem) -> Certificate:
 
 
 def finite_zeros(system: ResidualSystem) -> Certificate:
-    """The certificate of the invariant zero polynomial, by a diagonal form of the pencil. It is for pencils of a few states."""
+    """Return the certificate of the invariant zero polynomial, by a diagonal form of the pencil. It is for pencils of a few states."""
     form = finite_diagonal(system)
     nonzero = [f for f in form.diagonal if f]
     product: Poly = (system.field.element(1),)
@@ -247,7 +247,7 @@ def _named_image(prime: int, root: int | None, field: Field) -> dict[str, Any]:
 
 
 def _common_image(other: ResidualSystem, kernel: KernelRepresentation, window: int | None = None) -> dict[str, Any]:
-    """A prime modulo which both systems have the gaps of `kernel`, on the window (None: for ever)."""
+    """Return a prime modulo which both systems have the gaps of `kernel`, on the window (None: for ever)."""
     field = kernel.system.field
     if isinstance(field, PrimeField):
         return {}
@@ -268,7 +268,7 @@ def _has_gaps(system: ResidualSystem, kernel: KernelRepresentation, samples: int
 
 
 def _coprime_minors(first: ResidualSystem, second: ResidualSystem) -> tuple[list[dict[str, Any]], Matrix]:
-    """Maximal minors without a common zero (a : b), and their multiples by a^(m-1-j) b^j, 2m of which are independent.
+    """Return maximal minors without a common zero (a : b), and their multiples by a^(m-1-j) b^j, 2m of which are independent.
 
     An (a : b) makes P(q) lose rank for every q iff it is a zero, at n + 1 points, of the minors with all rows of the state: they are
     polynomials in q of degree n at most, det(qI - A) times the minors of the transfer matrix. With fewer points all minors are tried.
@@ -316,7 +316,9 @@ def _column(column: Matrix) -> list[object]:
 
 
 def _rank_certificate(statement: dict[str, Any], system: ResidualSystem, built: Matrix) -> Certificate:
-    """Upper bound: integer rows that vanish on the matrix, triangular by their pivots. Lower bound: the rank modulo a prime."""
+    """Return the certificate of the rank. Upper bound: integer rows that vanish on the matrix, triangular by their pivots. Lower bound:
+    the rank modulo a prime.
+    """
     independent = row_profile(built)
     dependent = [i for i in range(built.nrows) if i not in set(independent)]
     relations = solve_left(built.rows(independent), built.rows(dependent))
@@ -346,7 +348,7 @@ def _rank_image(system: ResidualSystem, built: Matrix, size: int) -> dict[str, A
 
 
 def _integral(entries: list[Any], field: Field) -> list[object]:
-    """The entries scaled by their common denominator, written out."""
+    """Return the entries scaled by their common denominator, written out."""
     if isinstance(field, PrimeField):
         return [field.write(x) for x in entries]
     bottom = fmpz(1)
@@ -370,7 +372,7 @@ def _diagonal_witness(form: SmithDiagonal, field: Field) -> dict[str, Any]:
 
 
 def _irreducible(field: Field) -> dict[str, Any]:
-    """Over Q(a), d >= 2: a prime modulo which f is irreducible, or Eisenstein after a shift; nothing where neither is found."""
+    """Return, over Q(a) with d >= 2, a prime modulo which f is irreducible, or Eisenstein after a shift; nothing where neither is found."""
     if not isinstance(field, NumberField) or field.degree < 2:
         return {}
     coefficients = [int(c) for c in field.integer_polynomial.coeffs()]

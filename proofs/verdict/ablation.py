@@ -1,4 +1,5 @@
-"""Which hypotheses does a claim need? Each is dropped in turn, and in pairs: a counterexample that meets all the others, or none anywhere.
+"""This asks which hypotheses a claim needs. Each is dropped in turn, and in pairs: a counterexample that meets all the others, or none
+anywhere.
 
     Subject       what a claim is about, certified: a system with a window, a pair of systems, a trajectory
     Proof         theorems of Rocq that prove the conclusion, and the hypotheses they prove it from
@@ -28,7 +29,8 @@ from .workbench import Workbench, accepted
 
 
 class Subject(Protocol):
-    """What a claim is about. `size` orders, `weight` is how many this one stands for, `field` names K, `accepted` counts certificates.
+    """This is what a claim is about. `size` orders, `weight` is how many this one stands for, `field` names K, `accepted` counts
+    certificates.
 
     `degenerate` says why it would be a poor witness: C = 0, repeated fault columns, an input that does nothing; "" where it would not.
     """
@@ -51,7 +53,7 @@ S = TypeVar("S", bound=Subject)
 
 @dataclass(frozen=True)
 class Proof:
-    """`theorems` of theory/headlines that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
+    """These are `theorems` of theory/headlines that prove the conclusion, for all subjects, from these `hypotheses` and no other."""
 
     theorems: tuple[str, ...]
     hypotheses: frozenset[str] = frozenset()
@@ -59,7 +61,7 @@ class Proof:
 
 @dataclass(frozen=True)
 class Ablation(Generic[S]):
-    """What a claim is when hypotheses of it are dropped: its conclusion, its hypotheses, and where it is tried.
+    """This is what a claim is when hypotheses of it are dropped: its conclusion, its hypotheses, and where it is tried.
 
     `claim` is the id in the ledger. `over_q(bench, dropped)`: the smallest subject over Q that meets the hypotheses not dropped and fails,
     or None, and in words where it was sought. `show` gives certificates of a subject. `implied`: hypotheses that follow from the others,
@@ -78,24 +80,26 @@ class Ablation(Generic[S]):
     implied: Mapping[str, str] = field(default_factory=dict)
 
     def violated(self, subject: S) -> frozenset[str]:
-        """The hypotheses that the subject does not meet."""
+        """Return the hypotheses that the subject does not meet."""
         return frozenset(name for name, meets in self.hypotheses.items() if not meets(subject))
 
     def theorems_without(self, dropped: Sequence[str]) -> tuple[str, ...]:
-        """The theorems that prove the conclusion without these hypotheses; none where the proof uses one of them."""
+        """Return the theorems that prove the conclusion without these hypotheses; none where the proof uses one of them."""
         return self.proof.theorems if self.proof is not None and self.proof.hypotheses.isdisjoint(dropped) else ()
 
 
 @dataclass(frozen=True)
 class Found(Generic[S]):
-    """The end of a search: a subject or None, and in words where it was sought."""
+    """This is the end of a search: a subject or None, and in words where it was sought."""
 
     subject: S | None
     box: str
 
 
 def first_found(counterexamples: Callable[[bool], Iterable[S]], box: str) -> Found[S]:
-    """The first that is not degenerate, or, where all are, the first. `counterexamples(poor)` has those that are, or those that are not."""
+    """Return the first that is not degenerate, or, where all are, the first. `counterexamples(poor)` has those that are, or those that are
+    not.
+    """
     for poor in (False, True):
         for subject in counterexamples(poor):
             return Found(subject, box)
@@ -104,14 +108,14 @@ def first_found(counterexamples: Callable[[bool], Iterable[S]], box: str) -> Fou
 
 @dataclass
 class _Tally(Generic[S]):
-    """All subjects by the set of hypotheses they violate: how many, and the smallest of each field that fails the conclusion."""
+    """These are all subjects by the set of hypotheses they violate: how many, and the smallest of each field that fails the conclusion."""
 
     tried: Counter[frozenset[str]]
     accepted: Counter[frozenset[str]]
     failing: dict[tuple[frozenset[str], str], S]
 
     def smallest(self, dropped: frozenset[str]) -> dict[str, S]:
-        """The smallest failing subject of each field that violates nothing else."""
+        """Return the smallest failing subject of each field that violates nothing else."""
         found: dict[str, S] = {}
         for (violated, name), subject in self.failing.items():
             if violated <= dropped and (name not in found or _order(subject) < _order(found[name])):
@@ -125,7 +129,7 @@ class _Tally(Generic[S]):
 
 @dataclass(frozen=True)
 class _Count:
-    """Subjects that meet the other hypotheses, those among them that violate one of the dropped, and accepted certificates."""
+    """This counts subjects that meet the other hypotheses, those among them that violate one of the dropped, and accepted certificates."""
 
     tried: int
     lacking: int
@@ -133,7 +137,9 @@ class _Count:
 
 
 def ablate(bench: Workbench, ablation: Ablation[S], expected: Mapping[str, str]) -> tuple[Row, ...]:
-    """The rows of an ablation: for each hypothesis alone, in order, then for each two. `expected` has the ledger's entry for each alone."""
+    """Return the rows of an ablation: for each hypothesis alone, in order, then for each two. `expected` has the ledger's entry for each
+    alone.
+    """
     tally = _tally(bench, ablation)
     flawed = tally.smallest(frozenset())
     if flawed:
@@ -175,7 +181,7 @@ def _tally(bench: Workbench, ablation: Ablation[S]) -> _Tally[S]:
 
 
 def _without(bench: Workbench, ablation: Ablation[S], tally: _Tally[S], dropped: tuple[str, ...], expected: str | None) -> Row:
-    """One row: refuted over Q where that can be, else over the field where it was; certified where nothing fails."""
+    """Return one row: refuted over Q where that can be, else over the field where it was; certified where nothing fails."""
     elsewhere = tally.smallest(frozenset(dropped))
     count = tally.count(frozenset(dropped))
     reason = ablation.implied.get(dropped[0]) if len(dropped) == 1 else None
@@ -213,7 +219,7 @@ def _found_none(count: _Count, dropped: Sequence[str], reason: str | None) -> st
 
 
 def _witness(bench: Workbench, ablation: Ablation[S], dropped: tuple[str, ...], elsewhere: Mapping[str, S]) -> tuple[S, str]:
-    """The counterexample to show, and in words how small it is and where else there are some."""
+    """Return the counterexample to show, and in words how small it is and where else there are some."""
     found = ablation.over_q(bench, dropped)
     tried = elsewhere.get("Q")
     if found.subject is not None and (tried is None or _order(found.subject)[0] <= _order(tried)[0]):

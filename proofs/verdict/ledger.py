@@ -51,16 +51,16 @@ class Reading(Shown):
 
     @property
     def proved(self) -> str:
-        """The verdict expected where Rocq has checked the theorems: what holds is PROVED, what is refuted stays so."""
+        """This is the verdict expected where Rocq has checked the theorems: what holds is PROVED, what is refuted stays so."""
         return "PROVED" if self.theorems and self.expected != "REFUTED" else self.expected
 
     @property
     def title(self) -> str:
-        """Its name and the verdict that the ledger expects where there is Rocq."""
+        """This is its name and the verdict that the ledger expects where there is Rocq."""
         return f"{self.id}, {self.proved} is expected"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """What the ledger says of it, as (name, value) pairs."""
+        """Yield what the ledger says of it, as (name, value) pairs."""
         yield "statement", self.statement
         yield "hypotheses", "; ".join(self.hypotheses) or "none"
         yield "whose", "a repair of ours" if self.repair else "as printed"
@@ -71,7 +71,7 @@ class Reading(Shown):
         yield "decided by", self.check
 
     def to_json(self) -> dict[str, Any]:
-        """An object with the fields of the record."""
+        """Return an object with the fields of the record."""
         return asdict(self)
 
 
@@ -106,18 +106,18 @@ class Claim(Shown):
 
     @property
     def title(self) -> str:
-        """Its name, and where it stands."""
+        """This is its name, and where it stands."""
         return f"{self.id} ({self.reference})"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """The statement as printed and the readings, as (name, value) pairs."""
+        """Yield the statement as printed and the readings, as (name, value) pairs."""
         yield "as printed", self.statement
         yield "verdict that the ledger expects", self.expected
         yield "readings", ""
         yield from ((reading.id, f"{reading.statement} {reading.proved} is expected.") for reading in self.readings)
 
     def to_json(self) -> dict[str, Any]:
-        """An object with the fields of the record, the readings as objects."""
+        """Return an object with the fields of the record, the readings as objects."""
         return asdict(self)
 
 

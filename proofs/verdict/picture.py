@@ -27,7 +27,7 @@ LEFT, GAP = 8.2, 0.6  # where the first square stands, and the space between the
 
 @dataclass(frozen=True)
 class Line:
-    """A claim's name and verdict, the verdicts on its readings as printed, and those on readings of ours."""
+    """This is a claim's name and verdict, the verdicts on its readings as printed, and those on readings of ours."""
 
     name: str
     verdict: str
@@ -60,7 +60,7 @@ def draw(lines: Sequence[Line], ax: Any = None) -> Any:
 
 
 def _axes(count: int) -> Any:
-    """The axes of a new figure of pyplot, which they fill."""
+    """Return the axes of a new figure of pyplot, which they fill."""
     try:
         pyplot: Any = import_module("matplotlib.pyplot")
     except ImportError:
@@ -69,7 +69,7 @@ def _axes(count: int) -> Any:
 
 
 def _square(axes: Any, left: float, row: int, verdict: str) -> None:
-    """One reading, with the first letter of its verdict."""
+    """Draw one reading, with the first letter of its verdict."""
     box = import_module("matplotlib.patches").FancyBboxPatch
     shape = box((left + 0.08, row - 0.36), 0.84, 0.72, boxstyle="round,pad=0,rounding_size=0.12")
     shape.set(facecolor=COLOURS[verdict], edgecolor="none")

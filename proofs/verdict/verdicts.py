@@ -26,7 +26,7 @@ from .picture import Line, draw
 
 
 class Verdict(StrEnum):
-    """The closed list of verdicts, from the strongest to that of a check which did not finish.
+    """This is the closed list of verdicts, from the strongest to that of a check which did not finish.
 
     Each is a string, and `meaning` says in a sentence what it stands for. A run computes verdicts; none is ever stored by hand.
     The type is StrEnum, so that a verdict is written to JSON as it is.
@@ -47,7 +47,7 @@ class Verdict(StrEnum):
 
     @property
     def meaning(self) -> str:
-        """What the verdict says of a statement."""
+        """This is what the verdict says of a statement."""
         return _MEANINGS[self]
 
 
@@ -67,7 +67,8 @@ IMPLIED = "IMPLIED"  # the ledger's word for a hypothesis that follows from the 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the checker.
+    """This is what a check found. `evidence` says on what the verdict rests; `certificates` are the headline ones, all accepted by the
+    checker.
 
     `accepted` counts every certificate that the checker accepted on the way, headline or not.
     """
@@ -80,7 +81,7 @@ class Outcome:
 
 @dataclass(frozen=True, repr=False)
 class ReadingResult(Shown):
-    """One reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
+    """This is one reading of one claim, checked. `locks`: theorem -> the SHA-256 of what it says (`rocq_locks`)."""
 
     reading: Reading
     outcome: Outcome
@@ -91,27 +92,27 @@ class ReadingResult(Shown):
 
     @property
     def expected(self) -> str:
-        """The ledger's verdict, PROVED where Rocq has checked the theorems of the reading."""
+        """This is the ledger's verdict, PROVED where Rocq has checked the theorems of the reading."""
         return self.reading.proved if self.machine_checked else self.reading.expected
 
     @property
     def as_expected(self) -> bool:
-        """Whether the computed verdict is the expected one."""
+        """This says whether the computed verdict is the expected one."""
         return self.outcome.verdict == self.expected
 
     @property
     def title(self) -> str:
-        """Its name and verdict."""
+        """This is its name and verdict."""
         return f"{self.reading.id}: {self.outcome.verdict}" + ("" if self.as_expected else f", expected {self.expected}")
 
     def sheet(self) -> list[tuple[str, str]]:
-        """The statement, and what its verdict rests on, as (name, value) pairs."""
+        """Return the statement, and what its verdict rests on, as (name, value) pairs."""
         attacks = [("attacked by", attack.words) for attack in self.attacks]
         certificates = ("certificates accepted", str(self.outcome.accepted))
         return [("statement", self.reading.statement), ("evidence", self.outcome.evidence), certificates, *attacks]
 
     def to_json(self) -> dict[str, Any]:
-        """The object in `verify --json`."""
+        """Return the object in `verify --json`."""
         return {
             "reading": self.reading.id,
             "statement": self.reading.statement,
@@ -132,27 +133,27 @@ class ReadingResult(Shown):
 
 @dataclass(frozen=True, repr=False)
 class ClaimResult(Shown):
-    """A claim with its readings checked. AMENDED: every reading as printed of the claim, or of one of its parts, is refuted, and a repair
-    is not."""
+    """This is a claim with its readings checked. AMENDED: every reading as printed of the claim, or of one of its parts, is refuted, and a
+    repair is not."""
 
     claim: Claim
     readings: tuple[ReadingResult, ...]
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict on the claim, computed from those on its readings."""
+        """This is the verdict on the claim, computed from those on its readings."""
         return of_readings([(r.reading, r.outcome.verdict) for r in self.readings], in_parts=self.claim.in_parts)
 
     @property
     def expected(self) -> str:
-        """The ledger's verdict; where Rocq has checked theorems of it, what the verdicts expected of its readings make."""
+        """This is the ledger's verdict; where Rocq has checked theorems of it, what the verdicts expected of its readings make."""
         if not any(r.machine_checked for r in self.readings):
             return self.claim.expected
         return of_readings([(r.reading, Verdict(r.expected)) for r in self.readings], in_parts=self.claim.in_parts)
 
     @property
     def rests_on(self) -> tuple[str, ...]:
-        """The readings that hold, with their level: what the claim comes down to."""
+        """These are the readings that hold, with their level: what the claim comes down to."""
         return tuple(f"{r.reading.id}: {r.outcome.verdict}" for r in self.readings if r.outcome.verdict != Verdict.REFUTED)
 
     @property
@@ -162,16 +163,16 @@ class ClaimResult(Shown):
 
     @property
     def title(self) -> str:
-        """Its name and verdict."""
+        """This is its name and verdict."""
         return f"{self.claim.id}: {self.verdict}" + ("" if self.verdict == self.expected else f", expected {self.expected}")
 
     def sheet(self) -> list[tuple[str, str]]:
-        """The statement as printed, and the verdict on each reading, as (name, value) pairs."""
+        """Return the statement as printed, and the verdict on each reading, as (name, value) pairs."""
         readings = [(one.reading.id, f"{one.outcome.verdict}. {one.reading.statement}") for one in self.readings]
         return [("as printed", self.claim.statement), ("readings", ""), *readings]
 
     def to_json(self) -> dict[str, Any]:
-        """The object in `verify --json`."""
+        """Return the object in `verify --json`."""
         return {
             "id": self.claim.id,
             "reference": self.claim.reference,
@@ -202,7 +203,7 @@ def of_readings(readings: Sequence[tuple[Reading, Verdict]], *, in_parts: bool) 
 
 @dataclass(frozen=True)
 class Row:
-    """The claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
+    """This is the claim without the hypotheses `dropped`. `already` names a single one of them without which it falls already.
 
     `theorems` prove it without them, and `machine_checked` says that Rocq has checked these in the run. Of the `tried` subjects that meet
     the other hypotheses, `lacking` violate one of the dropped. `implied`: why a dropped one follows from the others; None where it does
@@ -236,7 +237,7 @@ class Row:
 
     @property
     def meaning(self) -> str:
-        """In the words of the table: needed, not needed, or not needed since it follows from the others."""
+        """This is the verdict in the words of the table: needed, not needed, or not needed since it follows from the others."""
         if self.verdict == Verdict.REFUTED:
             return "needed"
         if self.verdict == Verdict.ERROR:
@@ -247,14 +248,14 @@ class Row:
 
     @property
     def as_expected(self) -> bool:
-        """Whether verdict and meaning are the ledger's."""
+        """This says whether verdict and meaning are the ledger's."""
         if self.verdict == Verdict.ERROR or self.ledger is None:
             return self.verdict != Verdict.ERROR
         rests_on_something = self.lacking != 0 or self.implied is not None
         return self.verdict == self.expected and (self.implied is not None) == (self.ledger == IMPLIED) and rests_on_something
 
     def to_json(self) -> dict[str, Any]:
-        """The object in `verify --json`."""
+        """Return the object in `verify --json`."""
         return {
             "experiment": self.ablation,
             "claim": self.claim,
@@ -304,12 +305,12 @@ class Report(Shown):
 
     @property
     def as_expected(self) -> bool:
-        """Whether every verdict is the expected one."""
+        """This says whether every verdict is the expected one."""
         return all(claim.as_expected for claim in self.claims) and all(row.as_expected for row in self.hypotheses)
 
     @property
     def title(self) -> str:
-        """How many claims were decided, and how many of the verdicts are not those that the ledger expects."""
+        """This says how many claims were decided, and how many of the verdicts are not those that the ledger expects."""
         wrong = sum(not claim.as_expected for claim in self.claims) + sum(not row.as_expected for row in self.hypotheses)
         claims = f"{len(self.claims)} claim{'' if len(self.claims) == 1 else 's'}"
         return f"{claims} decided: {'every verdict is the expected one' if not wrong else f'{wrong} verdicts are not the expected ones'}"
@@ -339,7 +340,7 @@ class Report(Shown):
         return draw(lines, ax)
 
     def to_json(self) -> dict[str, Any]:
-        """The object that `verify --json` prints."""
+        """Return the object that `verify --json` prints."""
         return {
             "effort": self.effort,
             "as_expected": self.as_expected,

@@ -1,4 +1,4 @@
-"""What a check of a claim has at hand, and the ways in which it comes to a verdict.
+"""This is what a check of a claim has at hand, and the ways in which it comes to a verdict.
 
 Workbench     the effort of the run and the certified material, made once and on demand: corpus, pairs, alternatives, limits
 certify       the statement on every system of the corpus that meets the hypotheses: CERTIFIED, or REFUTED by the smallest that fails
@@ -40,22 +40,22 @@ class Workbench:
 
     @cached_property
     def corpus(self) -> tuple[Evidence, ...]:
-        """Single systems, with the structure that accepted certificates state."""
+        """These are single systems, with the structure that accepted certificates state."""
         return corpus(self.effort, self.jobs, self.progress)
 
     @cached_property
     def pairs(self) -> tuple[PairEvidence, ...]:
-        """Pairs of systems with accepted certificates."""
+        """These are pairs of systems with accepted certificates."""
         return compared_pairs(self.effort, self.jobs, self.progress)
 
     @cached_property
     def alternatives(self) -> tuple[AlternativeEvidence, ...]:
-        """Systems with other fault matrices for the same (A, C)."""
+        """These are systems with other fault matrices for the same (A, C)."""
         return alternatives(self.effort, self.jobs, self.progress)
 
     @cached_property
     def pairs_by_polynomial(self) -> tuple[PairByPolynomial, ...]:
-        """Pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
+        """These are pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
         return pairs_by_polynomial(self.effort, self.jobs, self.progress)
 
     @cached_property
@@ -75,12 +75,12 @@ class Workbench:
 
     @property
     def full(self) -> bool:
-        """Whether this is the run for the background."""
+        """This says whether this is the run for the background."""
         return self.effort == "full"
 
 
 def accepted(certificates: Iterable[Certificate]) -> tuple[Certificate, ...]:
-    """The certificates, each accepted by the checker now. Raises checker.Rejected."""
+    """Return the certificates, each accepted by the checker now. Raises checker.Rejected."""
     found = tuple(certificates)
     for certificate in found:
         accept(certificate)
@@ -88,12 +88,14 @@ def accepted(certificates: Iterable[Certificate]) -> tuple[Certificate, ...]:
 
 
 def size(system: ResidualSystem) -> tuple[int, ...]:
-    """The numbers n + m + p, then n, m, p: the order in which the smallest is sought."""
+    """Return the numbers n + m + p, then n, m, p: the order in which the smallest is sought."""
     return (system.n + system.m + system.p, system.n, system.m, system.p)
 
 
 def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome:
-    """The outcome of the statement `holds` on every system of the corpus to which it applies: CERTIFIED, or REFUTED by the smallest."""
+    """Return the outcome of the statement `holds` on every system of the corpus to which it applies: CERTIFIED, or REFUTED by the
+    smallest.
+    """
     tried = [e for e in bench.corpus if applies(e)]
     failing = sorted((e for e in tried if not holds(e)), key=lambda e: size(e.system))
     if failing:
@@ -108,7 +110,7 @@ def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome
 
 
 def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], applies: Test, holds: Test, show: Show) -> Outcome:
-    """The smallest system of the box to which the statement applies and on which it fails; else `certify`.
+    """Return the smallest system of the box to which the statement applies and on which it fails; else `certify`.
 
     `candidate` is the vectorised first look; what it lets through is decided by the accepted certificates of the system.
     """
@@ -124,7 +126,9 @@ def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], appl
 
 
 def witnessed(found: Outcome) -> Outcome:
-    """The opposite of a statement, by the counterexample to it: CERTIFIED by one witness, REFUTED where there is none, ERROR as it is."""
+    """Return the outcome of the opposite of a statement, by the counterexample to it: CERTIFIED by one witness, REFUTED where there is
+    none, ERROR as it is.
+    """
     match found.verdict:
         case Verdict.ERROR:
             return found
@@ -135,7 +139,7 @@ def witnessed(found: Outcome) -> Outcome:
 
 
 def counterexample(words: str, box: object, certificates: Iterable[Certificate]) -> Outcome:
-    """The outcome REFUTED, by these certificates."""
+    """Return the outcome REFUTED, by these certificates."""
     checked = accepted(certificates)
     return Outcome(Verdict.REFUTED, f"{words}; the smallest with {box}", checked, len(checked))
 

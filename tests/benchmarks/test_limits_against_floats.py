@@ -52,7 +52,7 @@ LONG = "u white, v(k) = K u(k-1), B and D right by output error"
 
 
 def marked(family: str) -> Any:
-    """The family, and whether it is looked at in every run."""
+    """Return the family, and whether it is looked at in every run."""
     return pytest.param(family, marks=[pytest.mark.slow, pytest.mark.timeout(1200)] if family == LONG else [])
 
 
@@ -107,7 +107,7 @@ def test_what_cannot_be_run_is_refused(capsys: pytest.CaptureFixture[str]) -> No
 
 
 def test_the_bias_of_past_outputs_is_predicted() -> None:
-    """Errors of the exact limit at the true order, and those of one record of the benchmark."""
+    """The errors of the exact limit at the true order agree with those of one record of the benchmark."""
     found = benchmark_limits()
     right = errors(predicted(found, ORDER, past_outputs=False)[0], 1, 1)
     biased = errors(predicted(found, ORDER, past_outputs=True)[0], 1, 1)
@@ -136,7 +136,7 @@ def test_a_free_order_models_the_fault_as_well(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_fault_and_noise_have_the_levels_of_the_benchmark() -> None:
-    """Variance of the outputs: from one record and exactly."""
+    """The variance of the outputs of one record agrees with the exact one."""
     for setting in (Setting(2, 3, 3, 200_000), Setting(2, 3, 3, 200_000, 1.0)):
         found = limit(benchmark_experiment(setting))
         now = found.known.now(found.known.process.y, found.known.process.y)

@@ -1,4 +1,4 @@
-"""Running the command line, from outside and from inside.
+"""This runs the command line, from outside and from inside.
 
 Run             exit code, standard output and standard error
 command         `python -m faultspace` in a process of its own
@@ -44,18 +44,18 @@ class Run:
 
     @property
     def json(self) -> Any:
-        """Standard output, which must be one JSON document."""
+        """This is standard output, which must be one JSON document."""
         return json.loads(self.out)
 
 
 def environment(**changes: str) -> dict[str, str]:
-    """The surroundings of `command`: the tree's own package, no colours asked for."""
+    """Return the surroundings of `command`: the tree's own package, no colours asked for."""
     kept = {key: value for key, value in os.environ.items() if key not in ("FORCE_COLOR", "COLUMNS", "NO_COLOR")}
     return kept | {"PYTHONPATH": str(ROOT)} | changes
 
 
 def command(*arguments: str, stdin: bytes = b"", cwd: Path | None = None) -> Run:
-    """A run in a process of its own. What it tells of its progress, as it does on a busy machine, is left out of `err`."""
+    """Run the command in a process of its own. What it tells of its progress, as it does on a busy machine, is left out of `err`."""
     line = [sys.executable, "-m", "faultspace", *arguments]
     run = subprocess.run(line, input=stdin, capture_output=True, cwd=cwd or ROOT, env=environment(), timeout=400)
     lines = run.stderr.decode().splitlines(keepends=True)
@@ -73,7 +73,7 @@ def call(*arguments: str) -> Run:
 
 @cache
 def validator(name: str, package: str | None = None) -> jsonschema.Draft202012Validator:
-    """The validator of `NAME.schema.json` in the package. The schema is itself checked first, which takes longer than its use."""
+    """Return the validator of `NAME.schema.json` in the package. The schema is itself checked first, which takes longer than its use."""
     package = package or _SCHEMAS.get(name, "faultspace.exact")
     schema = json.loads(resources.files(package).joinpath("schemas", f"{name}.schema.json").read_text("utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)

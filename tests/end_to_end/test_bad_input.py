@@ -1,4 +1,4 @@
-"""Whatever stands in a file: exit code 0, 1 or 2, and for bad input one line that names the file and the place, never a traceback.
+"""Whatever stands in a file, the exit code is 0, 1 or 2, and bad input gives one line that names file and place, never a traceback.
 
 SOUND           a system that is read
 changed         SOUND with other values for some keys, as the text of a file
@@ -322,7 +322,7 @@ def test_bytes(tmp_path: Path, content: bytes) -> None:
 
 @pytest.fixture(scope="module")
 def certificate() -> Any:
-    """One with a kernel and a number field in it."""
+    """Return a certificate with a kernel and a number field in it."""
     from faultspace.exact.structure.kernel_rows import kernel_representation
     from faultspace.exact.system.systems import read_system
     from faultspace.proofs.trust.structure_certificates import window_ranks

@@ -1,4 +1,4 @@
-"""The command line as a person and as a script meet it."""
+"""These tests use the command line as a person and as a script meet it."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ PAPER = {
 
 
 def saved(folder: Path, name: str, document: object) -> str:
-    """The path of a new file that holds the document."""
+    """Return the path of a new file that holds the document."""
     path = folder / name
     path.write_text(document if isinstance(document, str) else json.dumps(document), "utf-8")
     return str(path)

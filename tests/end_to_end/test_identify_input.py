@@ -1,4 +1,4 @@
-"""What `faultspace identify` reads: every format, and every refusal heard in one line with nothing written.
+"""These tests are about what `faultspace identify` reads: every format, and every refusal heard in one line with nothing written.
 
 write_tables    the same record in every way of writing it
 TABLES          bad text tables and what is said of them

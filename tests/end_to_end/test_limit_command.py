@@ -1,4 +1,4 @@
-"""`faultspace limit` as a person and as a script meet it."""
+"""These tests use `faultspace limit` as a person and as a script meet it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`faultspace monte-carlo` on a handful of systems: files, JSON alone on standard output, bad arguments."""
+"""These tests run `faultspace monte-carlo` on a handful of systems: files, JSON alone on standard output, bad arguments."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NAMES = ["published", "identified", "corrected", "corrected-identified"]
 
 
 def validator() -> Any:
-    """Of the schema that comes with the package, itself checked."""
+    """Return the validator of the schema that comes with the package, itself checked."""
     schema = json.loads((resources.files("faultspace.numeric") / "schemas" / "monte_carlo.schema.json").read_text("utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)

@@ -12,7 +12,7 @@ from tests.end_to_end.commands import Run, call
 
 
 def broken(*_: object, **__: object) -> object:
-    """What a function of ours does that has an error in it."""
+    """This does what a function of ours does that has an error in it."""
     raise KeyError("no such\nkey")
 
 
@@ -29,7 +29,7 @@ BROKEN = {
 
 
 def asks_for_a_report(run: Run) -> bool:
-    """One line on standard error with what broke, where, the version, and what to send; nothing on standard output."""
+    """Return one line on standard error with what broke, where, the version, and what to send; nothing on standard output."""
     (line,) = run.err.splitlines()
     parts = ("KeyError", "no such", "in broken", "test_our_errors.py", "report", "command line", f"faultspace {__version__}", "Python 3")
     return run.code == 70 and run.out == "" and all(part in line for part in parts) and failures.TRACEBACK in line

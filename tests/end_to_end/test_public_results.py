@@ -55,7 +55,7 @@ def test_the_summary_of_a_comparison_is_what_compare_prints(names: tuple[str, st
 
 
 class Counts:
-    """An implementation that always counts two faults."""
+    """This is an implementation that always counts two faults."""
 
     def fault_dimension(self, r: object) -> int:
         return 2

@@ -1,4 +1,4 @@
-"""What a person sees while a command works, and tables at every width.
+"""These tests are about what a person sees while a command works, and tables at every width.
 
 Terminal    a stream that says it is one
 """

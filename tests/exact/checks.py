@@ -1,4 +1,4 @@
-"""What the tests of this room ask of one system or two. Every check raises AssertionError and takes a SYSTEM of the format.
+"""This is what the tests of this room ask of one system or two. Every check raises AssertionError and takes a SYSTEM of the format.
 
     read, indices               SYSTEM -> ResidualSystem; its Kronecker indices and zeros in one tuple
     check_report                `structure` says what the slow oracle says

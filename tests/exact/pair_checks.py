@@ -1,4 +1,5 @@
-"""What the tests ask about pairs (Fhat P, Ghat P) of one system. Every check raises AssertionError and takes a SYSTEM of the format.
+"""This is what the tests ask about pairs (Fhat P, Ghat P) of one system. Every check raises AssertionError and takes a SYSTEM of the
+format.
 
 small_systems           every SYSTEM over GF(2) of given dimensions
 all_matrices            every matrix over GF(p) of a shape
@@ -257,7 +258,7 @@ def check_zero_feedthrough(system: Json) -> None:
 
 
 def _zero_feedthrough_members(basis: Matrix, system: ResidualSystem) -> Matrix:
-    """Members [f; 0] of the span of the basis rows, by intersecting with the columns [x; 0]."""
+    """Return the members [f; 0] of the span of the basis rows, by intersecting with the columns [x; 0]."""
     states = beside(Matrix.identity(system.field, system.n), Matrix.zero(system.field, system.n, system.p)).transposed()
     columns = basis.transposed()
     common = right_null_space(beside(columns, -states)).rows(range(columns.ncols))

@@ -1,4 +1,4 @@
-"""Slow and obvious routes to what `exact/pairs` finds fast: they share nothing with it but the linear algebra below both.
+"""These are slow and obvious routes to what `exact/pairs` finds fast: they share nothing with it but the linear algebra below both.
 
 members_by_formula   im F + U + A (U inter ker C) with U = V* + S*: the members that `zero_feedthrough` reads off the fault space
 pluecker_forms       h_J(q) from the pencils of (A, Fhat_J, C, Ghat_J): those of det [P | q b - a] up to one common constant

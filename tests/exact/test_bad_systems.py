@@ -228,7 +228,7 @@ def test_rationals_are_read(top: int, bottom: int) -> None:
 
 @given(st.text(alphabet="0123456789/-+. eE_", max_size=8))
 def test_whatever_is_no_rational_is_refused(text: str) -> None:
-    """The grammar again, by hand: an optional minus, digits, and perhaps a slash and digits that do not begin with 0."""
+    """The grammar is written again, by hand: an optional minus, digits, and perhaps a slash and digits that do not begin with 0."""
     top, slash, bottom = text.partition("/")
     digits = top.removeprefix("-")
     good = digits.isdecimal() and (not slash or (bottom.isdecimal() and bottom[0] != "0"))
@@ -254,7 +254,7 @@ json_values = st.recursive(
     )
 )
 def test_no_value_brings_it_down(changes: Json) -> None:
-    """Any JSON value in any place: a system or one line, never another exception."""
+    """Any JSON value in any place gives a system or one line, never another exception."""
     try:
         read_system({**GOOD, **changes})
     except InvalidInput as problem:

@@ -46,7 +46,7 @@ def test_all_pairs_of_named_systems(field: Json) -> None:
 
 
 def test_all_pairs_of_small_systems_over_two_elements() -> None:
-    """One of each name and three more systems of each against all others: every pair, n <= 2, m <= 2, one output or two."""
+    """One system of each name and three more are compared with all others: every pair, n <= 2, m <= 2, one output or two."""
     for output, shapes in ((1, [(1, 1), (1, 2), (2, 1), (0, 1), (1, 0), (2, 0)]), (2, [(1, 1), (0, 1), (0, 2), (1, 0)])):
         kernels = []
         for n, m in shapes:
@@ -76,7 +76,7 @@ def test_fixed_dynamics_all_pairs() -> None:
 
 
 def test_the_same_behaviour_with_other_dynamics() -> None:
-    """A = 0 and A = F K = 7 with C = 1 and C + G K = 1: one behaviour, one feedback class, two fault classes."""
+    """The systems have A = 0 and A = F K = 7 with C = 1 and C + G K = 1: one behaviour, one feedback class, two fault classes."""
     system = ResidualSystem.of([[0]], [[1]], [[1], [0]], [[0], [1]])
     other = with_feedback(system, [[7]])
     assert other == ResidualSystem.of([[7]], [[1]], [[1], [7]], [[0], [1]])

@@ -1,4 +1,4 @@
-"""D(q; P) and the exceptional set: against the gcd of all maximal minors, exhaustively over GF(2), and with each line broken on purpose."""
+"""D(q; P) and the exceptional set are tested against the gcd of all maximal minors, over all of GF(2), and with each line broken."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_against_all_minors(field: Json, data: st.DataObject) -> None:
 
 @pytest.mark.parametrize("field", list(FIELDS.values()), ids=list(FIELDS))
 def test_named_systems(field: Json) -> None:
-    """Every check on the named systems: no state, no output, no fault, not left-invertible, not observable, p = r."""
+    """Every check holds on the named systems: no state, no output, no fault, not left-invertible, not observable, p = r."""
     for number, system in enumerate([*adversarial(field).values(), *([paper_example()] if field == CUBIC else [])]):
         pair_checks.check_space(system)
         pair_checks.check_polynomial(system, number)
@@ -136,7 +136,7 @@ def test_the_dimension_of_the_bad_set(lengths: tuple[int, ...]) -> None:
 
 
 def test_the_codimension_is_at_least_two() -> None:
-    """(A, C) observable, r >= 2, zeta >= 1: between 2 and zeta + 1, which is reached where the degrees differ by at most one."""
+    """For (A, C) observable, r >= 2, zeta >= 1 it is between 2 and zeta + 1, which is reached where the degrees differ by at most one."""
     for r in (2, 3, 4):
         for degrees in combinations_with_replacement(range(4), r):
             found = bad_set(pair_checks.pencil_of(chains(*degrees)))

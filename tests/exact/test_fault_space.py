@@ -1,4 +1,4 @@
-"""Problem (11): windows and limit by definition, by a closed form and from data; pairs out of it.
+"""Problem (11) is tested: windows and limit by definition, by a closed form and from data; pairs out of it.
 
 closed_form     im [F; G] + [A; C] U + [U; 0], U = V* + S*, for left-invertible systems
 """
@@ -73,7 +73,7 @@ def test_the_closed_form_is_tried_on_zeros_of_both_kinds() -> None:
 @SOME
 @given(systems(), SEEDS)
 def test_some_basis_gives_back_the_system(given: Json, seed: int) -> None:
-    """P with [Fhat; Ghat] P = [F; G]: its rows stand at the pivots of the echelon form."""
+    """There is a P with [Fhat; Ghat] P = [F; G]: its rows stand at the pivots of the echelon form."""
     system = checks.read(given)
     kernel = kernel_representation(system)
     space = fault_space(kernel)
@@ -118,7 +118,7 @@ def test_no_window_up_to_n_is_enough(n: int) -> None:
 
 
 def test_full_column_rank_is_not_enough() -> None:
-    """P of full column rank whose pair has a smaller normal rank: not equivalent."""
+    """A P of full column rank whose pair has a smaller normal rank makes no equivalent system."""
     system = ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]])
     kernel = kernel_representation(system)
     space = fault_space(kernel)

@@ -1,4 +1,4 @@
-"""The leading left singular vectors of a limit against those of numpy, the boundary cases by hand, and the limit's own sentence on them."""
+"""The leading left singular vectors of a limit are compared with numpy's; boundary cases are done by hand, and the limit's own sentence."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the population limits say of the consistency of PI-MOESP and PO-MOESP: each statement on random systems, each boundary by a case.
+"""The population limits tell of the consistency of PI-MOESP and PO-MOESP: each statement on random systems, each boundary by a case.
 
 "Equal to the range of O_s" needs (A, B~) controllable, B~ being the B that is seen, and a past window of n rows.
 """
@@ -43,7 +43,7 @@ def controllable(A: Matrix, B: Matrix) -> bool:
 
 
 def unbiased(found: PopulationLimits) -> bool:
-    """Both regressions give the true B and D, where they give one."""
+    """Return whether both regressions give the true B and D, where they give one."""
     return all(
         regression is None or (found.bias(regression).B.is_zero() and found.bias(regression).D.is_zero())
         for regression in (found.true_AC, found.moesp)
@@ -103,7 +103,7 @@ def test_a_white_input_that_the_fault_follows_ahead_of_time(seed: int) -> None:
 
 
 def test_lead_one_by_hand() -> None:
-    """v(k) = u(k+1): B + AF and D + CF; with G = 0 by MOESP's regression too, with G not."""
+    """With v(k) = u(k+1), output error finds B + AF and D + CF; with G = 0 MOESP's regression finds them too, with G != 0 it does not."""
     for G, agrees in (([["0"], ["0"]], True), ([["1"], ["1"]], False)):
         found = limit(white_with_leads(SCALAR | {"G": G, "C": [["1"], ["2"]]}, 3, 2, [NONE, ONE]))
         assert found.true_AC is not None and found.moesp is not None
@@ -128,7 +128,7 @@ def test_a_moving_average_input_ruins_a_and_c() -> None:
 
 
 def test_a_moving_average_input_with_lead_one_and_no_feedthrough() -> None:
-    """G = 0, lead 1, any colour: inside O_s. A lead of 2 or G != 0: outside, in most systems."""
+    """With G = 0, lead 1 and any colour the limit stays inside O_s; with a lead of 2 or G != 0 it leaves it, in most systems."""
     seen: Counter[tuple[int, bool, bool]] = Counter()
     for seed in range(24):
         random = Random(seed)
@@ -144,7 +144,7 @@ def test_a_moving_average_input_with_lead_one_and_no_feedthrough() -> None:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_an_autoregressive_input_of_order_at_most_s(seed: int) -> None:
-    """Any lead, any G: given Uf what comes later no longer depends on the past. Of order s + 1 it does."""
+    """Any lead and any G will do: given Uf what comes later no longer depends on the past. Of order s + 1 it does."""
     random = Random(seed)
     n = random.randint(1, 2)
     s = n + 1
@@ -194,7 +194,7 @@ def test_a_fault_that_follows_the_input_unseen() -> None:
 
 @pytest.mark.parametrize("seed", range(10))
 def test_a_fault_equal_to_the_input(seed: int) -> None:
-    """v = u of any colour: A, C right, B + F and D + G by either regression and by either choice of instruments."""
+    """With v = u of any colour A and C come out right, and either regression with either instruments finds B + F and D + G."""
     random = Random(seed)
     n, p, nu = random.randint(1, 3), random.randint(1, 2), random.randint(1, 2)
     unit = [["1" if i == j else "0" for j in range(nu)] for i in range(nu)]
@@ -231,7 +231,7 @@ FAULTS: dict[str, Any] = {
     ],
 )
 def test_past_outputs_as_instruments_want_whiteness(fault: str, G: str, w: Any, within: bool) -> None:
-    """v independent of u, past inputs always right; past outputs as well only if what is ahead of them is uncorrelated with them."""
+    """With v independent of u, past inputs are right; past outputs are only if what is ahead of them is uncorrelated with them."""
     given = SCALAR | {"G": [["0"], [G]], "C": [["1"], ["1/3"]]}
     found = limit(driven(given, 3, 2, [[["1", "0"]], [["1/2", "0"]]], FAULTS[fault], w))
     assert found.past_inputs.equals_observability_range and unbiased(found)

@@ -93,7 +93,7 @@ def test_the_regressions_were_compared_on_observable_pairs() -> None:
 
 @pytest.mark.parametrize("seed", range(6))
 def test_rational_filters_meet_long_sums_in_floats(seed: int) -> None:
-    """Impulse responses of 300 lags by long division: what the companion states must reproduce."""
+    """The companion states must reproduce impulse responses of 300 lags by long division."""
     experiment = random_experiment(seed + 300, finite=False, n=2, nu=1, s=3, past=3)
     made = _in_floats(experiment, 300)
     known = covariances(experiment)
@@ -196,7 +196,7 @@ def test_a_wrong_covariance_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_state_parts() -> None:
-    """Column spaces by construction: C, CA, ... of a known pair; one column too few; not shift-invariant; s too small."""
+    """The column spaces are known by construction: C, CA, ... of a known pair; one column too few; not shift-invariant; s too small."""
     A, C = Matrix.of([["1/2", 1], [0, "1/3"]]), Matrix.of([[1, 0]])
     observed = stacked(C, C @ A, C @ A @ A)
     mixed = observed @ Matrix.of([[2, 1], [1, 1]])

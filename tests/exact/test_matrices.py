@@ -1,4 +1,4 @@
-"""Exact linear algebra on flint against sympy's, over every field; polynomials likewise.
+"""These tests compare exact linear algebra on flint with sympy's, over every field; polynomials likewise.
 
 sympy_domain        the domain of sympy that is this field
 to_domain_matrix    a Matrix as a DomainMatrix, entry by entry
@@ -173,7 +173,7 @@ def test_arithmetic(field: Field, data: st.DataObject) -> None:
 @SOME
 @given(data=st.data())
 def test_solving_from_the_left(field: Field, data: st.DataObject) -> None:
-    """A solution where the right side is in the row space, None exactly where the rank grows."""
+    """There is a solution where the right side is in the row space, None exactly where the rank grows."""
     rng = Random(data.draw(SEEDS))
     matrix = data.draw(matrices(field))
     known = random_matrix(rng, field, 2, matrix.nrows) @ matrix

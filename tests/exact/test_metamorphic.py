@@ -1,4 +1,4 @@
-"""What must not change, and what must change in a known way, when a system is written differently.
+"""These tests are about what must not change, and what must change in a known way, when a system is written differently.
 
 inverse         of a random invertible matrix, by solving from the left
 MULTIPLES       scalings of amplitudes; 0 in small prime fields, where they are left out

@@ -1,4 +1,4 @@
-"""Systems, matrices and results as values: what they are made of, that they do not change, compare, hash, pickle and print.
+"""These tests take systems, matrices and results as values, which do not change, and which compare, hash, pickle and print.
 
 SAME        one system given in many ways
 RECORDS     name -> a function from a system to a result
@@ -161,7 +161,7 @@ NAMED: dict[str, Callable[[KernelRepresentation], Any]] = {
 
 
 def public_records(field: Field) -> dict[str, Any]:
-    """One of each record that a public function makes over the field."""
+    """Return one of each record that a public function makes over the field."""
     system = example(field)
     kernel = kernel_representation(system)
     found = {name: RECORDS[name](system) for name in ("system", "with inputs", "comparison", "trajectory", "structure")}

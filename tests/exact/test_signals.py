@@ -1,4 +1,4 @@
-"""Trajectories against the recursion by hand, Hankel matrices entry by entry, and what data say against what the model says."""
+"""Trajectories are compared with the recursion by hand, Hankel matrices entry by entry, and what data say with what the model says."""
 
 from __future__ import annotations
 

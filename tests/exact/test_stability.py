@@ -1,4 +1,4 @@
-"""Schur stability against roots known by construction, and against eigenvalues in floats away from the circle."""
+"""Schur stability is tested against roots known by construction, and against eigenvalues in floats away from the circle."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def product(*factors: list[Fraction]) -> list[Fraction]:
 
 @given(st.lists(rationals, max_size=4), st.lists(st.tuples(rationals, rationals), max_size=2))
 def test_roots_by_construction(real: list[Fraction], complex_pairs: list[tuple[Fraction, Fraction]]) -> None:
-    """(q - a) and ((q - a)^2 + b^2): moduli |a| and sqrt(a^2 + b^2), those on the circle included."""
+    """The factors (q - a) and ((q - a)^2 + b^2) have moduli |a| and sqrt(a^2 + b^2), those on the circle included."""
     factors = [[-a, Fraction(1)] for a in real] + [[a * a + b * b, -2 * a, Fraction(1)] for a, b in complex_pairs]
     inside = all(abs(a) < 1 for a in real) and all(a * a + b * b < 1 for a, b in complex_pairs)
     assert is_schur(product([Fraction(-3)], *factors)) == inside

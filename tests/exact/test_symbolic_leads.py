@@ -36,7 +36,7 @@ def test_every_dimension(n: int) -> None:
 
 
 def test_lead_one_by_hand() -> None:
-    """n = nu = m = p = J = 1: B + F phi_0 + A F phi_1 and D + G phi_0 + C F phi_1."""
+    """With n = nu = m = p = J = 1 the inputs enter by B + F phi_0 + A F phi_1 and D + G phi_0 + C F phi_1."""
     found = lead_identities(1, 1, 1, 1, 1)
     a, b, c, d, f, g, phi0, phi1 = found.ring.gens
     assert ((b + f * phi0 + a * f * phi1,),) == found.B

@@ -107,7 +107,7 @@ def test_entries_mixed_with_the_first_prime(given: Json, seed: int) -> None:
 @settings(max_examples=25)
 @given(systems(field=SQRT2, largest=2), SEEDS)
 def test_number_field_entries_that_vanish_modulo_the_root(given: Json, seed: int) -> None:
-    """Entries times (a - root), which is no rational multiple of a prime and yet 0 in the image."""
+    """The entries are multiplied by (a - root), which is no rational multiple of a prime and yet 0 in the image."""
     field = NumberField((Fraction(-2), Fraction(0), Fraction(1)))
     good = next(prime for prime in primes_below(LARGEST_PRIME) if simple_root(field, prime) is not None)
     root = simple_root(field, good)

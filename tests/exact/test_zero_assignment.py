@@ -1,4 +1,4 @@
-"""Pairs with zeros where they are wanted, and pairs that need no initial state."""
+"""These tests are about pairs with zeros where they are wanted, and pairs that need no initial state."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_several_faults_of_several_degrees(lengths: list[int], seed: int) -> Non
 
 
 def test_every_polynomial_over_two_elements() -> None:
-    """All polynomials of degree at most zeta for all systems with n <= 2, p = 1, m <= 2: reached iff the fixed zeros divide it."""
+    """Every polynomial of degree at most zeta, for all systems with n <= 2, p = 1, m <= 2, is reached iff the fixed zeros divide it."""
     reached = refused = 0
     seen = set()
     for dimensions in ((1, 1, 1), (2, 1, 1), (1, 1, 2)):

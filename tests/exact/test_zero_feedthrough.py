@@ -1,4 +1,4 @@
-"""G = 0: when it pins F and v, and what it leaves free."""
+"""These tests are about G = 0: when it pins F and v, and what it leaves free."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def test_a_finite_zero_leaves_a_filter_free() -> None:
 
 
 def test_an_unobservable_mode_leaves_f_free_but_not_v() -> None:
-    """A second state that no output shows: F = [1; 0] and [1; 1] give the same outputs from the same v."""
+    """There is a second state that no output shows: F = [1; 0] and [1; 1] give the same outputs from the same v."""
     system = ResidualSystem.of([[0, 0], [0, 3]], [[1], [0]], [[1, 0]], [[0]])
     found = zero_feedthrough(kernel_representation(system))
     assert not found.pins_F and found.pins_v and found.ambiguity == 1

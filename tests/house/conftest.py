@@ -1,4 +1,4 @@
-"""The tree as the tests of the house see it.
+"""This is the tree as the tests of the house see it.
 
 root        the folder of pyproject.toml
 checkout    the files that a commit of the tree would hold, links included, relative to root

@@ -37,7 +37,7 @@ class Journey:
 
     @property
     def depth(self) -> int:
-        """How many functions of ours stand on top of each other at most."""
+        """This says how many functions of ours stand on top of each other at most."""
         return len(self.chain)
 
 
@@ -86,7 +86,7 @@ def travelled(body: Body) -> Journey:
 
 
 def _command(*arguments: str) -> Body:
-    """The command line in this process; what it prints is dropped."""
+    """Run the command line in this process; what it prints is dropped."""
     main = importlib.import_module("faultspace.__main__").main
 
     def run() -> None:
@@ -106,7 +106,7 @@ def _identify(folder: Path) -> Body:
 
 
 def _audit(_: Path) -> Body:
-    """Of an object, since the command has its checks done in another process."""
+    """Return the audit of an object, since the command has its checks done in another process."""
     running = importlib.import_module("faultspace.numeric.audit.running")
     reference = importlib.import_module("faultspace.numeric.audit.reference")
     return lambda: running.audit(reference, only=["fault-dimension[one-fault]"])

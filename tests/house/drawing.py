@@ -42,7 +42,7 @@ def ordered(places: Graph, room: str) -> list[str]:
 
 
 def figure(files: Graph) -> list[str]:
-    """The lines. Arrows within a room lead to folders, arrows out of it to rooms."""
+    """Return the drawing's lines. Arrows within a room lead to folders, arrows out of it to rooms."""
     places = place_graph(files)
     lines = ["```text"]
     for room in ROOMS:
@@ -57,7 +57,7 @@ def figure(files: Graph) -> list[str]:
 
 
 def table(files: Graph) -> list[str]:
-    """The rows. A file at the top of a room is a place of its own."""
+    """Return the table's rows. A file at the top of a room is a place of its own."""
     places = place_graph(files)
     rows = ["| place | import name | what it holds |", "|---|---|---|"]
     for room in ROOMS:
@@ -72,7 +72,7 @@ def table(files: Graph) -> list[str]:
 
 
 def opening(source: str) -> str:
-    """The first paragraph of a module's docstring, on one line."""
+    """Return the first paragraph of a module's docstring, on one line."""
     text = ast.get_docstring(ast.parse(source)) or ""
     return " ".join(text.partition("\n\n")[0].split()).replace("|", "\\|")
 

@@ -55,7 +55,7 @@ class Need:
 
 
 def sizes(modules: Iterable[Module]) -> Iterator[Size]:
-    """One for each room, in the order of the drawing."""
+    """Yield one row for each room, in the order of the drawing."""
     by_place: dict[str, list[Module]] = defaultdict(list)
     for module in modules:
         by_place[place(module.name)].append(module)

@@ -70,7 +70,7 @@ def house() -> Iterator[Module]:
 
 
 def file_graph(modules: Iterable[Module]) -> Graph:
-    """The modules that each module imports. A name within a module leads to that module; what is not ours leads nowhere."""
+    """Return the modules that each module imports. A name within a module leads to that module; what is not ours leads nowhere."""
     known = {module.name: module for module in modules}
 
     def target(name: str) -> str | None:
@@ -82,7 +82,9 @@ def file_graph(modules: Iterable[Module]) -> Graph:
 
 
 def place(name: str) -> str:
-    """`numeric/space` for a module in that folder, `numeric/pipeline.py` for a file at the top of a room, `numeric` for the room itself."""
+    """Return `numeric/space` for a module in that folder, `numeric/pipeline.py` for a file at the top of a room, `numeric` for the room
+    itself.
+    """
     match name.split("."):
         case ["faultspace"]:
             return "faultspace"
@@ -116,7 +118,7 @@ def counted(graph: Graph) -> Graph:
 
 
 def circle(graph: Mapping[str, set[str]]) -> list[str]:
-    """One circle, its first member again at the end."""
+    """Return one circle, its first member again at the end."""
     try:
         TopologicalSorter(graph).prepare()
     except CycleError as error:

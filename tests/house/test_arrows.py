@@ -23,7 +23,7 @@ CHECKER = "faultspace.proofs.trust.checker"
 
 
 def room_of(name: str) -> str | None:
-    """The room that a dotted import name leads to."""
+    """Return the room that a dotted import name leads to."""
     match name.split("."):
         case ["faultspace", "numeric", "audit", *_]:
             return "audit"
@@ -35,7 +35,7 @@ def room_of(name: str) -> str | None:
 
 
 def violations(module: Module) -> list[str]:
-    """What the module imports and may not; empty when every arrow points the right way."""
+    """Return what the module imports and may not; empty when every arrow points the right way."""
     room = room_of(module.name)
     assert room is not None, f"{module.name} is in no room"
     allowed = {room} | ROOMS[room]

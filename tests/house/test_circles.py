@@ -52,7 +52,7 @@ def test_a_circle_of_files_is_noticed(sources: dict[str, str]) -> None:
     ],
 )
 def test_an_arrow_back_between_folders_is_noticed(name: str, source: str, folders: set[str]) -> None:
-    """No circle of files, and yet a circle of folders."""
+    """There is no circle of files, and yet a circle of folders."""
     graph = files(Module(f"faultspace.{name}", source))
     assert circle(graph) == []
     assert folders & set(circle(place_graph(counted(graph))))

@@ -16,7 +16,7 @@ PAGES = [*sorted(DOCS.glob("*.md")), DOCS.parent / "README.md", DOCS.parent / "C
 
 @pytest.fixture(scope="module")
 def make() -> ModuleType:
-    """docs/make.py, which is no module of the package."""
+    """Return docs/make.py, which is no module of the package."""
     spec = importlib.util.spec_from_file_location("make_docs", DOCS / "make.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)

@@ -11,7 +11,7 @@ ROOMS = ("exact", "numeric", "proofs")
 
 
 def python(root: Path, statement: str) -> subprocess.CompletedProcess[str]:
-    """A fresh interpreter that looks for modules in the tree first."""
+    """Return a fresh interpreter that looks for modules in the tree first."""
     source = f"import sys; sys.path.insert(0, {str(root)!r}); {statement}"
     return subprocess.run([sys.executable, "-c", source], cwd=root, capture_output=True, text=True)
 

@@ -34,7 +34,7 @@ HEAVY = ("numpy", "scipy", "sympy", "flint", "mpmath", "pandas", "matplotlib")
 
 
 def loaded_after(statement: str) -> set[str]:
-    """The heavy packages that a fresh interpreter has loaded after the statement."""
+    """Return the heavy packages that a fresh interpreter has loaded after the statement."""
     source = f"import sys; {statement}; print(*(name for name in {HEAVY!r} if name in sys.modules))"
     return set(subprocess.run([sys.executable, "-c", source], capture_output=True, text=True, check=True).stdout.split())
 

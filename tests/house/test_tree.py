@@ -1,4 +1,4 @@
-"""What is true of every file: short modules, no path of anybody's machine, one version, no key without a source.
+"""These tests ask for what is true of every file: short modules, no path of anybody's machine, one version, no key without a source.
 
 machine_paths       absolute paths of one machine that a text mentions
 cited_keys          keys such as [V93] in the docstrings of a source
@@ -19,19 +19,19 @@ KEY = re.compile(r"\[([A-Z][A-Za-z]{0,3}[0-9]{2})\]")
 
 
 def machine_paths(text: str) -> list[str]:
-    """The beginnings of the machine paths in a text."""
+    """Return the beginnings of the machine paths in a text."""
     return MACHINE_PATH.findall(text)
 
 
 def cited_keys(source: str) -> set[str]:
-    """Bibliography keys in the docstrings of a module, its functions and its classes."""
+    """Return the bibliography keys in the docstrings of a module, its functions and its classes."""
     documented = (ast.Module, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
     texts = (ast.get_docstring(node) or "" for node in ast.walk(ast.parse(source)) if isinstance(node, documented))
     return {key for text in texts for key in KEY.findall(text)}
 
 
 def sources(root: Path, checkout: list[PurePosixPath]) -> dict[PurePosixPath, str]:
-    """Every Python file of the tree with its text."""
+    """Return every Python file of the tree with its text."""
     return {name: (root / name).read_text("utf-8") for name in checkout if name.suffix == ".py"}
 
 

@@ -1,4 +1,4 @@
-"""The formulas of numeric/ written out once more in mpmath at DIGITS digits, plainly and for small cases: what floats are held against.
+"""These are the formulas of numeric/ in mpmath at DIGITS digits, plainly and for small cases: what floats are held against.
 
 Matrices are numpy arrays of mpf, so that every product is one of mpmath's. Call inside `with precise():`.
 
@@ -163,7 +163,7 @@ class Model:
 
 
 def observability(A: Array, C: Array, s: int) -> Array:
-    """Return O_s."""
+    """Return the observability matrix O_s."""
     blocks = [C]
     for _ in range(s - 1):
         blocks.append(blocks[-1] @ A)
@@ -302,7 +302,7 @@ def characteristic_polynomial(A: Array) -> Array:
 
 
 def poles(A: Array) -> list[Any]:
-    """Return the eigenvalues."""
+    """Return the poles, the eigenvalues of A."""
     # mpmath.eig has another form of answer for one by one.
     return [A[0, 0]] if len(A) == 1 else list(mpmath.eig(_matrix(A), left=False, right=False))
 

@@ -1,4 +1,4 @@
-"""Fault systems in floats whose zeros and fault space are known by construction, and residuals of them.
+"""These are fault systems in floats whose zeros and fault space are known by construction, and residuals of them.
 
 Planted         A, F, C, G with chosen finite zeros and the basis of its fault space Z
 planted         a random stable one, p > m, rank G = m, so that all its zeros are the chosen ones

@@ -1,4 +1,4 @@
-"""What an estimate at a given order converges to, from exact covariances: the bridge between a population limit and a float estimate.
+"""This computes what an estimate of a given order converges to, from exact covariances: the bridge from a limit to a float estimate.
 
 simulated           y, u of an experiment, N samples in the stationary state
 predicted_model     A, C at the given order from L Cov(Z | Uf)^-1/2, as the factorisations weigh it, and B, D by output error

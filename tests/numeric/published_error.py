@@ -1,4 +1,4 @@
-"""The error of the study as it was published, by its own words; the product takes it from the containment error.
+"""This computes the error of the study as it was published; the product takes it from the containment error.
 
 author_error   |angles| / (n_v pi/2), containment only
 """

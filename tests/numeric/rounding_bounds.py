@@ -1,4 +1,4 @@
-"""Bounds of rounding that the 50 digits are held against and no command needs: they follow from those of `rounding`.
+"""These bounds of rounding are for the 50 digits, and no command needs them: they follow from those of `rounding`.
 
 noisy_range             the bound on |D|, the change of the range, for any data                         [W72]
 given_state_error       |r - exact r|, the initial state given: what simulation loses

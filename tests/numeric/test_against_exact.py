@@ -147,7 +147,7 @@ def _zeros_differ_by(found: Any, polynomial: list[float]) -> float:
     ],
 )
 def test_finite_zeros_are_those_of_the_pencil(shape: tuple[int, int, int], F: Any, G: Any) -> None:
-    """Left-invertible or not: where F = G = 0 they are the eigenvalues of A that C does not show."""
+    """This holds for systems left-invertible or not: where F = G = 0 they are the eigenvalues of A that C does not show."""
     n, m, p = shape
     for C in ([["0", "1"]], [["0", "0"]], [["1", "1"]]):
         given = {"A": [["1/2", "0"], ["0", "3/4"]], "F": F, "C": C, "G": G, "n": n, "m": m, "p": p}

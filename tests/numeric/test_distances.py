@@ -1,4 +1,4 @@
-"""Angles planted by construction, from right to 1e-14; containment and two sides; the published error and what is
+"""These tests are about angles planted by construction, from right to 1e-14; containment and two sides; the published error and what is
 wrong with it.
 """
 

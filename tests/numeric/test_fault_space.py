@@ -1,4 +1,4 @@
-"""Problem (11) from data: spaces planted by construction, windows too short, vacuous cases, noise, units, and the
+"""Problem (11) from data is tested: spaces planted by construction, windows too short, vacuous cases, noise, units, and the
 same formulas in 50 digits.
 """
 
@@ -320,7 +320,7 @@ def test_observed_coordinates_see_every_unit_alike() -> None:
 
 @pytest.mark.parametrize("zeros", [(), (0.5,)], ids=str)
 def test_fifty_digits(zeros: tuple[float, ...]) -> None:
-    """The same formulas in mpmath from the same floats: what the floats lose is conditioning, within the stated
+    """The same formulas run in mpmath from the same floats: what the floats lose is conditioning, within the stated
     bound, and no fault.
 
     In 50 digits the simulated residual is exact to 1e-48, so that the space of the float matrices comes out to 1e-30.

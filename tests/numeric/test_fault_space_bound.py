@@ -1,4 +1,4 @@
-"""How large a fault space can be for given A, C: the bound against exact arithmetic, and estimators that keep to it."""
+"""For given A, C a fault space can be only so large: the bound is tested against exact arithmetic, and on estimators that keep to it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The Cramer-Rao bound: against the Fisher information in the time domain, against a likelihood that is exact, and on functions broken."""
+"""The Cramer-Rao bound is tested against the Fisher information in time, against an exact likelihood, and on functions broken."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ def inverse(spectrum: Any) -> Any:
 
 
 def impulse_of(model: StateSpaceModel, pole: float, count: int) -> Array:
-    """(count, p, 1): of the model driven through 1 / (1 - pole q^-1)."""
+    """Return the impulse response (count, p, 1) of the model driven through 1 / (1 - pole q^-1)."""
     return np.asarray(scipy.signal.lfilter([1.0], [1.0, -pole], model.markov(count), axis=0))
 
 
 def in_the_time_domain(samples: int) -> Array:
-    """The expected information of so many samples from rest, by the Toeplitz covariance of the disturbance: the slow twin."""
+    """Return the expected information of so many samples from rest, by the Toeplitz covariance of the disturbance: the slow twin."""
     matrix, step, long = system_matrix(PLANT), 1e-6, 400
     h = impulse_of(FAULT, 0.6, long)[:, :, 0]
     lags = [h[lag:].T @ h[: long - lag] + NOISE * (lag == 0) for lag in range(samples)]  # E v(k + lag) v(k)'

@@ -29,7 +29,7 @@ from tests.numeric.planted import Planted, coloured, planted, simulate
 
 
 def joint_record(system: Planted, seed: int, samples: int, decibels: float | None, *, inputs: int = 1) -> tuple[Any, Any]:
-    """y (N, p) and u (N, inputs) of a system with white faults and inputs, and low-pass noise so far below each output."""
+    """Return y (N, p) and u (N, inputs) of a system with white faults and inputs, and low-pass noise so far below each output."""
     rng = np.random.default_rng([seed, 77])
     B, D = rng.standard_normal((len(system.A), inputs)), rng.standard_normal((len(system.C), inputs))
     u, v = rng.standard_normal((samples, inputs)), rng.standard_normal((samples, system.m))
@@ -39,7 +39,7 @@ def joint_record(system: Planted, seed: int, samples: int, decibels: float | Non
 
 
 def spans(rows: list[Any], angle: float) -> Any:
-    """Orthonormal basis (p, k) of the row space of N_y at a point of the unit circle."""
+    """Return an orthonormal basis (p, k) of the row space of N_y at a point of the unit circle."""
     N = np.array([np.exp(1j * angle * np.arange(len(row))) @ row for row in rows])
     return scipy.linalg.orth(N.T)
 
@@ -125,7 +125,7 @@ def test_noise_shares_are_found() -> None:
 
 
 def test_the_least_noise_is_the_projection() -> None:
-    """Against a dense least-squares solution; what is left obeys the rows."""
+    """It equals a dense least-squares solution, and what is left obeys the rows."""
     rng = np.random.default_rng(8)
     z, rows = rng.standard_normal((30, 3)), [rng.standard_normal((2, 3)), rng.standard_normal((3, 3))]
     shares = np.array([2.0, 0.5])

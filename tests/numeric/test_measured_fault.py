@@ -53,7 +53,7 @@ def identified(y: Array, u: Array) -> tuple[MoespModel, Array]:
 
 @cache
 def identified_as_measured() -> tuple[MoespModel, Array]:
-    """The model from the record without an injected fault, and its residual."""
+    """Return the model from the record without an injected fault, and its residual."""
     return identified(*record())
 
 

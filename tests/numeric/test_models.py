@@ -1,4 +1,4 @@
-"""The model: simulation against the recursion written out, conversions, and what it refuses."""
+"""The model is tested: simulation against the recursion written out, conversions, and what it refuses."""
 
 import json
 from typing import Any

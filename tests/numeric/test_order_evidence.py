@@ -1,4 +1,4 @@
-"""The evidence for an order: the range left open, and how often the choice is right."""
+"""The evidence for an order is tested: the range left open, and how often the choice is right."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""PI-MOESP: exact without noise, consistent under coloured additive faults, honest about order, stability and bad data."""
+"""PI-MOESP is exact without noise, consistent under coloured additive faults, honest about order, stability and bad data."""
 
 import re
 import tracemalloc

@@ -1,4 +1,4 @@
-"""Fault signals recovered: exactly where theory says so, with its delay; near zeros only where it says so; never in
+"""Fault signals are recovered: exactly where theory says so, with its delay; near zeros only where it says so; never in
 a fresh model's dream.
 """
 

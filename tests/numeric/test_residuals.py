@@ -1,4 +1,4 @@
-"""The residual: exact data leave nothing, faulty data leave the fault's own response, whatever the model's poles."""
+"""The residual is tested: exact data leave nothing, faulty data leave the fault's own response, whatever the model's poles."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What the functions of the room return: read by people, programs, notebooks and by the functions that come next.
+"""What the functions of the room return is read by people, programs, notebooks and by the functions that come next.
 
 chain      one record with a fault and the result of every step, and a small study
 RESULTS    the results that have a summary, a JSON form and a short repr

@@ -1,4 +1,4 @@
-"""The Monte Carlo study: its systems by construction, its cases whatever the workers, its vacuous cases, and the paper's example."""
+"""The Monte Carlo study is tested: systems by construction, cases whatever the workers, vacuous cases, and the paper's example."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The published way to the fault space: right without noise, the null rows' answer where they determine it, not theirs elsewhere."""
+"""The published way to the fault space is right without noise, the null rows' answer where they determine it, not theirs elsewhere."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The threshold UNIT_ROOT of `mean_shift`, simulated: what a random walk of K samples shows of its root, a mean fitted [F76]."""
+"""This simulates the threshold UNIT_ROOT of `mean_shift`: what a random walk of K samples shows of its root, a mean fitted [F76]."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ def problem(plant: StateSpaceModel, count: int = 40, seed: int = 1) -> Reduction
 
 
 def by_differences(function: Callable[[Array], Any], matrix: Array, step: float = 1e-6) -> Any:
-    """The Jacobian of a function of T by central differences."""
+    """Return the Jacobian of a function of T by central differences."""
     columns = []
     for entry in range(matrix.size):
         change = np.zeros(matrix.size)

@@ -1,4 +1,4 @@
-"""Problem (11), by its definition: the columns z = [f; g] with N_s T_s(z) = 0.
+"""This is problem (11), by its definition: the columns z = [f; g] with N_s T_s(z) = 0.
 
 N_s is a basis of the left null space of [O_s T_s]; T_s(z) is the Toeplitz matrix of (A, f, C, g), all of its s block
 columns.

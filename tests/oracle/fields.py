@@ -1,4 +1,4 @@
-"""The fields of the certificate format: Q, the prime fields and Q(a), with elements that know + - * / and ==.
+"""These are the fields of the certificate format: Q, the prime fields and Q(a), with elements that know + - * / and ==.
 
 Elements are `Fraction` over Q, `Residue` over GF(p), `Algebraic` over Q(a); zero is the one that is false.
 

@@ -1,4 +1,4 @@
-"""Matrices over a field and textbook Gaussian elimination.
+"""These are matrices over a field and textbook Gaussian elimination.
 
 Matrix(field, height, width, rows)   the shape is always explicit, so that 0 x k and k x 0 are matrices like others
 zeros, identity, unit_vector, column_of

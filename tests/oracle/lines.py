@@ -1,4 +1,4 @@
-"""Left-invertibility along the line of faults a F + b F', a G + b G', for every (a : b) over every extension of the field.
+"""This decides left-invertibility along the line of faults a F + b F', a G + b G', for every (a : b) over every extension of the field.
 
 determinant(field, rows)    of polynomials in q and b (a = 1), by Leibniz
 maximal_minors(one, two)    those of [[qI - A, -(aF + bF')], [C, aG + bG']], as {(power of q, power of b): element}

@@ -1,4 +1,4 @@
-"""The system pencil P(q) = [[qI - A, -F], [C, G]] as a matrix of polynomials, and what its minors say.
+"""This is the system pencil P(q) = [[qI - A, -F], [C, G]] as a matrix of polynomials, and what its minors say.
 
 PolynomialMatrix(height, width, rows)   entries as in `polynomials`
 pencil(system)                   P(q), (n+p) x (n+m)

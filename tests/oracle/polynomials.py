@@ -1,4 +1,4 @@
-"""Polynomials in one variable, by the schoolbook, over whatever field their coefficients come from.
+"""These are polynomials in one variable, by the schoolbook, over whatever field their coefficients come from.
 
 A polynomial is a list of field elements by ascending powers without trailing zeros; `[]` is zero.
 

@@ -1,4 +1,4 @@
-"""Whether all eigenvalues lie inside the unit circle: by Leibniz, the map q = (1 + w) / (1 - w), and Hurwitz.
+"""This decides whether all eigenvalues lie inside the unit circle: by Leibniz, the map q = (1 + w) / (1 - w), and Hurwitz.
 
 determinant(field, rows)       of polynomials, by Leibniz
 characteristic_polynomial(s)   det(qI - A) over K

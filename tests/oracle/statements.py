@@ -1,4 +1,4 @@
-"""Whether the statement of a certificate is true, kind by kind, whatever its witness says.
+"""This decides whether the statement of a certificate is true, kind by kind, whatever its witness says.
 
     truth(kind, statement)          True or False; raises ValueError when the kind is unknown or the statement malformed
     premise_holds(kind, statement)  whether the minimal polynomials in the statement are irreducible
@@ -154,7 +154,7 @@ def matrix_rank(statement: Json) -> bool:
 
 
 def schur_stable(statement: Json) -> bool:
-    """All eigenvalues of A lie inside the unit circle, over Q(a) for every root a."""
+    """Say whether all eigenvalues of A lie inside the unit circle, over Q(a) for every root a."""
     parse_keys(statement, {"system"})
     return stability.is_stable(parse_system(statement["system"]))
 

@@ -1,4 +1,4 @@
-"""Hypothesis strategies for SYSTEMs of the format, small and often degenerate.
+"""These are Hypothesis strategies for SYSTEMs of the format, small and often degenerate.
 
     field_descriptions()        FIELD: Q, GF(2), GF(3), GF(5), Q(sqrt 2), Q(a) of the paper's cubic
     entries(field)              ENTRY, biased to 0
@@ -26,7 +26,7 @@ SEEDS = st.integers(min_value=0, max_value=2**32 - 1)
 
 
 def field_descriptions() -> st.SearchStrategy[Json]:
-    """It draws FIELDs."""
+    """This draws FIELDs of the format."""
     return st.sampled_from(list(FIELDS.values()))
 
 

@@ -1,4 +1,4 @@
-"""The SYSTEM of the certificate format, read strictly, and its trajectories.
+"""This is the SYSTEM of the certificate format, read strictly, and its trajectories.
 
 System(field, A, F, C, G)   x(k+1) = A x + F v, r = C x + G v;  .n states, .m faults, .p outputs
 parse_system(json)          SYSTEM -> System; B and D are checked for their shape and dropped

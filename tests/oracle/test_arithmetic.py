@@ -1,4 +1,4 @@
-"""The oracle's arithmetic: fields, polynomials, elimination, the reading of systems, the matrices of a window."""
+"""The oracle's arithmetic is tested: fields, polynomials, elimination, the reading of systems, the matrices of a window."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The oracle's quantities against known facts, a second route each, and sheer enumeration over GF(2)."""
+"""The oracle's quantities are tested against known facts, a second route each, and sheer enumeration over GF(2)."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def test_named_systems(name: str, facts: dict[str, Any]) -> None:
 
 
 def test_a_pair_from_the_fault_space_may_be_bad() -> None:
-    """P = two independent columns of Z whose pair has normal rank 1 < m = 2."""
+    """Two independent columns of Z make a pair of normal rank 1 < m = 2."""
     bad = system(Q, [[0]], [[1, 0]], [[1], [0]], [[0, 1], [0, 0]], n=1, p=2, m=2)
     good = adversarial(Q)["a0-two-faults"]
     field = parse_field(Q)

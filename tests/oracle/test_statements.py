@@ -1,4 +1,4 @@
-"""The truth of statements: true ones and false neighbours of every kind, planted structure, malformed ones."""
+"""The truth of statements is tested: true ones and false neighbours of every kind, planted structure, malformed ones."""
 
 from __future__ import annotations
 
@@ -347,7 +347,7 @@ def test_statements_about_planted_structure(case: tuple[Any, Structure]) -> None
 @FEW
 @given(systems())
 def test_a_line_is_good_when_its_systems_are(json: Any) -> None:
-    """Half of the faults against the other half, each (a : b) by itself; with one fault over GF(p), all of them decide."""
+    """Half of the faults stand against the other half, each (a : b) by itself; with one fault over GF(p), all of them decide."""
     whole = parse_system(json)
     field, k = whole.field, whole.m // 2
     halves = [replace(whole, F=whole.F.columns(i, i + k), G=whole.G.columns(i, i + k)) for i in (0, k)]

@@ -1,4 +1,4 @@
-"""Certificates to try the checker with, and ways to spoil them.
+"""These are certificates to try the checker with, and ways to spoil them.
 
 FIELDS, systems    small systems of every shape over Q, Q(a), Q(sqrt 2), GF(2), GF(3)
 lines, stable      pairs and systems that the kinds left-invertible-line and schur-stable are about
@@ -37,12 +37,12 @@ GONE = object()
 
 
 def seen(field: Field = QQ, gain: object = 1) -> ResidualSystem:
-    """x+ = gain v, r = (x, v): one relation, of degree 1."""
+    """Return x+ = gain v, r = (x, v): one relation, of degree 1."""
     return ResidualSystem.of([[0]], [[gain]], [[1], [0]], [[0], [1]], field=field)
 
 
 def free(field: Field = QQ) -> ResidualSystem:
-    """The same with a state that stays: r = (x, v), x+ = x + v. Its second sample gives it away."""
+    """Return the same with a state that stays: r = (x, v), x+ = x + v. Its second sample gives it away."""
     return ResidualSystem.of([[1]], [[1]], [[1], [0]], [[0], [1]], field=field)
 
 
@@ -64,7 +64,7 @@ def lines(field: Field) -> Iterator[tuple[ResidualSystem, ResidualSystem]]:
 
 
 def stable(field: Field) -> Iterator[ResidualSystem]:
-    """Over Q or Q(a), with all eigenvalues inside the unit circle: none, nilpotent, complex, and a / 4."""
+    """Yield systems over Q or Q(a), with all eigenvalues inside the unit circle: none, nilpotent, complex, and a / 4."""
     for A in ([], [[0, 5], [0, 0]], [["1/2", "-1/2"], ["1/2", "1/2"]], [["-7/8"]]):
         n = len(A)
         yield ResidualSystem.of(A, [[]] * n, [], [], field=field, n=n, m=0, p=0)
@@ -74,7 +74,7 @@ def stable(field: Field) -> Iterator[ResidualSystem]:
 
 
 def experiment(**changes: Any) -> Experiment:
-    """x+ = x / 2 + u + v, y = x + v / 2 with v(k) = u(k+1), and whatever is changed."""
+    """Return x+ = x / 2 + u + v, y = x + v / 2 with v(k) = u(k+1), and whatever is changed."""
     data = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [["1/2"]], "s": 2, "past": 1}
     return read_experiment(data | {"u_filter": [[[0]], [[1]]], "v_filter": [[[1]]]} | changes)
 
@@ -97,7 +97,7 @@ def experiments() -> dict[str, Experiment]:
 
 
 def limit_certificates(about: Experiment) -> Iterator[Certificate]:
-    """By both instruments and both regressions, where these have one solution."""
+    """Yield the certificates by both instruments and both regressions, where these have one solution."""
     found = limit(about)
     yield make_limit.past_input_limit(found)
     yield make_limit.past_input_and_output_limit(found)
@@ -108,7 +108,7 @@ def limit_certificates(about: Experiment) -> Iterator[Certificate]:
 
 
 def forged_inputs(about: Experiment, B: object, D: object) -> Certificate:
-    """As if these B and D were what the true-AC regression gives."""
+    """Return a certificate as if these B and D were what the true-AC regression gives."""
     found = limit(about)
     return written(make_limit.output_error_inputs(replace(found, true_AC=InputLimit(Matrix.of(B), Matrix.of(D)))))
 
@@ -129,13 +129,13 @@ def systems(field: Field) -> Iterator[ResidualSystem]:
 
 
 def written(certificate: Certificate) -> Certificate:
-    """As it comes out of a file."""
+    """Return the certificate as it comes out of a file."""
     result: Certificate = json.loads(json.dumps(certificate))
     return result
 
 
 def certificates(field: Field) -> Iterator[Certificate]:
-    """Certificates of every kind, as they come out of files."""
+    """Yield certificates of every kind, as they come out of files."""
     for system in systems(field):
         kernel = kernel_representation(system)
         x0 = Matrix.of([[1]] * system.n, field, shape=(system.n, 1))
@@ -160,7 +160,7 @@ def certificates(field: Field) -> Iterator[Certificate]:
 
 
 def spoiled(certificate: Certificate, *changes: tuple[str, Any]) -> Certificate:
-    """A copy with the values at dotted paths replaced (by what a function makes of them, if it is one), or deleted if GONE."""
+    """Return a copy with the values at dotted paths replaced (by what a function makes of them, if it is one), or deleted if GONE."""
     result = written(certificate)
     for path, value in changes:
         *parents, last = [int(key) if key.isdigit() else key for key in path.split(".")]
@@ -175,7 +175,7 @@ def spoiled(certificate: Certificate, *changes: tuple[str, Any]) -> Certificate:
 
 
 def base(kind: str, field: Field = QQ, system: ResidualSystem | None = None, **more: Any) -> Certificate:
-    """The certificate of that kind that gets spoiled, about `seen` by default."""
+    """Return the certificate of that kind that gets spoiled, about `seen` by default."""
     system = system or seen(field)
     kernel = kernel_representation(system)
     makers: dict[str, Callable[[], Certificate]] = {

@@ -19,29 +19,29 @@ NO_RANKS: dict[str, Any] = {"normal_rank": 0, "left_minimal_indices": []}
 
 
 def dumped(kind: str, statement: Any, witness: Any) -> bytes:
-    """A certificate as a file."""
+    """Return a certificate as a file."""
     return json.dumps({**RANKS, "kind": kind, "statement": statement, "witness": witness}, separators=(",", ":")).encode()
 
 
 def system(n: int, m: int, p: int, entry: Callable[[int, int], object] = lambda i, j: (i * j + i) % 3, **more: Any) -> dict[str, Any]:
-    """A SYSTEM of that size."""
+    """Return a SYSTEM of that size."""
     shapes = {"A": (n, n), "F": (n, m), "C": (p, n), "G": (p, m)}
     return {name: [[entry(i, j) for j in range(w)] for i in range(h)] for name, (h, w) in shapes.items()} | {"n": n, "m": m, "p": p} | more
 
 
 def digits_of(rng: Random, count: int) -> str:
-    """A number with so many digits."""
+    """Return a number with so many digits."""
     return "1" + "".join(rng.choices("0123456789", k=count - 1))
 
 
 def repeated(text: str, around: str = "[@]") -> bytes:
-    """As often as fits into a file."""
+    """Return the text as often as it fits into a file."""
     before, after = around.split("@")
     return (before + (text * (BYTES // len(text)))[: BYTES - len(around)].rsplit(",", 1)[0] + after).encode()
 
 
 def of_json() -> Iterator[tuple[str, bytes]]:
-    """Before there is a certificate."""
+    """Yield files that flood the reader of JSON, before there is a certificate."""
     certificate = '{"format":"faultspace-certificate/1","kind":"window-ranks","statement":{"system":SYSTEM},"witness":WITNESS}'
     for text in ("1,", "[],", "[0],", "{},", '{"":0},', '"ab",', "[[]],", "257,", '"\u20ac",', "[[[[0]]]],", '{"a":{"b":{}}},', "-0,"):
         yield f"many {text}", repeated(text)
@@ -61,7 +61,7 @@ def of_json() -> Iterator[tuple[str, bytes]]:
 
 
 def of_sizes() -> Iterator[tuple[str, bytes]]:
-    """Small files that promise large things."""
+    """Yield small files that promise large things."""
     claim: dict[str, Any]
     witness: dict[str, Any]
     form: dict[str, Any]
@@ -111,7 +111,7 @@ def of_sizes() -> Iterator[tuple[str, bytes]]:
 
 
 def of_numbers() -> Iterator[tuple[str, bytes]]:
-    """Large and many numbers."""
+    """Yield large and many numbers."""
     rng = Random(4)
     rank: dict[str, Any]
     shown: dict[str, Any]

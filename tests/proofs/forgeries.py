@@ -1,4 +1,4 @@
-"""Witnesses forged for statements that may be false: what a checker accepts of them must be true all the same.
+"""These are witnesses forged for statements that may be false: what a checker accepts of them must be true all the same.
 
     forgeries     certificates whose statement and witness come from different places, or were changed in several places at once
     false_ones    those of them that the checker accepts and the oracle denies
@@ -30,7 +30,7 @@ NUMBERS = (0, 1, -1, 2, -2, 3, 5, "0", "1", "-1", "1/2", "-1/2", "2", "7", "101"
 
 @dataclass
 class Tally:
-    """By kind."""
+    """This counts forgeries by kind."""
 
     tried: dict[str, int] = field(default_factory=dict)
     accepted: dict[str, int] = field(default_factory=dict)
@@ -46,14 +46,14 @@ def leaves(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 
 def at(node: Any, path: Sequence[Any]) -> Any:
-    """What stands there."""
+    """Return what stands at the path below the node."""
     for key in path:
         node = node[key]
     return node
 
 
 def disturb(rng: Random, node: Any) -> None:
-    """One change somewhere below the node."""
+    """This makes one change somewhere below the node."""
     paths = list(leaves(node))
     if rng.random() < 0.7:  # what stays of the format
         paths = [path for path in paths if not isinstance(at(node, path), list | dict)] or paths
@@ -88,7 +88,7 @@ def disturb(rng: Random, node: Any) -> None:
 
 
 def forgeries(rng: Random, known: Sequence[Certificate], count: int) -> Iterator[Certificate]:
-    """So many forged certificates."""
+    """Yield so many forged certificates."""
     by_kind = dict[str, list[Certificate]]()
     for certificate in known:
         by_kind.setdefault(certificate["kind"], []).append(certificate)
@@ -111,7 +111,7 @@ def forgeries(rng: Random, known: Sequence[Certificate], count: int) -> Iterator
 
 
 def is_false(certificate: Certificate) -> bool | None:
-    """Whether the oracle denies the statement; None where it is none, or one about what is no field."""
+    """Return whether the oracle denies the statement; None where it is none, or one about what is no field."""
     try:
         if not premise_holds(certificate["kind"], certificate["statement"]):
             return None

@@ -1,4 +1,4 @@
-"""Dropping hypotheses: the engine on subjects whose truth is known, and the ablations against the ledger."""
+"""These tests drop hypotheses: the engine on subjects whose truth is known, and the ablations against the ledger."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from tests.oracle import inspect_slowly
 
 
 def quiet(stage: str, done: int, total: int) -> None:
-    """Progress that nobody watches."""
+    """Return a progress that nobody watches."""
 
 
 @dataclass(frozen=True)
 class Triple:
-    """A subject with three properties, and whether the conclusion holds."""
+    """This is a subject with three properties, and whether the conclusion holds."""
 
     a: bool
     b: bool
@@ -155,7 +155,7 @@ def test_a_counterexample_to_what_is_proved_is_an_error() -> None:
 
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
-    """A workbench with every ninth system of the quick corpus and every fourth of the aimed ones, twenty for each hypothesis."""
+    """Return a workbench with every ninth system of the quick corpus and every fourth of the aimed ones, twenty for each hypothesis."""
     made = Workbench("quick", 1, quiet)
     sources = list(corpus._sources("quick"))[::9]
     made.corpus = tuple(corpus.examine(*source) for source in sources)
@@ -219,7 +219,7 @@ def test_a_reason_why_a_hypothesis_follows_is_held_against_the_subjects(bench: W
 
 
 def test_first_looks_are_the_definitions() -> None:
-    """The vectorised hypotheses about one system against the slow oracle, on every system of a small box."""
+    """The vectorised hypotheses about one system agree with the slow oracle, on every system of a small box."""
     for facts in chunks(Box(total=4, largest_n=2, largest_m=1, largest_p=1)):
         for name in ("observable", "controllable", "left-invertible"):
             found = flags({name})(facts)

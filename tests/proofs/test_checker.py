@@ -430,7 +430,7 @@ def test_without_its_pivots_an_unlucky_prime_would_prove_something_false(monkeyp
 
 
 def reasons(name: str) -> Iterator[str]:
-    """The fixed parts of every reason in the source that a call of this name gives."""
+    """Yield the fixed parts of every reason in the source that a call of this name gives."""
     for node in ast.walk(ast.parse(SOURCE.read_text("utf-8"))):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == name:
             reason = node.args[1]

@@ -1,4 +1,4 @@
-"""The checker as a command, alone in an empty folder: exit codes, what it prints, files that are no certificates."""
+"""The checker is tested as a command, alone in an empty folder: exit codes, what it prints, files that are no certificates."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ SOURCE = Path(checker.__file__)
 
 
 class Lone:
-    """The checker alone in an empty folder."""
+    """This is the checker alone in an empty folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         shutil.copy(SOURCE, folder / "checker.py")
 
     def file(self, name: str, content: object) -> str:
-        """A file in the folder: bytes as they are, the rest as JSON."""
+        """Return a file in the folder: bytes as they are, the rest as JSON."""
         (self.folder / name).write_bytes(content if isinstance(content, bytes) else json.dumps(content).encode())
         return name
 

@@ -1,4 +1,4 @@
-"""The numbers, fields and systems of the checker: primes, irreducibility, what is assumed without it, which systems are equal."""
+"""These tests are about numbers, fields and systems in the checker: primes, irreducibility, what is assumed without it, equal systems."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def test_primes_are_told_from_composites() -> None:
 
 
 def products(field: int, degree: int) -> set[tuple[int, ...]]:
-    """The reducible monic polynomials of that degree over GF(field), multiplied out."""
+    """Return the reducible monic polynomials of that degree over GF(field), multiplied out."""
 
     def monic(d: int) -> Iterator[tuple[int, ...]]:
         return ((*low, 1) for low in itertools.product(range(field), repeat=d))

@@ -1,4 +1,4 @@
-"""Checking from Python: certificates as dicts and as files, systems insisted on in every form, and what Rocq is asked about."""
+"""These tests check from Python: certificates as dicts and as files, systems insisted on in every form, and what Rocq is asked about."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ ASSUMED = spoiled(CUBED, ("witness.irreducible", GONE))
 
 @pytest.fixture
 def files(tmp_path: Path) -> dict[str, Path]:
-    """One file of each result."""
+    """Return one file of each result."""
     contents = {"verified": RANKS, "verified under an assumption": ASSUMED, "rejected": FALSE, "malformed": []}
     for name, content in contents.items():
         (tmp_path / f"{name}.json").write_text(json.dumps(content), "utf-8")

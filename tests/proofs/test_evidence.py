@@ -39,7 +39,7 @@ def test_windows_have_certificates_of_their_own(place: int) -> None:
 
 
 def members_without_feedthrough(basis: Matrix, p: int) -> int:
-    """The rows whose g vanishes in a basis of the same space for which the entries of g were eliminated first."""
+    """Return the rows whose g vanishes in a basis of the same space for which the entries of g were eliminated first."""
     n = basis.ncols - p
     gains_first = row_echelon(beside(basis.columns(range(n, n + p)), basis.columns(range(n)))).matrix
     return sum(gains_first.rows([i]).columns(range(p)).is_zero() for i in range(gains_first.nrows))

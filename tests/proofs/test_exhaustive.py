@@ -15,7 +15,7 @@ Table = list[list[int]]
 
 
 def invertible(q: int, size: int) -> list[tuple[Table, Table]]:
-    """GL_size(q) with inverses, by trying every pair of matrices."""
+    """Return GL_size(q) with inverses, by trying every pair of matrices."""
     tables = [[list(e[i * size : (i + 1) * size]) for i in range(size)] for e in product(range(q), repeat=size * size)]
     one = [[int(i == j) for j in range(size)] for i in range(size)]
     return [(a, b) for a in tables for b in tables if times(a, b, q, size) == one]

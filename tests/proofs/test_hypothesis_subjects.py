@@ -99,7 +99,7 @@ def test_columns_of_another_system_do_not_lie_in_z_whatever_the_change() -> None
 
 
 def test_extreme_pairs_have_a_change_that_puts_the_columns_into_z() -> None:
-    """Every named system against itself fed back and in another basis, and with a whole basis of Z as its fault columns."""
+    """Every named system is set against itself fed back and in another basis, and with a whole basis of Z as its fault columns."""
     random = Random(0)
     for _, system in adversarial():
         if system.n > 4 or not system.n:
@@ -166,7 +166,7 @@ def test_a_wrong_assignment_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_no_pair_of_an_unobservable_system_lacks_its_unobservable_modes() -> None:
-    """Why a refused polynomial is reached by no P: D(q; P) of many P, each divisible by the modes."""
+    """A refused polynomial is reached by no P because D(q; P) is divisible by the modes, as it is for many P."""
     pencil, random = pencil_of(of([[-1, -1], [1, 1]], [[-1], [-1]], [[-1, -1]], [[-1]])), Random(1)
     for _ in range(40):
         P = Matrix.of([[random.randint(-3, 3)] for _ in range(pencil.n_z)])
@@ -175,7 +175,7 @@ def test_no_pair_of_an_unobservable_system_lacks_its_unobservable_modes() -> Non
 
 
 def test_the_codimension_is_two_for_all_degrees_of_the_kernel() -> None:
-    """All systems with (A, C) observable, r <= 4, 1 <= zeta <= 6: the degrees k_1 <= ... <= k_r, of sum zeta, decide the codimension."""
+    """With (A, C) observable, r <= 4 and 1 <= zeta <= 6, the degrees k_1 <= ... <= k_r, of sum zeta, decide the codimension."""
     tried = 0
     for r, zeta in product(range(1, 5), range(1, 7)):
         for degrees in (k for k in combinations_with_replacement(range(zeta + 1), r) if sum(k) == zeta):

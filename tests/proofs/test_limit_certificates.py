@@ -151,7 +151,7 @@ def unseen_state(monkeypatch: pytest.MonkeyPatch) -> Certificate:
 
 
 def plain_least_squares() -> Certificate:
-    """The nearest Toeplitz matrix, without the projection: as if O_s spanned nothing."""
+    """Return the nearest Toeplitz matrix, without the projection: as if O_s spanned nothing."""
     found = limit(experiments()["coloured"])
     W = found.blocks.yf_uf @ Matrix(QQ, 2, 2, found.blocks.uf_uf.flint.inv())
     B, D = [[str(W[1, 0])]], [[str((W[0, 0] + W[1, 1]) / 2)]]
@@ -197,7 +197,7 @@ def test_each_refusal_alone_keeps_something_false_out(refusal: str, monkeypatch:
 
 
 def larger(n: int, nu: int, s: int) -> Experiment:
-    """Two faults that lead the input, three outputs."""
+    """Return an experiment with two faults that lead the input, three outputs."""
     rng = Random(n)
 
     def table(height: int, width: int, bottom: int) -> list[list[str]]:

@@ -20,12 +20,12 @@ from tests.oracle import truth
 
 
 def quiet(stage: str, done: int, total: int) -> None:
-    """Progress that nobody watches."""
+    """Return a progress that nobody watches."""
 
 
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
-    """A workbench with fourteen experiments of each family, more of those in which v is independent of u."""
+    """Return a workbench with fourteen experiments of each family, more of those in which v is independent of u."""
     made = Workbench("quick", 1, quiet)
     counts = {name: 120 if name == "v independent of u" else 30 if "independent" in name else 14 for name in FAMILIES}
     made.limits = tuple(experiments._all([(name, seed) for name, count in counts.items() for seed in range(count)]))

@@ -20,7 +20,7 @@ from tests.proofs.examples import FIELDS, STABLE, seen
 
 
 def pairs(field: Field, count: int) -> list[tuple[ResidualSystem, ResidualSystem]]:
-    """Random systems with the same A and C, dimensions from 0."""
+    """Return random systems with the same A and C, dimensions from 0."""
     rng = Random(f"{field} {count}")
 
     def entry() -> object:

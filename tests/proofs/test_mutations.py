@@ -50,7 +50,7 @@ SYSTEMS = {
 
 
 def of_one_system(system: ResidualSystem) -> Iterator[dict[str, Any]]:
-    """Certificates of every kind that one system has."""
+    """Yield certificates of every kind that one system has."""
     kernel = kernel_representation(system)
     yield make.window_ranks(kernel)
     yield make.left_invertible(kernel)
@@ -71,7 +71,7 @@ def of_one_system(system: ResidualSystem) -> Iterator[dict[str, Any]]:
 
 
 def of_lines_and_stable_systems() -> Iterator[dict[str, Any]]:
-    """Lines of faults with one and two faults; stable systems with real and complex eigenvalues."""
+    """Yield certificates of lines of faults with one and two faults; stable systems with real and complex eigenvalues."""
     for field in (QQ, SQRT2, PrimeField(2), PrimeField(3)):
         yield from (make.left_invertible_line(first, second) for first, second in lines(field))
     for field in (QQ, SQRT2, CUBIC):
@@ -79,19 +79,21 @@ def of_lines_and_stable_systems() -> Iterator[dict[str, Any]]:
 
 
 def every_certificate() -> list[dict[str, Any]]:
-    """All of them."""
+    """Return the certificates of all kinds and systems of this file."""
     of_one = [c for system in SYSTEMS.values() for c in of_one_system(system)]
     return [*of_one, *of_two_systems(), *of_lines_and_stable_systems(), *of_experiments()]
 
 
 def of_experiments() -> Iterator[dict[str, Any]]:
-    """Population limits."""
+    """Yield the certificates of population limits."""
     for about in experiments().values():
         yield from limit_certificates(about)
 
 
 def of_two_systems() -> Iterator[dict[str, Any]]:
-    """Inclusion and difference, over Q, Q(sqrt 2) and GF(2); and a column that only the first block column accepts."""
+    """Yield certificates of inclusion and difference, over Q, Q(sqrt 2) and GF(2); and a column that only the first block column
+    accepts.
+    """
     for field in (QQ, SQRT2, PrimeField(2)):
         small = ResidualSystem.of([[0]], [[0]], [[1], [0]], [[0], [1]], field=field)
         large = ResidualSystem.of([[0]], [[1, 0]], [[1], [0]], [[0, 0], [0, 1]], field=field)
@@ -120,7 +122,7 @@ def changed(leaf: object) -> Iterator[object]:
 
 
 def mutations(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    """(path, replacement of the node at that path) for every mutation below this node."""
+    """Yield (path, replacement of the node at that path) for every mutation below this node."""
     if isinstance(node, dict):
         for key in node:
             yield path, {k: v for k, v in node.items() if k != key}
@@ -138,7 +140,7 @@ def mutations(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any
 
 
 def mutated(certificate: dict[str, Any], path: tuple[Any, ...], value: Any) -> Any:
-    """A copy with the node at the path replaced."""
+    """Return a copy with the node at the path replaced."""
     if not path:
         return value
     result = copy.deepcopy(certificate)
@@ -150,7 +152,7 @@ def mutated(certificate: dict[str, Any], path: tuple[Any, ...], value: Any) -> A
 
 
 def survivors(certificate: dict[str, Any]) -> tuple[int, list[dict[str, Any]]]:
-    """How many mutations there are, and those that the checker accepts."""
+    """Return how many mutations there are, and those that the checker accepts."""
     count, found = 0, []
     for path, value in mutations(certificate):
         candidate = mutated(certificate, path, value)

@@ -20,12 +20,12 @@ from tests.oracle import truth
 
 
 def quiet(stage: str, done: int, total: int) -> None:
-    """Progress that nobody watches."""
+    """Return a progress that nobody watches."""
 
 
 @pytest.fixture(scope="module")
 def bench() -> Workbench:
-    """A workbench with the pairs of every sixth system of the quick run."""
+    """Return a workbench with the pairs of every sixth system of the quick run."""
     made = Workbench("quick", 1, quiet)
     made.pairs_by_polynomial = tuple(pairs_by_polynomial._all(list(pairs_by_polynomial._systems(False))[::6]))
     made.alternatives = alternatives("quick", 1, quiet)[::9]

@@ -31,7 +31,7 @@ ROOTS = ("9/10", "-9/10", "99/100", "1/2", "0", "-1/2", "3/4")
 
 
 def polynomial(roots: list[str]) -> list[Fraction]:
-    """1, ... by falling powers, with these roots."""
+    """Return the polynomial 1, ... by falling powers, with these roots."""
     found = [Fraction(1)]
     for root in roots:
         found = [x - Fraction(root) * y for x, y in zip([*found, Fraction(0)], [Fraction(0), *found], strict=True)]
@@ -39,7 +39,7 @@ def polynomial(roots: list[str]) -> list[Fraction]:
 
 
 def some(random: Random, choices: tuple[str, ...], most: int, least: int = 0) -> list[str]:
-    """With repetitions, so that poles are double and zeros cancel more often than not."""
+    """Return choices with repetitions, so that poles are double and zeros cancel more often than not."""
     return [random.choice(choices) for _ in range(random.randint(least, most))]
 
 
@@ -68,7 +68,7 @@ def attack(seed: int) -> Experiment:
 
 
 def defied(d: LimitEvidence) -> list[str]:
-    """The readings that this experiment refutes."""
+    """Return the readings that this experiment refutes."""
     n, nu, past = d.experiment.system.residual.n, d.experiment.system.nu, d.experiment.past
     readings = {
         "two-sided": (d.uncorrelated, d.within and d.inputs_right),

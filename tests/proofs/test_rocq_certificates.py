@@ -31,7 +31,7 @@ FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
 
 def covered(certificate: dict[str, Any]) -> bool:
-    """Whether the certificate is of a covered kind, over the rational numbers."""
+    """Return whether the certificate is of a covered kind, over the rational numbers."""
     return certificate["kind"] in COVERED and '"field"' not in json.dumps(certificate)
 
 

@@ -20,7 +20,7 @@ def everything(facts: Facts) -> Flags:
 
 
 def slowly(total: int, largest: tuple[int, int, int]) -> list[dict[str, Any]]:
-    """Every system of a box in the stated order, by nested loops."""
+    """Return every system of a box in the stated order, by nested loops."""
     found = []
     sizes = sorted((d for d in product(*(range(1, x + 1) for x in largest)) if sum(d) <= total), key=lambda d: (sum(d), d[0], d[1], d[2]))
     for n, m, p in sizes:
@@ -73,7 +73,7 @@ def test_facts_agree_with_the_oracle() -> None:
 
 
 def slow_gap_is_wrong(data: dict[str, Any]) -> bool:
-    """Observable, left-invertible, and gap(s) != m for some s >= max(l, n - 1, 1): straight from the oracle."""
+    """Say whether it is observable, left-invertible, and gap(s) != m for some s >= max(l, n - 1, 1): straight from the oracle."""
     slow = inspect_slowly(data)
     if not (slow["observable"] and slow["left_invertible"]):
         return False

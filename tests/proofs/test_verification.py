@@ -20,7 +20,7 @@ from tests.oracle import truth
 
 
 def quiet(stage: str, done: int, total: int) -> None:
-    """Progress that nobody watches."""
+    """Return a progress that nobody watches."""
 
 
 @pytest.fixture(scope="module")

@@ -32,8 +32,8 @@ HERE = Path(__file__).parent
 
 @dataclass(frozen=True)
 class Peer:
-    """`adapter`: a module name for `adapter.load`, or None; `command`: a command for `subprocess_adapter.Exec`, or None. `version` gives
-    None where the peer is not installed; `needs` says in a line what to install.
+    """This is a package to compare with. `adapter`: a module name for `adapter.load`, or None; `command`: a command for
+    `subprocess_adapter.Exec`, or None. `version` gives None where the peer is not installed; `needs` says in a line what to install.
     """
 
     name: str
@@ -54,7 +54,7 @@ def _distribution(name: str) -> str | None:
 
 @cache
 def _octave(package: str | None = None) -> str | None:
-    """Octave's version, with that of one of its packages; None where either is missing."""
+    """Return Octave's version, with that of one of its packages; None where either is missing."""
     if shutil.which(OCTAVE[0]) is None:
         return None
     known = f"d = pkg('describe', '{package}'); printf('Octave %s, {package} %s', version(), d{{1}}.version)"

@@ -1,4 +1,4 @@
-"""What SLICOT's AB08ND tells, in the words of the audit: for the packages that wrap it."""
+"""This is what SLICOT's AB08ND tells, in the words of the audit: for the packages that wrap it."""
 
 from __future__ import annotations
 

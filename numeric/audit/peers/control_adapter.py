@@ -34,7 +34,7 @@ def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any,
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
-    """By slycot where that is installed, else of square systems alone."""
+    """Return the zeros, found by slycot where that is installed, else of square systems alone."""
     try:
         return {"finite_zeros": [complex(z) for z in control.StateSpace(A, F, C, G, True).zeros()]}
     except NotImplementedError as lacking:

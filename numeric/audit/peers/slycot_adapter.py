@@ -1,4 +1,4 @@
-"""slycot: ab08nd, SLICOT's normal rank, finite zeros and infinite zeros."""
+"""This calls slycot: ab08nd, SLICOT's normal rank, finite zeros and infinite zeros."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._slicot import structure_of
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
-    """The package's default: no scaling, its own tolerance."""
+    """Return the zeros as the package finds them by default: no scaling, its own tolerance."""
     n, m = len(A), F.shape[1]
     try:
         nu, rank, dinfz, _, _, infz, _, _, Af, Bf = slycot.ab08nd(n, m, len(C), A, F, C, G)

@@ -20,7 +20,7 @@ ONE, TWO = "fault-dimension[one-fault]", "fault-dimension[two-faults]"
 
 
 def _adapter(tmp_path: Path, body: str, head: str = "") -> str:
-    """Right for three outputs and one fault after `body`, which runs for the vector of one fault alone."""
+    """Return an adapter that is right for three outputs and one fault after `body`, which runs for the vector of one fault alone."""
     lines = [
         "import ctypes, os, sys, time",
         "import numpy as np",

@@ -55,7 +55,7 @@ def test_the_plain_check_would_not_have_seen_it(name: str, plain: str) -> None:
 
 
 def _answers_everything() -> SimpleNamespace:
-    """Some answer of the right kind whatever the question."""
+    """This gives some answer of the right kind whatever the question."""
     return SimpleNamespace(
         identify=lambda y, u, order, block_rows: (
             np.eye(order) / 2,
@@ -82,7 +82,7 @@ def test_who_answers_everything_fails_every_check_that_asks_for_a_refusal() -> N
 
 
 def test_every_must_is_seen_to_fail() -> None:
-    """By a mutant, or by who answers everything."""
+    """Each is caught by a mutant, or by an implementation that answers everything."""
     musts = {check.slug for check in all_checks() if check.kind is not Demand.FREE}
     assert musts == {slug for mutant in MUTANTS for slug in (mutant.caught_by, *mutant.also)} | set(REFUSALS)
 

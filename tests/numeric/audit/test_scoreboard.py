@@ -36,7 +36,7 @@ def test_the_pages_are_made_of_the_file(tmp_path: Path) -> None:
 
 
 def test_the_file_is_of_the_checks_that_there_are() -> None:
-    """Each slug and function of our own, asked as often as there are vectors, and every package on the board."""
+    """Each slug and function of our own is asked as often as there are vectors, and every package is on the board."""
     asked: dict[tuple[str, str], int] = {}
     for check in all_checks():
         asked[check.slug, check.function] = asked.get((check.slug, check.function), 0) + 1

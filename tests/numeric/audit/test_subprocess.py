@@ -23,7 +23,7 @@ OFFER = "    if q['call'] == 'functions':\n        a = {'functions': ['fault_dim
 
 
 def _program(tmp_path: Path, body: str) -> list[str]:
-    """A Python program that answers by `body`, which sets `a` from `q`."""
+    """Return a Python program that answers by `body`, which sets `a` from `q`."""
     file = tmp_path / "program.py"
     file.write_text(f"{PREAMBLE}{OFFER}    else:\n        {body}\n    print(json.dumps(a), flush=True)\n", "utf-8")
     return [sys.executable, str(file)]

@@ -89,7 +89,7 @@ def test_the_coverage_that_is_promised() -> None:
 
 @pytest.mark.parametrize("vector", shipped("identification"), ids=lambda vector: vector.slug)
 def test_outputs_by_convolution(vector: Any) -> None:
-    """y(k) = sum of Markov parameters times u, plus the free response, in 200 digits less than Fractions would need: in floats."""
+    """In floats, y(k) is the sum of Markov parameters times u plus the free response; Fractions would need 200 digits more."""
     n, y, u = len(range(vector.u.nrows)), floats(vector.y), floats(vector.u)
     parameters = [floats(part) for part in markov(vector.A, vector.B, vector.C, vector.D, n)]
     state, A, C = floats(vector.x0).ravel(), floats(vector.A), floats(vector.C)
