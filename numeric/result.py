@@ -1,4 +1,4 @@
-"""What `identify` returns: the findings, with a face for people, programs and notebooks.
+"""What `identify` returns: the findings, with methods to print, plot and save them.
 
 Identification   the findings with summary, plot, save and to_json
 """

@@ -19,12 +19,13 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace import example_data as made
+from faultspace.cli.reading_files import _MODEL_KEYS, MODEL_FORMAT
 from faultspace.numeric import choice as identification_signal
 from faultspace.numeric import pipeline as identifying
 from faultspace.numeric.count.rank_gap import fault_dimension
 from faultspace.numeric.data.files import read_record
 from faultspace.numeric.data.records import recorded
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.model.models import FORMAT, StateSpaceModel
 from faultspace.numeric.report import files as report
 from faultspace.numeric.report import folders
 from faultspace.numeric.report.folders import MANIFEST
@@ -128,7 +129,7 @@ def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Pat
 def test_inspect_reads_the_model_where_floats_are_taken_exactly(csv_file: Path, tmp_path: Path) -> None:
     assert identified(csv_file, tmp_path / "out").code == 0
     model = tmp_path / "out" / report.MODEL
-    validator("model").validate(json.loads(model.read_text("utf-8")))
+    validator("model", "faultspace.numeric").validate(json.loads(model.read_text("utf-8")))
     run = call("inspect", str(model), "--floats-exactly", "--json")
     assert run.code == 0, run.err
     assert "confirms nothing about the plant" in run.err
@@ -136,6 +137,11 @@ def test_inspect_reads_the_model_where_floats_are_taken_exactly(csv_file: Path, 
     got = {key: run.json[key] for key in ("n", "m", "p", "normal_rank", "zeta", "fault_space_dimension", "delay_known_state")}
     assert got == {"n": 3, "m": 1, "p": 3, "normal_rank": 1, "zeta": 0, "fault_space_dimension": 1, "delay_known_state": 0}
     refused(call("inspect", str(model)), "floats", "--floats-exactly")
+
+
+def test_who_reads_a_model_knows_the_format_and_the_keys_of_who_writes_it() -> None:
+    assert MODEL_FORMAT == FORMAT
+    assert set(_MODEL_KEYS) == set(validator("model", "faultspace.numeric").schema["properties"])
 
 
 @pytest.mark.parametrize("change", [{"x": 1}, {"F": None}, {"A": None}, {"n": 2}])
