@@ -28,7 +28,8 @@ def print_lines(console: Console, report: Report) -> None:
     print_table(console, claims_table(claims))
     for line in differences(report):
         paragraph(console, Text(line, style="bold red"), "! ")
-    occurring = [verdict for verdict in Verdict if any(claim.verdict == verdict for claim in claims)]
+    there = {claim.verdict for claim in claims} | {one.outcome.verdict for claim in claims for one in claim.readings}
+    occurring = [verdict for verdict in Verdict if verdict in there]
     paragraph(console, Text("; ".join(f"{verdict}: {verdict.meaning}" for verdict in occurring) + ".", style="dim"))
     if report.hypotheses:
         paragraph(console, hypothesis_words(report.hypotheses), "hypotheses: ")

@@ -13,7 +13,7 @@ A fault in one output alone with the colour of the noise is noise by every stati
 noise level is known. Without noise the ranks of `fault_dimension` count, which are exact.
 
 The constants were set by hand: FAINTEST and KNOWN_TO state assumptions (how faint a last fault may be, how true a stated level is), and
-no theory gives them; those that decide whether rows are laws, SUFFICES and FAILS, are told in `laws.py`.
+no theory gives them; those that decide whether rows are laws, SUFFICES, FAILS (of one row) and FAR (of several), stand in `laws.py`.
 
     count_faults    FaultCount: n_v, or "p - 1 or p", or undecided, the reason, and every test made
 """

@@ -77,7 +77,10 @@ def of_row(row: Row, attacks: Attacking) -> Row:
 def _absent(target: str, found: tuple[Attacked, ...]) -> str | None:
     """Says that the file of results has nothing on a statement that we know how to attack: what was tried is then not known."""
     known = len(tuple(attacks_on(target)))
-    return f"{known} attacks on this are known, and the file of results has none" if known and not found else None
+    if not known or found:
+        return None
+    command = "python -m faultspace.proofs.adversary --stale --out proofs/adversary/results.json"
+    return f"{known} attacks on this are known, and the file of results has none; run {command}"
 
 
 def _against(found: tuple[Attacked, ...]) -> str | None:

@@ -195,7 +195,34 @@ def of_experiments() -> Iterator[tuple[str, bytes]]:
     yield "stable by far", dumped("schur-stable", {"system": small}, STABLE["witness"])
 
 
+def of_kernel_rows() -> Iterator[tuple[str, bytes]]:
+    """Yield long kernel rows of large systems, for the kinds whose statement rests on them; those of silent outputs are true."""
+    rng = Random(6)
+    for n, m, p in ((170, 170, 170), (1, 255, 255), (500, 0, 10), (30, 30, 60), (0, 0, 0)):
+        width = n + p
+        silent = {**system(n, m, p, lambda i, j: rng.randrange(10**6)), "C": [[0] * n] * p, "G": [[0] * m] * p}
+        loud = system(n, m, p, lambda i, j: rng.randrange(10**6))
+        units = [{"pivot": i, "coefficients": [[int(i == j) for j in range(p)]]} for i in range(p)]
+        rows = max(1, min(p, BYTES // (200 * (p + 1))))
+        long = [{"pivot": i, "coefficients": [[1] * p] * min(4096, BYTES // (4 * rows * (p + 1)))} for i in range(rows)]
+        for about, kernel in ((silent, units), (loud, units), (loud, long)):
+            witness = {"prime": LARGE_PRIME, "kernel": kernel}
+            name = f"{n} {m} {p} {'silent' if about is silent else 'loud'} {'units' if kernel is units else 'long'}"
+            for window in (None, 4096):
+                basis = [[int(i == j) for j in range(width)] for i in range(n)]
+                yield f"fault space {name} {window}", dumped("fault-space", {"system": about, "window": window, "basis": basis}, witness)
+            column = {"system": about, "window": 4096, "column": [1] * width}
+            yield f"first column {name}", dumped("first-column-only", column, witness)
+            yield f"inclusion {name}", dumped("behaviour-inclusion", {"inner": about, "outer": about}, witness)
+            yield f"equal {name}", dumped("behaviour-equality", {"first": about, "second": about}, witness)
+        for length in (1, 400, 4096):
+            if length * (m + p) * 2 < BYTES:
+                word = {"x0": [9] * n, "v": [[9] * m] * length, "row": [[9] * p] * length}
+                claim = {"first": loud, "second": silent, "window": length}
+                yield f"difference {n} {m} {p} {length}", dumped("behaviour-difference", claim, word)
+
+
 def floods() -> Iterator[tuple[str, bytes]]:
     """All of them, one after the other: together they do not fit into a small memory."""
-    for part in (of_json, of_sizes, of_numbers, of_experiments):
+    for part in (of_json, of_sizes, of_numbers, of_experiments, of_kernel_rows):
         yield from part()

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -62,8 +63,9 @@ def cost(file: Path) -> Cost:
 @pytest.mark.timeout(3000)
 def test_floods_are_answered_or_refused_in_time(tmp_path: Path) -> None:
     every = 1 if os.environ.get("FAULTSPACE_FLOODS") == "all" else 40
-    file, tried, codes = tmp_path / "flood.json", 0, set[int]()
+    file, tried, codes, kinds = tmp_path / "flood.json", 0, set[int](), set[str]()
     for i, (name, content) in enumerate(floods()):
+        kinds |= {one.decode() for one in re.findall(rb'"kind":"([a-z-]+)"', content)}
         if i % every == 0 or name in WORST:
             file.write_bytes(content)
             found = cost(file)
@@ -72,6 +74,7 @@ def test_floods_are_answered_or_refused_in_time(tmp_path: Path) -> None:
             tried += 1
             codes.add(found.code)
     assert tried > 10 and codes >= {0, 1, 2}
+    assert kinds >= set(checker.KINDS), "every kind must be asked for more than it may do"
 
 
 def test_a_checker_that_does_not_charge_is_flooded(tmp_path: Path) -> None:
