@@ -230,8 +230,9 @@ def identify(
     """Find model and faults in measured data.
 
     That is: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell, which is an answer too: exit 0.
-    DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused. A channel is a column's name; of
-    a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
+    DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
+
+    A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
     the matrix is called data.
     """
     from . import identifying
