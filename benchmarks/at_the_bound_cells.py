@@ -1,8 +1,9 @@
-"""Records with strong coloured faults and what is true of them: the systems on which models are compared with the Cramer-Rao bound.
+"""Make records with strong coloured faults, and what is true of them, on which models are compared with the Cramer-Rao bound.
 
-    paper      systems of the study (n = 5, p = 3, one input), its two faults (a chirp, a slow rise in white noise), low-pass noise 40 dB
-    down 2in3out    n = 4, p = 3, two inputs, one AR(1) fault as strong as the inputs' response, white sensor noise 40 dB down 1in1out    n
-    = 4, p = 1, one input, the same
+    paper      systems of the study (n = 5, p = 3, one input), its two faults (a chirp, a slow rise in white noise), low-pass noise
+               40 dB down
+    2in3out    n = 4, p = 3, two inputs, one AR(1) fault as strong as the inputs' response, white sensor noise 40 dB down
+    1in1out    n = 4, p = 1, one input, the same
 
 Inputs are white, or coloured: AR(1) with coefficient 0.8. The disturbance's spectrum is known but for the study's faults, which are no
 stationary signals: theirs is their periodogram smoothed by a Gaussian of BANDWIDTH radians; the null of the low-pass is filled to NULL of
@@ -38,7 +39,7 @@ ZEROS = 4  # numbers of zeros of the study, 0 to 3, in turn
 
 @dataclass(frozen=True)
 class Trial:
-    """y (N, p), u (N, n_u), the model that made them but for faults and noise, and the spectra."""
+    """A trial has y (N, p), u (N, n_u), the model that made them but for faults and noise, and the spectra."""
 
     y: Array
     u: Array
@@ -48,18 +49,18 @@ class Trial:
 
 @dataclass(frozen=True)
 class Cell:
-    """One kind of systems with one kind of inputs."""
+    """A cell is one kind of systems with one kind of inputs."""
 
     kind: str
     coloured: bool
 
     @property
     def name(self) -> str:
-        """As the tables show it."""
+        """Return the name that the tables show."""
         return f"{self.kind} {'coloured' if self.coloured else 'white'}"
 
     def trial(self, seed: int, number: int, samples: int) -> Trial:
-        """The record of this number, the same for the same seed."""
+        """Draw the record of this number, which is the same for the same seed."""
         kind = ("paper", "2in3out", "1in1out").index(self.kind)
         rng = np.random.default_rng([seed, kind, self.coloured, number, samples])
         if self.kind == "paper":
@@ -96,7 +97,7 @@ def _of_the_study(seed: int, number: int, samples: int, coloured: bool, rng: np.
 
 
 def _smoothed(v: Array) -> Spectrum:
-    """The periodogram of each fault, smoothed."""
+    """Return the smoothed periodogram of each fault as a spectrum."""
     power = np.abs(np.fft.rfft(v - v.mean(axis=0), axis=0)[1:]) ** 2 / len(v)
     at = 2 * np.pi * np.arange(1, len(power) + 1) / len(v)
 
@@ -132,7 +133,7 @@ def _one_fault(samples: int, coloured: bool, rng: np.random.Generator, n_u: int,
 
 
 def _stable(n: int, rng: np.random.Generator) -> tuple[Array, Array]:
-    """A (n, n) with poles 0.15 apart of modulus 0.3 to 0.95, turned by an orthogonal matrix that is returned too."""
+    """Draw A (n, n) with poles 0.15 apart of modulus 0.3 to 0.95, turned by an orthogonal matrix that is returned too."""
     while True:
         poles: list[complex] = []
         while len(poles) < n:

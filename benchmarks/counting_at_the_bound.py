@@ -1,10 +1,10 @@
-"""Kernel rows of outputs and inputs: the number of faults, the number of zeros and the fault space, on seeds that no rule was chosen on.
+"""Try kernel rows of outputs and inputs: the numbers of faults and zeros and the fault space, on seeds that no rule was chosen on.
 
     python benchmarks/counting_at_the_bound.py {count,space,calibrate} [--trials 30] [--seed 1] [--samples 1001] [--limit SECONDS]
 
 count       `count_faults` on random plants of order 5 with one input (`fault_dimension.py`): p outputs, n_v faults, noise so many
             decibels below each output, equal for spread 1, else the loudest to the faintest in that ratio, in random order
-space       `fault_space_by_rows` on the systems of the study with 0 .. 3 zeros, noise 40 dB down, n_v told: with the true A, C, with those
+space       `fault_space_by_rows` on the systems of the study with 0 .. 3 zeros, noise 40 dB down, n_v given: with the true A, C, with those
             of PI-MOESP and those of the weighted reduction of an ARX model; zeta right, undecided, wrong; distance to the true space in
             % of its maximum; how often the stated 95 % angle holds, where zeta is right and A, C are true
 calibrate   means of the likelihood ratios over what they should be, where the rows are laws: what MISFITS and SHAPE_MISFIT are set by
@@ -60,7 +60,7 @@ COUNT_CELLS = (
 
 
 def record(seed: int, p: int, n_v: int, decibels: float, spread: float, samples: int) -> tuple[Array, Array]:
-    """y (samples, p) and u (samples, 1)."""
+    """Make y (samples, p) and u (samples, 1)."""
     random = np.random.default_rng([seed, p, n_v, int(decibels), int(spread), samples])
     plant = random_plant(random, p, max(n_v, 1))
     state, u = random.standard_normal(N_X), random.standard_normal((samples, 1))
@@ -152,7 +152,7 @@ def aligned(system: StudySystem, found: FaultSpaceEstimate, A: Array, C: Array) 
 
 
 def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
-    """Ratios over their expectations: of degrees on the study's systems, of sphericity and flatness on random plants."""
+    """Print ratios over their expectations: of degrees on the study's systems, of sphericity and flatness on random plants."""
     degree: dict[int, list[float]] = {1: [], 2: [], 3: []}
     laws: list[tuple[float, float]] = []
     for trial in clock.range(trials):
@@ -201,7 +201,7 @@ def median(errors: Array) -> str:
 
 
 class Clock:
-    """Trials as long as there is time, shared equally among the calls that are left."""
+    """The clock gives trials as long as there is time, which is shared equally among the calls that are left."""
 
     def __init__(self, seconds: float, calls: int) -> None:
         self.end, self.left = time.monotonic() + seconds, calls

@@ -1,4 +1,4 @@
-"""The arguments of the library as the options of the commands, in messages that name them.
+"""Write the arguments of the library as the options of the commands, in messages that name them.
 
 as_options      a message of the library in the words of the command line
 OPTIONS         argument -> option
@@ -17,8 +17,9 @@ _SUBJECT = re.compile(r"(?:^|(?<=: ))(" + "|".join(OPTIONS) + "): ")
 
 
 def as_options(message: str) -> str:
-    """`order=3` becomes `--order 3`, `remove_means=True` becomes `--remove-means`, and what begins with `n_v: `, be it after a file's
-    name, is about `--faults`.
+    """Return the message in options: `order=3` becomes `--order 3`, and `remove_means=True` becomes `--remove-means`.
+
+    What begins with `n_v: `, be it after a file's name, is about `--faults`.
     """
     message = _SUBJECT.sub(lambda found: f"{OPTIONS[found[1]]}: ", message)
     return _ARGUMENT.sub(lambda found: OPTIONS[found[1]] + (f" {found[2]}" if found[2] else ""), message)

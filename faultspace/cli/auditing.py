@@ -1,4 +1,4 @@
-"""`faultspace audit`: an implementation through the checks of `faultspace.numeric.audit`.
+"""Run `faultspace audit`, which puts an implementation through the checks of `faultspace.numeric.audit`.
 
 run          the command's body
 list_peers   the published packages that adapters come for
@@ -36,9 +36,9 @@ def run(
     as_json: bool,
     verbose: bool = False,
 ) -> int:
-    """Audits the adapter of that name, the program `command` or the package `peer`, each check within so many seconds and GiB.
+    """Audit the adapter of that name, the program `command` or the package `peer`, each check within so many seconds and GiB.
 
-    The code is 0 where every must is met, else 1; raises InvalidInput.
+    The code is 0 where every must is met, else 1. Raises InvalidInput.
     """
     with working("starting the adapter") as tell:
         found = audit(adapter, command=command, peer=peer, only=only, seconds=seconds, gibibytes=gibibytes, on_progress=tell)
@@ -50,7 +50,7 @@ def run(
 
 
 def list_peers(*, as_json: bool) -> int:
-    """The packages that adapters come for: version where it is here, else what it needs. 0."""
+    """Print the packages that adapters come for, with the version where it is here and else what it needs, and return 0."""
     found = [(one, one.version()) for one in PEERS]
     if as_json:
         print_json([{"name": one.name, "language": one.language, "version": version, "needs": one.needs} for one, version in found])
@@ -65,7 +65,7 @@ def list_peers(*, as_json: bool) -> int:
 
 
 def _print(console: Console, found: Audit, *, verbose: bool) -> None:
-    """The tables, the failures in words, and the summary line as the last."""
+    """Print the tables, the failures in words, and the summary line as the last."""
     if verbose:
         print_table(console, table(found))
         console.print()
@@ -78,7 +78,7 @@ def _print(console: Console, found: Audit, *, verbose: bool) -> None:
 
 
 def by_function(tallies: Sequence[FunctionTally]) -> Table:
-    """The table has one row a function. What is free, or not offered, is not counted, as it cannot fail."""
+    """Return a table with one row for each function. What is free, or not offered, is not counted, as it cannot fail."""
     result = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
     result.add_column("function", overflow="fold")
     for column in ("checks", "passed", "failed", "free"):
@@ -93,7 +93,7 @@ def by_function(tallies: Sequence[FunctionTally]) -> Table:
 
 
 def table(results: Sequence[CheckResult]) -> Table:
-    """The table has one row a check, under the name of its function."""
+    """Return a table with one row for each check, under the name of its function."""
     rows = Table(box=None, pad_edge=False, header_style="bold")
     for column in ("check", "claim", "asks", "verdict"):
         rows.add_column(column, no_wrap=True)

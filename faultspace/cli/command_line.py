@@ -1,4 +1,4 @@
-"""The command `faultspace`: what can be said on the command line. Each command's work is in a module of its own, imported when asked for.
+"""Declare what the command `faultspace` understands. Each command's work is in a module of its own, imported when asked for.
 
 main         runs it and returns the exit code
 app          the commands, for typer
@@ -56,7 +56,7 @@ OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", show_default=False, 
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command line (`sys.argv` when no arguments are given) and returns the exit code. Never raises for bad input."""
+    """Run the command line (`sys.argv` when no arguments are given) and return the exit code. It never raises for bad input."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:  # closed by the caller; the replacement lives as long as the process
@@ -94,8 +94,8 @@ def _top(
 
 
 def _command(name: str | None = None) -> Callable[[Callable[Given, int]], Callable[Given, int]]:
-    """Makes a command of a function that parses nothing more, calls one module of this folder, imported by then only, and returns the exit
-    code: everything that can go wrong in it is told on one line, and the process leaves with the code that belongs to it.
+    """Make a command of a function that parses nothing more, calls one module of this folder, imported by then only, and returns the exit
+    code: everything that can go wrong in it is said on one line, and the process leaves with the code that belongs to it.
     """
 
     def made(body: Callable[Given, int]) -> Callable[Given, int]:

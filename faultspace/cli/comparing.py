@@ -1,4 +1,4 @@
-"""`faultspace compare`: whether two systems make the same outputs, and a word that separates them where they do not.
+"""Run `faultspace compare`, which decides whether two systems make the same outputs and shows a word that separates them if not.
 
 run          the command's body
 """
@@ -18,7 +18,7 @@ from .reading_files import read_system
 
 
 def run(names: tuple[str, str], *, as_json: bool, expected: str | None, word: bool, floats_exactly: bool) -> int:
-    """Compares the systems in two files; `expected` is "equivalent", "different" or None."""
+    """Compare the systems in two files; `expected` is "equivalent", "different" or None."""
     systems = [read_system(name, floats_exactly=floats_exactly).residual for name in names]
     both = " and ".join(map(quote_path, names))
     with in_file(both), working(f"comparing {both}"):

@@ -1,4 +1,4 @@
-"""Standard output, where answers go; how it is going is told on standard error (`progress`).
+"""Print answers on standard output; how far a command has come is shown on standard error (`progress`).
 
 answers        the console for tables: colours and the window's width on a terminal, plain and 140 wide or more elsewhere
 print_json     one document on one line
@@ -23,7 +23,7 @@ UNBOUNDED = 1_000_000
 
 
 class _Answers(Console):
-    """A console that leaves a broken pipe to `failures.guarded`."""
+    """This console leaves a broken pipe to `failures.guarded`."""
 
     def on_broken_pipe(self) -> None:
         self.quiet = True
@@ -31,14 +31,14 @@ class _Answers(Console):
 
 
 def answers() -> Console:
-    """Answers are printed on this console."""
+    """Return the console on which answers are printed."""
     plain = not sys.stdout.isatty()
     width = max(PIPED_WIDTH, _columns()) if plain else None
     return _Answers(file=sys.stdout, width=width, markup=False, highlight=False, emoji=False)
 
 
 def paragraph(console: Console, text: Text | str, label: Text | str = "") -> None:
-    """The text after its label, on a terminal broken between words; elsewhere each line of it is one line, however long.
+    """Print the text after its label, on a terminal broken between words; elsewhere each line of it is one line, however long.
 
     The lines below begin below the first word, or a little right of the label where that leaves too little room. Nothing is cut: a word
     that is longer than a line goes on in the next.
@@ -54,7 +54,7 @@ def paragraph(console: Console, text: Text | str, label: Text | str = "") -> Non
 
 
 def _broken(console: Console, line: Text, head: str) -> list[Text]:
-    """The line in pieces that fit, all but the first behind the same indentation."""
+    """Return the line in pieces that fit, all but the first behind the same indentation."""
     width = max(console.width, 1)
     if line.cell_len <= width:
         return [line]
@@ -76,7 +76,7 @@ def _broken(console: Console, line: Text, head: str) -> list[Text]:
 
 
 def print_table(console: Console, table: Table) -> None:
-    """The table where its columns fit, and elsewhere a paragraph for each row, which names every column that it has a value for."""
+    """Print the table where its columns fit, and else a paragraph for each row, which names every column that it has a value for."""
     unbounded = console.options.update(width=UNBOUNDED)  # else the measure is no wider than the window
     if Measurement.get(console, unbounded, table).minimum <= console.width:
         console.print(table)
@@ -90,7 +90,7 @@ def print_table(console: Console, table: Table) -> None:
 
 
 def print_json(document: object) -> None:
-    """The document on one line of standard output."""
+    """Print the document on one line of standard output."""
     sys.stdout.write(json.dumps(document) + "\n")
     sys.stdout.flush()
 

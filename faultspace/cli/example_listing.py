@@ -1,4 +1,4 @@
-"""`faultspace examples`: what comes with the package, listed or copied into a folder, with a record of faulty data.
+"""Run `faultspace examples`, which lists what comes with the package or copies it into a folder, with a record of faulty data.
 
 run          the command's body
 """
@@ -19,7 +19,7 @@ from .reading_files import prepare_folder, write_json, write_text
 
 
 def run(folder: Path | None, *, as_json: bool) -> int:
-    """Lists the examples; with a folder copies them there first, overwriting files of these names only."""
+    """List the examples; with a folder, copy them there first, overwriting files of these names only."""
     if folder is not None:
         prepare_folder(folder)
         for name in DESCRIPTIONS | EXPERIMENTS:

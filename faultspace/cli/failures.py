@@ -1,7 +1,7 @@
-"""What becomes of everything that can go wrong at the command line: one line on standard error and an exit code, never a traceback.
+"""Turn everything that can go wrong at the command line into one line on standard error and an exit code, never a traceback.
 
 guarded       runs a command's body and returns its exit code
-asks_report   tells of an error that is ours, with what to send; the code OUR_ERROR
+asks_report   reports an error that is ours, with what to send; the code OUR_ERROR
 say           one line on standard error
 TRACEBACK     the environment variable that has the traceback of an error of ours printed, too
 ANSWERED 0, NOT_AS_EXPECTED 1, BAD_INPUT 2; OUR_ERROR 70 as in sysexits.h; INTERRUPTED 130 and BROKEN_PIPE 141 as shells count signals
@@ -27,7 +27,7 @@ LONGEST_LINE = 1200
 
 
 def guarded(body: Callable[[], int]) -> int:
-    """The exit code of `body`, or the one that belongs to what it raised."""
+    """Return the exit code of `body`, or the one that belongs to what it raised."""
     try:
         code = body()
         sys.stdout.flush()
@@ -54,8 +54,9 @@ def guarded(body: Callable[[], int]) -> int:
 
 
 def asks_report(error: Exception) -> int:
-    """One line says what broke and where, that it is no fault of the input, and what a report needs; the traceback comes where TRACEBACK is
-    set.
+    """Say in one line what broke and where, that it is no fault of the input, and what a report needs.
+
+    The traceback comes too where TRACEBACK is set.
     """
     if os.environ.get(TRACEBACK):
         traceback.print_exception(error)
@@ -73,7 +74,7 @@ def asks_report(error: Exception) -> int:
 
 
 def say(message: str) -> None:
-    """One line on standard error, whatever the message holds, on a terminal broken between words; a very long one lacks its middle."""
+    """Print one line on standard error, whatever the message holds, on a terminal broken between words; a long one lacks its middle."""
     line = " ".join(message.split())
     if len(line) > LONGEST_LINE:
         line = f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
@@ -85,7 +86,7 @@ def say(message: str) -> None:
 
 
 def _columns() -> int:
-    """How wide the terminal of standard error is; 0 where nobody knows."""
+    """Return how wide the terminal of standard error is; 0 where nobody knows."""
     try:
         return int(os.environ.get("COLUMNS") or 0) or os.get_terminal_size(sys.stderr.fileno()).columns
     except (OSError, ValueError):
@@ -93,6 +94,6 @@ def _columns() -> int:
 
 
 def forget_output() -> None:
-    """Nobody reads standard output any more: what is still to be flushed goes nowhere, quietly."""
+    """Let what is still to be flushed go nowhere, quietly, because nobody reads standard output any more."""
     with suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,4 +1,4 @@
-"""Commands that answer about one file after the other: a bad one is told and the rest is still done.
+"""Answer about one file after the other: a bad one is reported and the rest is still done.
 
 FileAnswer        what is known about a file: a heading, and the record with its `sheet` and `to_json`
 answer_each   the command's body: answers, printed or as JSON; the largest exit code
@@ -20,7 +20,7 @@ from .failures import ANSWERED, BAD_INPUT, say
 
 
 class Readable(Protocol):
-    """A record that people and programs can read."""
+    """This is a record that people and programs can read."""
 
     def sheet(self) -> Sheet: ...
 
@@ -36,7 +36,7 @@ class FileAnswer:
 
 
 def answer_each(names: Sequence[str], answer: Callable[[str], FileAnswer], *, as_json: bool) -> int:
-    """As JSON one file gives an object, several an array of objects that also say which "file" they are about."""
+    """Print the answer on each file; as JSON, one file gives an object, several an array of objects that also name their "file"."""
     code = ANSWERED
     console = answers()
     documents = []
@@ -59,7 +59,7 @@ def answer_each(names: Sequence[str], answer: Callable[[str], FileAnswer], *, as
 
 
 def _print(console: Console, name: str, given: FileAnswer) -> None:
-    """The lines have no frame."""
+    """Print the lines without a frame."""
     paragraph(console, Text.assemble((quote_path(name), "bold"), f"   {given.heading}"))
     for label, value in given.found.sheet():
         paragraph(console, *((value, line(label, " ")[:-1]) if value else (Text(line(label, ""), style="bold cyan"),)))

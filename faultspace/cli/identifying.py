@@ -1,4 +1,4 @@
-"""`faultspace identify`: a record is read, identified, written into a folder and told.
+"""Run `faultspace identify`, which reads a record, identifies it, writes the answer into a folder and prints it.
 
 run              the command's body
 """
@@ -37,11 +37,10 @@ def run(
     remove_means: bool,
     as_json: bool,
 ) -> int:
-    """Identifies and writes the files of `report.NAMES` into `out`; exit code 0 whenever there is an answer, "undecided" included.
+    """Identify and write the files of `report.NAMES` into `out`; the exit code is 0 whenever there is an answer, "undecided" included.
 
-    A folder with a file of these names that no earlier run wrote is refused before anything is read.
-
-    Where there is none, folders that were made for it go again.
+    A folder with a file of these names that no earlier run wrote is refused before anything is read. Where there is no answer, folders that
+    were made for it go again.
     """
     taken = [name for name in report.NAMES if (out / name).exists() and _same(out / name, data)]
     if taken:
@@ -84,7 +83,7 @@ def run(
 
 
 def _missing(folder: Path) -> list[Path]:
-    """The folders that would have to be made for this one, innermost first."""
+    """Return the folders that would have to be made for this one, innermost first."""
     try:
         return [part for part in (folder, *folder.parents) if not part.exists()]
     except OSError:

@@ -1,4 +1,4 @@
-"""`faultspace limit`: what subspace identification converges to for an experiment, exactly.
+"""Run `faultspace limit`, which computes exactly what subspace identification converges to for an experiment.
 
 run          the command's body
 """
@@ -15,7 +15,7 @@ from .reading_files import read_experiment
 
 
 def run(names: Sequence[str], *, as_json: bool, floats_exactly: bool) -> int:
-    """Answers one file after the other. The largest exit code."""
+    """Answer one file after the other, and return the largest exit code."""
 
     def answer(name: str) -> FileAnswer:
         experiment = read_experiment(name, floats_exactly=floats_exactly)

@@ -1,10 +1,12 @@
-"""How far a command has come, on standard error and by the same code for every command: nothing for two seconds; then one line that moves
-where standard error is a terminal, and elsewhere a plain line, again after ten seconds at the least and only where something has changed.
+"""Show how far a command has come, on standard error and by the same code for every command.
+
+Nothing is shown for two seconds. Then one line moves where standard error is a terminal; elsewhere there is a plain line, and another one
+after ten seconds at the least and only where something has changed.
 
 working      gives a function to call with (stage, done, total, seconds left); total 0 says that nobody knows how much there is
 evenly       the same function for work whose parts take equally long: it adds the time that is left
 Tell         the type of that function
-State        what was told last
+State        how far the work was when it was last reported
 """
 
 from __future__ import annotations
@@ -34,7 +36,7 @@ class Tell(Protocol):
 
 @dataclass(frozen=True)
 class State:
-    """What was told last; `total` is 0 where it is not known."""
+    """This is what was reported last; `total` is 0 where it is not known."""
 
     stage: str
     done: int = 0
@@ -43,7 +45,7 @@ class State:
 
     @property
     def amount(self) -> str:
-        """How much of how much, in percent where the numbers are long, and the time that is left; empty where nothing is known."""
+        """Return how much of how much, in percent where the numbers are long, and the time that is left; empty where nothing is known."""
         if not self.total:
             return ""
         count = f"{self.done} of {self.total}" if self.total < MOST_COUNTED else f"{100 * self.done / self.total:.0f} %"
@@ -51,13 +53,13 @@ class State:
 
     @property
     def line(self) -> str:
-        """This is the plain line."""
+        """Return the plain line."""
         return f"{self.stage} ({self.amount})" if self.amount else f"{self.stage} ..."
 
 
 @contextmanager
 def working(stage: str) -> Iterator[Tell]:
-    """Tells of the body, which begins with this stage. What the body tells is only noted; a thread of its own shows it."""
+    """Show how far the body is, which begins with this stage. What the body reports is only noted; a thread of its own shows it."""
     now = State(stage)
 
     def tell(stage: str, done: int = 0, total: int = 0, left: float | None = None, /) -> None:
@@ -76,7 +78,7 @@ def working(stage: str) -> Iterator[Tell]:
 
 
 def evenly(tell: Tell) -> Callable[[str, int, int], None]:
-    """`tell` with the seconds that are left of the stage, as long as its parts take what those before them took."""
+    """Return `tell` with the seconds that are left of the stage, as long as its parts take what those before them took."""
     stage, begun, first = "", 0.0, 0
 
     def tell_of(current: str, done: int, total: int) -> None:

@@ -1,4 +1,4 @@
-"""Opening the JSON files that people exchange; what is in them is judged by `faultspace.exact` and the checker.
+"""Open the JSON files that people exchange; what is in them is judged by `faultspace.exact` and the checker.
 
     read_json       the document in a file, strictly: UTF-8, no key twice, no NaN, bounded size
     read_system     the system in a file; the model of `identify` too, where floats are taken exactly
@@ -36,7 +36,7 @@ _MODEL_KEYS = ("format", "n", "n_u", "p", "n_v", "A", "B", "C", "D", "F", "G", "
 
 
 def read_system(name: str, *, floats_exactly: bool = False) -> System:
-    """The system in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
+    """Read the system in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
     document = read_json(name, number=_dyadic if floats_exactly else float)
     with in_file(name):
         if isinstance(document, dict) and document.get("format") == MODEL_FORMAT:
@@ -52,7 +52,7 @@ def read_system(name: str, *, floats_exactly: bool = False) -> System:
 
 
 def read_experiment(name: str, *, floats_exactly: bool = False) -> Experiment:
-    """The experiment in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
+    """Read the experiment in a file; with `floats_exactly` its floats are the dyadic rationals that they are. Raises InvalidInput."""
     document = read_json(name, number=_dyadic if floats_exactly else float)
     with in_file(name):
         if isinstance(document, dict) and "A" in document and "u_filter" not in document:
@@ -64,7 +64,7 @@ def read_experiment(name: str, *, floats_exactly: bool = False) -> Experiment:
 
 
 def read_json(name: str, *, number: Callable[[str], object] = float) -> Any:
-    """The document in a file; `number` reads numbers with a point or an exponent. Raises InvalidInput."""
+    """Read the document in a file; `number` reads numbers with a point or an exponent. Raises InvalidInput."""
     with in_file(name):
         try:
             text = _content(name).decode("utf-8-sig")
@@ -80,12 +80,12 @@ def read_json(name: str, *, number: Callable[[str], object] = float) -> Any:
 
 
 def write_json(path: Path, document: object) -> None:
-    """The document into the file at `path`, as `write_text` does."""
+    """Write the document into the file at `path`, as `write_text` does."""
     write_text(path, json.dumps(document, indent=1, sort_keys=True) + "\n")
 
 
 def write_text(path: Path, text: str) -> None:
-    """The text into the file at `path`: written beside it, then renamed, so that no half-written file is ever seen there."""
+    """Write the text beside the file at `path` and rename it, so that no half-written file is ever seen there."""
     try:
         descriptor, temporary = tempfile.mkstemp(prefix=".unfinished-", dir=path.parent)
         try:
@@ -101,7 +101,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 def prepare_folder(folder: Path) -> None:
-    """Makes the folder and tries to write into it, before anything else is done. Raises InvalidInput when that fails."""
+    """Make the folder and try to write into it, before anything else is done. Raises InvalidInput when that fails."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -112,7 +112,7 @@ def prepare_folder(folder: Path) -> None:
 
 
 def _system_of_model(model: dict[str, object]) -> dict[str, object]:
-    """The system of a model file; without F and G one without faults. The entries are judged where systems are."""
+    """Return the system of a model file, which without F and G is one without faults. The entries are judged where systems are."""
     unknown = sorted(set(model) - set(_MODEL_KEYS))
     if unknown:
         raise InvalidInput(f"unknown key {shorten(unknown[0])} in a model, expected {', '.join(_MODEL_KEYS)}")
@@ -162,7 +162,7 @@ def _refused(constant: str) -> object:
 
 
 def _integer(text: str) -> int | str:
-    """The integer; as its own text where it is longer than Python reads: the grammar of rationals judges that just as well."""
+    """Return the integer, or its own text where it is longer than Python reads: the grammar of rationals judges that just as well."""
     try:
         return int(text)
     except ValueError:

@@ -1,4 +1,4 @@
-"""What `faultspace monte-carlo` says and writes: tables, remarks, all cases, figures.
+"""Print and write what `faultspace monte-carlo` has found: tables, remarks, all cases, figures.
 
 document   what studies.json and --json hold; its schema is schemas/monte_carlo.schema.json
 remarks    what a reader of the published figures should know, with this run's counts
@@ -51,12 +51,12 @@ EXPLANATION = (
 
 
 def document(studies: Sequence[Study]) -> dict[str, Any]:
-    """This is what studies.json and --json hold."""
+    """Return what studies.json and --json hold."""
     return {"format": FORMAT, "remarks": remarks(studies), "studies": [study.to_json() for study in studies]}
 
 
 def remarks(studies: Sequence[Study]) -> list[str]:
-    """What a reader of the published figures should know, with the counts of this run."""
+    """Return what a reader of the published figures should know, with the counts of this run."""
     found = []
     for study in studies:
         name = study.plan.name
@@ -80,7 +80,7 @@ def remarks(studies: Sequence[Study]) -> list[str]:
 
 
 def table(study: Study) -> Table:
-    """The table shows the groups by zeros and by phase."""
+    """Return a table of the groups by zeros and by phase."""
     title = f"{study.plan.title}\nerror in percent: {study.plan.metric_text}"
     rows = Table(box=box.SIMPLE_HEAD, title=title, title_justify="left", pad_edge=False, padding=(0, 1, 0, 0))
     for heading in ("cases", *HEADER):
@@ -93,7 +93,7 @@ def table(study: Study) -> Table:
 
 
 def lines(studies: Sequence[Study]) -> Iterator[str]:
-    """The summary comes line by line."""
+    """Yield the summary line by line."""
     first = studies[0]
     yield "# The Monte Carlo study"
     yield ""
@@ -117,7 +117,7 @@ def lines(studies: Sequence[Study]) -> Iterator[str]:
 
 
 def write(studies: Sequence[Study], out: Path) -> list[str]:
-    """The files into the folder `out`, written beside it first; their names. Raises InvalidInput where that fails."""
+    """Write the files into a folder in `out` first, then move them, and return their names. Raises InvalidInput where that fails."""
     try:
         with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
             folder = Path(name)
@@ -134,7 +134,7 @@ def write(studies: Sequence[Study], out: Path) -> list[str]:
 
 
 def _cells(group: Group) -> list[str]:
-    """These cells are the row of a group under HEADER."""
+    """Return the row of a group under HEADER."""
     quantiles = dict(zip(QUANTILES, group.quantiles, strict=True)) if group.quantiles else {}
     interval = " .. ".join(_percent(end, digits=2) for end in group.interval) if group.interval else ""
     remark = [f"{group.vacuous} vacuous" if group.vacuous else "", f"{group.failed} refused" if group.failed else ""]
@@ -152,12 +152,12 @@ def _cells(group: Group) -> list[str]:
 
 
 def _percent(value: float | None, digits: int = 3) -> str:
-    """Angles at the level of rounding are shown as zero."""
+    """Return the angle in percent; one at the level of rounding is shown as zero."""
     return "" if value is None else f"{100 * value:.{digits}g}" if value > ROUNDING else "0"
 
 
 def _write_cases(studies: Sequence[Study], path: Path) -> None:
-    """A row for each estimate of each case of each study."""
+    """Write a row for each estimate of each case of each study."""
     plain = ("index", "n_zeros", "minimum_phase", "distance_to_unit_circle", "decibels", "block_rows", "rows", "rank", "n_z", "vacuous")
     with open(path, "w", encoding="utf-8", newline="") as stream:
         rows = csv.writer(stream, lineterminator="\n")
@@ -173,7 +173,7 @@ def _write_cases(studies: Sequence[Study], path: Path) -> None:
 
 
 def _draw(studies: Sequence[Study], folder: Path) -> None:
-    """figure-NAME.png for each study, where matplotlib is there."""
+    """Draw figure-NAME.png for each study, where matplotlib is there."""
     try:
         import matplotlib  # noqa: F401
     except ImportError:

@@ -1,4 +1,4 @@
-"""`faultspace monte-carlo`: the paper's study as published and as corrected, with the true and with an identified model.
+"""Run `faultspace monte-carlo`, the paper's study as published and as corrected, with the true and with an identified model.
 
 run        the command's body
 """
@@ -18,8 +18,9 @@ from .study_report import EXPLANATION, document, remarks, table, write
 
 
 def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, seed: int, out: Path, as_json: bool) -> int:
-    """All studies on the same systems, written into `out`. Raises InvalidInput for a folder that cannot be written into, and for jobs or
-    a cluster that cannot be used."""
+    """Run all studies on the same systems and write them into `out`.
+
+    Raises InvalidInput for a folder that cannot be written into, and for jobs or a cluster that cannot be used."""
     prepare_folder(out)
     studies = []
     with working("starting") as tell:

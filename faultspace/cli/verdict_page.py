@@ -1,4 +1,4 @@
-"""The page of a claim that `faultspace verify --claim ID` prints.
+"""Print the page of a claim for `faultspace verify --claim ID`.
 
 print_page   as printed, as checked, evidence, attacks, locks and certificates of each reading, then what happens without each hypothesis
 """
@@ -17,7 +17,7 @@ from .verdict_tables import attack_lines, hashes, rows_worth_reading, verdict_te
 
 
 def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> None:
-    """The claim in full, and `rows`, what becomes of it without its hypotheses."""
+    """Print the claim in full, and `rows`, what becomes of it without its hypotheses."""
     heading = Text.assemble((claim.claim.id, "bold"), f"  ({claim.claim.reference}): ", verdict_text(claim.verdict, claim.expected))
     paragraph(console, heading)
     paragraph(console, claim.claim.statement, "  as printed: ")
@@ -42,7 +42,7 @@ def print_page(console: Console, claim: ClaimResult, rows: Sequence[Row]) -> Non
 
 
 def _row(row: Row) -> Iterator[tuple[str, str]]:
-    """(label, text) for each line below what is dropped."""
+    """Yield (label, text) for each line below what is dropped."""
     yield "evidence:", row.evidence
     for line in attack_lines(row.attacks):
         yield "attacked by:", line
@@ -51,7 +51,7 @@ def _row(row: Row) -> Iterator[tuple[str, str]]:
 
 
 def _reading(result: ReadingResult) -> Iterator[tuple[str, str]]:
-    """(label, text) for each line below the reading's name."""
+    """Yield (label, text) for each line below the reading's name."""
     reading, outcome = result.reading, result.outcome
     yield "as checked:", reading.statement
     yield "hypotheses:", "; ".join(reading.hypotheses) or "none"

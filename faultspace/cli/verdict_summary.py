@@ -1,4 +1,4 @@
-"""What `faultspace verify` prints by itself: a line for each claim, those that are not as expected first, and what stands behind them all.
+"""Print what `faultspace verify` says by itself: a line for each claim, the unexpected ones first, and what stands behind them all.
 
 print_lines     the claims, what the verdicts mean, the hypotheses, the attacks, Rocq
 print_summary   the last line
@@ -23,7 +23,7 @@ HELP = "--claim ID prints a page of a claim, -v the long tables, --out DIR write
 
 
 def print_lines(console: Console, report: Report) -> None:
-    """A line for each claim, then a sentence on each of what they rest on."""
+    """Print a line for each claim, then a sentence on each of what they rest on."""
     claims = sorted(report.claims, key=lambda claim: claim.as_expected)  # stable: else in the order of the ledger
     print_table(console, claims_table(claims))
     for line in differences(report):
@@ -39,7 +39,7 @@ def print_lines(console: Console, report: Report) -> None:
 
 
 def claims_table(claims: Sequence[ClaimResult]) -> Table:
-    """One row a claim; "!" marks those that are not as expected."""
+    """Return a table with one row for each claim, where "!" marks those that are not as expected."""
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
     table.add_column("claim", no_wrap=True)
     table.add_column("verdict", no_wrap=True)
@@ -53,7 +53,7 @@ def claims_table(claims: Sequence[ClaimResult]) -> Table:
 
 
 def resting_on(claim: ClaimResult, *, ours: bool) -> str:
-    """How many of the readings as printed, or of ours, have which verdict: "1 proved, 2 refuted"."""
+    """Return how many of the readings as printed, or of ours, have which verdict: "1 proved, 2 refuted"."""
     verdicts = [result.outcome.verdict for result in claim.readings if result.reading.repair == ours]
     counts = Counter(verdicts)
     parts = ", ".join(f"{counts[verdict]} {verdict.lower()}" for verdict in Verdict if counts[verdict])
@@ -61,7 +61,7 @@ def resting_on(claim: ClaimResult, *, ours: bool) -> str:
 
 
 def differences(report: Report) -> Iterator[str]:
-    """There is a line for whatever is not as expected."""
+    """Yield a line for whatever is not as expected."""
     for claim in report.claims:
         if claim.verdict != claim.expected:
             yield f"{claim.claim.id}: {claim.verdict} (expected {claim.expected})"
@@ -76,7 +76,7 @@ def differences(report: Report) -> Iterator[str]:
 
 
 def hypothesis_words(rows: Sequence[Row]) -> str:
-    """How many hypotheses are needed, how many are proved not to be, and where only no counterexample was found."""
+    """Return how many hypotheses are needed, how many are proved not to be, and where only no counterexample was found."""
     single = [row for row in rows if len(row.dropped) == 1]
     meanings = Counter(row.meaning or "undecided, the check did not finish" for row in single)
     words = {
@@ -93,7 +93,7 @@ def hypothesis_words(rows: Sequence[Row]) -> str:
 
 
 def attack_words(report: Report) -> str:
-    """How many stored attacks this run has looked at again, and what came of them."""
+    """Return how many stored attacks this run has looked at again, and what came of them."""
     readings = [(attack, result.outcome.verdict) for claim in report.claims for result in claim.readings for attack in result.attacks]
     attacked = readings + [(attack, row.verdict) for row in report.hypotheses for attack in row.attacks]
     if not attacked:
@@ -109,7 +109,7 @@ def attack_words(report: Report) -> str:
 
 
 def print_summary(console: Console, report: Report) -> None:
-    """Whether everything is as expected, and of what: one line, in words."""
+    """Print in one line whether everything is as expected, and of what."""
     readings = [reading for claim in report.claims for reading in claim.readings]
     accepted = sum(reading.outcome.accepted for reading in readings)
     different = [claim.claim.id for claim in report.claims if not claim.as_expected]

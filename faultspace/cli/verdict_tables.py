@@ -1,8 +1,8 @@
-"""The long tables of `faultspace verify`, as `--verbose` prints them.
+"""Make the long tables of `faultspace verify`, as `--verbose` prints them.
 
 verdict_table      a row for each reading, with its statement, hypotheses, evidence and certificates
 hypotheses_table   a row for each hypothesis dropped
-rows_worth_reading          the rows that are worth telling; all are in the JSON
+rows_worth_reading          the rows that are worth showing; all are in the JSON
 attack_lines       what the adversary tried on a statement
 hashes             certificates by the start of their SHA-256
 verdict_text       a verdict, and in words the one that was expected where it is another
@@ -33,7 +33,7 @@ MOST_SHOWN = 2
 
 
 def verdict_table(report: Report) -> Table:
-    """A row for each claim as printed, and below it one for each reading as checked, with what its verdict rests on."""
+    """Return a table with a row for each claim as printed and one for each reading as checked, with what its verdict rests on."""
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False)
     table.add_column("claim / reading", overflow="fold", max_width=32)
     table.add_column("verdict", no_wrap=True)
@@ -60,7 +60,7 @@ def verdict_table(report: Report) -> Table:
 
 
 def hypotheses_table(rows: Sequence[Row]) -> Table:
-    """Which hypotheses are needed: a row for each dropped alone, and for each two that are needed only together."""
+    """Return a table of which hypotheses are needed: a row for each dropped alone, and for each two that are needed only together."""
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1), pad_edge=False, title="which hypotheses are needed", title_justify="left")
     table.add_column("claim / without", overflow="fold", max_width=44)
     table.add_column("verdict", no_wrap=True)
@@ -80,25 +80,25 @@ def hypotheses_table(rows: Sequence[Row]) -> Table:
 
 
 def rows_worth_reading(rows: Sequence[Row]) -> list[Row]:
-    """Those of one hypothesis, and of two where they are needed only together or the check did not finish: the others follow."""
+    """Return the rows of one hypothesis, and of two where they are needed only together or the check did not finish: the others follow."""
     follows = (Verdict.CERTIFIED, Verdict.PROVED)
     return [row for row in rows if len(row.dropped) < 2 or (row.verdict not in follows and row.already is None)]
 
 
 def attack_lines(attacks: Sequence[Attacked]) -> list[str]:
-    """What the adversary tried on one statement, a line each, with what is wrong with a stored attack."""
+    """Return what the adversary tried on one statement, a line each, with what is wrong with a stored attack."""
     return [f"{one.id}: {one.words}{f' ({one.trouble})' if one.trouble else ''}" for one in attacks]
 
 
 def _standing(claim: ClaimResult) -> str:
-    """How many of the readings as printed are not refuted."""
+    """Return how many of the readings as printed are not refuted."""
     printed = [result for result in claim.readings if not result.reading.repair]
     standing = sum(result.outcome.verdict not in (Verdict.REFUTED, Verdict.ERROR) for result in printed)
     return f"As printed: {standing} of {len(printed)} {'parts' if claim.claim.in_parts else 'readings'} stand."
 
 
 def hashes(certificates: Sequence[Certificate], accepted: int) -> str:
-    """The first headline certificates by the start of their SHA-256, and how many the checker accepted in all."""
+    """Return the first headline certificates by the start of their SHA-256, and how many the checker accepted in all."""
     found = [sha256(certificate)[:SHORT] for certificate in certificates]
     more = [f"+ {len(found) - MOST_SHOWN} more"] if len(found) > MOST_SHOWN else []
     total = [f"{accepted} accepted"] if accepted else []
@@ -106,7 +106,7 @@ def hashes(certificates: Sequence[Certificate], accepted: int) -> str:
 
 
 def verdict_text(verdict: Verdict, expected: str, between: str = " ") -> Text:
-    """The verdict, red beside the expected one where it is another."""
+    """Return the verdict, red beside the expected one where it is another."""
     if verdict == expected:
         return Text(str(verdict), style=STYLES[verdict])
     return Text(f"{verdict}{between}(expected {expected})", style="bold red")

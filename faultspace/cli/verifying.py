@@ -1,4 +1,4 @@
-"""`faultspace verify`: every claim of the ledger, decided anew, with the verdicts and the certificates they rest on.
+"""Run `faultspace verify`, which decides every claim of the ledger anew, with the certificates that the verdicts rest on.
 
 run             the command's body
 write_out       the headline certificates and verdicts.json into a folder
@@ -29,7 +29,7 @@ WIDE = 100  # below it the columns of the long tables hold a word a line
 
 
 def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, recheck: bool, as_json: bool, verbose: bool = False) -> int:
-    """Decides the claims (all when none is named), with `recheck` by theorems that are compiled anew.
+    """Decide the claims (all when none is named), with `recheck` by theorems that are compiled anew.
 
     Raises InvalidInput for an unknown claim or a folder that cannot be written into, and to recheck without Rocq.
     """
@@ -54,7 +54,7 @@ def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, rech
 
 
 def _rechecked() -> bool:
-    """Whether the theory, compiled anew, is accepted; says so. Raises InvalidInput where there is no Rocq."""
+    """Return whether the theory, compiled anew, is accepted, and say so. Raises InvalidInput where there is no Rocq."""
     try:
         with working("compiling the Rocq theory anew") as tell:
             outcome = rocq_recheck.recheck(tell)
@@ -68,7 +68,7 @@ def _rechecked() -> bool:
 
 
 def write_out(report: Report, folder: Path, more: Sequence[Certificate] = ()) -> int:
-    """Writes every headline certificate, and more, as kind-<first 12 of its SHA-256>.json, then verdicts.json. How many certificates."""
+    """Write all headline certificates and more as kind-<first 12 of its SHA-256>.json, then verdicts.json; return how many they are."""
     certificates = [*report.certificates(), *more]
     for certificate in certificates:
         write_json(folder / f"{certificate['kind']}-{sha256(certificate)[:SHORT]}.json", certificate)
@@ -77,7 +77,7 @@ def write_out(report: Report, folder: Path, more: Sequence[Certificate] = ()) ->
 
 
 def _print(report: Report, *, pages: bool, verbose: bool) -> None:
-    """A line for each claim, or a page, or the long tables (where they fit, else the pages); in any case the summary line is the last."""
+    """Print a line for each claim, or a page, or the long tables (where they fit, else the pages), and always the summary line last."""
     console = answers()
     tables = verbose and console.width >= WIDE
     if tables:

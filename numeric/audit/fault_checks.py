@@ -1,4 +1,4 @@
-"""Checks of residuals, window ranks, the number of faults, the fault space and the fault signal, on each record in all views.
+"""Check residuals, window ranks, the number of faults, the fault space and the fault signal, on each record in all views.
 
 checks           what is asked of every function, as given and in the views of SUFFIXES, each against the exact answer of its view
 with_input       data whose residual is known
@@ -45,7 +45,7 @@ Measure = Callable[[FaultVector, Function], Iterator[Measurement]]
 
 
 def checks() -> Iterator[Check]:
-    """This yields all checks of the module."""
+    """Yield all checks of the module."""
     for vector in shipped("faults"):
         effect = "the residual still holds the response to the input: input and fault cannot be told apart"
         yield from _in_views("residual-free-of-input", "residual", vector, "proposition-1", effect, _residual_off)
@@ -62,7 +62,7 @@ def checks() -> Iterator[Check]:
 
 
 def _in_views(slug: str, function: str, vector: FaultVector, claim: str, effect: str, compare: Measure) -> Iterator[Check]:
-    """As given and in every view that changes the question."""
+    """Yield the check of the record as given and in every view that changes the question."""
 
     def measure(views: tuple[str, ...], called: Function) -> Iterator[Measurement]:
         for view in views:
@@ -79,13 +79,16 @@ def _in_views(slug: str, function: str, vector: FaultVector, claim: str, effect:
 
 
 def with_input(r: Matrix, system: ResidualSystem, size: Fraction) -> tuple[Matrix, Matrix]:
-    """(y, u): r plus the response from rest to u for the model B = F, D = G. Channel j is size at every (j + 2)nd sample, -size between."""
+    """Return (y, u), where y is r plus the response from rest to u for the model B = F, D = G.
+
+    Channel j of u is size at every (j + 2)nd sample and -size between.
+    """
     u = matrix([[size if k % (j + 2) == 0 else -size for j in range(system.m)] for k in range(r.nrows)], system.m)
     return r + simulate(system, Matrix.zero(system.field, system.n, 1), u).residuals, u
 
 
 def _residual_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
-    """What the free response of the model cannot touch, M(q) r with M(q) C A^k = 0, against the exact one: any initial state will do."""
+    """Compare what the model's free response cannot touch, M(q) r with M(q) C A^k = 0, with the exact one: any initial state will do."""
     system = vector.system
     y, u = with_input(vector.r, system, vector.view.scale)
     got = function(floats(y), floats(u), *(floats(M) for M in (system.A, system.F, system.C, system.G)))
@@ -103,17 +106,17 @@ def _residual_off(vector: FaultVector, function: Function) -> Iterator[Measureme
 
 
 def _no_columns(rows: int) -> Matrix:
-    """The matrix has so many rows and no columns."""
+    """Return the matrix with so many rows and no columns."""
     return matrix([[] for _ in range(rows)], 0)
 
 
 def _ranks_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
-    """The ranks R_s are asked for s = 1, 2, ...."""
+    """Ask for the ranks R_s for s = 1, 2, ... and compare them."""
     yield from ranks_off(function(floats(vector.r), len(vector.ranks)), vector.ranks)
 
 
 def ranks_off(answer: Any, due: tuple[int, ...]) -> Iterator[Measurement]:
-    """There is one measurement for each window."""
+    """Yield one measurement for each window."""
     ranks = list(answer)
     if len(ranks) != len(due):
         raise Broken(f"{len(ranks)} ranks for {len(due)} windows")
@@ -126,7 +129,7 @@ def _count_off(vector: FaultVector, function: Function) -> Iterator[Measurement]
 
 
 def _as_many_as_outputs(vector: FaultVector) -> Check:
-    """The first m outputs alone: m faults leave no relation between them, nor would noise. Free: whatever is said is told."""
+    """Ask about the first m outputs alone, between which m faults leave no relation, nor would noise. Any answer is free and is shown."""
 
     def measure(function: Function) -> Iterator[Measurement]:
         got = function(floats(vector.r.columns(range(vector.n_v))))
@@ -138,7 +141,7 @@ def _as_many_as_outputs(vector: FaultVector) -> Check:
 
 
 def as_number(value: Any) -> float:
-    """Of an answer. Raises Broken for what is no number."""
+    """Return the answer as a number. Raises Broken for what is no number."""
     try:
         return float(value)
     except (TypeError, ValueError):
@@ -146,7 +149,7 @@ def as_number(value: Any) -> float:
 
 
 def space_off(vector: FaultVector, function: Function, block_rows: int | None = None) -> Iterator[Measurement]:
-    """The fault space by the two-sided distance, neither too small nor too large, from windows of so many block rows, n + 1 by default.
+    """Compare the fault space from windows of so many block rows, n + 1 by default, by the two-sided distance: too large is wrong as well.
 
     Who takes n + 1 all the same may: the bound is that of the worse window (n + 1 alone where the window is too short to have one).
     """
@@ -163,7 +166,7 @@ def _window(slug: str, vector: FaultVector, block_rows: int) -> Check:
 
 
 def spaces_off(got: Any, truth: Matrix, bound: float) -> Iterator[Measurement]:
-    """Dimension and two-sided distance of the columns `got` from those of `truth`."""
+    """Measure the dimension and the two-sided distance of the columns `got` from those of `truth`."""
     try:
         compared = compare_subspaces(np.asarray(got, dtype=float), floats(truth))
     except (InvalidData, ValueError, TypeError) as error:
@@ -173,7 +176,7 @@ def spaces_off(got: Any, truth: Matrix, bound: float) -> Iterator[Measurement]:
 
 
 def _signal_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
-    """v from the known initial state, up to the delay at the end of the record."""
+    """Compare v from the known initial state, up to the delay at the end of the record."""
     system, bound = vector.system, vector.bounds["signal"]
     assert bound is not None
     start = floats(vector.x0).ravel()

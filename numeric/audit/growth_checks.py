@@ -1,4 +1,4 @@
-"""How memory and time grow with the length of the record: in proportion, or with its square.
+"""Check how memory and time grow with the length of the record: in proportion, or with its square.
 
     checks              for every function that reads a record
     footprint, Held     peak memory beyond what was there, of this process and all that it started
@@ -40,21 +40,21 @@ SEED = 20250523
 
 @dataclass
 class Held:
-    """Bytes, filled in when the work is done."""
+    """The memory is in bytes, and is filled in when the work is done."""
 
     memory: float = 0.0
 
 
 @dataclass
 class Spent:
-    """Seconds, filled in when the work is done."""
+    """The time is in seconds, and is filled in when the work is done."""
 
     seconds: float = 0.0
 
 
 @contextmanager
 def footprint() -> Iterator[Held]:
-    """The memory that the body costs this process and its children, looked at every few milliseconds."""
+    """Measure the memory that the body costs this process and its children, looked at every few milliseconds."""
     spent, done, before = Held(), threading.Event(), _held()
     peak = before
 
@@ -76,7 +76,7 @@ def footprint() -> Iterator[Held]:
 
 @contextmanager
 def timed() -> Iterator[Spent]:
-    """The CPU seconds that the body costs this process and its children."""
+    """Measure the CPU seconds that the body costs this process and its children."""
     spent, whole = Spent(), psutil.Process()
     begun = _seconds(whole)
     try:
@@ -90,7 +90,7 @@ def _held() -> float:
 
 
 def _seconds(process: psutil.Process) -> float:
-    """CPU seconds; those of children that have ended are with their parents."""
+    """Return the CPU seconds of the process and all below it; those of children that have ended are with their parents."""
     total = 0.0
     for one in family(process.pid):
         with suppress(psutil.Error):
@@ -100,14 +100,14 @@ def _seconds(process: psutil.Process) -> float:
 
 
 def exponent(costs: tuple[float, float], lengths: tuple[int, int], floor: float) -> float:
-    """0 where the larger cost is under the floor."""
+    """Return the exponent of the growth, 0 where the larger cost is under the floor."""
     ratio = lengths[1] / lengths[0]
     small, large = max(costs[0], floor / ratio), costs[1]
     return max(log(large / small) / log(ratio), 0.0) if large > floor else 0.0
 
 
 def checks() -> Iterator[Check]:
-    """This yields all checks of the module."""
+    """Yield all checks of the module."""
     for function in ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct"):
         yield _grows("memory-grows-with-N", function, "memory runs out on records of ordinary length")
         yield _grows("time-grows-with-N", function, "no answer in bearable time on records of ordinary length")
@@ -143,7 +143,7 @@ def _time(function: Function, arguments: tuple[Any, ...]) -> float:
 
 
 def question(name: str, length: int) -> tuple[Any, ...]:
-    """The function's arguments with a record of that length, driven by signs."""
+    """Return the function's arguments with a record of that length, driven by signs."""
     if name == "identify":
         model: IdentificationVector = next(one for one in shipped("identification") if (one.B.ncols, one.C.nrows) == (2, 2))
         u = _driven(length, model.B.ncols)

@@ -1,4 +1,4 @@
-"""The Cramer-Rao bound of A, B, C, D under a coloured Gaussian disturbance: what no unbiased estimate from N samples can do better.
+"""Compute the Cramer-Rao bound of A, B, C, D under a coloured Gaussian disturbance, which no unbiased estimate from N samples beats.
 
 With plant G, input spectrum P and disturbance spectrum Phi, faults and noise together, the information of N samples about
 T = [[A, B], [C, D]] is, but for end effects of order one [W53, L99 ch. 9.4],
@@ -31,12 +31,12 @@ COUNT = 20
 
 
 def cramer_rao(model: StateSpaceModel, spectra: Spectra, N: int) -> Uncertainty:
-    """The least standard deviations of an unbiased estimate of a stable, minimal model from N samples [W53].
+    """Compute the least standard deviations of an unbiased estimate of a stable, minimal model from N samples [W53].
 
     `spectra` gives the input's spectrum (M, n_u, n_u) and the disturbance's (M, p, p), faults and noise, in the squared units of u and y.
-    The result tells Markov parameters, transfer function and poles in the units of y / u. Angles are doubled until the information matrix
-    stays the same. Raises InvalidData for a model that is not stable, spectra that do not fit it, and a disturbance without power in some
-    direction.
+    The result has those of Markov parameters, transfer function and poles in the units of y / u. Angles are doubled until the information
+    matrix stays the same. Raises InvalidData for a model that is not stable, spectra that do not fit it, and a disturbance without power
+    in some direction.
 
     >>> import numpy as np
     >>> from faultspace.numeric import Spectra, StateSpaceModel, cramer_rao
@@ -61,8 +61,10 @@ def cramer_rao(model: StateSpaceModel, spectra: Spectra, N: int) -> Uncertainty:
 
 
 def relative_error(estimate: StateSpaceModel, truth: StateSpaceModel, bound: Uncertainty, count: int = COUNT) -> float:
-    """The Frobenius norm of the error of the first `count` Markov parameters (count, p, n_u) over that of their least deviations. Models of
-    any orders with the same channels."""
+    """Return the Frobenius norm of the error of the first `count` Markov parameters (count, p, n_u) over that of their least deviations.
+
+    The two models may have different orders and need the same channels.
+    """
     error = np.linalg.norm(estimate.markov(count) - truth.markov(count))
     return float(error / np.linalg.norm(bound.markov(count)))
 

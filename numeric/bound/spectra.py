@@ -1,4 +1,4 @@
-"""Power spectra as functions of the angle: of inputs, of faults through their system, of noise.
+"""Make power spectra as functions of the angle: of inputs, of faults through their system, of noise.
 
 A spectrum is a function of angles (M,) in (0, pi), radians a sample, to Hermitian matrices (M, k, k) with the autocovariance
 R(l) = 1/(2 pi) integral of S(w) exp(i w l); white noise of covariance R has the constant spectrum R. Units are those of the squared signal.
@@ -28,7 +28,7 @@ Spectrum = Callable[[Array], ComplexArray]
 
 @dataclass(frozen=True)
 class Spectra:
-    """The spectra of the input and of the disturbance, faults and noise together, that a bound is computed from [L99].
+    """A bound is computed from these spectra of the input and of the disturbance, which is faults and noise together [L99].
 
     Each is a function of angles (M,) in radians a sample. `input` returns an array of the shape (M, n_u, n_u) in squared units of u,
     `disturbance` one of (M, p, p) in squared units of y; `white` and `filtered` of the same module make such functions. Raises nothing.
@@ -46,13 +46,16 @@ class Spectra:
 
 
 def white(covariance: ArrayLike) -> Spectrum:
-    """Of white noise with this covariance (k, k)."""
+    """Return the spectrum of white noise with this covariance (k, k)."""
     matrix = np.array(covariance, dtype=np.complex128)
     return lambda angles: np.broadcast_to(matrix, (len(angles), *matrix.shape))
 
 
 def filtered(numerator: ArrayLike, denominator: ArrayLike, channels: int = 1) -> Spectrum:
-    """Of independent channels, each white noise of variance one through numerator(q^-1) / denominator(q^-1), coefficients by rising lag."""
+    """Return the spectrum of independent channels, each white noise of variance one through numerator(q^-1) / denominator(q^-1).
+
+    The coefficients are given by rising lag.
+    """
     b, a = (np.atleast_1d(np.asarray(part, dtype=np.float64)) for part in (numerator, denominator))
 
     def spectrum(angles: Array) -> ComplexArray:
@@ -63,7 +66,7 @@ def filtered(numerator: ArrayLike, denominator: ArrayLike, channels: int = 1) ->
 
 
 def through(system: StateSpaceModel, spectrum: Spectrum) -> Spectrum:
-    """Of a system's response to a signal of the given spectrum: H S H*."""
+    """Return the spectrum H S H* of a system's response to a signal of the given spectrum."""
 
     def response(angles: Array) -> ComplexArray:
         transfer = half_transfers(system_matrix(system), system.n, angles)[0]
@@ -73,5 +76,5 @@ def through(system: StateSpaceModel, spectrum: Spectrum) -> Spectrum:
 
 
 def total(*spectra: Spectrum) -> Spectrum:
-    """Of the sum of independent signals."""
+    """Return the spectrum of the sum of independent signals."""
     return lambda angles: np.asarray(sum(spectrum(angles) for spectrum in spectra), dtype=np.complex128)

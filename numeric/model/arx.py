@@ -1,4 +1,4 @@
-"""The ARX model A(q) y(k) = B(q) u(k) + e(k) of high order, from the windows alone: plant, spectra of disturbance and input.
+"""Fit the ARX model A(q) y(k) = B(q) u(k) + e(k) of high order to the windows alone: plant, spectra of disturbance and input.
 
 With A(q) = I + A_1 q^-1 + .. + A_h q^-h and B(q) = B_0 + .. + B_h q^-h, the plant is G = A^-1 B and the disturbance has the spectrum
 A^-1 S A^-*, S the covariance of the innovations e: whatever the colour of the disturbance (a fault and noise), both are consistent as h
@@ -39,8 +39,11 @@ EXCITED = 1e-13  # as of PI-MOESP: what a direction of the inputs must exceed, r
 
 @dataclass(frozen=True, eq=False)
 class Arx:
-    """outputs (h+1, p, p) with outputs[0] = I, inputs (h+1, p, n_u), covariance (p, p), all in the units of the data they were fitted to;
-    `rows` is the number of windows, `freedom` that of degrees of freedom left in each equation."""
+    """The model has coefficients outputs (h+1, p, p) with outputs[0] = I and inputs (h+1, p, n_u), and the covariance (p, p) of e.
+
+    All are in the units of the data that they were fitted to. `rows` is the number of windows, and `freedom` is the number of degrees of
+    freedom left in each equation.
+    """
 
     outputs: Array
     inputs: Array
@@ -50,25 +53,25 @@ class Arx:
 
     @property
     def order(self) -> int:
-        """h."""
+        """Return h."""
         return len(self.outputs) - 1
 
     def plant(self, angles: Array) -> ComplexArray:
-        """G (M, p, n_u) at exp(i angle)."""
+        """Return G (M, p, n_u) at exp(i angle)."""
         return _quotient(polynomial(self.outputs, angles), polynomial(self.inputs, angles))
 
     def weight(self, angles: Array) -> ComplexArray:
-        """The inverse (M, p, p) of the disturbance's spectrum, without a matrix inverted twice: A* S^-1 A."""
+        """Return the inverse A* S^-1 A (M, p, p) of the disturbance's spectrum, for which no matrix is inverted twice."""
         whitened = _quotient(np.linalg.cholesky(self.covariance), polynomial(self.outputs, angles))
         return adjoint(whitened) @ whitened
 
     def disturbance(self, angles: Array) -> ComplexArray:
-        """The spectrum (M, p, p) of y - G u."""
+        """Return the spectrum (M, p, p) of y - G u."""
         coloured = _quotient(polynomial(self.outputs, angles), np.linalg.cholesky(self.covariance))
         return coloured @ adjoint(coloured)
 
     def markov(self, count: int) -> tuple[Array, Array]:
-        """The first `count` Markov parameters of the plant (count, p, n_u) and of the noise model A^-1 S^1/2 (count, p, p)."""
+        """Return the first `count` Markov parameters of the plant (count, p, n_u) and of the noise model A^-1 S^1/2 (count, p, p)."""
         p, n_u = self.inputs.shape[1:]
         joint = np.zeros((count, p, n_u + p))
         given = min(count, len(self.inputs))
@@ -80,7 +83,7 @@ class Arx:
         return joint[:, :, :n_u], joint[:, :, n_u:]
 
     def radius(self) -> float:
-        """The largest modulus of a root of det A(q), 0 where A is constant."""
+        """Return the largest modulus of a root of det A(q), 0 where A is constant."""
         h, p = self.order, len(self.covariance)
         if h == 0:
             return 0.0
@@ -89,31 +92,31 @@ class Arx:
         return float(np.max(np.abs(np.linalg.eigvals(companion))))
 
     def scaled(self, y: Array, u: Array) -> Arx:
-        """The model of y * y_scale, u * u_scale."""
+        """Return the model of the record whose outputs are multiplied by `y` (p,) and whose inputs by `u` (n_u,)."""
         outputs = self.outputs * y[:, None] / y
         return Arx(outputs, self.inputs * y[:, None] / u, self.covariance * np.outer(y, y), self.rows, self.freedom)
 
 
 def adjoint(matrices: ComplexArray) -> ComplexArray:
-    """Conjugate transposes of stacked matrices."""
+    """Return the conjugate transposes of stacked matrices."""
     return np.conj(np.swapaxes(matrices, -1, -2))
 
 
 def _quotient(left: NDArray[Any], right: NDArray[Any]) -> ComplexArray:
-    """left^-1 right."""
+    """Return left^-1 right."""
     return np.asarray(np.linalg.solve(left, right), dtype=np.complex128)
 
 
 def polynomial(coefficients: Array, angles: Array) -> ComplexArray:
-    """The values (M, a, b) of sum_k coefficients[k] z^-k at z = exp(i angle)."""
+    """Return the values (M, a, b) of sum_k coefficients[k] z^-k at z = exp(i angle)."""
     powers = np.exp(-1j * np.outer(angles, np.arange(len(coefficients))))
     return np.tensordot(powers, coefficients, axes=1)
 
 
 def fitted_arx(windows: ArxWindows, least: int = 0) -> Arx:
-    """The ARX model in channels of unit root mean square whose order, `least` or more, has the least criterion.
+    """Fit the ARX model in channels of unit root mean square whose order, `least` or more, has the least criterion.
 
-    InvalidData where u does not excite all windows of lags + 1 samples, or the windows are too few.
+    Raises InvalidData where u does not excite all windows of lags + 1 samples, or the windows are too few.
     """
     check_excitation(windows)
     p, n_u = windows.p, windows.n_u
@@ -127,7 +130,7 @@ def fitted_arx(windows: ArxWindows, least: int = 0) -> Arx:
 
 
 def input_spectrum(windows: ArxWindows, angles: Array) -> ComplexArray:
-    """The spectrum (M, n_u, n_u) of u in channels of unit root mean square, by the autoregression of the best order."""
+    """Return the spectrum (M, n_u, n_u) of u in channels of unit root mean square, by the autoregression of the best order."""
     lags, n_u = windows.lags, windows.n_u
     chosen = np.concatenate([windows.inputs(lag) for lag in [*range(1, lags + 1), 0]])
     factor = triangular(windows.scaled[:, chosen])
@@ -139,7 +142,7 @@ def input_spectrum(windows: ArxWindows, angles: Array) -> ComplexArray:
 
 
 def check_excitation(windows: ArxWindows) -> None:
-    """InvalidData where the inputs' windows do not have full rank, or squares overflow."""
+    """Raise InvalidData where the inputs' windows do not have full rank, or squares overflow."""
     largest = float(np.max(np.abs(windows.factor)))
     if not largest < HUGE:
         raise InvalidData(f"the signals are so large (about {largest:.1g}) that their squares overflow: choose other units")
@@ -156,8 +159,9 @@ def check_excitation(windows: ArxWindows) -> None:
 
 
 def _best(factor: Array, sizes: Sequence[int], targets: int, rows: int) -> tuple[int, Array, Array]:
-    """Of the regressions of the last `targets` columns on the first k, k in `sizes`, that of the least criterion: k, the covariance of its
-    errors with its floor, and its coefficients (targets, k).
+    """Return, of the regressions of the last `targets` columns on the first k, k in `sizes`, that of the least criterion.
+
+    What is returned are k, the covariance of its errors with its floor, and its coefficients (targets, k).
     """
     last = len(factor) - targets
     best, chosen, covariance = np.inf, -1, np.zeros((targets, targets))
@@ -183,7 +187,7 @@ def _floor(covariance: Array) -> Array:
 
 
 def _solved(upper: Array, right: Array) -> Array:
-    """upper^-1 right; the shortest least-squares solution where the triangle is singular to rounding, as without noise."""
+    """Return upper^-1 right, or the shortest least-squares solution where the triangle is singular to rounding, as without noise."""
     if not len(upper):
         return np.zeros((0, right.shape[1]))
     level = len(upper) * EPS

@@ -1,4 +1,4 @@
-"""All that an ARX model, an input spectrum and PI-MOESP need of a record of any length: one triangular factor of its windows.
+"""Make one triangular factor of a record's windows: an ARX model, an input spectrum and PI-MOESP need no more, whatever its length.
 
 A window of lags + 1 samples that ends at k is the row [u(k), y(k-1), u(k-1), ..., y(k-lags), u(k-lags), y(k)]. With R upper triangular and
 R.T @ R = the sum of row.T @ row over all windows, the squared residuals of the ARX model of EVERY order h <= lags stand in R: those of y(k)
@@ -37,7 +37,7 @@ four left, and its inverse is wrong by a factor of about 4/3 at most."""
 
 @dataclass(frozen=True, eq=False)
 class ArxWindows:
-    """`factor` (k, k), k = (lags + 1) (p + n_u), of `rows` windows of `lags` + 1 samples; `samples` counts those of all experiments."""
+    """`factor` (k, k), k = (lags + 1) (p + n_u), is that of `rows` windows of `lags` + 1 samples; `samples` counts all experiments."""
 
     factor: Array
     lags: int
@@ -47,46 +47,49 @@ class ArxWindows:
     samples: int
 
     def regressors(self, order: int) -> int:
-        """Columns that an ARX model of this order regresses on."""
+        """Return how many columns an ARX model of this order regresses on."""
         return self.n_u + order * (self.p + self.n_u)
 
     @cached_property
     def scales(self) -> tuple[Array, Array]:
-        """Root mean squares (p,), (n_u,) of outputs and inputs at the windows' ends; 1 for a channel that is zero."""
+        """Return the root mean squares (p,), (n_u,) of outputs and inputs at the windows' ends, 1 for a channel that is zero."""
         sizes = np.linalg.norm(self.factor, axis=0) / np.sqrt(max(self.rows, 1))
         sizes = np.where(sizes > 0, sizes, 1.0)
         return sizes[-self.p :], sizes[: self.n_u]
 
     @cached_property
     def scaled(self) -> Array:
-        """The factor of the record in channels of root mean square one."""
+        """Return the factor of the record in channels of root mean square one."""
         y, u = self.scales
         result: Array = self.factor / np.concatenate([u, np.tile(np.concatenate([y, u]), self.lags), y])
         return result
 
     @property
     def growth(self) -> float:
-        """Logarithm of the growth of the outputs over the record, were it that between the first and the last sample of a window: of order
-        one where they do not grow, whatever their colour."""
+        """Return the logarithm of the outputs' growth over the record, were it that between the first and the last sample of a window.
+
+        It is of order one where they do not grow, whatever their colour.
+        """
         if self.lags == 0:
             return 0.0
         last, first = (np.linalg.norm(self.factor[:, self.outputs(lag)]) for lag in (0, self.lags))
         return float(np.log(last / first) * self.rows / self.lags) if last > 0 and first > 0 else 0.0
 
     def inputs(self, lag: int) -> NDArray[np.intp]:
-        """Columns of u(k - lag)."""
+        """Return the columns of u(k - lag)."""
         first = 0 if lag == 0 else self.n_u + (lag - 1) * (self.p + self.n_u) + self.p
         return np.arange(first, first + self.n_u)
 
     def outputs(self, lag: int) -> NDArray[np.intp]:
-        """Columns of y(k - lag)."""
+        """Return the columns of y(k - lag)."""
         first = len(self.factor) - self.p if lag == 0 else self.n_u + (lag - 1) * (self.p + self.n_u)
         return np.arange(first, first + self.p)
 
 
 def longest_lag(lengths: Sequence[int], p: int, n_u: int) -> int:
-    """RATE times the cube root of all samples of experiments of these lengths, or what leaves SHARE windows a regressor; -1 where not even
-    u(k) alone does.
+    """Return RATE times the cube root of all samples of experiments of these lengths, or what leaves SHARE windows for each regressor.
+
+    It is -1 where not even u(k) alone leaves that many.
     """
     lags = int(RATE * np.cbrt(sum(lengths)))
     while lags >= 0 and sum(max(length - lags, 0) for length in lengths) < SHARE * (n_u + lags * (p + n_u)):
@@ -95,7 +98,7 @@ def longest_lag(lengths: Sequence[int], p: int, n_u: int) -> int:
 
 
 def arx_windows(data: Iterable[tuple[Array, Array]], lags: int) -> ArxWindows:
-    """The windows of one experiment whose consecutive pieces (y, u) are float64. InvalidData for no pieces or unequal channels."""
+    """Return the windows of one experiment in float64 pieces (y, u). Raises InvalidData for no pieces or unequal channels."""
     running: SequentialQR | None = None
     p = n_u = samples = 0
     for y, u in data:
@@ -114,7 +117,7 @@ def arx_windows(data: Iterable[tuple[Array, Array]], lags: int) -> ArxWindows:
 
 
 def merge_windows(parts: Sequence[ArxWindows]) -> ArxWindows:
-    """The windows of all parts together. InvalidData without parts or where lags or channels differ."""
+    """Return the windows of all parts together. Raises InvalidData without parts or where lags or channels differ."""
     if not parts:
         raise InvalidData("nothing to merge: give the windows of at least one experiment")
     first = parts[0]
@@ -129,7 +132,7 @@ def merge_windows(parts: Sequence[ArxWindows]) -> ArxWindows:
 
 
 def past_input_compression(windows: ArxWindows, block_rows: int, past_rows: int) -> Compression:
-    """The factor of [Uf; Up; Yf] over the same windows, in channels of unit size; block_rows + past_rows <= lags + 1."""
+    """Return the factor of [Uf; Up; Yf] over the same windows, in channels of unit size, for block_rows + past_rows <= lags + 1."""
     span = past_rows + block_rows
     chosen = [
         (windows.inputs if channel < windows.n_u else windows.outputs)(span - 1 - lag)[channel - (channel >= windows.n_u) * windows.n_u]
@@ -142,7 +145,7 @@ def past_input_compression(windows: ArxWindows, block_rows: int, past_rows: int)
 
 
 def _rows(p: int, n_u: int, lags: int) -> NDArray[np.intp]:
-    """(lag, channel) of the joint signal [u, y] for each column, lags counted from the window's first sample."""
+    """Return (lag, channel) of the joint signal [u, y] for each column, where lags count from the window's first sample."""
     inputs, outputs = range(n_u), range(n_u, n_u + p)
     past = [(lags - back, channel) for back in range(1, lags + 1) for part in (outputs, inputs) for channel in part]
     return np.array([(lags, c) for c in inputs] + past + [(lags, c) for c in outputs], dtype=np.intp)

@@ -1,4 +1,4 @@
-"""A, B, C, D from data with strong coloured faults, as good as the data allow: ARX of high order, then its weighted reduction to order n.
+"""Estimate A, B, C, D under strong coloured faults as well as the data allow: ARX of high order, then its weighted reduction to order n.
 
 1  One factor of the record's windows (`arx_windows`): the length of the record enters once, pieces and experiments merge.
 2  An ARX model of high order and the input's spectrum from it (`arx`): plant G_h, inverse spectrum W of faults and noise together.
@@ -41,7 +41,7 @@ MOST_FREE = 1 << 16  # samples from which an initial state is fitted at most: th
 def arx_reduction(
     y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLike | None = None, *, order: int | None = None, lags: int | None = None
 ) -> ReducedModel:
-    """The stable model of order n from one experiment with coloured faults, as good as the data allow: ARX and weighted reduction [W89].
+    """Estimate the stable model of order n from one experiment with coloured faults, by ARX and weighted reduction [W89].
 
     y (N, p) and u (N, n_u) are arrays in any units, and are not modified; without u, y gives the consecutive pieces (y, u) of the
     experiment anew at each `iter`, as a list or a record does. Means are not taken off. `order` is n >= 0; where it is not given, orders
@@ -65,7 +65,7 @@ def arx_reduction(
 def arx_reduction_experiments(
     experiments: Sequence[tuple[ArrayLike, ArrayLike]], *, order: int | None = None, lags: int | None = None
 ) -> ReducedModel:
-    """One model of several experiments (y, u) with the same channels and units, each with an own initial state and length [W89].
+    """Estimate one model from several experiments (y, u) with the same channels and units, each with an own initial state and length [W89].
 
     `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u); the other arguments and the result are those of
     `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
@@ -97,7 +97,7 @@ def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | 
 
 
 def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tuple[list[int], int]:
-    """The samples of each experiment, and the lags: those given, or what they carry. InvalidData where those are too few for order n."""
+    """Return the samples of each experiment and the lags, given or carried. Raises InvalidData where these are too few for order n."""
     shapes = [[(len(y), y.shape[1], u.shape[1]) for y, u in source] for source in sources]
     if not all(shapes):
         raise InvalidData("no data: an experiment has no samples")
@@ -114,7 +114,7 @@ def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tup
 
 
 def _initial_state(source: Pieces, model: StateSpaceModel) -> Array:
-    """By least squares over the samples in which it can be seen."""
+    """Estimate the initial state by least squares over the samples in which it can be seen."""
     radius = min(spectral_radius(model.A), 1.0)
     left = MOST_FREE if radius == 1 else model.n + (int(min(np.log(EPS) / np.log(radius), MOST_FREE)) if radius > 0 else 0) + 1
     pieces: list[tuple[Array, Array]] = []

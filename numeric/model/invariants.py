@@ -1,4 +1,4 @@
-"""What a model is whatever its state basis, and how it changes with A, B, C, D: Markov parameters, transfer function, poles.
+"""Compute what a model is whatever its state basis, and how it changes with A, B, C, D: Markov parameters, transfer function, poles.
 
 All four matrices stand in one, T = [[A, B], [C, D]] (n + p, n + n_u), and derivatives are products with the model's two half responses,
 
@@ -26,17 +26,17 @@ ComplexArray = NDArray[np.complex128]
 
 
 def system_matrix(model: StateSpaceModel) -> Array:
-    """[[A, B], [C, D]]."""
+    """Return [[A, B], [C, D]]."""
     return np.block([[model.A, model.B], [model.C, model.D]])
 
 
 def state_space(matrix: Array, n: int) -> StateSpaceModel:
-    """The model of a system matrix with n states."""
+    """Return the model of a system matrix with n states."""
     return StateSpaceModel(matrix[:n, :n], matrix[:n, n:], matrix[n:, :n], matrix[n:, n:])
 
 
 def half_transfers(matrix: Array, n: int, angles: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
-    """G (M, p, n_u), L (M, p, n + p) and X (M, n + n_u, n_u) at z = exp(i angle)."""
+    """Return G (M, p, n_u), L (M, p, n + p) and X (M, n + n_u, n_u) at z = exp(i angle)."""
     A, B, C, D = matrix[:n, :n], matrix[:n, n:], matrix[n:, :n], matrix[n:, n:]
     p, n_u = D.shape
     resolvent = np.linalg.inv(np.exp(1j * angles)[:, None, None] * np.eye(n) - A)
@@ -48,7 +48,7 @@ def half_transfers(matrix: Array, n: int, angles: Array) -> tuple[ComplexArray, 
 
 
 def half_responses(matrix: Array, n: int, count: int) -> tuple[Array, Array]:
-    """L (count, p, n + p) and X (count, n + n_u, n_u) over time."""
+    """Return L (count, p, n + p) and X (count, n + n_u, n_u) over time."""
     p, n_u = len(matrix) - n, matrix.shape[1] - n
     left, right = np.zeros((count, p, n + p)), np.zeros((count, n + n_u, n_u))
     left[:1, :, n:], right[:1, n:] = np.eye(p), np.eye(n_u)
@@ -60,13 +60,13 @@ def half_responses(matrix: Array, n: int, count: int) -> tuple[Array, Array]:
 
 
 def transfer_jacobian(matrix: Array, n: int, angles: Array) -> ComplexArray:
-    """Of G at each angle, (M p n_u, K), rows by angle, output, input."""
+    """Return the Jacobian (M p n_u, K) of G at each angle, with rows by angle, output, input."""
     _, left, right = half_transfers(matrix, n, angles)
     return np.asarray(np.einsum("mar,mcb->mabrc", left, right).reshape(left.shape[0] * left.shape[1] * right.shape[2], -1))
 
 
 def markov_jacobian(matrix: Array, n: int, count: int) -> Array:
-    """Of the first `count` Markov parameters D, CB, CAB, .., (count p n_u, K), rows by parameter, output, input."""
+    """Return the Jacobian (count p n_u, K) of the first Markov parameters D, CB, CAB, .., with rows by parameter, output, input."""
     left, right = half_responses(matrix, n, count)
     jacobian = np.zeros((count, left.shape[1], right.shape[2], left.shape[2], right.shape[1]))
     for k in range(count):
@@ -75,8 +75,9 @@ def markov_jacobian(matrix: Array, n: int, count: int) -> Array:
 
 
 def pole_jacobian(matrix: Array, n: int) -> tuple[ComplexArray, ComplexArray]:
-    """The poles (n,), by falling modulus as `StateSpaceModel.poles`, and their derivatives (n, K): y* dA x / y* x with eigenvectors y, x on
-    the left and right; infinite where a pole is multiple and has no derivative.
+    """Return the poles (n,), by falling modulus as `StateSpaceModel.poles`, and their derivatives (n, K).
+
+    These are y* dA x / y* x with eigenvectors y, x on the left and right, and infinite where a pole is multiple and has no derivative.
     """
     values, vectors = np.linalg.eig(matrix[:n, :n])
     values = values.astype(np.complex128)
@@ -91,7 +92,7 @@ def pole_jacobian(matrix: Array, n: int) -> tuple[ComplexArray, ComplexArray]:
 
 
 def off_gauge(matrix: Array, n: int) -> Array:
-    """Orthonormal columns (K, K - n^2) orthogonal to all changes of T by a change of the state basis, of a minimal model."""
+    """Return orthonormal columns (K, K - n^2) orthogonal to all changes of T by a change of the state basis, for a minimal model."""
     if n == 0:
         return np.eye(matrix.size)
     tangents = np.zeros((n, n, *matrix.shape))

@@ -1,4 +1,4 @@
-"""The evidence for an order: what the data say of each, and which orders they leave open.
+"""Weigh the evidence for an order: what the data say of each, and which orders they leave open.
 
 The reduction's cost at order n is the likelihood ratio against the ARX plant, so that with d = n (p + n_u) + p n_u parameters orders are
 compared by two criteria, which err on opposite sides:
@@ -29,10 +29,12 @@ LEVEL = 0.95
 
 @dataclass(frozen=True)
 class OrderRow:
-    """cost of the reduction and its d `parameters`; odds: share among all rows by `schwarz`, the first criterion; `akaike`, the second;
-    one_step and free_run: 1 - |error| / |y| on samples held back, channels scaled to equal size, of the one-step prediction and of the
-    simulation with fitted initial state, NaN where there were too few; gap: ratio of singular value n to the next of the weighted Hankel
-    matrix of the ARX plant, NaN for order 0."""
+    """A row has the `cost` of the reduction with its d `parameters`; `schwarz` is the first criterion and `akaike` the second.
+
+    `odds` is the share among all rows by `schwarz`. `one_step` and `free_run` are 1 - |error| / |y| on samples held back, with channels
+    scaled to equal size, of the one-step prediction and of the simulation with fitted initial state, NaN where there were too few. `gap` is
+    the ratio of singular value n to the next of the weighted Hankel matrix of the ARX plant, NaN for order 0.
+    """
 
     order: int
     cost: float
@@ -45,7 +47,7 @@ class OrderRow:
 
     @property
     def akaike(self) -> float:
-        """cost + 2 d."""
+        """Return cost + 2 d."""
         return self.cost + 2 * self.parameters
 
 
@@ -85,7 +87,7 @@ class OrderEvidence:
 
 
 def weighed(rows: Sequence[OrderRow]) -> OrderEvidence:
-    """The evidence of rows by rising order, one at least, whose odds are still to be filled in."""
+    """Return the evidence of rows by rising order, one at least, whose odds are still to be filled in."""
     criteria = np.array([row.schwarz for row in rows])
     odds = np.exp(-(criteria - criteria.min()) / 2)
     odds /= odds.sum()

@@ -1,4 +1,4 @@
-"""The weighted reduction of an ARX model to order n, from the windows of the data alone, with its uncertainty.
+"""Reduce an ARX model to order n under its weight, from the windows of the data alone, with the uncertainty of the result.
 
 Uncertainty. Were the weight W the true one, the information of T would be the matrix of the normal equations. W = A* S^-1 A is estimated,
 and too large on average: by 1 + p h / f, since the errors of A at one angle have the covariance (h / f) S x Phi^-1 [B74], and S^-1 by
@@ -84,12 +84,12 @@ class ReducedModel:
 
 
 def reduced(windows: ArxWindows, n: int) -> ReducedModel:
-    """The model of order n >= 0 from the windows alone; no initial states. InvalidData as `arx_reduction`."""
+    """Return the model of order n >= 0 from the windows alone, without initial states. Raises InvalidData as `arx_reduction` does."""
     return reduced_from(windows, fitted_arx(windows, -(-n // windows.p)), n)
 
 
 def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
-    """The same with the ARX model (in channels of unit size) made beforehand."""
+    """Do the same with the ARX model (in channels of unit size) made beforehand."""
     problem = reduction_problem(windows, arx, circle(enough_angles(windows, arx)))
     matrix, cost = _minimum(windows, arx, problem, n)
     y, u = windows.scales
@@ -104,12 +104,12 @@ def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
 
 
 def reduction_problem(windows: ArxWindows, arx: Arx, angles: Array) -> Reduction:
-    """What is minimised: the ARX plant under its own weight and the input's spectrum, at these angles."""
+    """Return what is minimised: the ARX plant under its own weight and the input's spectrum, at these angles."""
     return Reduction(angles, arx.plant(angles), arx.weight(angles), input_spectrum(windows, angles), windows.rows)
 
 
 def enough_angles(windows: ArxWindows, arx: Arx) -> int:
-    """As many as make the power of the plant's response, plain and weighted, the same as twice as many do."""
+    """Return how many angles give the plant's response, plain and weighted, the same power as twice as many do."""
     count, before = COARSE, np.zeros(2)
     while True:
         problem = reduction_problem(windows, arx, circle(count))
@@ -123,7 +123,7 @@ def enough_angles(windows: ArxWindows, arx: Arx) -> int:
 
 
 def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple[Array, float]:
-    """T of the least cost found, and that cost. The search goes on few angles, only its end is the problem itself."""
+    """Return T of the least cost found, and that cost. The search uses few angles, and only its end is the problem itself."""
     coarse = problem if len(problem.angles) == COARSE else reduction_problem(windows, arx, circle(COARSE))
     rungs = list(ladder(coarse, arx.disturbance(coarse.angles)))
     begun = list(starts(windows, arx, rungs[0], n))
@@ -139,7 +139,7 @@ def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple
 
 
 def _climbed(rungs: Sequence[Reduction], begun: Iterable[Array], n: int, kept: int) -> list[tuple[Array, float]]:
-    """The ends of the ladder from the `kept` best distinct starts, the least cost first."""
+    """Return the ends of the ladder from the `kept` best distinct starts, the least cost first."""
     distinct: list[tuple[Array, float]] = []
     for matrix, cost in sorted((descend(rungs[0], start, n, *RUNGS) for start in begun), key=lambda one: one[1]):
         if all(cost - other > DISTINCT * cost for _, other in distinct):
@@ -153,7 +153,7 @@ def _climbed(rungs: Sequence[Reduction], begun: Iterable[Array], n: int, kept: i
 
 
 def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -> tuple[str, ...]:
-    """What the cost and the poles tell. InvalidData for a plant that seems to be unstable.
+    """Return notes on what the cost and the poles show. Raises InvalidData for a plant that seems to be unstable.
 
     At the true plant the cost is part of the likelihood ratio of all ARX parameters, chi-squared with as many degrees of freedom; at its
     minimum it is less. Roots of A(q) outside the unit circle alone tell little: of many roots some lie there by chance. They count where

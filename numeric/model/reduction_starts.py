@@ -1,4 +1,4 @@
-"""Where a weighted reduction starts: A and C by subspaces, from the data's windows and from an ARX model's Markov parameters.
+"""Find where a weighted reduction starts: A and C by subspaces, from the data's windows and from an ARX model's Markov parameters.
 
     PI-MOESP [V93] on windows of the ARX factor: all of them, and half as long
     realisation [HK66, K78] of the ARX plant, plain, and under the weight of the noise model's Toeplitz matrix
@@ -29,7 +29,7 @@ MARGIN = 1e-3  # distance from the unit circle at which a reflected pole is left
 
 
 def starts(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> Iterator[Array]:
-    """System matrices (n + p, n + n_u) in the units of the ARX model; for n = 0 the one with the best D."""
+    """Yield system matrices (n + p, n + n_u) in the units of the ARX model; for n = 0 the one with the best D."""
     p, n_u = windows.p, windows.n_u
     if n == 0:
         yield problem.input_matrices(np.zeros((0, 0)), np.zeros((p, 0)))
@@ -45,7 +45,7 @@ def starts(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> Iterato
 
 
 def one_state_less(matrix: Array, n: int, problem: Reduction) -> Iterator[Array]:
-    """System matrices with n - 1 states out of one with n: each real pole left out, or each pair made one real pole, with the best B and D.
+    """Yield system matrices with n - 1 states out of one with n: without a real pole, or with a pair made one, and with the best B and D.
 
     Descent is easier with a state to spare: all modes of the plant are then there, and one that is not.
     """
@@ -75,8 +75,10 @@ def _by_past_inputs(windows: ArxWindows, n: int, rows: int) -> tuple[Array, Arra
 
 
 def hankel_factors(arx: Arx, rows: int, weighted: bool) -> tuple[Array, Array, Array]:
-    """The weight V and U, S of the singular values V^-1 H = U S .., H the block Hankel matrix (rows p, rows n_u) of the ARX plant's Markov
-    parameters, V the Toeplitz matrix of the noise model, or I."""
+    """Return the weight V and the factors U, S of the singular value decomposition V^-1 H = U S ...
+
+    H is the block Hankel matrix (rows p, rows n_u) of the ARX plant's Markov parameters, V the Toeplitz matrix of the noise model, or I.
+    """
     plant, noise = arx.markov(2 * rows)
     p, n_u = plant.shape[1:]
     numbers = np.arange(rows)
@@ -102,7 +104,7 @@ def _realised(arx: Arx, n: int, rows: int, weighted: bool) -> tuple[Array, Array
 
 
 def _reflected(A: Array) -> Array:
-    """A with the poles outside the unit circle moved inside it, which leaves the modulus of each factor of the transfer function."""
+    """Return A with the poles outside the unit circle reflected into it, which keeps |det(z I - A)| on the circle but for a constant."""
     values, vectors = np.linalg.eig(A)
     sizes = np.abs(values)
     if np.all(sizes < 1):

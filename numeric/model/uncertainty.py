@@ -1,4 +1,4 @@
-"""The uncertainty of a model as that of what does not depend on the state basis: Markov parameters, transfer function, poles.
+"""Compute a model's uncertainty as that of what does not depend on the state basis: Markov parameters, transfer function, poles.
 
 A Fisher information J of T = [[A, B], [C, D]] is singular along the gauge, and only there for a minimal, excited model. With Q across the
 gauge and Q' J Q = R R', the covariance of an invariant with Jacobian H (delta method, [VV07, ch. 4]) is H Q (R R')^-1 Q' H', whatever Q.
@@ -66,8 +66,10 @@ def _parts(spread: ComplexArray) -> ComplexArray:
 
 
 def uncertainty_of(model: StateSpaceModel, information: Array) -> Uncertainty:
-    """From the Fisher information (K, K) of T. A direction that is not determined gets the deviation that goes with rounding, which is
-    huge."""
+    """Return the uncertainty that goes with the Fisher information (K, K) of T.
+
+    A direction that is not determined gets the deviation that goes with rounding, which is huge.
+    """
     across = off_gauge(system_matrix(model), model.n)
     values, vectors = eigh(across.T @ information @ across)
     rounding = np.finfo(np.float64)

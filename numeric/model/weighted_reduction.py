@@ -1,4 +1,4 @@
-"""A model of given order nearest to a plant on the unit circle, under a weight: minimise over A, B, C, D
+"""Find a model of given order nearest to a plant on the unit circle, under a weight: minimise over A, B, C, D
 
     N / M  sum over M angles of  tr( W (G_h - G) P (G_h - G)* ),     G = C (z I - A)^-1 B + D,
 
@@ -44,13 +44,13 @@ REFUSED, ACCEPTED = 6.0, 8.0  # factors by which damping rises after a refused s
 
 
 def circle(count: int) -> Array:
-    """Midpoints (count,) of equal parts of (0, pi): sums over them integrate what is smooth and even on the circle."""
+    """Return the midpoints (count,) of equal parts of (0, pi): sums over them integrate what is smooth and even on the circle."""
     return (np.arange(count) + 0.5) * np.pi / count
 
 
 @dataclass(frozen=True, eq=False)
 class Reduction:
-    """angles (M,), plant (M, p, n_u), weight (M, p, p), spectrum (M, n_u, n_u) of the input, samples N."""
+    """What is minimised has angles (M,), plant (M, p, n_u), weight (M, p, p), spectrum (M, n_u, n_u) of the input, and N samples."""
 
     angles: Array
     plant: ComplexArray
@@ -63,14 +63,14 @@ class Reduction:
         return self.samples / len(self.angles)
 
     def cost(self, matrix: Array, n: int) -> float:
-        """The sum at T = `matrix`."""
+        """Return the sum at T = `matrix`."""
         return self._cost(self.plant - half_transfers(matrix, n, self.angles)[0])
 
     def _cost(self, error: ComplexArray) -> float:
         return float(self._share * np.sum((self.weight @ error @ self.spectrum * error.conj()).real))
 
     def normal_equations(self, matrix: Array, n: int) -> tuple[Array, Array, float]:
-        """Half the Hessian (K, K) of the linearised sum, half its falling gradient (K,), and the sum, at T = `matrix`."""
+        """Return half the Hessian (K, K) of the linearised sum, half its falling gradient (K,), and the sum, at T = `matrix`."""
         transfer, left, right = half_transfers(matrix, n, self.angles)
         weighted, driven = adjoint(left) @ self.weight, self.spectrum @ adjoint(right)
         error = self.plant - transfer
@@ -78,12 +78,12 @@ class Reduction:
         return self._share * _kronecker_sum(weighted @ left, right @ driven), self._share * slope.ravel(), self._cost(error)
 
     def information(self, matrix: Array, n: int) -> Array:
-        """The normal equations' matrix alone: the Fisher information of T where W and P are the true spectra."""
+        """Return the normal equations' matrix alone: the Fisher information of T where W and P are the true spectra."""
         _, left, right = half_transfers(matrix, n, self.angles)
         return self._share * _kronecker_sum(adjoint(left) @ self.weight @ left, right @ self.spectrum @ adjoint(right))
 
     def input_matrices(self, A: Array, C: Array) -> Array:
-        """T with these A, C and the best B and D, a linear problem."""
+        """Return T with these A, C and the best B and D, which solve a linear problem."""
         n, p, n_u = len(A), len(C), self.plant.shape[2]
         matrix = np.zeros((n + p, n + n_u))
         matrix[:n, :n], matrix[n:, :n] = A, C
@@ -96,7 +96,7 @@ class Reduction:
 
 
 def _kronecker_sum(left: ComplexArray, right: ComplexArray) -> Array:
-    """The real part of sum_m left[m] (a, a) kron right[m]^T (b, b), as (a b, a b)."""
+    """Return the real part of sum_m left[m] (a, a) kron right[m]^T (b, b), as (a b, a b)."""
     a, b = left.shape[1], right.shape[1]
     rows, columns = left.reshape(len(left), -1).T, np.swapaxes(right, 1, 2).reshape(len(right), -1)
     product = rows.real @ columns.real - rows.imag @ columns.imag
@@ -104,7 +104,7 @@ def _kronecker_sum(left: ComplexArray, right: ComplexArray) -> Array:
 
 
 def ladder(true: Reduction, disturbance: ComplexArray) -> Iterator[Reduction]:
-    """Reductions from a weight whose floor is the mean power of the disturbance's spectrum (M, p, p) to the true one."""
+    """Yield reductions from a weight whose floor is about the mean power of the disturbance's spectrum (M, p, p) to the true one."""
     size = float(np.trace(disturbance.mean(axis=0)).real) / disturbance.shape[1]
     least = float(np.linalg.eigvalsh(disturbance).min())
     floor = size / np.sqrt(RUNG)
@@ -115,7 +115,7 @@ def ladder(true: Reduction, disturbance: ComplexArray) -> Iterator[Reduction]:
 
 
 def descend(problem: Reduction, matrix: Array, n: int, steps: int, tolerance: float) -> tuple[Array, float]:
-    """T (n + p, n + n_u) with a stable A and its cost after `steps` steps at most, or when one gains less than `tolerance` of it."""
+    """Return T (n + p, n + n_u) with a stable A, and its cost, after `steps` steps or when one gains less than `tolerance` of it."""
     current = balanced(matrix, n)
     hessian, slope, cost = problem.normal_equations(current, n)
     damping = DAMPING
@@ -139,7 +139,7 @@ def descend(problem: Reduction, matrix: Array, n: int, steps: int, tolerance: fl
 
 
 def _solved(matrix: Array, right: Array) -> Array:
-    """No step where the matrix is singular: more damping follows."""
+    """Solve for a step, which is zero where the matrix is singular: more damping follows."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
@@ -147,12 +147,12 @@ def _solved(matrix: Array, right: Array) -> Array:
 
 
 def spectral_radius(A: Array) -> float:
-    """The largest modulus of an eigenvalue, 0 without states."""
+    """Return the largest modulus of an eigenvalue, 0 without states."""
     return float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
 
 
 def balanced(matrix: Array, n: int) -> Array:
-    """The model of a stable system matrix in internally balanced coordinates [M81], or as it is where they cannot be computed."""
+    """Return a stable system matrix in internally balanced coordinates [M81], or as it is where they cannot be computed."""
     if n == 0:
         return matrix
     B, C = matrix[:n, n:], matrix[n:, :n]

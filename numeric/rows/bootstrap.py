@@ -1,4 +1,4 @@
-"""The parametric bootstrap of kernel rows: records of the same system with other noise, made from the rows alone.
+"""Run the parametric bootstrap of kernel rows: make records of the same system with other noise, from the rows alone.
 
 Of all noise that the rows admit, N_y w = N [y; u], the least is taken away from y. What is left obeys the rows exactly: it is a record that
 a system of these rows could have made without noise, whatever its faults. New noise of the estimated spectrum and shares added, it is
@@ -29,7 +29,7 @@ RIDGE = 1e-12
 
 
 def least_noise(rows: Sequence[Array], z: Array, shares: Array) -> Array:
-    """w (N, p) for rows (eta_i + 1, p + n_u), z (N, p + n_u) = [y, u] and shares (p,), all in the same units."""
+    """Return w (N, p) for rows (eta_i + 1, p + n_u), z (N, p + n_u) = [y, u] and shares (p,), all in the same units."""
     N, p = len(z), len(shares)
     banded = [scipy.sparse.hstack([_convolution(row[:, c], N) for c in range(p)]) for row in rows]
     left = [sum((z[j : N - len(row) + 1 + j] @ row[j] for j in range(1, len(row))), z[: N - len(row) + 1] @ row[0]) for row in rows]
@@ -44,14 +44,14 @@ def least_noise(rows: Sequence[Array], z: Array, shares: Array) -> Array:
 
 
 def _convolution(coefficients: Array, N: int) -> scipy.sparse.spmatrix:
-    """(N - eta, N): a signal to what the polynomial makes of it."""
+    """Return the matrix (N - eta, N) that takes a signal to what the polynomial makes of it."""
     eta = len(coefficients) - 1
     diagonals = [np.full(N - eta, value) for value in coefficients]
     return scipy.sparse.diags(diagonals, list(range(eta + 1)), shape=(N - eta, N), format="csr")
 
 
 def redrawn(y: Array, u: Array, data: JointMoments, fit: KernelBasis, shares: Array, draws: int, seed: int) -> Iterator[Array]:
-    """`draws` records (N, p) for the input u, which obey the rows of `fit` but for noise of the spectrum that these leave."""
+    """Yield `draws` records (N, p) for the input u, which obey the rows of `fit` but for noise of the spectrum that these leave."""
     scale = data.scale[: data.p]
     z = np.hstack([y, u]) / data.scale
     clean = z[:, : data.p] - least_noise(fit.rows, z, shares)

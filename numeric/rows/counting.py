@@ -1,11 +1,11 @@
-"""The number of faults in a record of outputs and inputs, from the laws that they still obey: no model, no residual.
+"""Count the faults in a record of outputs and inputs by the laws that these still obey, without a model or a residual.
 
 With m faults, k = p - m polynomial rows annihilate [y; u] up to noise, and no more (`joint.py`). So the question for every k is whether
 k rows of total degree n are laws (`laws.py`), and the number of faults is p less the most that are. Bisection finds the place.
 
     k >= 2    sphericity and flatness, both with a probability; noise shares of the channels are estimated
-    k = 1     flatness alone: one row leaves one signal, which any noise could be. So a last fault that is as faint as the noise is not told
-              from noise: the answer p - 1 rests on the assumption that no fault is fainter than FAINTEST beside the one before it; where
+    k = 1     flatness alone: one row leaves one signal, which any noise could be. So a last fault that is as faint as the noise looks
+              like noise: the answer p - 1 rests on the assumption that no fault is fainter than FAINTEST beside the one before it; where
               the step from two rows to one is less, the answer is "p - 1 or p"
     known     a `noise_level` of the channels settles that: the remainder of laws has no more than that power, to a factor KNOWN_TO
 
@@ -68,13 +68,13 @@ class FaultCount:
 
 
 def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLike | None = None, draws: int = 0) -> FaultCount:
-    """How many independent faults act on y (N, p) with inputs u (N, n_u), the system being of this `order` or less.
+    """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
 
-    `noise_level`: standard deviation of the noise in each output, (p,) or one number for all, in units of y. `draws`: records of the
-    parametric bootstrap for each k that is tried, by which the misfit of the stated laws is measured for this very record (20 will do,
-    a quarter of a second each). Units of y and u do not matter. Raises InvalidData for shapes that do not fit, records too short for rows
-    of degree order + 3, constant outputs, and outputs that are combinations of others up to rounding. Source: [W91] for the rows, [M82]
-    and [W38] for the ratios.
+    `noise_level` is the standard deviation of the noise in each output, (p,) or one number for all, in units of y. `draws` is the number
+    of records of the parametric bootstrap for each k that is tried, by which the misfit of the stated laws is measured for this very record
+    (20 will do, a quarter of a second each). Units of y and u do not matter. Raises InvalidData for shapes that do not fit, records
+    too short for rows of degree order + 3, constant outputs, and outputs that are combinations of others up to rounding. Source: [W91] for
+    the rows, [M82] and [W38] for the ratios.
 
     >>> import numpy as np
     >>> from faultspace.numeric import count_faults
@@ -116,7 +116,7 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
 
 
 def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: JointMoments, known: Array | None) -> FaultCount:
-    """The answer where no two rows are laws: p - 1, p, or either."""
+    """Answer where no two rows are laws: p - 1, p, or either."""
     one = laws(1)
     if known is not None:
         loud = _loudness(one.longer.level, one.longer.spectrum, data, known)
@@ -142,7 +142,7 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
 
 
 def _answer(n_v: int, found: Laws, tests: dict[int, Laws], data: JointMoments) -> FaultCount:
-    """`found` are the most laws."""
+    """Return the count that follows where `found` are the most rows that are laws."""
     p = data.p
     reason = (
         f"{found.count} row{'s' if found.count > 1 else ''} of outputs and inputs leave noise alone (probability {found.probability:.2g})"
@@ -156,7 +156,7 @@ def _answer(n_v: int, found: Laws, tests: dict[int, Laws], data: JointMoments) -
 
 
 def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount:
-    """`near` is neither clearly a law nor clearly none."""
+    """Return the counts that remain possible where the k rows `near` are neither clearly laws nor clearly none."""
     most = max((count for count, laws in tests.items() if laws.holds), default=0)
     least = min((count for count, laws in tests.items() if laws.holds is False), default=p + 1)
     possible = tuple(range(max(p - least + 1, 0), p - most + 1))
@@ -171,19 +171,19 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
 
 
 def _holds(laws: Laws, data: JointMoments, known: Array | None) -> bool | None:
-    """Whether they are laws; where the noise level is known, laws leave no more than it."""
+    """Return whether they are laws; where the noise level is known, laws leave no more than it."""
     if known is not None and _loudness(laws.level, laws.fit.spectrum, data, known) > KNOWN_TO:
         return False
     return laws.holds
 
 
 def _loudness(level: float, spectrum: Array, data: JointMoments, known: Array) -> float:
-    """Power of the noise that rows leave, beside the known one (p,) in units of the moments."""
+    """Return the ratio of the noise power that rows leave to the known one, whose deviations (p,) are in units of the moments."""
     return float(np.exp(level - np.mean(np.log(known**2))) * (spectrum @ data.moments.weights))
 
 
 def _known(noise_level: ArrayLike, p: int) -> Array:
-    """(p,) positive deviations. Raises InvalidData."""
+    """Return the noise level as (p,) positive deviations. Raises InvalidData where it is none."""
     try:
         level = np.broadcast_to(np.asarray(noise_level, dtype=float), (p,))
     except (TypeError, ValueError):
@@ -194,14 +194,14 @@ def _known(noise_level: ArrayLike, p: int) -> Array:
 
 
 def _by_ranks(y: Array, u: Array) -> FaultCount:
-    """The count where no noise is seen."""
+    """Count by the ranks of windows where no noise is seen."""
     exact = fault_dimension(y, u=u)
     possible = tuple(range(y.shape[1] + 1)) if exact.n_v is None else (exact.n_v,)
     return FaultCount(exact.n_v, possible, f"no noise beyond rounding: {exact.reason}", ())
 
 
 def _measured(outputs: Array) -> None:
-    """InvalidData for outputs (N, p) that show no noise of their own."""
+    """Raise InvalidData for outputs (N, p) that show no noise of their own."""
     constant = constant_channels(outputs.min(axis=0), outputs.max(axis=0))
     if constant:
         raise InvalidData(f"y: channels {constant} (from 0) are constant: they show no fault and no noise; leave them out")
@@ -211,5 +211,5 @@ def _measured(outputs: Array) -> None:
 
 
 def _walk(tests: dict[int, Laws]) -> tuple[Laws, ...]:
-    """By falling number of rows."""
+    """Return the tests by falling number of rows."""
     return tuple(tests[count] for count in sorted(tests, reverse=True))

@@ -1,4 +1,4 @@
-"""The number of zeros: the least total degree of the kernel rows that the data accept, with a probability.
+"""Find the number of zeros from the least total degree of the kernel rows that the data accept, with a probability.
 
 k rows of [y; u] whose degrees add up to d are rational curves of degree d in a Grassmannian and have d (p + n_u) + k (p + n_u - k)
 parameters, so that every further degree frees p + n_u. The level of the rows is the logarithm of the noise power that they leave in each of
@@ -40,8 +40,11 @@ MISFITS = (1.6, 3.2)
 
 @dataclass(frozen=True, eq=False)
 class LeastDegree:
-    """`degree`, the likeliest least one; `levels` and `probabilities` (most + 1,) of total degrees 0, 1, ..; `margin`, at least one where
-    `decided`: the smaller of log(probability of the degree below) / log(TOO_LOW) and log(ENOUGH) / log(probability of the degree)."""
+    """The least total degree that the data accept is `degree`; `levels` and `probabilities` (most + 1,) belong to total degrees 0, 1, ...
+
+    `margin` is the smaller of log(probability of the degree below) / log(TOO_LOW) and log(ENOUGH) / log(probability of the degree), which
+    is at least one where `decided`.
+    """
 
     degree: int
     levels: Array
@@ -52,29 +55,32 @@ class LeastDegree:
 
 
 def likelihood_ratio(data: JointMoments, low: KernelBasis, high: KernelBasis) -> float:
-    """Twice the logarithm of the likelihood ratio of two fits with the same number of rows; none where both are exact up to rounding."""
+    """Return twice the log likelihood ratio of two fits with equally many rows, which is zero where both are exact up to rounding."""
     floor = float(np.log(ROUNDING))
     return max(data.samples * len(low.rows) * (max(low.level, floor) - max(high.level, floor)), 0.0)
 
 
 def freedom(data: JointMoments, low: KernelBasis, high: KernelBasis) -> int:
-    """Parameters that the fit of the higher total degree has more."""
+    """Return how many more parameters the fit of the higher total degree has."""
     return (_total(high) - _total(low)) * data.moments.channels
 
 
 def excess(data: JointMoments, low: KernelBasis, high: KernelBasis, misfits: Sequence[float] = MISFITS) -> float:
-    """Probability of a ratio at least as large, if the lower total degree suffices; misfits[i] for i + 1 degrees more, the last for all."""
+    """Return the probability of a ratio at least as large, if the lower total degree suffices.
+
+    misfits[i] is the misfit for i + 1 degrees more, and the last one is that for all beyond.
+    """
     misfit = misfits[min(_total(high) - _total(low), len(misfits)) - 1]
     return float(scipy.stats.chi2.sf(likelihood_ratio(data, low, high) / misfit, freedom(data, low, high)))
 
 
 def _total(fit: KernelBasis) -> int:
-    """Sum of the degrees of the rows."""
+    """Return the sum of the degrees of the rows."""
     return sum(len(row) - 1 for row in fit.rows)
 
 
 def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, most: int, misfits: Sequence[float] = MISFITS) -> LeastDegree:
-    """Of `fits` with total degrees 0, 1, ..; `least` and `most` bound what the structure allows. Fits beyond `most` test the order."""
+    """Choose among `fits` with total degrees 0, 1, ..; `least` and `most` bound what the structure allows; fits beyond test the order."""
     top = len(fits) - 1
     # The least favourable comparison, counted as many times as there are comparisons.
     probabilities = np.ones(top + 1)
@@ -101,6 +107,6 @@ def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, mo
 
 
 def _margin(below: float, at: float) -> float:
-    """How far on their sides of the thresholds the two probabilities lie, as a ratio of their logarithms."""
+    """Return how far on their sides of the thresholds the two probabilities lie, as a ratio of their logarithms."""
     tiny = 1e-300
     return float(min(np.log(max(below, tiny)) / np.log(TOO_LOW), np.log(ENOUGH) / np.log(max(min(at, 1 - 1e-9), tiny))))

@@ -1,4 +1,4 @@
-"""Kernel rows of outputs and inputs together, by maximum likelihood: no model of the system is needed.
+"""Fit kernel rows of outputs and inputs together by maximum likelihood, for which no model of the system is needed.
 
 In x+ = A x + B u + F v, y = C x + D u + G v + w let the polynomial row [N_y N_u](q) annihilate every [y; u] that the system can make
 without noise, whatever v and x(0) are. Then N_y(q) y + N_u(q) u = N_y(q) w: neither the faults nor the initial state nor the input are
@@ -41,7 +41,7 @@ ROUNDING = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class JointMoments:
-    """`moments` of [y / scale[:p], u / scale[p:]], of p outputs and n_u inputs, and the `scale` (p + n_u,) of the channels."""
+    """`moments` are those of [y / scale[:p], u / scale[p:]] of p outputs and n_u inputs, and `scale` (p + n_u,) is that of the channels."""
 
     moments: CrossMoments
     scale: Array
@@ -49,31 +49,32 @@ class JointMoments:
 
     @property
     def n_u(self) -> int:
-        """Number of inputs."""
+        """Return the number of inputs."""
         return self.moments.channels - self.p
 
     @property
     def samples(self) -> float:
-        """Independent samples that the moments are worth."""
+        """Return how many independent samples the moments are worth."""
         return self.moments.samples
 
     @property
     def degree(self) -> int:
-        """Largest degree of a row that they serve."""
+        """Return the largest degree of a row that they serve."""
         return self.moments.degree
 
     def noise(self, shares: Array | None) -> Array:
-        """(p + n_u,): these shares (p,) of the outputs, ones where they are None, and none of the inputs."""
+        """Return the shares (p + n_u,) of all channels: these (p,) of the outputs, ones where they are None, and zeros of the inputs."""
         return np.concatenate([np.ones(self.p) if shares is None else shares, np.zeros(self.n_u)])
 
     def in_units(self, rows: Sequence[Array]) -> list[Array]:
-        """Rows (eta_i + 1, p + n_u) of the scaled channels as rows of y and u themselves."""
+        """Return rows (eta_i + 1, p + n_u) of the scaled channels as rows of y and u themselves."""
         return [row / self.scale for row in rows]
 
 
 def joint_moments(y: ArrayLike, u: ArrayLike, degree: int) -> JointMoments:
-    """The moments of y (N, p) and u (N, n_u) for rows up to this degree. Raises InvalidData for data that are no signals, for lengths that
-    differ, and where N is less than 2 (p + n_u) (degree + 1) + degree.
+    """Return the moments of y (N, p) and u (N, n_u) for rows up to this degree.
+
+    Raises InvalidData for data that are no signals, for lengths that differ, and where N is less than 2 (p + n_u) (degree + 1) + degree.
 
     >>> t = np.arange(400.0)
     >>> joint_moments(np.sin(t), np.cos(3 * t), 2).p
@@ -83,7 +84,7 @@ def joint_moments(y: ArrayLike, u: ArrayLike, degree: int) -> JointMoments:
 
 
 def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]], degree: int) -> JointMoments:
-    """The same from several experiments (y, u) of one system, each from its own initial state, weighted by their lengths.
+    """Return the moments of several experiments (y, u) of one system, each from its own initial state, weighted by their lengths.
 
     Raises InvalidData as `joint_moments`, for experiments with other numbers of channels, and for experiments so short that their spectra
     have different numbers of bands.
@@ -109,13 +110,13 @@ def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]]
 
 
 def _deviations(signals: Array) -> Array:
-    """Standard deviations (c,), of a constant channel its size: an offset says nothing about how loud the noise of a sensor is."""
+    """Return the standard deviations (c,), and the size of a constant channel: an offset does not show how loud a sensor's noise is."""
     deviations = channel_sizes(signals - signals.mean(axis=0))
     return np.where(np.ptp(signals, axis=0) > 0.0, deviations, channel_sizes(signals))
 
 
 def even_split(total: int, rows: int) -> tuple[int, ...]:
-    """Ascending degrees of so many rows that add up to `total`, as equal as can be: those of almost every system."""
+    """Return ascending degrees of so many rows that add up to `total`, as equal as can be, which are those of almost every system."""
     low, rest = divmod(total, rows)
     return (low,) * (rows - rest) + (low + 1,) * rest
 
@@ -128,7 +129,7 @@ def fitted(
     shares: Array | None = None,
     rounds: int = ROUNDS,
 ) -> KernelBasis:
-    """Rows of these ascending degrees, from `starts` and from the least vectors of the moments."""
+    """Fit rows of these ascending degrees, from `starts` and from the least vectors of the moments."""
     moments = data.moments.of_degree(max(degrees))
     return kernel_basis(moments, _free(data, degrees), starts, rounds=rounds, shares=data.noise(shares))
 
@@ -136,13 +137,13 @@ def fitted(
 def refitted(
     data: JointMoments, degrees: Sequence[int], start: Sequence[Array], *, shares: Array | None = None, rounds: int = ROUNDS
 ) -> KernelBasis:
-    """Rows of these ascending degrees, from rows of no higher degrees alone."""
+    """Fit rows of these ascending degrees, from rows of no higher degrees alone."""
     moments = data.moments.of_degree(max(degrees))
     return refined_basis(moments, _free(data, degrees), padded(start, degrees), rounds=rounds, shares=data.noise(shares))
 
 
 def course(data: JointMoments, rows: int, most: int, *, shares: Array | None = None, rounds: int = ROUNDS) -> list[KernelBasis]:
-    """The likeliest rows of total degree 0, 1, .., most, split as equally as can be.
+    """Return the likeliest rows of total degree 0, 1, .., most, split as equally as can be.
 
     Each starts from the rows before, with zeros above and with zeros below: with a zero at infinity or at the origin.
     """
@@ -155,11 +156,11 @@ def course(data: JointMoments, rows: int, most: int, *, shares: Array | None = N
 
 
 def padded(rows: Sequence[Array], degrees: Sequence[int], *, below: bool = False) -> list[Array]:
-    """Rows with zeros above their highest coefficients, or below their lowest, up to these degrees."""
+    """Return the rows with zeros above their highest coefficients, or below their lowest, up to these degrees."""
     missing = [degree + 1 - len(row) for row, degree in zip(rows, degrees, strict=True)]
     return [np.pad(row, ((count, 0) if below else (0, count), (0, 0))) for row, count in zip(rows, missing, strict=True)]
 
 
 def _free(data: JointMoments, degrees: Sequence[int]) -> list[Array]:
-    """Every coefficient at will."""
+    """Return bases that leave every coefficient free."""
     return [np.eye(data.moments.channels * (degree + 1)) for degree in degrees]

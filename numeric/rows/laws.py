@@ -1,4 +1,4 @@
-"""Whether k kernel rows of total degree n are laws that outputs and inputs obey up to noise: two likelihood ratios.
+"""Test whether k kernel rows of total degree n are laws that outputs and inputs obey up to noise, by two likelihood ratios.
 
     sphericity   k >= 2: the remainder has one colour and the shape that noise of the channels gives it (`remainder.py`)
     flatness     rows of total degree n + EXTRA explain no more than noise does (`degree.py`)
@@ -9,7 +9,7 @@ noise shares of the channels are estimated in turns with the rows; of a single r
     Laws         k rows with their level, shares, both ratios with their probabilities, and `holds`: True, False, or None in between
     tested       the test; with draws > 0 the misfit of both ratios is measured by the parametric bootstrap
 
-What the constants were set by. SHAPE_MISFIT, and MISFITS of `degree.py`, are means of the ratios where the rows are laws, which
+The constants have two origins. SHAPE_MISFIT, and MISFITS of `degree.py`, are means of the ratios where the rows are laws, which
 `benchmarks/counting_at_the_bound.py calibrate` measures again on fresh seeds. The others were set by hand: SUFFICES is a level of one in
 a hundred; FAILS lies far below it, for rows that are no laws were seen far below; FAR was settled after looking at the benchmark's records;
 EXTRA, TURNS and HOPELESS are compromises between time and power. How often the answers are then right, `count` of that benchmark measures.
@@ -46,8 +46,10 @@ SEED = 20251122
 
 @dataclass(frozen=True, eq=False)
 class Laws:
-    """k = `count` rows, `fit` of total degree n and `longer` of n + EXTRA, with noise `shares` (p,) of mean logarithm zero in the units of
-    the moments. `probability`: of ratios as large if the rows are laws, the smaller of the two, twice; `gain`: nats from `fit` to `longer`.
+    """These are k = `count` rows: `fit` has the total degree n and `longer` n + EXTRA; `gain` is what `longer` gains, in nats.
+
+    The noise `shares` (p,) have the mean logarithm zero and are in the units of the moments. `probability` is that of ratios as large if
+    the rows are laws: of one row that of its only ratio, of several twice the smaller one of the two.
     """
 
     count: int
@@ -62,12 +64,12 @@ class Laws:
 
     @property
     def level(self) -> float:
-        """Logarithm of the noise power, in units of the moments, that the rows leave in each of their signals."""
+        """Return the logarithm of the noise power, in units of the moments, that the rows leave in each of their signals."""
         return self.fit.level
 
     @property
     def holds(self) -> bool | None:
-        """Whether they are laws; None where it is a near thing, or where the shape is that of laws and longer rows gain all the same.
+        """Return whether they are laws; None where it is a near thing, or where they have the shape of laws but longer rows gain.
 
         The latter is an order that is too low, or a descent that ended elsewhere: no ground for another fault.
         """
@@ -79,20 +81,20 @@ class Laws:
 
 
 def tested(data: JointMoments, count: int, order: int, shares: Array | None = None) -> Laws:
-    """The test of `count` rows, for moments of degree order + EXTRA. `shares`: those of the channels where they are known."""
+    """Test `count` rows on moments of degree order + EXTRA; `shares` are those of the channels where they are known."""
     known = np.ones(data.p) if shares is None else shares
     degrees = even_split(order, count)
     short = fitted(data, even_split(order // 2 + 1, count), shares=known, rounds=3).rows
     fit = fitted(data, degrees, [padded(short, degrees), padded(short, degrees, below=True)], shares=known, rounds=3)
     if count == 1 or shares is not None:
-        return _judged(data, fit, known, MISFITS[-1], SHAPE_MISFIT)
-    laws = _judged(data, *_with_shares(data, fit, known), MISFITS[-1], SHAPE_MISFIT)
+        return _with_probabilities(data, fit, known, MISFITS[-1], SHAPE_MISFIT)
+    laws = _with_probabilities(data, *_with_shares(data, fit, known), MISFITS[-1], SHAPE_MISFIT)
     if laws.holds or _hopeless(data, laws):
         return laws
     # A descent from rows that were fitted to equal shares may have ended elsewhere; longer rows are nearer to the noise.
     for shares in (laws.shares, noise_shares(remainder(data, laws.longer), laws.shares)):
         fit = course(data, count, order, shares=shares, rounds=3)[-1]
-        again = _judged(data, *_with_shares(data, fit, shares), MISFITS[-1], SHAPE_MISFIT)
+        again = _with_probabilities(data, *_with_shares(data, fit, shares), MISFITS[-1], SHAPE_MISFIT)
         laws = max(laws, again, key=lambda each: each.probability)
         if laws.holds:
             break
@@ -100,14 +102,14 @@ def tested(data: JointMoments, count: int, order: int, shares: Array | None = No
 
 
 def _hopeless(data: JointMoments, laws: Laws) -> bool:
-    """Whether a ratio is far beyond what any misfit makes of laws."""
+    """Return whether a ratio is far beyond what any misfit makes of laws."""
     flat = likelihood_ratio(data, laws.fit, laws.longer) <= HOPELESS * freedom(data, laws.fit, laws.longer)
     round_enough = laws.sphericity is None or laws.sphericity.nats <= HOPELESS * laws.sphericity.expected
     return not (flat and round_enough)
 
 
 def _with_shares(data: JointMoments, fit: KernelBasis, shares: Array) -> tuple[KernelBasis, Array]:
-    """Rows and shares in turns, as long as the remainder becomes more spherical."""
+    """Estimate rows and shares in turns, as long as the remainder becomes more spherical."""
     degrees = [len(row) - 1 for row in fit.rows]
     best = sphericity(remainder(data, fit), shares).nats
     for _ in range(TURNS):
@@ -121,21 +123,21 @@ def _with_shares(data: JointMoments, fit: KernelBasis, shares: Array) -> tuple[K
 
 
 def bootstrapped(y: Array, u: Array, data: JointMoments, laws: Laws, draws: int) -> Laws:
-    """The same laws, judged by the misfit that so many records made from the rows have; the same laws where they are hopeless."""
+    """Return the laws with probabilities by the misfit of so many records made from the rows, or as they are where they are hopeless."""
     if _hopeless(data, laws):
         return laws
     gains, shapes = [], []
     for record in redrawn(y, u, data, laws.fit, laws.shares, draws, SEED):
         again = joint_moments(record, u, data.degree)
         fit = refitted(again, [len(row) - 1 for row in laws.fit.rows], laws.fit.rows, shares=laws.shares, rounds=3)
-        judged = _judged(again, fit, laws.shares, 1.0, 1.0)
-        gains.append(likelihood_ratio(again, judged.fit, judged.longer) / freedom(again, judged.fit, judged.longer))
-        shapes.append(judged.sphericity.nats / judged.sphericity.expected if judged.sphericity else 1.0)
-    return _judged(data, laws.fit, laws.shares, max(float(np.mean(gains)), 1.0), max(float(np.mean(shapes)), 1.0))
+        one = _with_probabilities(again, fit, laws.shares, 1.0, 1.0)
+        gains.append(likelihood_ratio(again, one.fit, one.longer) / freedom(again, one.fit, one.longer))
+        shapes.append(one.sphericity.nats / one.sphericity.expected if one.sphericity else 1.0)
+    return _with_probabilities(data, laws.fit, laws.shares, max(float(np.mean(gains)), 1.0), max(float(np.mean(shapes)), 1.0))
 
 
-def _judged(data: JointMoments, fit: KernelBasis, shares: Array, misfit: float, shape_misfit: float) -> Laws:
-    """Both ratios of a fit with these shares."""
+def _with_probabilities(data: JointMoments, fit: KernelBasis, shares: Array, misfit: float, shape_misfit: float) -> Laws:
+    """Return the laws of a fit with these shares, with both ratios and their probabilities."""
     count = len(fit.rows)
     total = sum(map(len, fit.rows)) - count
     degrees = even_split(total + EXTRA, count)

@@ -1,4 +1,4 @@
-"""What kernel rows leave of [y; u], band by band: noise alone if they are laws of the system, and then of one shape.
+"""Compute what kernel rows leave of [y; u], band by band: if they are laws of the system, it is noise alone, and of one shape.
 
 With N w = N_y w the remainder of k rows has in every band the cross spectrum phi N_y diag(lam) N_y*. Hence the noise shares lam of the
 channels can be estimated, and whether the remainder has that shape can be tested without knowing phi.
@@ -41,7 +41,7 @@ TINY = float(np.finfo(float).tiny)
 
 @dataclass(frozen=True, eq=False)
 class Remainder:
-    """`powers` (bands, k, k), a sample; `gains` (bands, k, p); `weights` (bands,) as of the moments; `samples` they are worth."""
+    """`powers` (bands, k, k) are those per sample, `gains` are (bands, k, p), `weights` (bands,) and `samples` are those of the moments."""
 
     powers: ComplexArray
     gains: ComplexArray
@@ -50,7 +50,7 @@ class Remainder:
 
 
 def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
-    """What these rows leave."""
+    """Compute what these rows leave."""
     channels, degree = data.moments.channels, max(map(len, fit.rows)) - 1
     moments = data.moments.of_degree(degree)
     N = np.array([np.pad(row, ((0, degree + 1 - len(row)), (0, 0))) for row in fit.rows])
@@ -62,7 +62,7 @@ def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
 
 
 def noise_shares(rest: Remainder, start: Array) -> Array:
-    """lam (p,), from `start`, for noise of any spectrum that changes little over a band of the test.
+    """Estimate lam (p,), from `start`, for noise of any spectrum that changes little over a band of the test.
 
     A sweep multiplies lam_c by the root of seen over expected power, which never lowers the likelihood.
     """
@@ -86,12 +86,12 @@ def noise_shares(rest: Remainder, start: Array) -> Array:
 
 
 def _groups(rest: Remainder) -> list[NDArray[np.int_]]:
-    """The bands of the moments that each band of the test joins."""
+    """Return the bands of the moments that each band of the test joins."""
     return np.array_split(np.arange(len(rest.weights)), min(TEST_BANDS, len(rest.weights)))
 
 
 def whitened(rest: Remainder, shares: Array) -> ComplexArray:
-    """(bands, k, k) phi I where the rows are laws."""
+    """Return the whitened remainder (bands, k, k), which is phi I where the rows are laws."""
     shape = (rest.gains * shares) @ rest.gains.conj().transpose(0, 2, 1)
     values, vectors = np.linalg.eigh(shape)
     root = vectors / np.sqrt(np.maximum(values, 1e-12 * values[:, -1:] + TINY))[:, None, :]
@@ -100,8 +100,10 @@ def whitened(rest: Remainder, shares: Array) -> ComplexArray:
 
 @dataclass(frozen=True)
 class Sphericity:
-    """`nats` a row and band by which the remainder is less spherical than it could be, `expected` of a law; `ratio`, the likelihood ratio,
-    and `level`, the probability of a larger one under a law."""
+    """The remainder is less spherical than it could be by `nats` for each row and sample, where a law has `expected` in the mean.
+
+    `ratio` is the likelihood ratio, and `level` is the probability of a larger one under a law.
+    """
 
     nats: float
     expected: float
@@ -110,7 +112,7 @@ class Sphericity:
 
 
 def sphericity(rest: Remainder, shares: Array, misfit: float = 1.0) -> Sphericity:
-    """Of two rows or more; the law of the ratio is multiplied by `misfit`."""
+    """Test the shape of what two rows or more leave; the law of the ratio is multiplied by `misfit`."""
     E = whitened(rest, shares)
     k = E.shape[1]
     mean, variance, ratio = 0.0, 0.0, 0.0

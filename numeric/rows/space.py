@@ -1,4 +1,4 @@
-"""The fault space from kernel rows of outputs and inputs, and A, C of the model.
+"""Estimate the fault space from kernel rows of outputs and inputs, and A, C of the model.
 
 The rows [N_y N_u] are fitted to [y; u] without the model, so that its error does not enter them. A fault column z = [f; g] belongs to the
 space iff N_y (g + C (q - A)^-1 f) vanishes, that is iff it meets the conditions [X_(j+1), N_j] z = 0, X_j = N_j C + X_(j+1) A, of every
@@ -37,7 +37,7 @@ SEED = 20251123
 
 
 def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, draws: int = 0) -> FaultSpaceEstimate:
-    """The fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
+    """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
 
     The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`); with `draws` their misfit is measured
     on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right; the
@@ -84,16 +84,16 @@ def _estimate(
     largest: int,
     misfit: float,
 ) -> FaultSpaceEstimate:
-    """What rows of the chosen total degree say. `misfit`, by which likelihood ratios exceed their law, widens their covariance [MN89]."""
+    """Return what rows of the chosen degree say; `misfit`, by which likelihood ratios exceed their law, widens their covariance [MN89]."""
     p, n = coordinates.C.shape
     n_z = n_v + n - chosen.degree
     lag = max(map(len, fit.rows)) - 1
     units = coordinates.scale / data.scale[:p]
     rows_of_y = [row[:, :p] * units for row in fit.rows]
     strengths, columns = solutions(rows_of_y, coordinates, n_z)
-    told = "; as many as the observability indices of (A, C) allow" if n_z == largest else ""
+    words = "; as many as the observability indices of (A, C) allow" if n_z == largest else ""
     doubt = "" if chosen.decided else "undecided: "
-    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; rows of total {chosen.reason}{told}"
+    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; rows of total {chosen.reason}{words}"
     return FaultSpaceEstimate(
         orthonormal(coordinates.back(columns)),
         n_z,
@@ -115,7 +115,7 @@ def _estimate(
 
 
 def _misfits(y: Array, u: Array, data: JointMoments, fits: Sequence[KernelBasis], chosen: LeastDegree, draws: int) -> list[float]:
-    """Means of the ratios over their degrees of freedom, for one degree more, two, .., on records made from the chosen fit."""
+    """Return the means of the ratios over their degrees of freedom, for one degree more, two, .., on records made from the chosen fit."""
     ratios = []
     for record in redrawn(y, u, data, fits[chosen.degree], np.ones(data.p), draws, SEED):
         again = joint_moments(record, u, data.degree)
@@ -130,7 +130,7 @@ def _misfits(y: Array, u: Array, data: JointMoments, fits: Sequence[KernelBasis]
 
 
 def solutions(rows: Sequence[Array], coordinates: ObservedCoordinates, n_z: int) -> tuple[Array, Array]:
-    """Singular values (n + p,) of the conditions of rows N_y (eta_i + 1, p), and the n_z columns (n + p, n_z) that meet them best."""
+    """Return the n + p singular values of the conditions of rows N_y (eta_i + 1, p), and the columns (n + p, n_z) that meet them best."""
     p, n = coordinates.C.shape
     conditions = np.vstack([kernel_conditions(row[None], coordinates.A, coordinates.C)[0] for row in rows])
     _, values, right = np.linalg.svd(conditions)
@@ -138,7 +138,7 @@ def solutions(rows: Sequence[Array], coordinates: ObservedCoordinates, n_z: int)
 
 
 def _selections(fit: KernelBasis, units: Array) -> list[Array]:
-    """For each row (q_i, p (eta_i + 1)): what a unit change of each of its coefficients does to those of the outputs, in other units."""
+    """Return, for each row, (q_i, p (eta_i + 1)): what a unit change of a coefficient does to those of the outputs, in other units."""
     p = len(units)
     each = [np.pad(np.diag(units), ((0, row.shape[1] - p), (0, 0))) for row in fit.rows]
     return [np.asarray(np.kron(np.eye(len(row)), change), dtype=np.float64) for row, change in zip(fit.rows, each, strict=True)]
