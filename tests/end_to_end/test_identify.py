@@ -27,6 +27,8 @@ from faultspace.numeric.data.files import read_record
 from faultspace.numeric.data.records import recorded
 from faultspace.numeric.model.models import FORMAT, StateSpaceModel
 from faultspace.numeric.report import files as report
+from faultspace.numeric.report import folders
+from faultspace.numeric.report.folders import MANIFEST
 from faultspace.numeric.report.pictures import PICTURES
 from faultspace.numeric.report.summary import advice
 from faultspace.numeric.signal.reconstruction import reconstruct_fault
@@ -102,7 +104,7 @@ def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path
     text = (out / report.SUMMARY).read_text("utf-8")
     assert "## Fault space" in text and "n_v: **1**" in text
     listed = run.out.strip().splitlines()[-1].partition(": ")[2].split(", ")
-    assert sorted(listed) == sorted(path.name for path in out.iterdir())
+    assert sorted([*listed, MANIFEST]) == sorted(path.name for path in out.iterdir())
 
 
 @needs_matplotlib
@@ -209,6 +211,61 @@ def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: P
     assert not (out / report.MODEL).exists() and not (out / report.SIGNAL).exists()
     assert (out / "mine.txt").read_text("utf-8") == "kept"
     assert "undecided" in (out / report.SUMMARY).read_text("utf-8")
+
+
+@pytest.mark.parametrize("name", report.NAMES)
+def test_a_file_of_somebody_else_is_refused_and_stays(name: str, csv_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / name).write_text("mine", encoding="utf-8")
+    refused(identified(csv_file, out), name, "not ours", "new folder")
+    assert [path.name for path in out.iterdir()] == [name] and (out / name).read_text("utf-8") == "mine"
+
+
+def test_a_file_edited_since_is_its_owners(csv_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert identified(csv_file, out).code == 0 and identified(csv_file, out).code == 0
+    before = {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
+    (out / report.SUMMARY).write_text("my remarks", encoding="utf-8")
+    refused(identified(csv_file, out, "--order", "2"), report.SUMMARY, "not ours")
+    assert (out / report.SUMMARY).read_text("utf-8") == "my remarks"
+    assert before == {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
+
+
+@pytest.mark.parametrize("content", ["{}", "no json", '{"format": "faultspace-files/1", "files": {"model.json": "x"}}'])
+def test_a_manifest_of_somebody_else_is_refused_and_stays(content: str, csv_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / MANIFEST).write_text(content, encoding="utf-8")
+    refused(identified(csv_file, out), MANIFEST, "not ours")
+    assert [path.read_text("utf-8") for path in out.iterdir()] == [content]
+
+
+def test_an_interrupted_run_leaves_files_that_the_next_one_knows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made, out = tmp_path / "made", tmp_path / "out"
+    made.mkdir()
+    out.mkdir()
+    names = ("a", "b")
+    for version in ("old", "new"):
+        for name in names:
+            (made / name).write_text(version + name, encoding="utf-8")
+        if version == "old":
+            assert folders.replace(made, out, names) == ["a", "b"]
+    real = os.replace
+
+    def stopping(source: Path, target: Path) -> None:
+        if Path(target).name == "b":
+            raise KeyboardInterrupt
+        real(source, target)
+
+    monkeypatch.setattr("os.replace", stopping)
+    with pytest.raises(KeyboardInterrupt):
+        folders.replace(made, out, names)
+    assert [(out / name).read_text("utf-8") for name in names] == ["newa", "oldb"]
+    monkeypatch.undo()
+    (made / "a").write_text("third", encoding="utf-8")
+    (made / "b").unlink()
+    assert folders.replace(made, out, names) == ["a"] and not (out / "b").exists()
 
 
 def test_faults_given_override_the_count_and_are_reported(csv_file: Path, tmp_path: Path) -> None:
