@@ -23,6 +23,9 @@ HEAD = """# Mutants against checks
 
 Our reference with one thing broken, put through the whole audit: how many of a check's vectors fail. Bold is the check that the tests name
 for the mutant. Columns where nothing fails are left out. Made by `python -m tests.numeric.audit.matrix --out numeric/audit/MUTANTS.md`.
+
+The counts are those of one machine. At the edge of rounding (`fault-space-other-units`, `fault-dimension-1e6`) a vector more or less fails
+on another, and whether square-memory is seen in `time-grows-with-N` depends on the machine's load: no test relies on it.
 """
 
 
