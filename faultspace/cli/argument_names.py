@@ -10,6 +10,7 @@ import re
 
 OPTIONS = {
     "order": "--order", "block_rows": "--block-rows", "n_v": "--faults", "healthy": "--healthy-until", "remove_means": "--remove-means",
+    "dt": "--dt",
     "command": "--exec", "peer": "--peer",
 }  # fmt: skip
 _ARGUMENT = re.compile(r"\b(" + "|".join(OPTIONS) + r")=(?:True\b|(\w+))?")

@@ -225,6 +225,9 @@ def identify(
         int | None, typer.Option(metavar="K", min=1, help="The first K samples are without fault: count beyond them.", show_default=False)
     ] = None,
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
+    dt: Annotated[
+        float | None, typer.Option(metavar="SECONDS", help="Time from sample to sample; the model's file keeps it.", show_default=False)
+    ] = None,
     json: Json = False,
 ) -> int:
     """Find model and faults in measured data.
@@ -238,7 +241,7 @@ def identify(
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, as_json=json, **settings)
+    return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, dt=dt, as_json=json, **settings)
 
 
 @_command("monte-carlo")

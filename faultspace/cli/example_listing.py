@@ -6,6 +6,7 @@ run          the command's body
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 
 from rich.text import Text
@@ -17,6 +18,8 @@ from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED, say
 from .reading_files import prepare_folder, write_json, write_text
 
+RESULT = "result"  # the folder beside the record that the printed command writes into
+
 
 def run(folder: Path | None, *, as_json: bool) -> int:
     """List the examples; with a folder, copy them there first, overwriting files of these names only."""
@@ -26,7 +29,9 @@ def run(folder: Path | None, *, as_json: bool) -> int:
             write_json(folder / f"{name}.json", json.loads(content(PREFIX + name)))
         write_text(folder / FILE_NAME, csv_text(faulty_record()))
         say(f"{len(DESCRIPTIONS)} systems and {len(EXPERIMENTS)} experiments are in {quote_path(str(folder))}")
-        say(f"and {FILE_NAME}, for: faultspace identify --inputs {','.join(INPUTS)} --outputs {','.join(OUTPUTS)}")
+        data, out = shlex.quote(str(folder / FILE_NAME)), shlex.quote(str(folder / RESULT))
+        channels = f"--inputs {','.join(INPUTS)} --outputs {','.join(OUTPUTS)}"
+        say(f"and {FILE_NAME}, for: faultspace identify {data} {channels} --out {out}")
     if as_json:
         print_json({PREFIX + name: description for name, description in (DESCRIPTIONS | EXPERIMENTS).items()})
         return ANSWERED

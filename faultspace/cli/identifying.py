@@ -35,6 +35,7 @@ def run(
     faults: int | None,
     healthy_until: int | None,
     remove_means: bool,
+    dt: float | None,
     as_json: bool,
 ) -> int:
     """Identify and write the files of `report.NAMES` into `out`; the exit code is 0 whenever there is an answer, "undecided" included.
@@ -60,6 +61,7 @@ def run(
                     n_v=faults,
                     healthy=healthy_until,
                     remove_means=remove_means,
+                    dt=dt,
                     on_progress=tell,
                 )
             tell("writing", 0, 0)
@@ -72,10 +74,10 @@ def run(
     for remark in remarks:
         say(remark)
     if as_json:
-        print_json(report.document(answer, data, worded=as_options) | {"files": written})
+        print_json(report.document(answer, data, folder=str(out), worded=as_options) | {"files": written})
         return ANSWERED
     console = answers()
-    for line in summary(answer, data, worded=as_options):
+    for line in summary(answer, data, folder=str(out), worded=as_options):
         paragraph(console, Text(line, style="bold cyan" if line.startswith("#") else ""))
     console.print()
     paragraph(console, f"written into {quote_path(str(out))}: {', '.join(written)}")

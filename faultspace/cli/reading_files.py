@@ -17,6 +17,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +33,7 @@ _HINT = "see from_float_exactly"
 _ADVICE = "--floats-exactly takes them as the dyadic rationals that they are"
 
 MODEL_FORMAT = "faultspace-model/1"  # FORMAT of numeric/model/models.py, which would load numpy; a test compares the two
-_MODEL_KEYS = ("format", "n", "n_u", "p", "n_v", "A", "B", "C", "D", "F", "G", "inputs", "outputs")
+_MODEL_KEYS = ("format", "n", "n_u", "p", "n_v", "A", "B", "C", "D", "F", "G", "inputs", "outputs", "dt")
 
 
 def read_system(name: str, *, floats_exactly: bool = False) -> System:
@@ -119,10 +120,22 @@ def _system_of_model(model: dict[str, object]) -> dict[str, object]:
     needed = [key for key in ("n", "n_u", "p", *"ABCD") if key not in model]
     if needed:
         raise InvalidInput(f'key "{needed[0]}" is missing in a model')
+    if not _positive(model.get("dt", 1)):
+        raise InvalidInput(f"got dt = {shorten(model['dt'])} in a model, expected a positive number of seconds")
     if ("F" in model) != ("G" in model) or ("F" in model) != ("n_v" in model):
         raise InvalidInput("got some of n_v, F and G in a model, expected all or none")
     system = {key: model[key] for key in ("n", "p", *"ABCD")} | {"nu": model["n_u"], "m": model.get("n_v", 0)}
     return system | {"F": model.get("F", []), "G": model.get("G", [])}
+
+
+def _positive(value: object) -> bool:
+    """Say whether a number of a model, which `_dyadic` may have made a text, is positive."""
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return False
+    try:
+        return Fraction(value) > 0
+    except (ValueError, OverflowError, ZeroDivisionError):
+        return False
 
 
 def _content(name: str) -> bytes:

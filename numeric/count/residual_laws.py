@@ -119,7 +119,7 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     above, below = levels[high], levels[low]
     rise, before = below.least - above.largest, above.middle - floor.middle
     needed = CLEAR if low < p - 1 else CLEAR_LAST if p > 2 else CLEAR_SINGLE
-    step = f"from {high} mixed outputs to {low} the noise left by the best law rises by {rise:.2f} nats"
+    step = f"from {high} mixed outputs to {low} the noise left by the best law rises by at least {rise:.2f} nats"
     if below.middle - floor.middle <= ALARM:
         return undecided(
             f"on {low} mixed outputs the best law still improves by {below.drop:.2f} nats over the last two degrees (at most {bound:.2f} "

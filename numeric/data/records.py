@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import weakref
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
@@ -32,6 +33,7 @@ OnProgress = Callable[[str, int, int], None]
 
 IN_MEMORY = 1 << 24
 NUMBER = 8  # bytes
+MOST_NAMED = 12  # names that a record shows of its channels
 
 
 class SampleStore:
@@ -42,6 +44,8 @@ class SampleStore:
         self.width = width
         self._count = 0
         self._file = tempfile.SpooledTemporaryFile(max_size=IN_MEMORY)  # noqa: SIM115
+        # The file is closed with its owner, and not left to the interpreter, which would warn of it.
+        weakref.finalize(self, self._file.close)
 
     def __len__(self) -> int:
         return self._count
@@ -108,9 +112,9 @@ class Channels:
     deviation: Array
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Record:
-    """A measured record: y (N, p) and u (N, n_u) with the names of their channels, read in pieces and never held in memory as a whole.
+    """A Record is a measured record: y (N, p) and u (N, n_u) with the names of their channels, read in pieces and never held as a whole.
 
     `len` is the number of samples, `outputs` and `inputs` are the names, `y` and `u` read all samples, and iterating gives pieces (y, u) in
     the order of time. The `store` holds rows [u, y] of finite numbers in the units that they came in, `offset` (k,) is taken off every row
@@ -135,6 +139,9 @@ class Record:
 
     def __len__(self) -> int:
         return len(self.store) if self.length is None else self.length
+
+    def __repr__(self) -> str:
+        return f"<Record: {len(self)} samples, inputs {_names(self.inputs)}, outputs {_names(self.outputs)}>"
 
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
         for rows in self.store.pieces(0, len(self)):
@@ -187,6 +194,11 @@ class Record:
     def _split(self, rows: Array) -> tuple[Array, Array]:
         rows = rows - self.offset
         return rows[:, self.n_u :], rows[:, : self.n_u]
+
+
+def _names(channels: Sequence[str]) -> str:
+    """Return the names on one line, the first ones of many."""
+    return ", ".join(channels[:MOST_NAMED]) + (f", ... ({len(channels)} in all)" if len(channels) > MOST_NAMED else "")
 
 
 class Moments:

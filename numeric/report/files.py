@@ -22,18 +22,18 @@ from ..data.records import OnProgress, SampleStore
 from ..space.distances import containment_distance
 from .folders import refuse, replace
 from .pictures import PICTURES, pictures
-from .summary import advice, fit, markdown, summary
+from .summary import MODEL_FILE, advice, fit, markdown, summary
 
 if TYPE_CHECKING:
     from ..findings import Findings
 
-MODEL, SPACE, SIGNAL, SUMMARY = "model.json", "fault-space.json", "fault-signal.csv", "summary.md"
+MODEL, SPACE, SIGNAL, SUMMARY = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md"
 NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, *PICTURES)
 
 
-def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
-    """Return everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `worded` rewrites notes and
-    advice."""
+def document(answer: Findings, data: str, *, folder: str | None = None, worded: Callable[[str], str] = str) -> dict[str, Any]:
+    """Return everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `folder` and `worded` as in
+    `summary`."""
     record, model = answer.record, answer.model
     result: dict[str, Any] = {
         "data": data,
@@ -52,7 +52,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "n_v_from": answer.counted_by,
         "healthy_until": answer.healthy,
         "notes": [worded(note) for note in answer.notes],
-        "next": [worded(line) for line in advice(answer)],
+        "next": [worded(line) for line in advice(answer, folder)],
     }
     if model:
         result |= {
@@ -116,7 +116,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
 def write(
     answer: Findings, out: Path, data: str, on_progress: OnProgress, *, worded: Callable[[str], str] = str
 ) -> tuple[list[str], list[str]]:
-    """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `document`.
+    """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `summary`.
 
     Files of these names that an earlier run wrote are replaced, or removed where this answer has none. Raises InvalidInput where the folder
     cannot be written into, and, before anything is written, where it has a file of these names that is not ours.
@@ -128,7 +128,7 @@ def write(
             folder = Path(name)
             _tables(answer, folder, on_progress)
             remarks += pictures(answer, folder)
-            lines = [*summary(answer, data, worded=worded)]
+            lines = [*summary(answer, data, folder=str(out), worded=worded)]
             if remarks:
                 lines += ["", "## Missing", *(f"- {remark}" for remark in remarks)]
             (folder / SUMMARY).write_text(markdown(lines), encoding="utf-8")
@@ -143,6 +143,8 @@ def _tables(answer: Findings, folder: Path, on_progress: OnProgress) -> None:
     if answer.model is not None:
         model = answer.model.model.to_json()
         model |= {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
+        if answer.dt is not None:
+            model |= {"dt": answer.dt}
         if answer.pair is not None:
             F, G = answer.pair
             model |= {"n_v": F.shape[1], "F": F.tolist(), "G": G.tolist()}

@@ -8,6 +8,8 @@ markdown    the lines as a file: blank lines around headings, code and lists
 
 from __future__ import annotations
 
+import os
+import shlex
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +23,7 @@ from ..count.mean_shift import POWER
 if TYPE_CHECKING:
     from ..findings import Findings
 
+MODEL_FILE = "model.json"
 MOST_ROWS = 12
 DIGITS = 4
 CANDIDATES = 3
@@ -35,8 +38,9 @@ def fit(answer: Findings) -> Array | None:
     return np.asarray(100 * (1 - answer.sizes.early_norm / np.where(spread > 0, spread, 1.0)))
 
 
-def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
-    """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
+def summary(answer: Findings, data: str, *, folder: str | None = None, worded: Callable[[str], str] = str) -> Iterator[str]:
+    """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does; `folder`
+    is where the files are, None where nothing has been saved."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
     yield f"{len(record)} samples, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
@@ -58,11 +62,17 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
             if answer.healthy is not None:
                 yield f"identified from the samples 0 to {answer.healthy - 1}, stated to be without fault"
                 left = "what is left is noise and the model's error"
-            yield f"fit, initial state included: {_several(pairs)}; {left}"
+            yield f"fit of the simulated outputs, from the fitted initial state: {_several(pairs)}; {left}"
+            yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
         yield ""
         yield "## Faults"
         yield f"number of independent faults n_v: **{_count(answer)}**"
         yield f"why: {answer.reason}"
+        if " nats" in answer.reason or (answer.against is not None and " nats" in answer.against.reason):
+            yield (
+                "law: an equation that the last few samples of these outputs obey up to noise; nats: the natural logarithm of a ratio of "
+                "powers, so that 1 nat is a factor of 2.72 (4.34 dB)"
+            )
         yield from _healthy_lines(answer)
         yield from _mean_lines(answer)
         yield from _visible_lines(answer)
@@ -76,7 +86,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield from (f"- {worded(note)}" for note in answer.notes)
     yield ""
     yield "## What to try next"
-    yield from (f"- {worded(line)}" for line in advice(answer))
+    yield from (f"- {worded(line)}" for line in advice(answer, folder))
 
 
 def _why_the_order(answer: Findings) -> str:
@@ -175,6 +185,11 @@ def _signal_lines(answer: Findings) -> Iterator[str]:
             f"explained of the residual{on}: {100 * answer.explained:.4g} %, where mere noise of its spectra could give up to "
             f"{100 * answer.by_noise:.3g} %{'' if signal is not None else ': **withheld**, with F and G'}"
         )
+        unit = "healthy residual" if answer.healthy is not None else "residual"
+        yield (
+            f"that is a share of the sum of squares, each output in units of the size of its {unit}; the rest is noise, or what n_v or "
+            "the order miss"
+        )
     if signal is None or space is None:
         return
     first, last = signal.trusted
@@ -187,14 +202,13 @@ def _signal_lines(answer: Findings) -> Iterator[str]:
         yield f"determined: all {N} samples"
     else:
         yield f"determined: samples {first} to {last - 1} of 0 to {N - 1} ({signal.reason})"
-    yield f"left unexplained of the residual: {100 * signal.misfit:.2g} % (noise, or what n_v or the order miss)"
     if space.zeta:
         yield "it belongs to one choice of F and G in the space; other choices have other signals and the same outputs"
     yield "its scale, sign and mixture go with the columns of F and G in the model file"
 
 
-def advice(answer: Findings) -> list[str]:
-    """Say what to try next: about what is undecided first, and how to make sure of what is not."""
+def advice(answer: Findings, folder: str | None = None) -> list[str]:
+    """Say what to try next: about what is undecided first, and how to make sure of what is not; `folder` is where the model was saved."""
     model, record = answer.model, answer.record
     if model is None:
         return [
@@ -229,8 +243,10 @@ def advice(answer: Findings) -> list[str]:
     other = answer.block_rows + max(answer.block_rows // 2, 2)
     lines.append(f"block_rows={other}: order, n_v and n_z should stay as they are")
     if answer.pair is not None:
+        saved = 'found.save("RESULT") for this Identification, then on a command line ' if folder is None else ""
+        path = shlex.quote(os.path.join("RESULT" if folder is None else folder, MODEL_FILE))
         lines.append(
-            "faultspace inspect model.json --floats-exactly: indices and delays of these very floats; it can confirm no zeros, because "
+            f"{saved}faultspace inspect {path} --floats-exactly: indices and delays of these very floats; it can confirm no zeros, because "
             "floats that were estimated have none exactly"
         )
     return lines

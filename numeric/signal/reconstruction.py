@@ -94,7 +94,7 @@ class Reconstruction(Solution, Shown):
         yield "why", self.reason
         yield "delay until it is seen", "not determined by the outputs" if self.delay is None else f"{self.delay} samples"
         yield "moduli of the finite zeros", ", ".join(f"{size:.4g}" for size in np.abs(self.zeros)) or "none"
-        yield "left unexplained of the residual", f"{100 * self.misfit:.2g} %"
+        yield "|r - simulated| / |r|, all outputs", f"{100 * self.misfit:.2g} %"
         if self.mismatch:
             yield "largest difference of pieces", f"{self.mismatch:.2g} of the signal"
 

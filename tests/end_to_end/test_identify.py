@@ -11,6 +11,7 @@ import hashlib
 import importlib.util
 import json
 import os
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -142,6 +143,34 @@ def test_inspect_reads_the_model_where_floats_are_taken_exactly(csv_file: Path, 
 def test_who_reads_a_model_knows_the_format_and_the_keys_of_who_writes_it() -> None:
     assert MODEL_FORMAT == FORMAT
     assert set(_MODEL_KEYS) == set(validator("model", "faultspace.numeric").schema["properties"])
+
+
+def test_the_sample_time_goes_into_the_model_that_is_inspected(csv_file: Path, tmp_path: Path) -> None:
+    run = identified(csv_file, tmp_path / "out", "--dt", "0.25", "--json")
+    model = tmp_path / "out" / report.MODEL
+    content = json.loads(model.read_text("utf-8"))
+    assert run.code == 0 and content["dt"] == 0.25
+    validator("model", "faultspace.numeric").validate(content)
+    # The command that is advised runs as it is printed.
+    (line,) = [line for line in run.json["next"] if line.startswith("faultspace inspect ")]
+    assert call(*shlex.split(line.partition(":")[0])[1:]).code == 0
+    refused(identified(csv_file, tmp_path / "none", "--dt", "0"), "--dt", "got 0.0")
+    for wrong in (0, -0.5, True, None, "fast"):
+        model.write_text(json.dumps(content | {"dt": wrong}), encoding="utf-8")
+        refused(call("inspect", str(model), "--floats-exactly"), "dt")
+
+
+def test_the_summary_has_one_measure_of_what_is_explained(csv_file: Path, tmp_path: Path) -> None:
+    run = identified(csv_file, tmp_path / "out")
+    text = (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
+    assert run.code == 0 and "explained of the residual: 99.65 %" in text and "unexplained" not in text
+    for said in (
+        "share of the sum of squares",
+        "fit means 100 (1 - |y - simulated y| / |y - mean of y|)",
+        "by at least",
+        "1 nat is a factor",
+    ):
+        assert said in text, said
 
 
 @pytest.mark.parametrize("change", [{"x": 1}, {"F": None}, {"A": None}, {"n": 2}])
@@ -392,7 +421,10 @@ def test_the_hair_dryer(tmp_path: Path) -> None:
 
 def test_examples_write_the_record(tmp_path: Path, record: made.FaultyRecord) -> None:
     run = call("examples", str(tmp_path / "x"))
-    assert run.code == 0 and "faultspace identify" in run.err
+    assert run.code == 0
+    printed = run.err.partition("for: faultspace ")[2].replace("\n", " ")
+    assert call(*shlex.split(printed)).code == 0
+    assert (tmp_path / "x" / "result" / report.MODEL).exists()
     path = tmp_path / "x" / made.FILE_NAME
     assert path.stat().st_size < 200_000
     got = read_record(str(path), inputs=made.INPUTS, outputs=made.OUTPUTS)

@@ -349,6 +349,8 @@ def test_a_full_disk_is_reported(csv_file: Path, tmp_path: Path, monkeypatch: py
     class Full:
         def seek(self, *_: object) -> None: ...
 
+        def close(self) -> None: ...
+
         def write(self, _: object) -> None:
             raise OSError(28, "No space left on device")
 

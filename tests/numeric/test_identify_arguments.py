@@ -5,6 +5,8 @@ WRONG     arguments with what their refusal says
 
 from __future__ import annotations
 
+import gc
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -45,9 +47,14 @@ def test_an_argument_that_is_none_is_refused(arguments: dict[str, Any], said: st
 
 def test_integers_of_numpy_are_integers() -> None:
     plain = numeric.identify(RECORD.y, RECORD.u, order=3, n_v=1, block_rows=8, healthy=300, dt=1)
-    same = numeric.identify(
-        RECORD.y, RECORD.u, order=np.int32(3), n_v=np.uint8(1), block_rows=np.int64(8), healthy=np.array(300), dt=np.float32(1)
-    )
+    of_numpy: dict[str, Any] = {
+        "order": np.int32(3),
+        "n_v": np.uint8(1),
+        "block_rows": np.int64(8),
+        "healthy": np.array(300),
+        "dt": np.float32(1),
+    }
+    same = numeric.identify(RECORD.y, RECORD.u, **of_numpy)
     assert plain.to_json() == same.to_json() and type(same.n_v) is int
 
 
@@ -83,3 +90,19 @@ def test_no_model_is_no_identification_without_one() -> None:
 def test_an_order_of_zero_says_what_to_try() -> None:
     with pytest.raises(InvalidData, match=r"order must be a positive integer \(got 0\): state how many states"):
         numeric.pi_moesp(RECORD.y, RECORD.u, order=0, block_rows=8)
+
+
+def test_a_record_shows_itself_on_a_line() -> None:
+    record = numeric.record_from(RECORD.y[:, :1], RECORD.u, inputs="valve, pump", outputs="flow")
+    assert repr(record) == "<Record: 600 samples, inputs valve, pump, outputs flow>"
+    many = numeric.record_from(np.zeros((9, 40)), np.zeros((9, 1)))
+    assert repr(many).endswith("y12, ... (40 in all)>")
+
+
+def test_stores_are_closed_with_their_owners() -> None:
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        numeric.identify(RECORD.y, RECORD.u, order=3, block_rows=8)
+        numeric.arx_reduction(RECORD.y, RECORD.u, lags=3)
+        gc.collect()
+    assert not [warning for warning in heard if issubclass(warning.category, ResourceWarning)]
