@@ -59,7 +59,7 @@ def verify(
         claims = [claims]
     if claims is not None and (not isinstance(claims, Collection) or not claims):
         raise InvalidInput(f"claims: got {shorten(claims)}, expected a list of one id or more, or None for all claims")
-    unknown = [name for name in claims or () if name not in ledger]
+    unknown = [name for name in claims or () if not isinstance(name, str) or name not in ledger]
     if unknown:
         raise InvalidInput(f"claim: got {shorten(unknown[0])}, expected one of {', '.join(ledger)}")
     chosen = [claim for claim in ledger.values() if claims is None or claim.id in claims]

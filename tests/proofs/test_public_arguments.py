@@ -1,4 +1,4 @@
-"""What a stranger may give to `check`, `verify`, `audit` and `monte_carlo`: one thing for a list of one, and for nonsense a line that helps."""
+"""What a stranger may give to `check`, `verify`, `audit` and `monte_carlo`: one for a list of one, and for nonsense a line that helps."""
 
 from __future__ import annotations
 
