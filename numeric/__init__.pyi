@@ -1,5 +1,11 @@
 from .bound.information_bound import cramer_rao as cramer_rao
 from .bound.spectra import Spectra as Spectra
+from .count.against_healthy import FaultDirection as FaultDirection
+from .count.against_healthy import FaultsAgainstHealthy as FaultsAgainstHealthy
+from .count.against_healthy import fault_dimension_against_healthy as fault_dimension_against_healthy
+from .count.against_healthy import fault_direction_against_healthy as fault_direction_against_healthy
+from .count.healthy_model import HealthyReference as HealthyReference
+from .count.healthy_model import healthy_reference as healthy_reference
 from .count.rank_gap import FaultDimension as FaultDimension
 from .count.rank_gap import fault_dimension as fault_dimension
 from .data.files import read_record as read_record
@@ -26,6 +32,7 @@ from .rows.space import fault_space_by_rows as fault_space_by_rows
 from .signal.reconstruction import Reconstruction as Reconstruction
 from .signal.reconstruction import reconstruct_fault as reconstruct_fault
 from .space.by_ranks import fault_space as fault_space
+from .space.distances import subspace_distance as subspace_distance
 from .space.result import FaultSpaceEstimate as FaultSpaceEstimate
 
 __all__: list[str]

@@ -25,6 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -40,6 +41,7 @@ from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .data.records import OnProgress, Passes, Record, silent
 from .data.sources import Source, record_from
+from .data.validation import whole
 from .findings import Findings
 from .model.moesp_model import MoespModel, OrderUndecided
 from .model.past_inputs import pi_moesp
@@ -62,8 +64,8 @@ def identify(
     n_v: int | None = None,
     healthy: int | None = None,
     remove_means: bool = False,
-    inputs: Sequence[str] | None = None,
-    outputs: Sequence[str] | None = None,
+    inputs: str | Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     dt: float | None = None,
     on_progress: OnProgress | None = None,
 ) -> Identification:
@@ -89,15 +91,39 @@ def identify(
     (1, 0)
     """
     on_progress = on_progress or silent
+    order, block_rows, n_v, healthy = _integers(order, block_rows, n_v, healthy)
+    if not isinstance(remove_means, bool | np.bool_):
+        raise InvalidData(f"remove_means: got {shorten(remove_means)}; True or False is needed")
+    dt = _seconds(dt)
     record = record_from(y, u, inputs=inputs, outputs=outputs, on_progress=on_progress)
-    if n_v is not None and not 0 <= n_v <= record.p:
+    if n_v is not None and n_v > record.p:
         raise InvalidData(f"n_v: got {n_v} for {record.p} outputs; at most as many can be told apart: state fewer")
-    if healthy is not None and not 0 < healthy < len(record):
+    if healthy is not None and healthy >= len(record):
         raise InvalidData(f"healthy: got {healthy} for {len(record)} samples; some must follow: state fewer")
-    if dt is not None and not (dt > 0 and np.isfinite(dt)):
-        raise InvalidData(f"dt: got {dt}; the seconds from sample to sample are needed, or None where they are not known")
-    found = _findings(record, order, block_rows, n_v, healthy, remove_means, on_progress)
+    found = _findings(record, order, block_rows, n_v, healthy, bool(remove_means), on_progress)
     return Identification(**vars(found) | {"dt": dt})
+
+
+def _integers(
+    order: int | None, block_rows: int | None, n_v: int | None, healthy: int | None
+) -> tuple[int | None, int | None, int | None, int | None]:
+    """Return the arguments that count something, as ints. Raises InvalidData for anything else."""
+    return (
+        None if order is None else whole(order, "order", 1, "state how many states the model has, or leave it out to have it found"),
+        None if block_rows is None else whole(block_rows, "block_rows", 2, "state more samples of a window, or leave it out"),
+        None
+        if n_v is None
+        else whole(n_v, "n_v", 0, "state how many faults act, 0 to the number of outputs, or leave it out to count them"),
+        None if healthy is None else whole(healthy, "healthy", 1, "state how many samples precede the faults, or leave it out"),
+    )
+
+
+def _seconds(dt: float | None) -> float | None:
+    """Return the sample time as a float. Raises InvalidData for what is none."""
+    number = isinstance(dt, Real) and not isinstance(dt, bool | np.bool_)
+    if dt is None or (number and dt > 0 and np.isfinite(dt)):
+        return None if dt is None else float(dt)
+    raise InvalidData(f"dt: got {shorten(dt)}; the seconds from sample to sample are needed, or None where they are not known")
 
 
 def _findings(

@@ -1,4 +1,4 @@
-"""What `identify` returns: the findings, with a face for people, programs and notebooks.
+"""What `identify` returns: the findings, with methods to print, plot and save them.
 
 Identification   the findings with summary, plot, save and to_json
 """
@@ -109,7 +109,19 @@ class Identification(Findings):
     def save(self, folder: str | os.PathLike[str], data: str = "arrays") -> list[str]:
         """Writes model, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their names.
 
-        The summary also tells what could not be had, as pictures without matplotlib. Raises InvalidInput where it cannot be written into.
+        `data` is the title of the summary, which says where the record is from: "arrays" unless it is named. The summary also tells what
+        could not be had, as pictures without matplotlib. Of what is in the folder, only the files that an earlier `save` or `faultspace
+        identify` wrote there are replaced, or removed where this answer has no such file; the hidden file .faultspace-files.json tells
+        which they are. Raises InvalidInput where the folder cannot be written into, and where it has a file of a name that is needed,
+        model.json for example, which an earlier run did not write or which has been changed since: nothing is written then, and a new
+        folder is the way out (also for results of versions before 0.1, which left no such file).
+
+        >>> import numpy as np, pathlib, tempfile
+        >>> from faultspace.numeric import StateSpaceModel, identify
+        >>> u = np.random.default_rng(1).standard_normal((400, 1))
+        >>> found = identify(StateSpaceModel([[0.5]], [[1.0]], [[1.0], [2.0]], [[0.0], [1.0]]).simulate(u), u)
+        >>> found.save(pathlib.Path(tempfile.mkdtemp(), "result"), data="a simulated tank")[0]
+        'model.json'
         """
         from .report.files import write
 

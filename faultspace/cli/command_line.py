@@ -212,7 +212,12 @@ def identify(
     data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ, NPY or MAT file of measurements.")],
     inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
     outputs: Annotated[list[str], typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")],
-    out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write model, fault space, fault signal, plots there.")],
+    out: Annotated[
+        Path,
+        typer.Option(
+            metavar="DIR", show_default=False, help="Write model, fault space, signal, plots there; only our own files are replaced."
+        ),
+    ],
     order: Annotated[int | None, typer.Option(min=1, help="Number of states.", show_default="by the gap in the singular values")] = None,
     block_rows: Annotated[int | None, typer.Option(min=2, help="Samples of a window.", show_default="20, or what is needed")] = None,
     faults: Annotated[int | None, typer.Option(min=0, help="Number of independent faults.", show_default="estimated")] = None,
@@ -224,8 +229,10 @@ def identify(
 ) -> int:
     """Find model and faults in measured data.
 
-    That is: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell. A channel is a column's name; of
-    a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
+    That is: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell, which is an answer too: exit 0.
+    DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
+
+    A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
     the matrix is called data.
     """
     from . import identifying

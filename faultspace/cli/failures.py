@@ -64,8 +64,9 @@ def asks_report(error: Exception) -> int:
     what = " ".join(f"{type(error).__name__}: {error}".split())
     what = what if len(what) <= LONGEST_LINE // 3 else what[: LONGEST_LINE // 3] + "..."
     say(
-        f"got an error of faultspace itself ({what}{place}), expected an answer or a complaint about the input; please report it, with "
-        f"this line, the command line, the files that it read, and the traceback, which the environment variable {TRACEBACK}=1 has printed "
+        f"got an error of faultspace itself ({what}{place}), expected an answer or a complaint about the input; please report it to "
+        "whoever gave you this package, with this line, the command line, the files that it read, and the traceback, which the "
+        f"environment variable {TRACEBACK}=1 has printed "
         f"(faultspace {__version__}, Python {platform.python_version()}, {platform.platform()})"
     )
     return OUR_ERROR

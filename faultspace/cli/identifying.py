@@ -15,6 +15,7 @@ from ..base.errors import InvalidInput, in_file, quote_path
 from ..numeric.data.files import read_record
 from ..numeric.pipeline import identify
 from ..numeric.report import files as report
+from ..numeric.report.folders import refuse
 from ..numeric.report.summary import summary
 from .argument_names import as_options
 from .consoles import answers, paragraph, print_json
@@ -38,11 +39,14 @@ def run(
 ) -> int:
     """Identifies and writes the files of `report.NAMES` into `out`; exit code 0 whenever there is an answer, "undecided" included.
 
+    A folder with a file of these names that no earlier run wrote is refused before anything is read.
+
     Where there is none, folders that were made for it go again.
     """
     taken = [name for name in report.NAMES if (out / name).exists() and _same(out / name, data)]
     if taken:
         raise InvalidInput(f"{quote_path(data)}: would be overwritten by the answer of this name, expected another --out")
+    refuse(out, report.NAMES)
     new = _missing(out)
     try:
         prepare_folder(out)

@@ -31,7 +31,7 @@ from ..exact.system.systems import read_system as system_of
 _HINT = "see from_float_exactly"
 _ADVICE = "--floats-exactly takes them as the dyadic rationals that they are"
 
-MODEL_FORMAT = "faultspace-model/1"
+MODEL_FORMAT = "faultspace-model/1"  # FORMAT of numeric/model/models.py, which would load numpy; a test compares the two
 _MODEL_KEYS = ("format", "n", "n_u", "p", "n_v", "A", "B", "C", "D", "F", "G", "inputs", "outputs")
 
 

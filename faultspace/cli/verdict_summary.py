@@ -19,14 +19,6 @@ from ..proofs.verdict.verdicts import ClaimResult, Report, Row, Verdict
 from .consoles import paragraph, print_table
 from .verdict_tables import STYLES
 
-MEANINGS = {
-    Verdict.PROVED: "for all systems, by Rocq",
-    Verdict.IDENTITY: "for all entries, at the dimensions named",
-    Verdict.CERTIFIED: "found where it is to exist, or no counterexample among those tried",
-    Verdict.REFUTED: "by a counterexample",
-    Verdict.AMENDED: "refuted as printed, or a part of it, and a repair is not",
-    Verdict.ERROR: "a check did not finish",
-}
 HELP = "--claim ID prints a page of a claim, -v the long tables, --out DIR writes the certificates."
 
 
@@ -37,7 +29,7 @@ def print_lines(console: Console, report: Report) -> None:
     for line in differences(report):
         paragraph(console, Text(line, style="bold red"), "! ")
     occurring = [verdict for verdict in Verdict if any(claim.verdict == verdict for claim in claims)]
-    paragraph(console, Text("; ".join(f"{verdict}: {MEANINGS[verdict]}" for verdict in occurring) + ".", style="dim"))
+    paragraph(console, Text("; ".join(f"{verdict}: {verdict.meaning}" for verdict in occurring) + ".", style="dim"))
     if report.hypotheses:
         paragraph(console, hypothesis_words(report.hypotheses), "hypotheses: ")
     paragraph(console, attack_words(report), "attacks: ")

@@ -1,4 +1,4 @@
-"""The audit: any numeric implementation against exact ground truth. The one room where the exact and the numeric branch meet.
+"""The audit: any numeric implementation against exact ground truth. The one folder where the exact and the numeric branch meet.
 
     running.audit                     what all checks say of an implementation: an Audit (`outcome`)
     running.parametrize_with_checks   the same as pytest cases
@@ -12,7 +12,7 @@
                                       how they are computed, by the exact branch; bounds by `conditioning` and `residual_conditioning`
     rationals, drawing                rational matrices, their rounding, and how they are drawn
 
-Checks: identification_checks, fault_checks, excitation_checks, structure_checks, consistency_checks, refusal_checks, good_manners,
+Checks: identification_checks, fault_checks, excitation_checks, structure_checks, consistency_checks, refusal_checks, manners_checks,
 growth_checks.
 Comparisons are of what no state basis changes, in exact arithmetic where the answer allows (`exact_comparison`).
 """

@@ -14,9 +14,9 @@ from . import (
     consistency_checks,
     excitation_checks,
     fault_checks,
-    good_manners,
     growth_checks,
     identification_checks,
+    manners_checks,
     refusal_checks,
     structure_checks,
 )
@@ -29,7 +29,7 @@ MODULES = (
     excitation_checks,
     structure_checks,
     refusal_checks,
-    good_manners,
+    manners_checks,
     growth_checks,
 )
 

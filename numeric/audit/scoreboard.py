@@ -65,9 +65,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.scoreboard", description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where scoreboard.json, README.md and FINDINGS.md are")
     parser.add_argument("--peer", action="append", metavar="NAME", help="only this package, beside our own; may be repeated")
+    parser.add_argument("--own", action="store_true", help="our own reference alone, no package")
     parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="of one check")
     parser.add_argument("--pages", action="store_true", help="audit nothing: make the pages from scoreboard.json again")
     given = parser.parse_args(arguments)
+    if given.own and given.peer:
+        parser.error("--own audits no package, and --peer names one")
     file: Path = given.out / "scoreboard.json"
     found = Board.from_json(json.loads(file.read_text("utf-8"))) if file.exists() else Board(())
     if not given.pages:
@@ -79,7 +82,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
                     bars[name] = progress.add_task(name, total=total)
                 progress.update(bars[name], completed=done + 1)
 
-            found = merged(board(given.peer or [one.name for one in PEERS], given.timeout, tell), found)
+            names = [] if given.own else given.peer or [one.name for one in PEERS]
+            found = merged(board(names, given.timeout, tell), found)
         given.out.mkdir(parents=True, exist_ok=True)
         file.write_text(json.dumps(found.to_json(), indent=1) + "\n", "utf-8")
     write_pages(found, given.out)

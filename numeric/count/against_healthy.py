@@ -6,7 +6,7 @@ fault knows more: noise and model error, their sizes and colours. At each freque
     covariance of r = that of the healthy residual + H(f) S_v(f) H(f)*,  rank of the second term at most n_v, and n_v at almost all f
                       for faults of full spectrum; H = C (zI - A)^-1 F + G
 
-Count. l_1 >= l_2 >= ..: roots of the tapered covariance of the record against the healthy one, whitened (`healthy_reference`). With j
+Count. l_1 >= l_2 >= ..: roots of the tapered covariance of the record against the healthy one, whitened (`healthy_model.py`). With j
 faults, on the p - j dimensional space of combinations w with w* H = 0 both covariances are those of noise, and by Courant and Fischer
 l_(j+1) is at most the largest root there. That has an exact law (`largest_root`) whatever the noise; so a threshold at its quantile is
 exceeded with the stated chance at most, shared among the frequencies by Bonferroni's inequality and raised by the strain that the
@@ -15,7 +15,7 @@ healthy record showed there.
 Set after looking. The form of the threshold is derived; four settings were revised by hand after seeing what they did to a measured record
 of 28 outputs (with and without a fault added) and to the simulated cells of `benchmarks/fault_dimension.py`: the default level (.01 at
 first, when a stretch of measured data without fault came 2 % above an early form of the threshold; now .001), the most lags of the
-predictor and the least number of tapers (`healthy_reference`), and the rule for turning directions below with its share TURNED. Rates on
+predictor and the least number of tapers (`healthy_model.py`), and the rule for turning directions below with its share TURNED. Rates on
 those two are therefore optimistic for other data.
 
     n_v             the largest count over the frequencies; 0: none is seen. By chance alone it is too large with at most the probability
@@ -62,9 +62,17 @@ halves are compared at all, and against the geometric mean, was settled after lo
 class FaultsAgainstHealthy:
     """This is how many faults stand out of what the healthy record shows, with the evidence.
 
-    `n_v` is the count (None where it is undecided), and `reason` says why. `roots` and `thresholds` (centres, p) belong to the
-    `frequencies` (centres,) in cycles a sample, and `counts` (centres,) are the roots above. `visible` is explained in the head of the
-    module, and `kept` is the share of its excess that the last counted root keeps at half the width.
+    `n_v` is the count (None where it is undecided), and `reason` says why. `roots` and `thresholds` of shape (centres, p) belong to the
+    `frequencies` (centres,) in cycles a sample, and `counts` (centres,) are the roots above. A fault of less than `visible` times its noise
+    would not be seen, and `kept` is the share of its excess that the last counted root keeps at half the width. Raises nothing itself;
+    `fault_dimension_against_healthy`, which makes it, raises InvalidData. Sources: [K64], [RS95].
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_dimension_against_healthy, healthy_reference
+    >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
+    >>> found = fault_dimension_against_healthy(noise[1000:], healthy_reference(noise[:1000]))
+    >>> found.n_v, found.at_least, found.decided
+    (0, 0, True)
     """
 
     n_v: int | None
@@ -93,6 +101,15 @@ class FaultDirection:
 
     `z` = [F; G] (n + p,) has unit norm, and F is empty without A and C. `signal` (N,) is zero before the first whitened sample and is
     shrunk at each frequency by the share that noise explains. `strength` is the mean of |w* x|^2 / (w* w), which is one for noise alone.
+    Raises nothing itself; `fault_direction_against_healthy`, which makes it, raises InvalidData. Source: [RS95] for the tapers.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_direction_against_healthy, healthy_reference
+    >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
+    >>> noise[1000:, 1] += 5 * np.random.default_rng(2).standard_normal(1000)
+    >>> found = fault_direction_against_healthy(noise[1000:], healthy_reference(noise[:1000]))
+    >>> found.z.shape, found.signal.shape, found.strength > 10
+    ((3,), (1000,), True)
     """
 
     z: Array
@@ -103,11 +120,19 @@ class FaultDirection:
 def fault_dimension_against_healthy(
     r: ArrayLike, healthy: HealthyReference, *, u: ArrayLike | None = None, level: float = LEVEL
 ) -> FaultsAgainstHealthy:
-    """Count the faults in a residual r (N, p) that the healthy record does not explain; give u (N, n_u) if the reference was learnt with
-    inputs.
+    """Count the faults in a residual r (N, p) that the healthy record does not explain.
+
+    r has N samples in the units of the healthy record; give u (N, n_u) as well if the reference was learnt with inputs.
 
     `level` (0, 1): probability of counting too many by chance, turning directions apart. Raises InvalidData where r does not fit the
     reference. Sources: [K64], [RS95].
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_dimension_against_healthy, healthy_reference
+    >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
+    >>> noise[1000:, 1] += 5 * np.random.default_rng(2).standard_normal(1000)
+    >>> fault_dimension_against_healthy(noise[1000:], healthy_reference(noise[:1000])).n_v
+    1
     """
     if not 0.0 < level < 1.0:
         raise InvalidData(f"level: got {level}; needed a chance strictly between 0 and 1, such as 0.001")
@@ -170,7 +195,16 @@ def fault_direction_against_healthy(
 
     The sign and the split of size between z and the signal are free: z has unit norm in the given units. With zeros in the fault model
     (zeta > 0) other members of the fault space fit as well. Raises InvalidData where shapes do not fit. Needs memory for (N / 2) p (n + p)
-    complex numbers.
+    complex numbers. Source: [RS95] for the tapers that the noise is learnt with.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import fault_direction_against_healthy, healthy_reference
+    >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
+    >>> v = 5 * np.random.default_rng(2).standard_normal(1000)
+    >>> noise[1000:, 1] += v
+    >>> found = fault_direction_against_healthy(noise[1000:], healthy_reference(noise[:1000]))
+    >>> bool(abs(found.z[1]) > 0.99), bool(abs(np.corrcoef(found.signal[50:], v[50:])[0, 1]) > 0.9)
+    (True, True)
     """
     if (A is None) != (C is None):
         raise InvalidData("A and C: got one without the other; give both, or neither for a fault at the outputs alone")

@@ -79,7 +79,15 @@ class HealthyReference:
     `scales` (p,) and `input_scales` (n_u,) are the units taken out of r and u. The predictor has `lags` lags and the `coefficients` (q, p),
     q = (p + n_u) lags + n_u; `root` (q, q) satisfies root' root = (X0' X0)^-1, and `samples` were predicted. The complex `covariances`
     (centres, p, p) of `freedom` degrees of freedom belong to `centres` (centres,), in cycles a sample, and `strains` holds frequencies and
-    strains by number of tapers.
+    strains by number of tapers; `folds` are both halves of the healthy record, each with what was learnt on the other. Raises
+    InvalidData, in its methods, for a record that does not fit the healthy one. Sources: [RS95] for the tapers, [C60] for the forecast.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import healthy_reference
+    >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
+    >>> healthy = healthy_reference(noise)
+    >>> healthy.p, healthy.scales.shape, healthy.innovations(noise)[0].shape == (2000 - healthy.lags, 3)
+    (3, (3,), True)
     """
 
     scales: Array
@@ -196,10 +204,19 @@ class HealthyReference:
 
 
 def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: float = LEVEL) -> HealthyReference:
-    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u); `level`: of the quantiles that strain is measured in.
+    """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u), each channel in any units.
+
+    `level` is that of the quantiles that strain is measured in.
 
     Raises InvalidData for NaN, fewer than 64 samples a channel, or channels that are constant or exact combinations of others (there
-    is no noise to compare with; `fault_dimension` counts the faults of such residuals).
+    is no noise to compare with; `fault_dimension` counts the faults of such residuals). Sources: [BT94] for the number of lags, [RS95] for
+    the tapers.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import healthy_reference
+    >>> noise = np.random.default_rng(1).standard_normal((2000, 3))
+    >>> healthy_reference(noise).p
+    3
     """
     residual, inputs = residual_and_inputs(healthy, u)
     samples, p = residual.shape

@@ -3,7 +3,7 @@
 A constant signal is persistently exciting of order one only, so that a constant fault changes no rank gap. It moves the mean of r, and a
 healthy record says what means are worth: how much noise there is at frequency zero, and how much of a mean the model's error explains.
 
-    predictor     e(k) = r(k) - c - sum_j A_j r(k-j) - sum_j B_j u(k-j), least squares on the healthy record [lags: `healthy_reference`]
+    predictor     e(k) = r(k) - c - sum_j A_j r(k-j) - sum_j B_j u(k-j), least squares on the healthy record [lags: `healthy_model.py`]
     shift         d of the mean of r: the mean of e over the part tested is (I - sum A_j) d plus chance
     chance        of covariance W h. W: long-run covariance of e, from the first B cosine transforms of the healthy e, each an independent
                   vector of covariance W where the spectrum is flat so near to zero [LLSW18]; prewhitening by the predictor makes it flat

@@ -39,7 +39,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import Shown
 from ..count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
-from ..count.kernel_rows import LawLevel, kernel_row_test
+from ..count.residual_laws import LawLevel, kernel_row_test
 from ..data.plain import plain
 from ..data.records import Stored, in_memory
 from ..data.validation import positive, signal

@@ -69,11 +69,6 @@ class ObservedCoordinates:
     observed: int
 
     @property
-    def state_condition(self) -> float:
-        """Return the condition number of T alone: how much rounding grows in A and C."""
-        return float(np.linalg.cond(self.T)) if self.T.size else 1.0
-
-    @property
     def condition(self) -> float:
         """Return the condition number of the change of coordinates of [f; g]: by how much it can stretch one angle against
         another.

@@ -2,6 +2,7 @@
 
 read_record     the chosen channels of a file, as a Record
 split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate
+named_once      the refusal of a channel that is named more than once
 FORMATS         suffix -> format
 
 A channel is chosen by its column's name. For matrices (NPZ, NPY, MAT, and text without a line of names; in NPY and text the matrix is
@@ -18,6 +19,7 @@ from __future__ import annotations
 
 import io
 import mmap
+import os
 import re
 import shutil
 import tempfile
@@ -33,7 +35,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
-from ...base.errors import InvalidInput, in_file, quote_path, shorten
+from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from .records import OnProgress, Record, RecordWriter, silent
 from .text_tables import TextTable
 from .validation import first_not_finite
@@ -62,37 +64,45 @@ class _Opened:
     rows: Iterator[Array]
 
 
-def split_names(given: Sequence[str]) -> list[str]:
-    """Return the names in options that may each hold several, separated by commas outside brackets."""
+def split_names(given: str | Sequence[str]) -> list[str]:
+    """Return the names in a text, or in texts, that may each hold several, separated by commas outside brackets. Raises InvalidData for
+    what is no text."""
+    given = [given] if isinstance(given, str) else list(given)
+    wrong = [name for name in given if not isinstance(name, str)]
+    if wrong:
+        raise InvalidData(f"got {shorten(wrong[0])} as the name of a channel, expected text: a matrix's columns are data[:,0], data[:,1:3]")
     names = [name.strip() for text in given for name in re.split(r",(?![^\[\]]*\])", text)]
     return [name for name in names if name]
 
 
-def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], on_progress: OnProgress | None = None) -> Record:
+def read_record(
+    path: str | os.PathLike[str], *, inputs: str | Sequence[str], outputs: str | Sequence[str], on_progress: OnProgress | None = None
+) -> Record:
     """Return the record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 
     `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the
-    names of columns or, for matrices, as NAME[:,j]. Rows are samples, in the order of time and in the file's units, and every number
-    must be finite. `on_progress(stage, done, total)` hears how much of how much has been read. The Record has `len`, the number of
-    samples, `inputs` and `outputs`; it is read in pieces and need not fit into memory (a MAT file must).
+    names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas. Rows are samples, in the order of
+    time and in the file's units, and every number must be finite. `on_progress(stage, done, total)` hears how much of how much has been
+    read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and need not fit into memory (a MAT
+    file must).
 
     Raises InvalidInput for a file that cannot be read, a channel that is not there or is named twice, and for numbers that are not finite.
 
     >>> import faultspace as fs, pathlib, tempfile
     >>> path = pathlib.Path(tempfile.mkdtemp(), "small.csv")
     >>> _ = path.write_text("valve,level\\n0.0,1.0\\n1.0,0.5\\n")
-    >>> record = fs.read_record(str(path), inputs=["valve"], outputs=["level"])
+    >>> record = fs.read_record(path, inputs="valve", outputs="level")
     >>> len(record), record.inputs, record.outputs
     (2, ('valve',), ('level',))
     """
-    heard = on_progress or silent
+    heard, path = on_progress or silent, os.fspath(path)
     with in_file(path), ExitStack() as stack:
         chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
         for option, names in chosen.items():
             if not names:
                 raise InvalidInput(f"got no {option}, expected at least one channel: try --{option} NAME,NAME")
         names = [*chosen["inputs"], *chosen["outputs"]]
-        _once(chosen["inputs"], chosen["outputs"])
+        named_once(chosen["inputs"], chosen["outputs"])
         try:
             with open(path, "rb"):
                 pass
@@ -109,7 +119,7 @@ def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], on_
             labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
             u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
             y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
-            _once(u_names, y_names)
+            named_once(u_names, y_names)
             writer = RecordWriter(len(u_names) + len(y_names))
             for rows in found.rows:
                 _finite([*u_names, *y_names], rows, len(writer.store))
@@ -121,15 +131,15 @@ def read_record(path: str, *, inputs: Sequence[str], outputs: Sequence[str], on_
         return writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single)
 
 
-def _once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
-    """Refuses a channel named more than once."""
+def named_once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
+    """Raise InvalidData for a channel named more than once."""
     both = [name for name in inputs if name in outputs]
     if both:
-        raise InvalidInput(f"got channel {shorten(both[0])} as input and as output, expected it to be one of them")
+        raise InvalidData(f"got channel {shorten(both[0])} as input and as output, expected it to be one of them")
     for names in (inputs, outputs):
         twice = [name for i, name in enumerate(names) if name in names[:i]]
         if twice:
-            raise InvalidInput(f"got channel {shorten(twice[0])} twice, expected every channel once")
+            raise InvalidData(f"got channel {shorten(twice[0])} twice, expected every channel once")
 
 
 def _labels(selector: str, count: int) -> list[str]:
@@ -294,7 +304,7 @@ def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read
     samples = len(signals[0])
     if any(len(values) != samples for values in signals):
         sizes = ", ".join(f"{name} {len(values)}" for name, values in zip(names, signals, strict=True))
-        raise InvalidInput(f"got channels of unequal length ({sizes}), expected as many samples of each: cut them to those they share")
+        raise InvalidData(f"got channels of unequal length ({sizes}), expected as many samples of each: cut them to those they share")
 
     def rows() -> Iterator[Array]:
         for first in range(0, samples, PIECE):

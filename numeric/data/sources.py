@@ -16,8 +16,8 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...base.errors import InvalidData
-from .files import read_record
+from ...base.errors import InvalidData, shorten
+from .files import named_once, read_record, split_names
 from .records import OnProgress, Record, RecordWriter
 from .validation import checked_pieces, two_dimensional
 
@@ -28,8 +28,8 @@ def record_from(
     y: Any,
     u: Any = None,
     *,
-    inputs: Sequence[str] | None = None,
-    outputs: Sequence[str] | None = None,
+    inputs: str | Sequence[str] | None = None,
+    outputs: str | Sequence[str] | None = None,
     on_progress: OnProgress | None = None,
 ) -> Record:
     """Return the Record of whatever holds one: arrays, data frames, a file, pieces or a Record.
@@ -38,7 +38,8 @@ def record_from(
     both: a Record, the path of a file (`inputs` and `outputs` then choose its channels), a frame (likewise), or pieces (y, u) in the order
     of time, which are read once and have any number of samples.
 
-    `inputs` and `outputs` otherwise name the channels, u1, u2, ... and y1, y2, ... by default. Raises InvalidData for what holds no
+    `inputs` and `outputs` otherwise name the channels, u1, u2, ... and y1, y2, ... by default; each is a list of names, or a text of
+    names that are separated by commas. Every name stands for one channel. Raises InvalidData for what holds no
     record, and InvalidInput for a file that cannot be read. It converts only, so that it has no source.
 
     >>> from faultspace.numeric import record_from
@@ -46,10 +47,11 @@ def record_from(
     >>> len(record), record.inputs, record.outputs
     (2, ('u1',), ('level',))
     """
+    inputs, outputs = _listed(inputs), _listed(outputs)
     if u is not None:
         if isinstance(y, Record | str | os.PathLike):
             raise InvalidData(f"u: got one beside y of type {type(y).__name__}, which holds the inputs already: leave u out")
-        names = outputs or _columns(y), inputs or _columns(u)
+        names = _columns(y) if outputs is None else outputs, _columns(u) if inputs is None else inputs
         single = two_dimensional(_values(y), "y").dtype == np.float32
         return _written([(_values(y), _values(u))], names, single)
     if isinstance(y, Record):
@@ -91,7 +93,11 @@ def _written(
     )
     for what, given, width in (("outputs", outputs, widths[0]), ("inputs", inputs, widths[1])):
         if len(given) != width:
-            raise InvalidData(f"{what}: got {len(given)} names for {width} channels")
+            raise InvalidData(
+                f"{what}: got {len(given)} names for {width} channels: one name a channel is needed, in the order of the columns; got "
+                f"{', '.join(map(shorten, given[:12])) or 'none'}"
+            )
+    named_once(inputs, outputs)
     return writer.record(outputs=outputs, inputs=inputs, format="arrays", single=single)
 
 
@@ -102,13 +108,22 @@ def _pairs(chunks: Iterable[Any]) -> Iterable[tuple[ArrayLike, ArrayLike]]:
         yield _values(chunk[0]), _values(chunk[1])
 
 
+def _listed(given: str | Sequence[str] | None) -> list[str] | None:
+    """Return names as a list: a text is one name, or names separated by commas."""
+    if given is None or isinstance(given, str):
+        return None if given is None else split_names(given)
+    wrong = [name for name in given if not isinstance(name, str)]
+    if wrong:
+        raise InvalidData(f"inputs, outputs: got {shorten(wrong[0])} as the name of a channel, which is no text")
+    return list(given)
+
+
 def _columns(values: Any) -> list[str] | None:
-    """Return the names of a frame's columns, or of a series; None for what has none."""
-    if hasattr(values, "columns") and hasattr(values, "to_numpy"):
-        return [str(name) for name in values.columns]
-    if hasattr(values, "name") and hasattr(values, "to_numpy"):
-        return None if values.name is None else [str(values.name)]
-    return None
+    """Return the names of a frame's columns, or of a series; None for what has none, as columns that are merely numbered."""
+    if not hasattr(values, "to_numpy") or not (hasattr(values, "columns") or hasattr(values, "name")):
+        return None
+    names = list(values.columns) if hasattr(values, "columns") else [values.name]
+    return None if all(name is None or isinstance(name, int) for name in names) else [str(name) for name in names]
 
 
 def _values(values: Any) -> Any:

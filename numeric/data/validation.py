@@ -11,8 +11,11 @@ checked_piece       one such piece that the caller hands over
 enough_samples      a refusal of too few samples, with a hint at transposed data
 first_not_finite    where the first number stands that is NaN or infinite
 positive            a positive integer argument
+whole               an integer argument with a least value
 constant_channels   numbers of the channels that never change, from their least and greatest values
 """
+
+from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from operator import index
@@ -22,20 +25,36 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
-from ...base.errors import InvalidData
+from ...base.errors import InvalidData, shorten
 
 PIECE = 1 << 14  # samples converted and checked at once
 
 
-def positive(value: Any, name: str) -> int:
-    """Return `value` as a positive int. Raises InvalidData for anything else, booleans and floats included."""
-    try:
-        number = index(value)
-    except TypeError:
-        number = 0
-    if isinstance(value, bool | np.bool_) or number < 1:
-        raise InvalidData(f"{name} must be a positive integer (got {value!r})")
+def positive(value: Any, name: str, advice: str = "") -> int:
+    """Return `value` as a positive int. Raises InvalidData for anything else, booleans and floats included; `advice` says what to try."""
+    number = _integer(value)
+    if number is None or number < 1:
+        raise InvalidData(f"{name} must be a positive integer (got {shorten(value)}){advice and f': {advice}'}")
     return number
+
+
+def whole(value: Any, name: str, least: int, advice: str) -> int:
+    """Return `value` as an int of at least `least`. Raises InvalidData for anything else, booleans, floats and text included; `advice` says
+    what to try."""
+    number = _integer(value)
+    if number is None or number < least:
+        raise InvalidData(f"{name}: got {shorten(value)}; an integer of at least {least} is needed: {advice}")
+    return number
+
+
+def _integer(value: Any) -> int | None:
+    """Return an integer, numpy's included, as an int; None for anything else, booleans among them."""
+    if isinstance(value, bool | np.bool_):
+        return None
+    try:
+        return index(value)
+    except TypeError:
+        return None
 
 
 def two_dimensional(values: ArrayLike, name: str) -> NDArray[Any]:

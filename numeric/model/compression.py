@@ -18,6 +18,8 @@ scaled_condition    of a triangular factor, whatever the units
 window_rows         (lag, channel) of the rows of H
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple

@@ -5,6 +5,8 @@ Simulator               the response to inputs that come in pieces, many samples
 observability_matrix    O_s, the rows C, CA, ..., CA^(s-1)
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module

@@ -24,6 +24,8 @@ MoespModel                  the result: model, order, gap, singular values, x0, 
 Gap, choose_order           the order rule
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -140,7 +142,7 @@ def system_range(projected: Array, scale: Array, floor: float, order: int | None
                 f"or an input that excites more"
             )
     else:
-        order = positive(order, "order")
+        order = positive(order, "order", "state how many states the model has, or leave it out to take the gap in the singular values")
         if order > p * (s - 1):
             raise InvalidData(
                 f"order = {order} is above p (block_rows - 1) = {p} * {s - 1} = {p * (s - 1)}, the most that the shift of O_s can carry: "

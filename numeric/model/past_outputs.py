@@ -7,6 +7,8 @@ a white input, and for most others [VV07, ch. 9]; with white measurement noise i
 po_moesp        from y and u to the same record as `pi_moesp`
 """
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -136,6 +136,8 @@ def residual(
     >>> residual(model.simulate(u) + 0.25, u, model, x0=[0.0]).r.ravel().tolist()
     [0.25, 0.25, 0.25, 0.25]
     """
+    if model is None:
+        raise InvalidData("model: got None; a StateSpaceModel is needed, or the result of pi_moesp or of identify")
     model = _found_in(model)
     source = experiment(y, u)
     if x0 is not None:

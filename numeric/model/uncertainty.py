@@ -28,7 +28,8 @@ class Uncertainty:
 
     `root` has the shape (K, K - n^2), and root @ root.T is the covariance of the entries of T = [[A, B], [C, D]] in row order, in the
     gauge orthogonal to changes of basis. Standard deviations are in the units of what they belong to. Those of complex numbers are
-    returned as complex numbers: the real part is the deviation of the real part, the imaginary part that of the imaginary part. Raises nothing.
+    returned as complex numbers: the real part is the deviation of the real part, the imaginary part that of the imaginary part.
+    Raises nothing.
 
     >>> from faultspace.numeric import Spectra, StateSpaceModel, cramer_rao
     >>> from faultspace.numeric.bound.spectra import white

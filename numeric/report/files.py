@@ -2,13 +2,12 @@
 
 document     the JSON-ready dict of --json (schemas/identify.schema.json)
 write        all files, written elsewhere first and then renamed into place; says which, and what is missing and why
-NAMES        the names of the files; those of an earlier answer that this one lacks are removed
+NAMES        the names of the files; those of an earlier answer that this one lacks are removed (`folders`: those of anybody else never)
 """
 
 from __future__ import annotations
 
 import json
-import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -21,6 +20,7 @@ from ..count.mean_shift import POWER
 from ..data.plain import plain
 from ..data.records import OnProgress, SampleStore
 from ..space.distances import containment_distance
+from .folders import refuse, replace
 from .pictures import PICTURES, pictures
 from .summary import advice, fit, markdown, summary
 
@@ -118,9 +118,11 @@ def write(
 ) -> tuple[list[str], list[str]]:
     """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `document`.
 
-    Raises InvalidInput where the folder cannot be written into.
+    Files of these names that an earlier run wrote are replaced, or removed where this answer has none. Raises InvalidInput where the folder
+    cannot be written into, and, before anything is written, where it has a file of these names that is not ours.
     """
     remarks: list[str] = []
+    refuse(out, NAMES)
     try:
         with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
             folder = Path(name)
@@ -130,12 +132,7 @@ def write(
             if remarks:
                 lines += ["", "## Missing", *(f"- {remark}" for remark in remarks)]
             (folder / SUMMARY).write_text(markdown(lines), encoding="utf-8")
-            written = [name for name in NAMES if (folder / name).exists()]
-            for name in NAMES:
-                if name in written:
-                    os.replace(folder / name, out / name)
-                else:
-                    (out / name).unlink(missing_ok=True)
+            written = replace(folder, out, NAMES)
     except OSError as error:
         reason = error.strerror or str(error)
         raise InvalidInput(f"{quote_path(str(out))}: cannot be written into ({reason[:1].lower()}{reason[1:]})") from None

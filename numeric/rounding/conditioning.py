@@ -20,7 +20,7 @@ believed where `range` and the changes it leads to are small beside one.
 BackwardError           |E| on future inputs and outputs, |L_u^-1 E_u|; `by_qr`, `by_gram`, `measured`
 reflections_error, gram_error      the worst cases themselves
 Setting, setting        the compression in scaled channels with U and the model in its basis
-noise_free_range, noisy_range      the bound on |D|
+noise_free_range        the bound on |D| without noise; tests/numeric/rounding_bounds.py has that with noise
 ModelError              bounds on A, B, C, D with `poles`, `characteristic_polynomial`, `markov`, `transfer`
 moesp_error, output_error_error    ModelError by the two regressions for B and D
 """
@@ -158,15 +158,6 @@ def noise_free_range(where: Setting, backward: BackwardError) -> float:
     return float((backward.outputs + toeplitz * backward.future + rounding) / where.values[where.n - 1])
 
 
-def noisy_range(where: Setting, backward: BackwardError) -> float:
-    """Return the bound on |D| for any data: what floats and exact arithmetic make of the same windows."""
-    others = np.hstack([where.part("y", "f"), where.part("y", "y")])
-    beyond = where.values[where.n] if len(where.values) > where.n else 0.0
-    rounding = SMALL * len(where.U) * EPS * where.values[0]
-    moved = backward.outputs + np.sqrt(2.0) * _norm(others) * backward.turn + rounding
-    return float(moved / (where.values[where.n - 1] - beyond))
-
-
 def _toeplitz_norm(model: StateSpaceModel, s: int) -> float:
     """Return |T_s(B, D)| by its block columns' Frobenius norms."""
     return float(np.sqrt(sum(_frobenius(model.markov(k)) ** 2 for k in range(1, s + 1))))
@@ -265,7 +256,7 @@ def _observability_error(model: StateSpaceModel, s: int, dA: float, dC: float) -
 def moesp_error(where: Setting, backward: BackwardError, moved: float) -> ModelError:
     """Bound the errors of the model whose B and D come from MOESP's regression (`pi_moesp_from_compression`).
 
-    `moved` is from `noise_free_range` or `noisy_range`.
+    `moved` bounds |D|, as `noise_free_range` does.
     """
     model, compression = where.model, where.compression
     s, n = compression.block_rows, model.n

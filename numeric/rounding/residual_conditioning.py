@@ -1,12 +1,11 @@
-"""This bounds how far rounding carries the residual, the singular values of R_s and the fault signal from the exact ones, to first order.
+"""This bounds how far rounding carries the residual and the fault signal from the exact ones, to first order.
 
 The exact model may be given by rational matrices of which the floats are the correct roundings: entries wrong by u = 2^-53, like the data.
 
-    given_state_error       |r - exact r|, the initial state given: what simulation loses. An error d(k) of the state's recursion reaches
-                            the output by sum |C A^k| = gain, so that |dr| <= (|dC| + gain |dA|) |x| + (gain |dB| + |dD|) |u| + u |y|
-    fitted_state_error      the same with x0 fitted: r is e = y - T u less its projection on Phi = O_N, so that
+    simulation_error        what simulation loses, |x| given (`state_norm`). An error d(k) of the state's recursion reaches the output by
+                            sum |C A^k| = gain, so that |dr| <= (|dC| + gain |dA|) |x| + (gain |dB| + |dD|) |u| + u |y|
+    fitted_state_error      |r - exact r|, x0 fitted: r is e = y - T u less its projection on Phi = O_N, so that
                             |dr| <= |de| + |dPhi| (|theta| + |r| / sigma_min(Phi))                        [GVL13, section 5.3]
-    singular_value_error    |sigma - exact sigma| <= |E|_F for every singular value of R_s                [GVL13, corollary 8.6.2]
     fault_signal_error      |v - exact v| on the trusted samples <= |W| |r - exact r that v explains|, W their rows of [O_N T_N]^+: the
                             float v explains its own simulated residual exactly, whatever the way it was found
 
@@ -38,7 +37,7 @@ def _gain(model: StateSpaceModel, samples: int) -> float:
     return float(np.sum(np.linalg.norm(blocks, axis=(1, 2))))
 
 
-def _states(model: StateSpaceModel, u: Array, x0: Array) -> float:
+def state_norm(model: StateSpaceModel, u: Array, x0: Array) -> float:
     """Return |x| over the record."""
     return _norm(StateSpaceModel(model.A, model.B, np.eye(model.n), np.zeros((model.n, model.n_u))).simulate(u, x0))
 
@@ -48,18 +47,13 @@ def _arithmetic(model: StateSpaceModel) -> float:
     return (1 + BLOCK * (model.n_u + model.n)) * UNIT + SMALL * model.n * EPS
 
 
-def _simulation_error(model: StateSpaceModel, y: Array, u: Array, states: float) -> float:
+def simulation_error(model: StateSpaceModel, y: Array, u: Array, states: float) -> float:
+    """Return the bound on the error of y (N, p) less the response to u (N, n_u), for `states` = |x| over the record."""
     unit, gain = _arithmetic(model), _gain(model, len(u))
     of_states = unit * (_norm(model.C) + gain * _norm(model.A)) * states
     of_inputs = unit * (gain * _norm(model.B) + _norm(model.D)) * _norm(u)
     # y and u themselves are roundings, and so is the last difference.
     return of_states + of_inputs + UNIT * (gain * _norm(model.B) + _norm(model.D)) * _norm(u) + 3 * UNIT * _norm(y)
-
-
-def given_state_error(y: Array, u: Array, model: StateSpaceModel, x0: Array) -> float:
-    """Return the bound on |r - exact r| for `residual(y, u, model, x0=x0)`, y (N, p), u (N, n_u), x0 (n,)."""
-    of_start = _norm(observability_matrix(model.A, np.eye(model.n), len(u))) * UNIT * _norm(x0) * _norm(model.C)
-    return _simulation_error(model, y, u, _states(model, u, x0)) + of_start
 
 
 def fitted_state_error(y: Array, u: Array, model: StateSpaceModel, r: Array) -> float:
@@ -74,13 +68,7 @@ def fitted_state_error(y: Array, u: Array, model: StateSpaceModel, r: Array) -> 
     moved += reflections_error(model.n + 1, N * model.p) * _norm(Phi)
     least = float(np.linalg.svd(Phi, compute_uv=False)[-1])
     rounded = reflections_error(model.n + 1, N * model.p) * _norm(error)
-    return _simulation_error(model, y, u, _states(model, u, zero)) + rounded + moved * (_norm(theta) + _norm(r) / least)
-
-
-def singular_value_error(values: Array, columns: int) -> float:
-    """Return the bound on the error of every one of the singular values (s p,) of R_s with so many columns, samples correctly rounded."""
-    width = len(values)
-    return (UNIT + reflections_error(width, columns) + SMALL * width * EPS) * _norm(values)
+    return simulation_error(model, y, u, state_norm(model, u, zero)) + rounded + moved * (_norm(theta) + _norm(r) / least)
 
 
 def fault_signal_error(r: Array, A: Array, F: Array, C: Array, G: Array, found: Reconstruction, *, x0: Array | None = None) -> float:
@@ -101,4 +89,4 @@ def fault_signal_error(r: Array, A: Array, F: Array, C: Array, G: Array, found: 
     left = _norm(r - found.simulated)
     if x0 is not None:
         left += UNIT * _norm(free) * _norm(x0)
-    return amplified * (left + _simulation_error(model, r, found.v, _norm(found.x)))
+    return amplified * (left + simulation_error(model, r, found.v, _norm(found.x)))

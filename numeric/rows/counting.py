@@ -12,6 +12,9 @@ k rows of total degree n are laws (`laws.py`), and the number of faults is p les
 A fault in one output alone with the colour of the noise is noise by every statistic of such a record. n_v = p is answered only where the
 noise level is known. Without noise the ranks of `fault_dimension` count, which are exact.
 
+The constants were set by hand: FAINTEST and KNOWN_TO state assumptions (how faint a last fault may be, how true a stated level is), and
+no theory gives them; those that decide whether rows are laws, SUFFICES and FAILS, are told in `laws.py`.
+
     count_faults    FaultCount: n_v, or "p - 1 or p", or undecided, the reason, and every test made
 """
 

@@ -14,8 +14,8 @@ the parametric bootstrap for a given record.
 
     LeastDegree    the degree, the levels of all degrees, the probability that each suffices, and whether the answer is clear
     least_degree   from the fits of a course
-    SUFFICES       a degree is accepted if data as unlikely come with at least this probability
-    FAILS          and clearly too low if with less than this; between the two the answer is undecided
+    ENOUGH         a degree is accepted if data as unlikely come with at least this probability
+    TOO_LOW        and clearly too low if with less than this; between the two the answer is undecided
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ from ...base.arrays import Array
 from ..space.basis import KernelBasis
 from .joint import ROUNDING, JointMoments
 
-SUFFICES, FAILS = 0.01, 1e-6
+# Set by hand: of the number of zeros alone; the constants that count faults are those of `laws.py`.
+ENOUGH, TOO_LOW = 0.01, 1e-6
 # Means of the ratio over its degrees of freedom where the degree suffices, for one degree more and for several. One more frees a real root,
 # several free pairs of roots, which can stand at any frequency; so the second is larger. Neither grows with N, because the moments have no
 # more bands.
@@ -40,7 +41,7 @@ MISFITS = (1.6, 3.2)
 @dataclass(frozen=True, eq=False)
 class LeastDegree:
     """`degree`, the likeliest least one; `levels` and `probabilities` (most + 1,) of total degrees 0, 1, ..; `margin`, at least one where
-    `decided`: the smaller of log(probability of the degree below) / log(FAILS) and log(SUFFICES) / log(probability of the degree)."""
+    `decided`: the smaller of log(probability of the degree below) / log(TOO_LOW) and log(ENOUGH) / log(probability of the degree)."""
 
     degree: int
     levels: Array
@@ -80,12 +81,12 @@ def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, mo
     for d in range(top):
         probabilities[d] = min(1.0, (top - d) * min(excess(data, fits[d], fits[D], misfits) for D in range(d + 1, top + 1)))
     levels = np.array([fit.level for fit in fits])
-    degree = next((d for d in range(least, most + 1) if probabilities[d] >= SUFFICES), None)
+    degree = next((d for d in range(least, most + 1) if probabilities[d] >= ENOUGH), None)
     if degree is None:
         reason = f"degree {most} leaves what higher degrees explain (probability {probabilities[most]:.1g}): the order is too low"
         return LeastDegree(most, levels, probabilities, 0.0, False, reason)
     # By steps of one degree the same must come out: noise of another colour than assumed gains by many degrees at once.
-    steps = (d for d in range(least, top) if excess(data, fits[d], fits[d + 1], misfits) >= SUFFICES)
+    steps = (d for d in range(least, top) if excess(data, fits[d], fits[d + 1], misfits) >= ENOUGH)
     settled = next(steps, top) >= degree
     below = 0.0 if degree == least else float(probabilities[degree - 1])
     reason = f"degree {degree} suffices (probability {probabilities[degree]:.2g})"
@@ -94,12 +95,12 @@ def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, mo
     elif not settled:
         reason += f", but a lower one is not improved by the next alone (probability of degree {degree - 1} {below:.1g})"
     else:
-        reason += f", degree {degree - 1} {'does not' if below <= FAILS else 'may'} ({below:.1g})"
+        reason += f", degree {degree - 1} {'does not' if below <= TOO_LOW else 'may'} ({below:.1g})"
     margin = _margin(below, float(probabilities[degree])) if settled else 0.0
-    return LeastDegree(degree, levels, probabilities, margin, settled and below <= FAILS, reason)
+    return LeastDegree(degree, levels, probabilities, margin, settled and below <= TOO_LOW, reason)
 
 
 def _margin(below: float, at: float) -> float:
     """How far on their sides of the thresholds the two probabilities lie, as a ratio of their logarithms."""
     tiny = 1e-300
-    return float(min(np.log(max(below, tiny)) / np.log(FAILS), np.log(SUFFICES) / np.log(max(min(at, 1 - 1e-9), tiny))))
+    return float(min(np.log(max(below, tiny)) / np.log(TOO_LOW), np.log(ENOUGH) / np.log(max(min(at, 1 - 1e-9), tiny))))

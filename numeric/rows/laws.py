@@ -8,6 +8,11 @@ noise shares of the channels are estimated in turns with the rows; of a single r
 
     Laws         k rows with their level, shares, both ratios with their probabilities, and `holds`: True, False, or None in between
     tested       the test; with draws > 0 the misfit of both ratios is measured by the parametric bootstrap
+
+What the constants were set by. SHAPE_MISFIT, and MISFITS of `degree.py`, are means of the ratios where the rows are laws, which
+`benchmarks/counting_at_the_bound.py calibrate` measures again on fresh seeds. The others were set by hand: SUFFICES is a level of one in
+a hundred; FAILS lies far below it, for rows that are no laws were seen far below; FAR was settled after looking at the benchmark's records;
+EXTRA, TURNS and HOPELESS are compromises between time and power. How often the answers are then right, `count` of that benchmark measures.
 """
 
 from __future__ import annotations

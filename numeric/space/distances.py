@@ -1,15 +1,12 @@
-"""This measures how far one subspace lies from another, and one model from another.
+"""This measures how far one subspace lies from another.
 
     principal_angles        radians, ascending, min(dim U, dim V) of them, accurate when they are tiny and when they
                             are right
     containment_distance    sine of the largest angle from U to V: 0 iff span U lies in span V, 1 if dim U > dim V
     subspace_distance       the same both ways, the larger: 0 iff the spans are equal, 1 if the dimensions differ
     compare_subspaces       all of these and the dimensions in one record
-    author_error            the published error of the study: |angles| / (n_v pi/2), containment only
-    containment_error       the same angles over the metric's own maximum, sqrt(n_v) pi/2: from 0 to 1
+    containment_error       the angles over the metric's own maximum, sqrt(n_v) pi/2: from 0 to 1; as published it is over n_v pi/2
     two_sided_error         the metric for different dimensions over its maximum: 0 iff the spans are equal
-    markov_distance         relative difference of the Markov parameters of two models: 0 iff they are the same
-                            input-output map
 
 A subspace is given by a matrix whose independent columns span it; a subspace without columns, (d, 0), is {0}.
 Neither the scale of columns nor the choice of basis matters. Source: [YL16] for subspaces of different dimensions;
@@ -19,7 +16,6 @@ Neither the scale of columns nor the choice of basis matters. Source: [YL16] for
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
 
 import numpy as np
 
@@ -28,19 +24,6 @@ from ...base.errors import InvalidData
 
 # Columns of unit length with a singular value below this are taken for dependent.
 DEPENDENT = 1e-12
-
-
-class HasMatrices(Protocol):
-    """This is anything with A (n, n), B (n, n_u), C (p, n) and D (p, n_u)."""
-
-    @property
-    def A(self) -> Any: ...
-    @property
-    def B(self) -> Any: ...
-    @property
-    def C(self) -> Any: ...
-    @property
-    def D(self) -> Any: ...
 
 
 @dataclass(frozen=True)
@@ -88,10 +71,16 @@ def containment_distance(U: object, V: object) -> float:
 
 
 def subspace_distance(U: object, V: object) -> float:
-    """Return the two-sided distance, sine of the largest angle either way: 0 iff the spans are equal, 1 if their dimensions
-    differ.
+    """Return the two-sided distance of span U (d, k) and span V (d, l): the sine of the largest angle either way.
 
-    Raises as `principal_angles`.
+    It is 0 iff the spans are equal and 1 where their dimensions differ; neither the choice of basis nor the units of
+    a column matter. U and V are of any type that numpy takes for an array. It tells how far
+    an estimated fault space is from a known one. Raises InvalidData for different numbers of rows, dependent columns, or entries that
+    are not finite. Source: [YL16], [GVL13] section 6.4.3.
+
+    >>> from faultspace.numeric import subspace_distance
+    >>> subspace_distance([[1, 0], [0, 1], [0, 0]], [[2, 1], [0, 1], [0, 0]]), subspace_distance([[1], [0]], [[0], [1]])
+    (0.0, 1.0)
     """
     return compare_subspaces(U, V).two_sided
 
@@ -104,21 +93,6 @@ def compare_subspaces(U: object, V: object) -> SubspaceComparison:
     angles = _angles(first, second)
     largest = float(np.sin(angles[-1])) if angles.size else 0.0
     return SubspaceComparison((k, other), angles, 1.0 if k > other else largest, 1.0 if other > k else largest)
-
-
-def author_error(truth: object, estimate: object, n_v: int | None = None) -> float:
-    """Return the error as published: the 2-norm of the angles between the true [F; G] and the estimate over n_v pi/2.
-
-    `n_v` is the number of columns of `truth` (d, n_v) unless given. Two doubts come with it: the angles cannot
-    exceed sqrt(n_v) pi/2 in norm, so that for n_v > 1 the error never reaches one; and an estimate that is the whole
-    space scores zero. `containment_error` mends the first, `two_sided_error` both. Source: [G25] section V, [YL16].
-    Raises InvalidData.
-    """
-    angles = principal_angles(truth, estimate)
-    columns = np.atleast_2d(np.asarray(truth)).shape[1] if n_v is None else n_v
-    if columns < 1:
-        raise InvalidData(f"n_v: got {columns}; the published error divides by n_v, so it needs at least one fault")
-    return float(np.linalg.norm(angles) / (columns * np.pi / 2))
 
 
 def containment_error(truth: object, estimate: object) -> float:
@@ -138,33 +112,6 @@ def two_sided_error(truth: object, estimate: object) -> float:
     """
     angles, k, other = _angles_and_dimensions(truth, estimate)
     return float(np.sqrt((np.sum(angles**2) + abs(k - other) * np.pi**2 / 4) / max(k, other, 1)) / (np.pi / 2))
-
-
-def markov_distance(model1: HasMatrices, model2: HasMatrices, *, samples: int | None = None) -> float:
-    """Return |H1 - H2| / max(|H1|, |H2|), Frobenius norms over the Markov parameters D, CB, CAB, ...; between 0 and 2, no
-    basis matters.
-
-    `samples` parameters are compared; by default n1 + n2 + 1, which are enough to tell any two different maps of
-    these orders apart [K80]. Raises InvalidData when the models have different inputs or outputs.
-    """
-    D1, D2 = (np.atleast_2d(np.asarray(model.D, float)) for model in (model1, model2))
-    if D1.shape != D2.shape:
-        raise InvalidData(f"models: got (p, n_u) = {D1.shape} and {D2.shape}; only models with the same inputs and outputs compare")
-    count = 1 + sum(np.asarray(model.A).shape[0] for model in (model1, model2)) if samples is None else samples
-    if count < 1:
-        raise InvalidData(f"samples: got {count}; at least one Markov parameter must be compared")
-    one, two = _markov(model1, count), _markov(model2, count)
-    scale = max(np.linalg.norm(one), np.linalg.norm(two))
-    return float(np.linalg.norm(one - two) / scale) if scale > 0 else 0.0
-
-
-def _markov(model: HasMatrices, count: int) -> Array:
-    A, B, C, D = (np.atleast_2d(np.asarray(matrix, float)) for matrix in (model.A, model.B, model.C, model.D))
-    parameters, state = [D], B
-    for _ in range(1, count):
-        parameters.append(C @ state)
-        state = A @ state
-    return np.array(parameters)
 
 
 def _angles_and_dimensions(U: object, V: object) -> tuple[Array, int, int]:

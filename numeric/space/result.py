@@ -156,7 +156,7 @@ class FaultSpaceEstimate(Shown):
         values, others = self.singular_values, f"taken for zero: dimension {self.n_z}"
         if self.method in ("likelihood", "kernel rows"):
             # Rows of a fit have so many solutions by their degrees: that these values are zero is no evidence, and they are not drawn.
-            values, others = values[: self.equations], f"the other {self.n_z} are zero by the fit: dimension {self.n_z}"
+            values, others = values[: self.equations], f"zero by the fit, not drawn: dimension {self.n_z}"
         return plot_conditions(values, self.equations, others=others, ax=ax)
 
     @property

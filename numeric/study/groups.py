@@ -1,4 +1,4 @@
-"""The cases of a Monte Carlo study, grouped: what its tables and its pictures are made from.
+"""This groups the cases of a Monte Carlo study: its tables and its pictures are made from the groups.
 
 Plan                 what a study does with each system, and which error it takes
 StudyCases           the cases that came of a plan, with their errors

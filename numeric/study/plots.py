@@ -80,6 +80,8 @@ def errors_against_circle(study: StudyCases, ax: Any = None, *, estimator: str =
     """Draw the error over the distance of the nearest zero to the unit circle, both logarithmic; open marks: not all zeros inside the
     circle."""
     ax = _axes(ax)
+    from matplotlib import ticker
+
     for k, colour in COLOURS.items():
         for minimum_phase in (True, False):
             chosen = [case for case in study.cases if case.n_zeros == k and case.minimum_phase is minimum_phase]
@@ -91,6 +93,10 @@ def errors_against_circle(study: StudyCases, ax: Any = None, *, estimator: str =
                 face = colour if minimum_phase else "none"
                 ax.scatter(x, y, 16, facecolors=face, edgecolors=colour, linewidths=0.9, alpha=0.85, label=label)
     ax.set_xscale("log")
+    # Labels at 1 and 3 of each decade: the zeros may lie within one, and more would run into each other.
+    ax.xaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 3.0)))
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter(ticker.NullFormatter())
     ax.set_yscale("log")
     ax.set_ylim(LEAST * 0.8, 130)
     _percent_axis(ax.yaxis)

@@ -1,4 +1,4 @@
-"""window-ranks (L1 and L2): every window at once, from the minimal indices of the pencil, without any hypothesis."""
+"""window-ranks: every window at once, from the minimal indices of the pencil, without any hypothesis."""
 
 from __future__ import annotations
 

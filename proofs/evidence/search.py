@@ -13,7 +13,7 @@ reaches that prime (Hadamard's bound, checked for each box), so these ranks are 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
 from math import isqrt
@@ -25,6 +25,7 @@ from ...exact.system.systems import ResidualSystem
 
 Integers = NDArray[np.int64]
 Flags = NDArray[np.bool_]
+Known = dict[tuple[str, int], NDArray[np.int8]]
 PRIME = 2**31 - 1
 CHUNK = 20000
 
@@ -54,12 +55,16 @@ class Box:
 
 @dataclass(frozen=True)
 class Facts:
-    """These are systems of the same dimensions, one a row: A (N, n, n), F (N, n, m), C (N, p, n), G (N, p, m), integer entries."""
+    """These are systems of the same dimensions, one a row: A (N, n, n), F (N, n, m), C (N, p, n), G (N, p, m), integer entries.
+
+    `known` keeps what was found out about them, in bytes, since several conditions ask for the same.
+    """
 
     A: Integers
     F: Integers
     C: Integers
     G: Integers
+    known: Known = field(default_factory=dict)
 
     @property
     def n(self) -> int:
@@ -90,15 +95,11 @@ class Facts:
 
     def rank(self, s: int) -> Integers:
         """Return the rank of [O_s T_s] of every system."""
-        if s not in self._ranks:
-            self._ranks[s] = ranks(self.window(s))
-        return self._ranks[s]
+        return self._kept("rank", s, lambda: ranks(self.window(s)))
 
     def rank_from_rest(self, s: int) -> Integers:
         """Return the rank of T_s of every system."""
-        if s not in self._ranks_from_rest:
-            self._ranks_from_rest[s] = ranks(self.window(s)[:, :, self.n :])
-        return self._ranks_from_rest[s]
+        return self._kept("rank from rest", s, lambda: ranks(self.window(s)[:, :, self.n :]))
 
     def gap(self, s: int) -> Integers:
         """Return the difference rank [O_(s+1) T_(s+1)] - rank [O_s T_s] of every system."""
@@ -107,16 +108,20 @@ class Facts:
     @cached_property
     def observable(self) -> Flags:
         """Whether (A, C) is observable, for every system."""
-        return np.asarray(ranks(self.window(self.n)[:, :, : self.n]) == self.n)
+        return np.asarray(self._kept("observability", self.n, lambda: ranks(self.window(self.n)[:, :, : self.n])) == self.n)
 
     @cached_property
     def controllable(self) -> Flags:
         """Whether (A, F) is controllable, for every system."""
-        blocks, column = [], self.F
-        for _ in range(self.n):
-            blocks.append(column)
-            column = self.A @ column
-        return np.asarray(ranks(np.concatenate(blocks, axis=2)) == self.n)
+
+        def reached() -> Integers:
+            blocks, column = [], self.F
+            for _ in range(self.n):
+                blocks.append(column)
+                column = self.A @ column
+            return ranks(np.concatenate(blocks, axis=2))
+
+        return np.asarray(self._kept("reachability", self.n, reached) == self.n)
 
     @cached_property
     def left_invertible(self) -> Flags:
@@ -139,13 +144,11 @@ class Facts:
 
         return self._least(determined)
 
-    @cached_property
-    def _ranks(self) -> dict[int, Integers]:
-        return {}  # window -> ranks, since several conditions ask for the same
-
-    @cached_property
-    def _ranks_from_rest(self) -> dict[int, Integers]:
-        return {}
+    def _kept(self, what: str, window: int, find: Callable[[], Integers]) -> Integers:
+        """Return the ranks that `find` finds the first time; there are fewer than 128 rows."""
+        if (what, window) not in self.known:
+            self.known[what, window] = find().astype(np.int8)
+        return self.known[what, window].astype(np.int64)
 
     def _least(self, test: Callable[[int], Flags]) -> Integers:
         found = np.full(len(self.A), self.n + 1, dtype=np.int64)
@@ -184,8 +187,12 @@ def ranks(matrices: Integers) -> Integers:
     return rank
 
 
-def chunks(box: Box) -> Iterator[Facts]:
-    """Yield the systems of a box in order, in batches of the same dimensions."""
+def chunks(box: Box, known: dict[tuple[int, ...], Known] | None = None) -> Iterator[Facts]:
+    """Yield the systems of a box in order, in batches of the same dimensions.
+
+    `known`, where it is given, keeps what is found out about a batch for the next search, which may be through another box.
+    """
+    known = {} if known is None else known
     for n, m, p in box.dimensions():
         length = (n + p) * (n + m)
         total = 3**length
@@ -194,7 +201,8 @@ def chunks(box: Box) -> Iterator[Facts]:
             digits = np.stack([numbers // 3**k % 3 for k in reversed(range(length))], axis=1) - 1
             cuts = np.cumsum([n * n, n * m, p * n])
             A, F, C, G = np.split(digits, cuts, axis=1)
-            yield Facts(A.reshape(-1, n, n), F.reshape(-1, n, m), C.reshape(-1, p, n), G.reshape(-1, p, m))
+            found = known.setdefault((n, m, p, start), {})
+            yield Facts(A.reshape(-1, n, n), F.reshape(-1, n, m), C.reshape(-1, p, n), G.reshape(-1, p, m), found)
 
 
 def systems_in_order(box: Box, test: Callable[[Facts], Flags]) -> Iterator[ResidualSystem]:

@@ -16,8 +16,8 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ..evidence.corpus import Evidence, examine
-from ..evidence.search import Box, Facts, Flags, chunks
+from ..evidence.corpus import Evidence
+from ..evidence.search import Box, Facts, Flags
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Show, Workbench, size
@@ -162,7 +162,7 @@ def _smallest(
     kept = [scope, *(condition for name, condition in hypotheses.items() if name not in dropped)]
 
     def counterexamples(poor: bool) -> Iterator[Windowed]:
-        for facts in chunks(box):
+        for facts in bench.searched(box):
             looks: dict[int, Flags] = {}
             for s in windows(facts.n):
                 open_still = ~conclusion.first_look(facts, s)
@@ -175,7 +175,7 @@ def _smallest(
                 system = facts.system(int(index))
                 if bool(degenerate(system)) != poor:
                     continue
-                evidence = examine("search", system)
+                evidence = bench.examined(system)
                 for s in windows(facts.n):
                     subject = Windowed(evidence, s)
                     if looks[s][index] and all(c.holds(subject) for c in kept) and not conclusion.holds(subject):

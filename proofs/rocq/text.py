@@ -1,4 +1,4 @@
-"""Integers, and lists of them, as terms of Rocq. Whatever else is in a file for Rocq stands in rocq_export.py, word for word.
+"""Integers, and lists of them, as terms of Rocq. Whatever else is in a file for Rocq stands in export.py, word for word.
 
     whole, natural       an integer, a natural number
     sequence             a list of terms

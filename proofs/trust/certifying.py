@@ -1,6 +1,6 @@
-"""Certificates by the name of their kind: what `faultspace.certify` is.
+"""This makes certificates by the name of their kind: what `faultspace.certify` is.
 
-KINDS      kind of a certificate -> what it needs to know besides the system, and the function that makes it
+MAKERS     kind of a certificate -> what it needs to know besides the system, and the function that makes it
 certify    the certificate of a kind about a system, a pair of systems, or an experiment
 
 Nothing here is trusted: `certify` may be wrong, and the checker then rejects what it made.
@@ -70,7 +70,7 @@ def _window_equality(system: ResidualSystem, other: ResidualSystem, window: int)
     return structure.window_equality(kernel_representation(system), kernel_representation(other), window)
 
 
-KINDS: dict[str, _Kind] = {
+MAKERS: dict[str, _Kind] = {
     "behaviour-difference": _Kind(("other",), (), lambda s, other: structure.behaviour_difference(s, kernel_representation(other))),
     "behaviour-equality": _Kind(
         ("other",), (), lambda s, other: structure.behaviour_equality(kernel_representation(s), kernel_representation(other))
@@ -115,9 +115,9 @@ def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **optio
     >>> fs.check(certificate).assumes
     []
     """
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise InvalidInput(f"kind: got {shorten(kind)}, expected one of {', '.join(KINDS)}")
-    needed, optional, make = KINDS[kind]
+    if not isinstance(kind, str) or kind not in MAKERS:
+        raise InvalidInput(f"kind: got {shorten(kind)}, expected one of {', '.join(MAKERS)}")
+    needed, optional, make = MAKERS[kind]
     for name in options:
         if name not in (*needed, *optional):
             raise InvalidInput(f"{name}: {kind} takes no such option, expected {' and '.join((*needed, *optional)) or 'none'}")

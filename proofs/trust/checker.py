@@ -103,8 +103,10 @@ def charge(work: int, room: int = 0) -> Meter:
     """Count work that is about to be done in `room` bytes, and reject what asks for too much of either."""
     meter = _meter.get(None) or begin()
     meter.work += work
-    require(meter.work <= MAX_WORK, f"checking takes more than {MAX_WORK} units of work")
-    require(meter.held + room <= MAX_MEMORY, f"checking takes more than {MAX_MEMORY} bytes of memory")
+    if meter.work > MAX_WORK:  # asked before, so that the words are put together only where they are needed
+        require(False, f"checking takes more than {MAX_WORK} units of work")
+    if meter.held + room > MAX_MEMORY:
+        require(False, f"checking takes more than {MAX_MEMORY} bytes of memory")
     return meter
 
 

@@ -10,7 +10,7 @@ accepted      certificates, each put before the checker once more: headline cert
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
@@ -20,7 +20,7 @@ from ..evidence.alternatives import AlternativeEvidence, PairEvidence, alternati
 from ..evidence.corpus import Evidence, Progress, corpus, describe, examine
 from ..evidence.experiments import LimitEvidence, certified_limits
 from ..evidence.pairs_by_polynomial import PairByPolynomial, pairs_by_polynomial
-from ..evidence.search import Box, Facts, Flags, smallest
+from ..evidence.search import Box, Facts, Flags, Known, chunks, smallest
 from ..trust.structure_certificates import Certificate, accept
 from .verdicts import Outcome, Verdict
 
@@ -69,8 +69,26 @@ class Workbench:
             self._made[name] = make()
         return self._made[name]
 
+    def searched(self, box: Box) -> Iterator[Facts]:
+        """Yield the systems of a box in order, with what earlier searches of this run found out about them."""
+        return chunks(box, self._known)
+
+    def examined(self, system: ResidualSystem) -> Evidence:
+        """Return the evidence on a system that a search came upon, made the first time: several searches come upon the same."""
+        if system not in self._examined:
+            self._examined[system] = examine("search", system)
+        return self._examined[system]
+
     @cached_property
     def _made(self) -> dict[str, list[Any]]:
+        return {}
+
+    @cached_property
+    def _known(self) -> dict[tuple[int, ...], Known]:
+        return {}
+
+    @cached_property
+    def _examined(self) -> dict[ResidualSystem, Evidence]:
         return {}
 
     @property
@@ -116,7 +134,7 @@ def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], appl
     """
 
     def confirm(system: ResidualSystem) -> bool:
-        evidence = examine("search", system)
+        evidence = bench.examined(system)
         return applies(evidence) and not holds(evidence)
 
     found = smallest(box, candidate, confirm)

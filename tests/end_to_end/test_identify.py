@@ -19,13 +19,16 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace import example_data as made
+from faultspace.cli.reading_files import _MODEL_KEYS, MODEL_FORMAT
 from faultspace.numeric import choice as identification_signal
 from faultspace.numeric import pipeline as identifying
 from faultspace.numeric.count.rank_gap import fault_dimension
 from faultspace.numeric.data.files import read_record
 from faultspace.numeric.data.records import recorded
-from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.model.models import FORMAT, StateSpaceModel
 from faultspace.numeric.report import files as report
+from faultspace.numeric.report import folders
+from faultspace.numeric.report.folders import MANIFEST
 from faultspace.numeric.report.pictures import PICTURES
 from faultspace.numeric.report.summary import advice
 from faultspace.numeric.signal.reconstruction import reconstruct_fault
@@ -101,7 +104,7 @@ def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path
     text = (out / report.SUMMARY).read_text("utf-8")
     assert "## Fault space" in text and "n_v: **1**" in text
     listed = run.out.strip().splitlines()[-1].partition(": ")[2].split(", ")
-    assert sorted(listed) == sorted(path.name for path in out.iterdir())
+    assert sorted([*listed, MANIFEST]) == sorted(path.name for path in out.iterdir())
 
 
 @needs_matplotlib
@@ -126,7 +129,7 @@ def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Pat
 def test_inspect_reads_the_model_where_floats_are_taken_exactly(csv_file: Path, tmp_path: Path) -> None:
     assert identified(csv_file, tmp_path / "out").code == 0
     model = tmp_path / "out" / report.MODEL
-    validator("model").validate(json.loads(model.read_text("utf-8")))
+    validator("model", "faultspace.numeric").validate(json.loads(model.read_text("utf-8")))
     run = call("inspect", str(model), "--floats-exactly", "--json")
     assert run.code == 0, run.err
     assert "confirms nothing about the plant" in run.err
@@ -134,6 +137,11 @@ def test_inspect_reads_the_model_where_floats_are_taken_exactly(csv_file: Path, 
     got = {key: run.json[key] for key in ("n", "m", "p", "normal_rank", "zeta", "fault_space_dimension", "delay_known_state")}
     assert got == {"n": 3, "m": 1, "p": 3, "normal_rank": 1, "zeta": 0, "fault_space_dimension": 1, "delay_known_state": 0}
     refused(call("inspect", str(model)), "floats", "--floats-exactly")
+
+
+def test_who_reads_a_model_knows_the_format_and_the_keys_of_who_writes_it() -> None:
+    assert MODEL_FORMAT == FORMAT
+    assert set(_MODEL_KEYS) == set(validator("model", "faultspace.numeric").schema["properties"])
 
 
 @pytest.mark.parametrize("change", [{"x": 1}, {"F": None}, {"A": None}, {"n": 2}])
@@ -203,6 +211,61 @@ def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: P
     assert not (out / report.MODEL).exists() and not (out / report.SIGNAL).exists()
     assert (out / "mine.txt").read_text("utf-8") == "kept"
     assert "undecided" in (out / report.SUMMARY).read_text("utf-8")
+
+
+@pytest.mark.parametrize("name", report.NAMES)
+def test_a_file_of_somebody_else_is_refused_and_stays(name: str, csv_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / name).write_text("mine", encoding="utf-8")
+    refused(identified(csv_file, out), name, "not ours", "new folder")
+    assert [path.name for path in out.iterdir()] == [name] and (out / name).read_text("utf-8") == "mine"
+
+
+def test_a_file_edited_since_is_its_owners(csv_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert identified(csv_file, out).code == 0 and identified(csv_file, out).code == 0
+    before = {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
+    (out / report.SUMMARY).write_text("my remarks", encoding="utf-8")
+    refused(identified(csv_file, out, "--order", "2"), report.SUMMARY, "not ours")
+    assert (out / report.SUMMARY).read_text("utf-8") == "my remarks"
+    assert before == {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
+
+
+@pytest.mark.parametrize("content", ["{}", "no json", '{"format": "faultspace-files/1", "files": {"model.json": "x"}}'])
+def test_a_manifest_of_somebody_else_is_refused_and_stays(content: str, csv_file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / MANIFEST).write_text(content, encoding="utf-8")
+    refused(identified(csv_file, out), MANIFEST, "not ours")
+    assert [path.read_text("utf-8") for path in out.iterdir()] == [content]
+
+
+def test_an_interrupted_run_leaves_files_that_the_next_one_knows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    made, out = tmp_path / "made", tmp_path / "out"
+    made.mkdir()
+    out.mkdir()
+    names = ("a", "b")
+    for version in ("old", "new"):
+        for name in names:
+            (made / name).write_text(version + name, encoding="utf-8")
+        if version == "old":
+            assert folders.replace(made, out, names) == ["a", "b"]
+    real = os.replace
+
+    def stopping(source: Path, target: Path) -> None:
+        if Path(target).name == "b":
+            raise KeyboardInterrupt
+        real(source, target)
+
+    monkeypatch.setattr("os.replace", stopping)
+    with pytest.raises(KeyboardInterrupt):
+        folders.replace(made, out, names)
+    assert [(out / name).read_text("utf-8") for name in names] == ["newa", "oldb"]
+    monkeypatch.undo()
+    (made / "a").write_text("third", encoding="utf-8")
+    (made / "b").unlink()
+    assert folders.replace(made, out, names) == ["a"] and not (out / "b").exists()
 
 
 def test_faults_given_override_the_count_and_are_reported(csv_file: Path, tmp_path: Path) -> None:

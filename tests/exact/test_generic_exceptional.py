@@ -1,4 +1,4 @@
-"""D(q; P) with all entries indeterminate: the identities hold, and at random values they say what the oracle finds."""
+"""D(q; P) is tested with all entries indeterminate: the identities hold, and at random values they say what the oracle finds."""
 
 from __future__ import annotations
 

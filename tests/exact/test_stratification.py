@@ -410,6 +410,7 @@ def test_rank_counts_zeros(dimensions: tuple[int, int, int]) -> None:
         assert p > m or finite + infinite == n
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(120)
 def test_rank_counts_zeros_with_two_states_and_two_outputs() -> None:
     claim = zero_count_claim(strata_of(2, 2, 1))

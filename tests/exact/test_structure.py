@@ -1,4 +1,4 @@
-"""`structure` and everything under it against the slow oracle: drawn systems, named ones, and all small ones over GF(2) and GF(3).
+"""`structure` and everything under it are tested against the slow oracle: drawn, named, and all small systems over GF(2) and GF(3).
 
 FIELD_PARAMETERS    every test that draws systems runs over each field of the oracle
 all_systems         every system of these dimensions over a prime field

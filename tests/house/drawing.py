@@ -19,7 +19,7 @@ SAID = {
     "proofs": "claims, verdicts, certificates, the checker, Rocq",
     "numeric": "the method in floats; numeric/audit is the one folder that imports exact/",
     "exact": "the truth in exact arithmetic",
-    "base": "faultspace/base: errors, progress; imports nothing of ours, every room may import it",
+    "base": "faultspace/base: errors, how results are shown, programs under limits; for every room",
 }
 WIDTH = 100
 

@@ -9,6 +9,8 @@ from types import ModuleType
 
 import pytest
 
+from faultspace.proofs.verdict.verdicts import Verdict
+
 DOCS = Path(__file__).parents[2] / "docs"
 README_LINES = 120
 PAGES = [*sorted(DOCS.glob("*.md")), DOCS.parent / "README.md", DOCS.parent / "CONTRIBUTING.md"]
@@ -39,6 +41,11 @@ def test_the_picture_has_every_claim_and_every_reading(make: ModuleType) -> None
     letters = [text for text in texts if len(text) == 1]
     readings = [one for claim in claims for repair in (False, True) for one in claim.readings if one.repair == repair]
     assert letters == [one.proved[0] for one in readings], "make it again: python docs/make.py"
+
+
+def test_the_verdicts_are_explained_in_their_own_words() -> None:
+    rows = dict(re.findall(r"^\| ([A-Z]+) \| ([^|]+) \|", (DOCS / "claims.md").read_text("utf-8"), re.MULTILINE))
+    assert rows == {verdict.value: verdict.meaning for verdict in Verdict}
 
 
 def links(page: Path) -> list[str]:

@@ -4,7 +4,6 @@ wrong with it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,15 +12,14 @@ import scipy.linalg
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.space.distances import (
-    author_error,
     compare_subspaces,
     containment_distance,
     containment_error,
-    markov_distance,
     principal_angles,
     subspace_distance,
     two_sided_error,
 )
+from tests.numeric.published_error import author_error
 
 EPS = np.finfo(float).eps
 
@@ -132,56 +130,3 @@ def test_no_columns() -> None:
 def test_what_is_no_basis(U: Any, V: Any, message: str) -> None:
     with pytest.raises(InvalidData, match=message):
         principal_angles(U, V)
-
-
-@dataclass(frozen=True)
-class Model:
-    A: Any
-    B: Any
-    C: Any
-    D: Any
-
-
-def model(seed: int, n: int = 3) -> Model:
-    rng = np.random.default_rng(seed)
-    A = rng.standard_normal((n, n))
-    A *= 0.8 / np.max(np.abs(np.linalg.eigvals(A)))
-    return Model(A, rng.standard_normal((n, 2)), rng.standard_normal((2, n)), rng.standard_normal((2, 2)))
-
-
-def test_markov_distance() -> None:
-    one = model(0)
-    T = np.random.default_rng(9).standard_normal((3, 3))
-    similar = Model(np.linalg.solve(T, one.A @ T), np.linalg.solve(T, one.B), one.C @ T, one.D)
-    assert markov_distance(one, similar) < 1e-12
-    assert markov_distance(one, model(1)) > 0.1
-    nudged = Model(one.A, one.B, one.C, one.D + 1e-9)
-    assert 1e-11 < markov_distance(one, nudged) < 1e-8
-    assert markov_distance(nudged, one) == markov_distance(one, nudged)
-    larger = Model(
-        scipy.linalg.block_diag(one.A, 0.5),
-        np.vstack([one.B, np.ones((1, 2))]),
-        np.hstack([one.C, np.zeros((2, 1))]),
-        one.D,
-    )
-    assert markov_distance(one, larger) < 1e-12  # a state that is not seen is no difference
-    nothing = Model(np.zeros((0, 0)), np.zeros((0, 2)), np.zeros((2, 0)), np.zeros((2, 2)))
-    assert markov_distance(nothing, nothing) == 0 and markov_distance(one, nothing) == 1
-
-
-def test_n1_plus_n2_parameters_are_needed() -> None:
-    """The two delays differ in the last of the n1 + n2 + 1 parameters only."""
-
-    def delay(n: int) -> Model:
-        return Model(np.eye(n, k=1), np.eye(n)[:, -1:], np.eye(n)[:1], np.zeros((1, 1)))
-
-    silent = Model(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), np.zeros((1, 1)))
-    assert markov_distance(delay(4), silent) == 1
-    assert markov_distance(delay(4), silent, samples=4) == 0
-
-
-def test_models_that_do_not_compare() -> None:
-    with pytest.raises(InvalidData, match=r"only models with the same inputs and outputs compare"):
-        markov_distance(model(0), Model(np.eye(1), np.eye(1), np.eye(1), np.eye(1)))
-    with pytest.raises(InvalidData, match=r"samples: got 0"):
-        markov_distance(model(0), model(0), samples=0)

@@ -36,20 +36,15 @@ from faultspace.numeric.rounding.conditioning import (
     measured,
     moesp_error,
     noise_free_range,
-    noisy_range,
     output_error_error,
     reflections_error,
     setting,
 )
-from faultspace.numeric.rounding.residual_conditioning import (
-    fault_signal_error,
-    fitted_state_error,
-    given_state_error,
-    singular_value_error,
-)
+from faultspace.numeric.rounding.residual_conditioning import fault_signal_error, fitted_state_error
 from faultspace.numeric.signal.reconstruction import reconstruct_fault
 from tests.numeric import high_precision as precise
 from tests.numeric.exact_cases import ExactCase, exact_case, floats
+from tests.numeric.rounding_bounds import given_state_error, noisy_range, singular_value_error
 
 CASES = [(1, 1, 1), (1, 2, 2), (2, 2, 1), (3, 1, 2), (3, 2, 2)]  # n, n_u, p
 DIGITS_KEPT = 1e-40

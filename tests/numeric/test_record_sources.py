@@ -16,6 +16,7 @@ from faultspace import example_data as made
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData, InvalidInput
 from faultspace.numeric import identify, pi_moesp, read_record, residual
+from faultspace.numeric.report.folders import MANIFEST
 
 N = 2500
 
@@ -132,7 +133,7 @@ def test_the_record_shows_itself(wanted: Any, tmp_path: Path) -> None:
     assert json.loads(json.dumps(document))["n_v"] == 1
     names = wanted.save(tmp_path / "new" / "folder")
     assert {"model.json", "fault-signal.csv", "summary.md"} <= set(names)
-    assert {path.name for path in (tmp_path / "new" / "folder").iterdir()} == set(names)
+    assert {path.name for path in (tmp_path / "new" / "folder").iterdir()} == {*names, MANIFEST}
     (tmp_path / "file").write_text("")
     with pytest.raises(InvalidInput, match="cannot be made"):
         wanted.save(tmp_path / "file")

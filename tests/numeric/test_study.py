@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.space.distances import author_error, containment_distance, subspace_distance
+from faultspace.numeric.space.distances import containment_distance, subspace_distance
 from faultspace.numeric.study import runs
 from faultspace.numeric.study.cases import LIKELIHOOD, PAPER, Case, Errors
 from faultspace.numeric.study.example_v import behaviour_ranks, exact_fault_space, example_v, lines, published_ranks, recorded_errors, tally
@@ -18,6 +18,7 @@ from faultspace.numeric.study.groups import by_phase, by_zeros, median_interval
 from faultspace.numeric.study.runs import NOISE_GAIN, response, study_run
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, STUDIES, monte_carlo
 from faultspace.numeric.study.systems import pencil_zeros, study_system
+from tests.numeric.published_error import author_error
 
 # Medians of the author's own run, 25 systems for each number of zeros, in percent, read off the plot that his notebook keeps.
 RECORDED_MEDIANS = {1: 2.3, 2: 1.7, 3: 0.9}

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.count.windows import hankel_factor
 from faultspace.numeric.model.toeplitz_factorisation import toeplitz_factorisation
-from faultspace.numeric.space.distances import author_error, subspace_distance
+from faultspace.numeric.space.distances import subspace_distance
 from faultspace.numeric.space.result import kernel_conditions
 from faultspace.numeric.study.runs import study_run
 from faultspace.numeric.study.systems import StudySystem, study_system
+from tests.numeric.published_error import author_error
 
 Array = NDArray[np.float64]
 

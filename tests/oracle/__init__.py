@@ -1,4 +1,4 @@
-"""The slow obvious oracle: every quantity and every statement of this project decided from its definition.
+"""This is the slow obvious oracle: every quantity and every statement of this project decided from its definition.
 
 It knows none of the project's own algorithms and imports nothing of it: plain Python, Fractions, integers modulo a
 prime, polynomials in a, textbook elimination on the matrices of a window, built entry by entry, and minors of the

@@ -18,6 +18,7 @@ from typing import NamedTuple
 import pytest
 
 from faultspace.proofs.rocq import export as rocq_export
+from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.trust import checker
 from tests.proofs.examples import NORMAL, RANKS, K, S, spoiled
 from tests.proofs.floods import floods
@@ -93,11 +94,11 @@ def test_a_checker_that_does_not_charge_is_flooded(tmp_path: Path) -> None:
 def test_the_exporter_counts_its_own_work(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checker, "verify", lambda certificate: None)  # as if it had done so within its own bounds
     monkeypatch.setattr(checker, "MAX_WORK", 10_000)
-    with pytest.raises(rocq_export.NotCovered, match="too large to be written"):
+    with pytest.raises(NotCovered, match="too large to be written"):
         rocq_export.exported(RANKS)
     monkeypatch.undo()
     monkeypatch.setattr(rocq_export, "MAX_TEXT", 10)
-    with pytest.raises(rocq_export.NotCovered, match="longer than 10 characters"):
+    with pytest.raises(NotCovered, match="longer than 10 characters"):
         rocq_export.exported(RANKS)
 
 

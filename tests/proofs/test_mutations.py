@@ -140,14 +140,11 @@ def mutations(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any
 
 
 def mutated(certificate: dict[str, Any], path: tuple[Any, ...], value: Any) -> Any:
-    """Return a copy with the node at the path replaced."""
+    """Return a copy with the node at the path replaced; what is beside the path is shared."""
     if not path:
         return value
-    result = copy.deepcopy(certificate)
-    node = result
-    for key in path[:-1]:
-        node = node[key]
-    node[path[-1]] = value
+    result: Any = copy.copy(certificate)
+    result[path[0]] = mutated(certificate[path[0]], path[1:], value)
     return result
 
 

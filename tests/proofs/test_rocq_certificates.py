@@ -16,7 +16,8 @@ from faultspace.exact.algebra.fields import QQ
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import export as rocq_export
 from faultspace.proofs.rocq.build import NotProved
-from faultspace.proofs.rocq.export import COVERED, NotCovered, Terms, exported, translated
+from faultspace.proofs.rocq.export import COVERED, Terms, exported, translated
+from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomputed, theory
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.trust import checker
@@ -25,7 +26,8 @@ from tests.proofs.examples import RANKS, ROOTED, K, S, certificates, spoiled, wr
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems
 
 needs_rocq = pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
-SHIPPED = [json.loads(one.read_text("utf-8")) for one in resources.files("faultspace.proofs").joinpath("certificates").iterdir()]
+KEPT = resources.files("faultspace.proofs").joinpath("certificates").iterdir()
+SHIPPED = [json.loads(one.read_text("utf-8")) for one in KEPT if re.fullmatch(r".+-.+\.json", one.name)]
 EVERY = 101  # mutation is tried
 FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
@@ -36,9 +38,10 @@ def covered(certificate: dict[str, Any]) -> bool:
 
 
 def small_ones() -> list[dict[str, Any]]:
-    """Yields certificates of every covered kind, systems without states, faults or outputs among them."""
+    """Returns certificates of every covered kind, each once, systems without states, faults or outputs among them."""
     made = [c for system in SYSTEMS.values() for c in of_one_system(system)]
-    return [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
+    every = [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
+    return [*{json.dumps(c): c for c in every}.values()]
 
 
 @needs_rocq

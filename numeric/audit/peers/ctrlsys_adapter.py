@@ -1,4 +1,4 @@
-"""ctrlsys, SLICOT translated to C: ib01ad and ib01bd (MOESP, Cholesky: SLICOT's usual choice), ab08nd.
+"""This calls ctrlsys, SLICOT translated to C: ib01ad and ib01bd (MOESP, Cholesky: SLICOT's usual choice), ab08nd.
 
 identify uses ib01bd with METH = "M" and JOB = "A", which promise A, B, C and D by MOESP, after ib01ad with JOBD = "M", which those need.
 """

@@ -1,4 +1,4 @@
-"""nfoursid: NFourSID on a data frame, subspace_identification, then system_identification of the order asked for."""
+"""This calls nfoursid: NFourSID on a data frame, subspace_identification, then system_identification of the order asked for."""
 
 from __future__ import annotations
 

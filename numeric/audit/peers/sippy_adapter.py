@@ -1,4 +1,4 @@
-"""sippy_unipi: system_identification(y, u, "MOESP"). A user sets the horizons to the window and the order to the one asked for.
+"""This calls sippy_unipi: system_identification(y, u, "MOESP"). A user sets the horizons to the window and the order to the one asked for.
 
 identify           with the package's default SS_D_required=False: D is zero
 with_feedthrough   the same package with SS_D_required=True, which is what a user sets who knows of a D

@@ -1,4 +1,4 @@
-"""slycot: ab08nd, SLICOT's normal rank, finite zeros and infinite zeros."""
+"""This calls slycot: ab08nd, SLICOT's normal rank, finite zeros and infinite zeros."""
 
 from __future__ import annotations
 

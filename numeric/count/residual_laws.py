@@ -1,4 +1,4 @@
-"""Counting faults in noisy residuals: how many outputs still obey a common law?
+"""This counts faults in noisy residuals: how many outputs still obey a common law?
 
 Any k mixtures of the outputs obey at least one polynomial law N(q) r = 0 up to noise when the number of faults m is at most k - 1,
 and in general none when m >= k. So fit the likeliest law to k mixtures and watch the noise that it leaves: it stays at one floor, that of
