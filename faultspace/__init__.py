@@ -9,8 +9,9 @@ monte_carlo, audit                 the paper's study; anyone's implementation ag
 errors                             the errors of bad input
 __version__                        the one place where the version is written; the build reads it from here
 
-The rooms behind these names are `faultspace.exact`, `faultspace.numeric` and `faultspace.proofs`. A name is loaded when it is first asked
-for; the names and where they live are listed in the file `__init__.pyi` beside this one.
+The rooms behind these names are `faultspace.exact`, `faultspace.numeric` and `faultspace.proofs`. Keys in brackets, [G25] say, are those of
+BIBLIOGRAPHY.md; the paper is [G25]. A name is loaded when it is first asked for; the names and where they live are listed in the file
+`__init__.pyi` beside this one.
 """
 
 import lazy_loader
@@ -19,4 +20,8 @@ from .base import errors as errors
 
 __version__ = "0.1.0"
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+__getattr__, _, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

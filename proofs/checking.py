@@ -1,6 +1,7 @@
 """Certificates before the checker, which decides alone, and before Rocq's kernel where that is asked for.
 
 check          what a certificate proves; the certificate is a dict, or the name of its file
+NoCertificate  the error about a file that holds no certificate
 check_file     what comes of a file: the checker's answer, whatever it is
 ask_rocq       the same files, with what Rocq's kernel makes of the certificates that the checker has verified
 Checked        a statement that the checker has verified
@@ -14,13 +15,19 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..base.errors import InvalidInput, quote_path
+from ..base.errors import InvalidInput, quote_path, shorten
 from ..base.sheets import Shown
 from ..exact.limits.experiments import Experiment
-from ..exact.system.systems import FaultySystem, ResidualSystem
+from ..exact.system.systems import System
 from .rocq.build import BrokenTheory, NoRocq, Progress
 from .rocq.recompute import Recomputed, recomputed
 from .trust import checker
+
+READING = "`faultspace inspect` takes systems, `faultspace limit` takes experiments"
+
+
+class NoCertificate(InvalidInput, checker.Malformed):
+    """A file that cannot be read or holds no certificate; the message names it. The checker's word for that is Malformed."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -100,17 +107,18 @@ class CheckedFile(Shown):
         return {**self.answer} if self.rocq is None else {**self.answer, "rocq": {**self.rocq}}
 
 
-def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Iterable[Any] = (), *, rocq: bool = False) -> Checked:
-    """Return what a certificate proves, decided by the checker, which trusts nothing that the certificate says.
+def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Any = (), *, rocq: bool = False) -> Checked:
+    """Decide what a certificate proves, by the checker, which trusts nothing that the certificate says.
 
     `certificate` is the JSON-ready dict that `certify` returns, or the name of a certificate's file. Each of `systems` must be one that the
-    statement is about: systems, experiments, JSON-ready dicts or names of their files. With `rocq` the kernel of Rocq recomputes what the
-    checker has verified, which takes seconds, and minutes when the theory is first compiled. The result has `statement`, in words,
-    `assumes`, the list of what was not verified, and `rocq`. `faultspace check` does the same with files. The format of certificates is in
-    proofs/trust/FORMAT.md; the checker there is one file that can be copied alone.
+    statement is about: systems, experiments, JSON-ready dicts or names of their files, one or a list of them. With `rocq` the kernel of
+    Rocq recomputes what the checker has verified, which takes seconds, and minutes when the theory is first compiled. The result has
+    `statement`, in words, `assumes`, the list of what was not verified, and `rocq`. `faultspace check` does the same with files. The format
+    of certificates is in proofs/trust/FORMAT.md; the checker there is one file that can be copied alone.
 
-    Raises `faultspace.proofs.Rejected` where the witness does not prove the statement, `faultspace.proofs.Malformed` for what is no
-    certificate or cannot be read, and InvalidInput where Rocq is asked and is not there.
+    Raises `faultspace.proofs.Rejected` where the witness does not prove the statement, `faultspace.proofs.Malformed` for a dict that is no
+    certificate, an InvalidInput that is a Malformed too, and names the file, for a file that holds none or cannot be read, and InvalidInput
+    for what is neither, and where Rocq is asked and is not there.
 
     >>> import faultspace as fs
     >>> certificate = fs.certify(fs.System(A=[["1/2"]], F=[[1]], C=[[1]], G=[[0]]), "schur-stable")
@@ -123,18 +131,21 @@ def check(certificate: Mapping[str, Any] | str | os.PathLike[str], systems: Iter
     faultspace.proofs.trust.checker.Rejected: an eigenvalue is not inside the unit circle
     """
     if isinstance(certificate, (str, os.PathLike)):
-        certificate = checker.load(os.fspath(certificate))
-    checked = Checked(*checker.verify(certificate, [_subject(one) for one in systems]))
+        certificate = _certificate_in(os.fspath(certificate))
+    elif not isinstance(certificate, Mapping):
+        raise InvalidInput(f"certificate: got {shorten(certificate)}, expected a dict as `certify` returns it, or the name of its file")
+    checked = Checked(*checker.verify(certificate, [_subject(one) for one in _several(systems)]))
     return replace(checked, rocq=_recomputed([certificate])[0]) if rocq else checked
 
 
-def check_file(path: str | os.PathLike[str], systems: Iterable[Any] = ()) -> CheckedFile:
+def check_file(path: str | os.PathLike[str], systems: Any = ()) -> CheckedFile:
     """The checker's answer about a certificate's file, whatever it is: what cannot be read is "malformed", and nothing of it is raised.
 
     The `answer` of the result is a dict. `path` names the file, and each of `systems` is as for `check`: systems, experiments, JSON-ready
-    dicts or names of their files.
+    dicts or names of their files; one may stand without a list.
 
-    Raises `faultspace.proofs.Malformed` or `faultspace.proofs.Rejected` for one of `systems` that is none.
+    Raises InvalidInput for what is none of these, `faultspace.proofs.Malformed` or `faultspace.proofs.Rejected` for one of `systems` that
+    is none.
 
     >>> import json, tempfile, faultspace as fs
     >>> from faultspace.proofs import check_file
@@ -143,7 +154,7 @@ def check_file(path: str | os.PathLike[str], systems: Iterable[Any] = ()) -> Che
     ...     file.write(json.dumps(certificate)) > 0, file.flush(), check_file(file.name).result
     (True, None, 'verified')
     """
-    return CheckedFile(checker.result_of(os.fspath(path), [_subject(one) for one in systems]))
+    return CheckedFile(checker.result_of(os.fspath(path), [_subject(one) for one in _several(systems)]))
 
 
 def ask_rocq(files: Sequence[CheckedFile], progress: Progress = lambda stage, done, total: None) -> list[CheckedFile]:
@@ -170,11 +181,33 @@ def ask_rocq(files: Sequence[CheckedFile], progress: Progress = lambda stage, do
     return [replace(file, rocq=answers.get(place)) for place, file in enumerate(files)]
 
 
+def _certificate_in(path: str) -> Any:
+    try:
+        found = checker.load(path)
+    except checker.Malformed as error:
+        raise NoCertificate(
+            f"{quote_path(path)}: {error}; expected the file of a certificate, a JSON object as `certify` makes it"
+        ) from None
+    if isinstance(found, dict) and "format" in found and "kind" in found:
+        return found
+    what = f"; it looks like a system or an experiment: {READING}" if isinstance(found, dict) and "A" in found else ""
+    raise NoCertificate(f"{quote_path(path)}: got JSON that is no certificate, expected one, with format, kind, statement, witness{what}")
+
+
+def _several(given: Any) -> Iterable[Any]:
+    """Return the systems one by one, whether there is one or a list."""
+    if isinstance(given, (System, Experiment, checker.System, Mapping, str, os.PathLike)):
+        return [given]
+    if not isinstance(given, Iterable):
+        raise InvalidInput(f"systems: got {shorten(given)}, expected a system or a list of systems, dicts or names of files")
+    return given
+
+
 def _subject(given: Any) -> checker.System:
     """Return what a statement must be about, as the checker reads it, on a meter of its own."""
     if isinstance(given, checker.System):
         return given
-    if isinstance(given, (ResidualSystem, FaultySystem, Experiment)):
+    if isinstance(given, (System, Experiment)):
         return checker.subject(given.to_json())
     return checker.subject(checker.load(os.fspath(given)) if isinstance(given, (str, os.PathLike)) else given)
 

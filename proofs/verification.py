@@ -6,11 +6,11 @@ verify     the report of a run over all claims, or those named
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib import import_module
 
-from ..base.errors import InvalidInput
+from ..base.errors import InvalidInput, shorten
 from .adversary.attacking import attacking, of_reading, of_row
 from .evidence.corpus import Progress, describe
 from .hypotheses import ablations
@@ -29,15 +29,18 @@ EFFORTS = ("quick", "full")
 TRUSTED = "this trusts Rocq's kernel, MathComp, and files compiled before in your cache, which --recheck compiles anew"
 
 
-def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: int = -1, on_progress: Progress | None = None) -> Report:
-    """Every claim of the ledger, or those with the ids `claims`, decided now: each reading with a verdict and the evidence it rests on.
+def verify(
+    claims: Sequence[str] | str | None = None, *, effort: str = "quick", jobs: int = -1, on_progress: Progress | None = None
+) -> Report:
+    """Decide every claim of the ledger, or those with the ids `claims`, now: each reading gets a verdict and the evidence it rests on.
 
-    `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core), and `on_progress(stage, done, total)` hears how far
-    the run is. The Report has `claims`, `hypotheses`, `as_expected` (whether every verdict is the one that the ledger expects),
-    `certificates()`, `summary()` and `plot()`. Most claims take tens of seconds, because the systems and certificates that their readings
-    rest on are made anew; the one of the example below needs less than a second. The claims are those of [G25].
+    `claims` is a list of ids or one id, None for all; `effort` is "quick" or "full", `jobs` a number of processes (-1: one for each core),
+    and `on_progress(stage, done, total)` hears how far the run is. The Report has `claims`, `hypotheses`, `as_expected` (whether every
+    verdict is the one that the ledger expects), `certificates()`, `summary()` and `plot()`. Most claims take tens of seconds, because the
+    systems and certificates that their readings rest on are made anew; the one of the example below needs less than a second. The claims
+    are those of [G25].
 
-    Raises InvalidInput for an unknown claim or effort.
+    Raises InvalidInput for an unknown claim or effort, an empty list, and a number of processes that is neither -1 nor positive.
 
     >>> import faultspace as fs
     >>> report = fs.verify(["example-v"], jobs=1)
@@ -48,11 +51,17 @@ def verify(claims: Sequence[str] | None = None, *, effort: str = "quick", jobs: 
     'window ranks [2, 4, 5, 6, 7, 8] for s = 1..6, left minimal indices [2], normal rank 1'
     """
     if effort not in EFFORTS:
-        raise InvalidInput(f"effort: got {effort!r}, expected one of {', '.join(EFFORTS)}")
+        raise InvalidInput(f"effort: got {shorten(effort)}, expected one of {', '.join(EFFORTS)}")
+    if type(jobs) is not int or (jobs != -1 and jobs < 1):
+        raise InvalidInput(f"jobs: got {shorten(jobs)}, expected an integer >= 1, or -1 for one process a core")
     ledger = {claim.id: claim for claim in load()}
-    unknown = [name for name in claims or () if name not in ledger]
+    if isinstance(claims, str):
+        claims = [claims]
+    if claims is not None and (not isinstance(claims, Collection) or not claims):
+        raise InvalidInput(f"claims: got {shorten(claims)}, expected a list of one id or more, or None for all claims")
+    unknown = [name for name in claims or () if not isinstance(name, str) or name not in ledger]
     if unknown:
-        raise InvalidInput(f"claim: got {unknown[0]!r}, expected one of {', '.join(ledger)}")
+        raise InvalidInput(f"claim: got {shorten(unknown[0])}, expected one of {', '.join(ledger)}")
     chosen = [claim for claim in ledger.values() if claims is None or claim.id in claims]
     report = on_progress or (lambda stage, done, total: None)
     started = time.perf_counter()

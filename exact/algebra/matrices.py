@@ -24,6 +24,7 @@ from flint import fmpq_mat, fmpz, nmod_mat
 from ...base.errors import InvalidInput, shorten
 from .fields import QQ, Field, NumberField, PrimeField, base_matrix
 from .sympy_values import is_domain_matrix, is_matrix
+from .validation import fits, natural
 
 if TYPE_CHECKING:
     import sympy
@@ -41,8 +42,8 @@ class Matrix:
     stay within one field, `matrix[i, j]` is a field element, `rows` and `columns` choose, `to_json` and `to_sympy` write. Two matrices are
     equal where field, shape and entries are.
 
-    Raises InvalidInput, in `Matrix.of`, for ragged rows, a shape that does not agree and entries outside the field, and ValueError where
-    matrices over different fields are combined.
+    Raises InvalidInput, in `Matrix.of`, for ragged rows, a shape that does not agree and entries outside the field, for sizes that are no
+    integers >= 0, and where matrices over different fields or of shapes that do not fit are combined.
 
     >>> from faultspace.exact import Matrix
     >>> M = Matrix.of([["1/2", 1], [0, 2]])
@@ -61,7 +62,7 @@ class Matrix:
 
     @staticmethod
     def of(entries: object, field: Field = QQ, *, shape: tuple[int, int] | None = None, where: str = "matrix") -> Matrix:
-        """A matrix from nested sequences, a sympy Matrix or DomainMatrix; `shape` is needed only for empty ones.
+        """A matrix from nested sequences, a numpy array of integers, a sympy Matrix or DomainMatrix; `shape` is needed for empty ones.
 
         Entries are what `field.element` takes: integers, rational strings, Fractions, sympy Rationals; never floats.
         Raises InvalidInput for ragged rows, a shape that does not agree, entries outside the field.
@@ -93,13 +94,15 @@ class Matrix:
 
     @staticmethod
     def zero(field: Field, nrows: int, ncols: int) -> Matrix:
-        """The result is the zero matrix."""
+        """The result is the zero matrix. Raises InvalidInput for sizes that are no integers >= 0, or too large for any memory."""
+        fits(natural(nrows, "nrows"), natural(ncols, "ncols"), "matrix")
         d = field.degree
         return Matrix(field, nrows, ncols, base_matrix(field, nrows * d, ncols * d, [0] * (nrows * ncols * d * d)))
 
     @staticmethod
     def identity(field: Field, size: int) -> Matrix:
-        """The result is the identity matrix."""
+        """The result is the identity matrix. Raises InvalidInput for a size that is no integer >= 0, or too large for any memory."""
+        fits(natural(size, "size"), size, "matrix")
         k = size * field.degree
         scalars = [0] * (k * k)
         scalars[:: k + 1] = [1] * k
@@ -169,19 +172,30 @@ class Matrix:
     # -- arithmetic -----------------------------------------------------------------------------------------------
 
     def __matmul__(self, other: Matrix) -> Matrix:
-        self._mixes_with(other)
+        other = self._mixes_with(other)
+        if self.ncols != other.nrows:
+            raise InvalidInput(f"@: got {_size(self)} and {_size(other)}, expected as many columns on the left as rows on the right")
         return Matrix(self.field, self.nrows, other.ncols, self.flint * other.flint)
 
     def __add__(self, other: Matrix) -> Matrix:
-        self._mixes_with(other)
+        other = self._of_equal_shape(other, "+")
         return Matrix(self.field, self.nrows, self.ncols, self.flint + other.flint)
 
-    def _mixes_with(self, other: Matrix) -> None:
+    def _mixes_with(self, other: object) -> Matrix:
+        """The result is the other operand as a Matrix over the same field; nested lists become one."""
+        other = as_matrix(other, "the other matrix", self.field)
         if self.field is not other.field and self.field != other.field:
-            raise ValueError(f"matrices over {self.field} and over {other.field} do not mix")
+            raise InvalidInput(f"matrices over {self.field} and over {other.field} do not mix")
+        return other
+
+    def _of_equal_shape(self, other: object, sign: str) -> Matrix:
+        other = self._mixes_with(other)
+        if self.shape != other.shape:
+            raise InvalidInput(f"{sign}: got {_size(self)} and {_size(other)}, expected equal shapes")
+        return other
 
     def __sub__(self, other: Matrix) -> Matrix:
-        self._mixes_with(other)
+        other = self._of_equal_shape(other, "-")
         return Matrix(self.field, self.nrows, self.ncols, self.flint - other.flint)
 
     def __neg__(self) -> Matrix:
@@ -218,6 +232,11 @@ class RowEchelon:
     pivots: tuple[int, ...]
 
 
+def as_matrix(given: object, where: str = "matrix", field: Field = QQ) -> Matrix:
+    """The result is the Matrix that is given, over whatever field it is, or what `Matrix.of` makes of nested lists. Raises InvalidInput."""
+    return given if isinstance(given, Matrix) else Matrix.of(given, field, where=where)
+
+
 def beside(*parts: Matrix) -> Matrix:
     """The result is [X Y ...]: matrices with the same number of rows, side by side."""
     first = parts[0]
@@ -241,12 +260,14 @@ def rank(matrix: Matrix) -> int:
     """The result is the rank of an nrows x ncols matrix over its field.
 
     A large matrix is looked at modulo a prime first: a minor that is not zero there is not zero, so that full rank there is full rank.
-    Raises nothing for a Matrix of any shape; the rank of an empty one is 0.
+    Nested lists are taken over Q. Raises nothing for a Matrix of any shape, and InvalidInput for what is no matrix; the rank of an empty
+    one is 0.
 
     >>> from faultspace.exact import Matrix, PrimeField, rank
     >>> rank(Matrix.of([[1, 2], [2, 4]])), rank(Matrix.of([[1, 2], [2, 1]])), rank(Matrix.of([[1, 2], [2, 1]], PrimeField(3)))
     (1, 2, 1)
     """
+    matrix = as_matrix(matrix)
     if _is_large(matrix):
         reduced = _modulo(matrix.flint)
         if reduced.rank() == min(reduced.nrows(), reduced.ncols()):  # a minor that is not zero modulo a prime is not zero
@@ -259,14 +280,15 @@ def row_echelon(matrix: Matrix) -> RowEchelon:
     """The result is the reduced row echelon form of an nrows x ncols matrix, without its zero rows, and its `pivots`.
 
     `matrix` holds the form and `pivots` its leading columns. Two matrices have the same row space iff their forms are equal. Over Q a large
-    form comes from p-adic lifting [D82] and is checked exactly; over Q(a) it is the form of the block matrix, read in blocks. Raises
-    nothing for a Matrix of any shape.
+    form comes from p-adic lifting [D82] and is checked exactly; over Q(a) it is the form of the block matrix, read in blocks. Nested
+    lists are taken over Q. Raises nothing for a Matrix of any shape, and InvalidInput for what is no matrix.
 
     >>> from faultspace.exact import Matrix, row_echelon
     >>> form = row_echelon(Matrix.of([[0, 2, 4], [1, 1, 1], [1, 3, 5]]))
     >>> form.matrix, form.pivots
     ([[1, 0, -1], [0, 1, 2]], (0, 1))
     """
+    matrix = as_matrix(matrix)
     d = matrix.field.degree
     echelon = _lifted_echelon(matrix.flint) if _is_large(matrix) else None
     if echelon is None:
@@ -330,12 +352,14 @@ def _lifted_echelon(rational: Any) -> Any:
 def right_null_space(matrix: Matrix) -> Matrix:
     """The columns of the result, ncols x nullity, are a basis of {x : M x = 0} for an nrows x ncols matrix M.
 
-    Each column has a 1 in the place of its free variable and zeros in the places of the others. Raises nothing for a Matrix of any shape.
+    Each column has a 1 in the place of its free variable and zeros in the places of the others. Nested lists are taken over Q. Raises
+    nothing for a Matrix of any shape, and InvalidInput for what is no matrix.
 
     >>> from faultspace.exact import Matrix, right_null_space
     >>> right_null_space(Matrix.of([[1, 0, 2], [0, 1, 3]]))
     [[-2], [-3], [1]]
     """
+    matrix = as_matrix(matrix)
     echelon = row_echelon(matrix)
     field, d = matrix.field, matrix.field.degree
     pivots = set(echelon.pivots)
@@ -359,14 +383,14 @@ def right_null_space(matrix: Matrix) -> Matrix:
 def left_null_space(matrix: Matrix) -> Matrix:
     """The rows of the result, nullity x nrows, are a basis of {y : y M = 0} for an nrows x ncols matrix M.
 
-    Of the matrix [O_s T_s] of a window they are the relations that the outputs satisfy on s samples. Raises nothing for a Matrix of any
-    shape.
+    Of the matrix [O_s T_s] of a window they are the relations that the outputs satisfy on s samples. Nested lists are taken over Q. Raises
+    nothing for a Matrix of any shape, and InvalidInput for what is no matrix.
 
     >>> from faultspace.exact import Matrix, left_null_space
     >>> left_null_space(Matrix.of([[1, 2], [2, 4], [0, 1]]))
     [[-2, 1, 0]]
     """
-    return right_null_space(matrix.transposed()).transposed()
+    return right_null_space(as_matrix(matrix).transposed()).transposed()
 
 
 def column_basis(matrix: Matrix) -> Matrix:
@@ -413,7 +437,7 @@ def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where
     elif is_matrix(entries):
         found = (int(entries.rows), int(entries.cols))
         rows = [list(entries.row(i)) for i in range(entries.rows)]
-    elif isinstance(entries, (list, tuple)):
+    elif isinstance(entries := _listed(entries, where), (list, tuple)):
         rows = []
         for i, row in enumerate(entries):
             if not isinstance(row, (list, tuple)):
@@ -426,10 +450,34 @@ def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where
         if shape is not None and 0 in shape and found in ((0, 0), (shape[0], 0)):
             found = shape  # [] and the right number of empty rows stand for every empty matrix
     else:
-        raise InvalidInput(f"{where}: got {shorten(entries)}, expected a list of rows")
+        raise InvalidInput(not_rows(entries, where))
     if shape is not None and found != shape:
         raise InvalidInput(f"{where}: got shape {found[0]} x {found[1]}, expected {shape[0]} x {shape[1]}")
     return rows if found[1] else [[] for _ in range(found[0])], found
+
+
+def not_rows(entries: object, where: str) -> str:
+    """The message that this is no list of rows, with what to try where that is known."""
+    said = f"{where}: got {shorten(entries)}, expected a list of rows"
+    if isinstance(entries, (int, Fraction, str)) and not isinstance(entries, bool):
+        return f"{said}, try [[{shorten(entries)}]]"
+    if hasattr(entries, "residual"):
+        return f"{said} or a Matrix, one of the system's: try .A, .F, .C or .G"
+    return said
+
+
+def _listed(entries: Any, where: str) -> Any:
+    """A numpy array of integers, or of objects, as the nested lists that it holds; anything else as it is. numpy is not loaded for it."""
+    kind = getattr(getattr(entries, "dtype", None), "kind", None)
+    if kind is None or not hasattr(entries, "tolist") or getattr(entries, "ndim", None) != 2:
+        return entries
+    if kind == "f":
+        raise InvalidInput(f"{where}: got {shorten(entries)}, expected a list of rows (floats are not exact; see from_float_exactly)")
+    return entries.tolist() if kind in "iuO" and entries.shape[1] else entries
+
+
+def _size(matrix: Matrix) -> str:
+    return f"{matrix.nrows} x {matrix.ncols}"
 
 
 def _rows_of_domain_matrix(entries: DomainMatrix, field: Field, where: str) -> list[list[object]]:

@@ -16,7 +16,7 @@ from math import gcd, lcm
 
 from ...base.errors import InvalidInput
 from .fields import PrimeField
-from .matrices import Matrix
+from .matrices import Matrix, as_matrix
 
 
 def rational_characteristic_polynomial(A: Matrix) -> tuple[Fraction, ...]:
@@ -56,10 +56,10 @@ def is_stable(A: Matrix) -> bool:
     Over Q(a) it is asked for every embedding of the field in C. No eigenvalue is computed: the recursion of Schur and Cohn [S17] decides it
     on the coefficients of det(qI - A).
 
-    Raises InvalidInput over GF(p), where there is no unit circle, and for a matrix that is not square.
+    Nested lists are taken over Q. Raises InvalidInput over GF(p), where there is no unit circle, and for what is no square matrix.
 
     >>> from faultspace.exact import Matrix, is_stable
     >>> is_stable(Matrix.of([["1/2", 100], [0, "-1/2"]])), is_stable(Matrix.of([[0, 1], [-1, 0]]))
     (True, False)
     """
-    return is_schur(rational_characteristic_polynomial(A))
+    return is_schur(rational_characteristic_polynomial(as_matrix(A, "A")))

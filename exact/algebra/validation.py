@@ -3,12 +3,16 @@
 MAX_DIMENSION       n + m + p may be at most this
 MAX_BITS            bits of one numerator or denominator
 MAX_FILE_BYTES      bytes of one file
+MAX_ENTRIES         entries of one matrix: at eight bytes each, before there is a number in them, this is one GiB
+natural             an integer >= 0, or InvalidInput
+fits                InvalidInput for a matrix of more entries than MAX_ENTRIES
 parse_rational      "-?[0-9]+(/[1-9][0-9]*)?" or a Python integer, nothing else
 """
 
 from __future__ import annotations
 
 import re
+from fractions import Fraction
 
 from flint import fmpq, fmpz
 
@@ -18,8 +22,23 @@ MAX_DIMENSION = 512
 MAX_BITS = 65536
 MAX_FILE_BYTES = 64 * 1024 * 1024
 MAX_FIELD_DEGREE = 16
+MAX_ENTRIES = 2**27
 _MAX_DIGITS = MAX_BITS * 30103 // 100000 + 1
 _RATIONAL = re.compile(r"-?[0-9]+(/[1-9][0-9]*)?", re.ASCII)
+_SCIENTIFIC = re.compile(r"-?[0-9]{1,99}(\.[0-9]{0,99})?[eE][+-]?[0-9]{1,2}", re.ASCII)
+
+
+def natural(value: object, name: str, *, least: int = 0) -> int:
+    """The result is the value where it is an integer >= `least`, of type int and no truth value. Raises InvalidInput, naming `name`."""
+    if type(value) is not int or value < least:
+        raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer >= {least}")
+    return value
+
+
+def fits(rows: int, columns: int, name: str) -> None:
+    """Raises InvalidInput for a matrix of more than MAX_ENTRIES entries, before there is one: FLINT ends the process where memory ends."""
+    if rows * columns > MAX_ENTRIES:
+        raise InvalidInput(f"{name}: got a matrix of {shorten(rows)} x {shorten(columns)}, at most {MAX_ENTRIES} entries are supported")
 
 
 def parse_rational(value: object, where: str) -> fmpq:
@@ -33,15 +52,30 @@ def parse_rational(value: object, where: str) -> fmpq:
             raise InvalidInput(f"{where}: got an integer of {number.bit_length()} bits, at most {MAX_BITS} are allowed")
         return fmpq(number)
     if type(value) is not str:
-        hint = " (floats are not exact; see from_float_exactly)" if isinstance(value, float) else ""
-        raise InvalidInput(f'{where}: got {shorten(value)}, expected a rational string such as "-3/4"{hint}')
+        raise InvalidInput(f'{where}: got {shorten(value)}, expected a rational string such as "-3/4"{_hint(value)}')
     if len(value) > 2 * _MAX_DIGITS + 2:
         raise InvalidInput(f"{where}: got {len(value)} characters, a numerator or denominator has at most {MAX_BITS} bits")
     if not _RATIONAL.fullmatch(value):
-        hint = ' (decimals are written as fractions: "1/2")' if re.fullmatch(r"-?[0-9]*\.[0-9]+", value, re.ASCII) else ""
-        raise InvalidInput(f'{where}: got {shorten(value)}, expected a rational string such as "-3/4"{hint}')
+        raise InvalidInput(f'{where}: got {shorten(value)}, expected a rational string such as "-3/4"{_hint(value)}')
     numerator, _, denominator = value.partition("/")
     top, bottom = fmpz(numerator), fmpz(denominator or "1")
     if max(abs(top), bottom).bit_length() > MAX_BITS:
         raise InvalidInput(f"{where}: a numerator or denominator has more than {MAX_BITS} bits")
     return fmpq(top, bottom)
+
+
+def _hint(value: object) -> str:
+    """What to write instead of a value that is no rational, in brackets; empty where nothing is known of it."""
+    if isinstance(value, bool):
+        return " (a truth value is no number: write 1 or 0)"
+    if isinstance(value, float):
+        return " (floats are not exact; see from_float_exactly)"
+    if getattr(value, "is_algebraic", False) and getattr(value, "is_irrational", False):  # of sympy, which is not loaded here
+        return ' (an irrational number needs a number field: field={"minimal_polynomial": ["-2", "0", "1"]} is that of sqrt(2))'
+    if not isinstance(value, str):
+        return ""
+    if re.fullmatch(r"-?[0-9]+/0+", value, re.ASCII):
+        return " (the denominator is zero)"
+    if re.fullmatch(r"-?[0-9]*\.[0-9]+", value, re.ASCII):
+        return ' (decimals are written as fractions: "1/2")'
+    return f' (write "{Fraction(value)}")' if _SCIENTIFIC.fullmatch(value) else ""

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from os import PathLike
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
@@ -148,7 +149,7 @@ def markov_parameters(A: Matrix, B: Matrix, C: Matrix, D: Matrix, count: int) ->
 
 
 def limit(experiment: Experiment | Mapping[str, Any]) -> PopulationLimits:
-    """This computes what PI-MOESP and PO-MOESP converge to as the number of samples goes to infinity, exact in every number.
+    """Compute what PI-MOESP and PO-MOESP converge to as the number of samples goes to infinity, exact in every number.
 
     `experiment` is an Experiment, or the dict that an experiment's file holds: "A", "B", "C", "D", "F", "G" with rational entries, the
     block rows "s" and "past", and the filters "u_filter" and "v_filter" (and "w_filter" of the noise) that make the stationary input, fault
@@ -167,7 +168,10 @@ def limit(experiment: Experiment | Mapping[str, Any]) -> PopulationLimits:
     if isinstance(experiment, Mapping):
         experiment = read_experiment(experiment)
     if not isinstance(experiment, Experiment):
-        raise InvalidInput(f"experiment: got {shorten(experiment)}, expected an Experiment or the dict of an experiment's file")
+        hint = (
+            "; that of a file is faultspace.exact.read_experiment(json.load(open(path)))" if isinstance(experiment, (str, PathLike)) else ""
+        )
+        raise InvalidInput(f"experiment: got {shorten(experiment)}, expected an Experiment or the dict of an experiment's file{hint}")
     residual = experiment.system.residual
     known = covariances(experiment)
     blocks = window_covariances(experiment, known)

@@ -35,8 +35,8 @@ from ..algebra.polynomials import Poly, written
 from ..algebra.writing import sum_of_powers
 from ..structure.inversion import delay_unknown_state, left_inverse
 from ..structure.kernel_rows import kernel_representation
-from ..system.systems import ResidualSystem
-from .polynomial import Exceptional, PairVerdict, judge
+from ..system.systems import ResidualSystem, System
+from .polynomial import Exceptional, PairVerdict, judge, pencil_of
 
 
 @dataclass(frozen=True, repr=False)
@@ -98,12 +98,12 @@ class Recovery(Shown):
         yield from named_matrix("left inverse", self.left_inverse)
 
 
-def assign_zeros(pencil: Exceptional, desired: object) -> ZeroAssignment:
+def assign_zeros(pencil: Exceptional | System, desired: object) -> ZeroAssignment:
     """The result is a pair (Fhat P, Ghat P) of fault matrices, equivalent to the given ones, whose invariant zeros are the wanted ones.
 
-    `pencil` is that of `exceptional`; `desired` is a list of ascending coefficients in the field, or over Q a sympy polynomial in one
-    symbol, of degree at most zeta. The ZeroAssignment has `P` (n_z x r), `system`, and `unit` with D(q; P) = unit * desired; the zeta - deg
-    desired other zeros are infinite. Source: [F75] for minimal bases, [G25] Theorem 3.
+    `pencil` is that of `exceptional`, or a System; `desired` is a list of ascending coefficients in the field, or over Q a sympy polynomial
+    in one symbol, of degree at most zeta. The ZeroAssignment has `P` (n_z x r), `system`, and `unit` with D(q; P) = unit * desired; the
+    zeta - deg desired other zeros are infinite. Source: [F75] for minimal bases, [G25] Theorem 3.
 
     Raises InvalidInput for the zero polynomial, a degree above zeta, and a polynomial that the unobservable modes of (A, C) do not divide.
 
@@ -113,6 +113,7 @@ def assign_zeros(pencil: Exceptional, desired: object) -> ZeroAssignment:
     >>> print(found.system)
     A=[[1/2]], F=[[-3/4]], C=[[1]], G=[[1/2]]
     """
+    pencil = pencil_of(pencil)
     polynomial = _polynomial(pencil, desired)
     field, zeta, fixed = pencil.system.field, pencil.zeta, pencil.fixed
     if not polynomial:
@@ -137,12 +138,12 @@ def assign_zeros(pencil: Exceptional, desired: object) -> ZeroAssignment:
     return ZeroAssignment(polynomial, free, unit, verdict)
 
 
-def recoverable_pair(pencil: Exceptional) -> Recovery:
+def recoverable_pair(pencil: Exceptional | System) -> Recovery:
     """The result is an equivalent pair whose fault the outputs give without the initial state: it has no zeros that can be avoided.
 
-    `pencil` is that of `exceptional`; the only finite zeros of the pair are the unobservable modes. The Recovery has `delay`, a number of
-    samples, and `left_inverse`, m x p(delay + 1), which takes r(0), ..., r(delay) to v(0). Such a pair exists for every system, observable
-    or not; the left inverse is computed, so that it is verified. Source: [HP98] for recovery, [G25] Theorem 3.
+    `pencil` is that of `exceptional`, or a System; the only finite zeros of the pair are the unobservable modes. The Recovery has `delay`,
+    a number of samples, and `left_inverse`, m x p(delay + 1), which takes r(0), ..., r(delay) to v(0). Such a pair exists for every system,
+    observable or not; the left inverse is computed, so that it is verified. Source: [HP98] for recovery, [G25] Theorem 3.
 
     Raises ArithmeticError if the construction failed, which would be an error of ours.
 
@@ -151,6 +152,7 @@ def recoverable_pair(pencil: Exceptional) -> Recovery:
     >>> found.delay, found.left_inverse
     (1, [[-1, 2]])
     """
+    pencil = pencil_of(pencil)
     assignment = assign_zeros(pencil, pencil.fixed)
     delay = delay_unknown_state(kernel_representation(assignment.system))
     inverse = None if delay is None else left_inverse(assignment.system, delay, known_state=False)

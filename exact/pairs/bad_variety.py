@@ -29,8 +29,9 @@ from ...base.errors import InvalidInput
 from ...base.sheets import Shown
 from ..algebra.fields import NumberField, PrimeField, Rationals
 from ..algebra.notation import several
+from ..system.systems import System
 from .pluecker import coefficient_forms, forms_of_determinant
-from .polynomial import Exceptional
+from .polynomial import Exceptional, pencil_of
 
 MAX_ENTRIES = 16
 MAX_STRATA = 100_000
@@ -122,10 +123,10 @@ class BadEquations(Shown):
             yield f"coefficient of q^{power}", str(equation)
 
 
-def bad_set(pencil: Exceptional) -> BadSet:
+def bad_set(pencil: Exceptional | System) -> BadSet:
     """The result is the dimension and the codimension of the bad P, the n_z x r matrices whose pair is not equivalent to the system.
 
-    `pencil` is that of `exceptional`, of any system over any field; dimensions are those over the algebraic closure. The BadSet also lists
+    `pencil` is that of `exceptional`, or any System over any field; dimensions are those over the algebraic closure. The BadSet also lists
     the `strata`, by the minimal indices of what L(q) P spans. Source: [F75], [G25] Theorem 3.
 
     Raises InvalidInput where there are more than 100000 strata to compare.
@@ -136,6 +137,7 @@ def bad_set(pencil: Exceptional) -> BadSet:
     >>> found.dimension, found.codimension, [stratum.indices for stratum in found.strata]
     (5, 3, [(0,), (1,)])
     """
+    pencil = pencil_of(pencil)
     degrees, r = pencil.left_degrees, pencil.columns
     if r == 0:
         return BadSet(pencil, None, None, ())
@@ -149,11 +151,11 @@ def bad_set(pencil: Exceptional) -> BadSet:
     return BadSet(pencil, pencil.n_z * r - least, least, tuple(strata))
 
 
-def bad_equations(pencil: Exceptional) -> BadEquations:
+def bad_equations(pencil: Exceptional | System) -> BadEquations:
     """The result is the equations of the bad P: the zeta + 1 coefficients of D(q; P), expanded in the entries of P and factored.
 
-    `pencil` is that of `exceptional`, over Q or a prime field, with at most 16 entries in P, which is n_z x r and bad iff all coefficients
-    are 0. The BadEquations has `entries`, the sympy symbols p11, p12, ..., `equations` and `factors`. Source: [G25] Theorem 3.
+    `pencil` is that of `exceptional`, or a System, over Q or a prime field, with at most 16 entries in P, which is n_z x r and bad iff all
+    coefficients are 0. The BadEquations has `entries`, the sympy symbols p11, p12, ..., `equations` and `factors`. Source: [G25] Theorem 3.
 
     Raises InvalidInput for more entries, and over Q(a).
 
@@ -162,6 +164,7 @@ def bad_equations(pencil: Exceptional) -> BadEquations:
     >>> found.entries, found.equations
     ((p11, p21), (-p11 + p21/2, -p21))
     """
+    pencil = pencil_of(pencil)
     field, n_z, r = pencil.system.field, pencil.n_z, pencil.columns
     if isinstance(field, NumberField):
         raise InvalidInput(f"bad set: equations are expanded over Q and prime fields, got {field}; coefficient_forms has no such limit")

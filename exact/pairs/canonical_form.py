@@ -31,8 +31,8 @@ from ..algebra.fields import Field
 from ..algebra.matrices import Matrix, row_echelon, stacked
 from ..algebra.notation import named_matrix, polynomial, several
 from ..structure.fault_columns import fault_space
-from ..structure.kernel_rows import KernelRepresentation
-from ..system.systems import ResidualSystem
+from ..structure.kernel_rows import KernelRepresentation, kernel_of
+from ..system.systems import ResidualSystem, System
 
 
 @dataclass(frozen=True, repr=False)
@@ -112,13 +112,13 @@ class FeedbackClass(Shown):
         yield from named_matrix("[A; C] modulo it", self.residue)
 
 
-def behavior_name(kernel: KernelRepresentation) -> BehaviorName:
+def behavior_name(kernel: KernelRepresentation | System) -> BehaviorName:
     """The result names the output behaviour of any system: two names are equal iff `compare` finds the behaviours equal.
 
     The name is the reduced basis, in Popov form, of all laws N(q) r = 0 that the p outputs obey: rows of shape (mu + 1) x p, monic at their
     pivots. A BehaviorName can be hashed, so that systems can be sorted by behaviour. Source: [F75], [W91], [K80] 6.7 for the Popov form.
 
-    Raises nothing for a KernelRepresentation.
+    `kernel` is a KernelRepresentation or a System. Raises InvalidInput for what is neither.
 
     >>> from faultspace.exact import ResidualSystem, behavior_name, kernel_representation
     >>> one = kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[1]], [[]], m=0))
@@ -126,6 +126,7 @@ def behavior_name(kernel: KernelRepresentation) -> BehaviorName:
     >>> behavior_name(one).rows, behavior_name(one) == behavior_name(other)
     (([[-1/2], [1]],), True)
     """
+    kernel = kernel_of(kernel)
     field = kernel.system.field
     rows = []
     for row in kernel.rows:
@@ -135,13 +136,13 @@ def behavior_name(kernel: KernelRepresentation) -> BehaviorName:
     return BehaviorName(field, kernel.system.p, tuple(rows))
 
 
-def fault_class(kernel: KernelRepresentation) -> FaultClass:
+def fault_class(kernel: KernelRepresentation | System) -> FaultClass:
     """The result names the output behaviour among the systems with the same A (n x n) and C (p x n).
 
     Two such names are equal iff the behaviours are. The FaultClass holds A, C and the reduced row echelon form of the fault space Z, n_z x
     (n + p) with rows [f' g']: the behaviour determines Z and Z the behaviour. Source: [G25] problem (11), Theorem 3.
 
-    Raises nothing for a KernelRepresentation.
+    `kernel` is a KernelRepresentation or a System. Raises InvalidInput for what is neither.
 
     >>> from faultspace.exact import ResidualSystem, fault_class, kernel_representation
     >>> systems = [ResidualSystem.of([[0]], F, [[1]], G) for F, G in (([[1]], [[0]]), ([[0]], [[1]]), ([[0]], [[0]]))]
@@ -149,11 +150,12 @@ def fault_class(kernel: KernelRepresentation) -> FaultClass:
     >>> first == second, first == third, first.basis
     (True, False, [[1, 0], [0, 1]])
     """
+    kernel = kernel_of(kernel)
     system = kernel.system
     return FaultClass(system.A, system.C, fault_space(kernel).basis)
 
 
-def feedback_class(kernel: KernelRepresentation) -> FeedbackClass:
+def feedback_class(kernel: KernelRepresentation | System) -> FeedbackClass:
     """The result is what the systems (A + Fhat K, C + Ghat K) have in common for all K, with the fault space, which they share.
 
     A change v = K x + v' of the fault signal leaves the outputs what they are; two systems with n states and p outputs have the same
@@ -161,7 +163,7 @@ def feedback_class(kernel: KernelRepresentation) -> FeedbackClass:
     not conversely: a change of basis of the state changes the class. `residue`, of shape (n + p) x n, is [A; C] modulo the space. Source:
     [G25] problem (11), [TSH01] for feedback.
 
-    Raises nothing for a KernelRepresentation.
+    `kernel` is a KernelRepresentation or a System. Raises InvalidInput for what is neither.
 
     >>> from faultspace.exact import ResidualSystem, feedback_class, kernel_representation
     >>> one = ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 1]], [[0], [0]])
@@ -169,6 +171,7 @@ def feedback_class(kernel: KernelRepresentation) -> FeedbackClass:
     >>> feedback_class(kernel_representation(one)) == feedback_class(kernel_representation(two))
     True
     """
+    kernel = kernel_of(kernel)
     system = kernel.system
     basis = fault_space(kernel).basis
     echelon = row_echelon(basis)

@@ -29,8 +29,8 @@ from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, beside, rank, stacked
 from ..algebra.notation import named_matrix
 from ..structure.inversion import delay_known_state, delay_unknown_state, largest_output_nulling
-from ..structure.kernel_rows import KernelRepresentation
-from ..system.systems import ResidualSystem
+from ..structure.kernel_rows import KernelRepresentation, kernel_of
+from ..system.systems import ResidualSystem, System
 from .polynomial import Exceptional, PairVerdict, exceptional, judge
 
 
@@ -126,10 +126,10 @@ class ZeroFeedthrough(Shown):
             yield from named_matrix("another F", self.alternative.F)
 
 
-def zero_feedthrough(kernel: KernelRepresentation) -> ZeroFeedthrough:
+def zero_feedthrough(kernel: KernelRepresentation | System) -> ZeroFeedthrough:
     """The result says how far the knowledge that G = 0 pins the fault matrix F (n x m), and with it the fault signal.
 
-    `kernel` is the KernelRepresentation of a left-invertible system with G = 0. The ZeroFeedthrough has `pins_F` (whether F is known up to
+    `kernel` is a left-invertible System with G = 0, or its KernelRepresentation. The ZeroFeedthrough has `pins_F` (whether F is known up to
     a basis), `pins_v`, `ambiguity`, a number of dimensions, an `alternative` F' of another column space where there is one, and both delays
     in samples. Source: [G25] section V, [M73] and [TSH01] for the subspaces, [HP98] for recovery.
 
@@ -140,6 +140,7 @@ def zero_feedthrough(kernel: KernelRepresentation) -> ZeroFeedthrough:
     >>> found.pins_F, found.ambiguity, found.alternative.F  # C F = 0: the fault is seen one sample late
     (False, 1, [[1], [0]])
     """
+    kernel = kernel_of(kernel)
     system = kernel.system
     if not system.G.is_zero():
         raise InvalidInput("G: got a nonzero feedthrough, expected G = 0; problem (11) itself is answered by fault_space")

@@ -37,9 +37,9 @@ from ..algebra.matrices import Matrix, beside, left_null_space, rank, row_echelo
 from ..algebra.notation import named_matrix, polynomial, several
 from ..algebra.polynomials import Poly, written
 from ..structure.fault_columns import FaultSpace, fault_space, with_pair
-from ..structure.kernel_rows import KernelRepresentation, column_conditions, kernel_representation
+from ..structure.kernel_rows import KernelRepresentation, column_conditions, kernel_of, kernel_representation
 from ..structure.pencil import NullPolynomial, right_null_polynomial, zero_dynamics_polynomial
-from ..system.systems import ResidualSystem
+from ..system.systems import ResidualSystem, System
 from .linear_determinants import linear_determinant
 
 
@@ -212,20 +212,22 @@ class PairVerdict(Shown):
         yield "D(q; P)", polynomial(self.polynomial, self.P.field)
 
 
-def exceptional(kernel: KernelRepresentation) -> Exceptional:
+def exceptional(kernel: KernelRepresentation | System) -> Exceptional:
     """The result is the pencil q b - a of the fault space of a system: D(q; P) = det [P | q b - a] says which P are bad.
 
-    `kernel` is the KernelRepresentation of any system over any field. The Exceptional has `n_z` and `columns` (r, the normal rank), the
+    `kernel` is any System over any field, or its KernelRepresentation. The Exceptional has `n_z` and `columns` (r, the normal rank), the
     shape of every P, `zeta`, the number of zeros of every good pair, `b` and `a` (n_z x zeta), and the `fixed` zeros that no P moves.
     Source: [G25] Theorem 3, [M73] and [TSH01] for the subspaces, [F75] for the rows of the left kernel.
 
-    Raises ArithmeticError if the space does not have the dimension r + zeta, which would be an error of ours.
+    Raises InvalidInput for what is no system, and ArithmeticError if the space does not have the dimension r + zeta, which would be an
+    error of ours.
 
     >>> from faultspace.exact import ResidualSystem, exceptional, kernel_representation
     >>> pencil = exceptional(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])))
     >>> pencil.n_z, pencil.columns, pencil.zeta, pencil.b, pencil.a
     (2, 1, 1, [[1], [0]], [[1/2], [1]])
     """
+    kernel = kernel_of(kernel)
     space = fault_space(kernel)
     system = space.system
     echelon = row_echelon(space.basis)
@@ -241,12 +243,17 @@ def exceptional(kernel: KernelRepresentation) -> Exceptional:
     return Exceptional(kernel, space, U, b, a)
 
 
-def judge(pencil: Exceptional, P: object) -> PairVerdict:
+def pencil_of(given: Exceptional | KernelRepresentation | System) -> Exceptional:
+    """The result is the pencil that is given, or that of a system. Raises InvalidInput for anything else."""
+    return given if isinstance(given, Exceptional) else exceptional(given)
+
+
+def judge(pencil: Exceptional | System, P: object) -> PairVerdict:
     """The verdict on a choice P of fault matrices (Fhat P, Ghat P) says whether it keeps the behaviour, and which zeros it has.
 
-    `pencil` is that of `exceptional`; P is n_z x r over the system's field, a Matrix, nested lists or a sympy matrix. The PairVerdict has
-    `good`, `polynomial` = D(q; P) (ascending, () where P is bad), `rank`, `system`, `finite_zeros` and a `reason` in words. Source: [G25]
-    Theorem 3 (ii), repaired: P of full column rank is not enough.
+    `pencil` is that of `exceptional`, or a System; P is n_z x r over the system's field, a Matrix, nested lists or a sympy matrix. The
+    PairVerdict has `good`, `polynomial` = D(q; P) (ascending, () where P is bad), `rank`, `system`, `finite_zeros` and a `reason` in words.
+    Source: [G25] Theorem 3 (ii), repaired: P of full column rank is not enough.
 
     Raises InvalidInput for another shape or field.
 
@@ -257,6 +264,7 @@ def judge(pencil: Exceptional, P: object) -> PairVerdict:
     >>> judge(pencil, [[0], [0]]).good
     False
     """
+    pencil = pencil_of(pencil)
     matrix = pair_matrix(pencil, P)
     return PairVerdict(pencil, matrix, rank(matrix), polynomial_at(pencil, matrix))
 

@@ -21,7 +21,8 @@ from typing import Any
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, beside, right_null_space, row_echelon, stacked
 from ..algebra.notation import named_matrix
-from .polynomial import Exceptional, PairVerdict, judge
+from ..system.systems import System
+from .polynomial import Exceptional, PairVerdict, judge, pencil_of
 
 
 @dataclass(frozen=True, repr=False)
@@ -94,11 +95,11 @@ class NoBadPair(Shown):
         yield "reason", self.reason
 
 
-def good_columns(pencil: Exceptional) -> GoodColumns:
+def good_columns(pencil: Exceptional | System) -> GoodColumns:
     """The result is a good P (n_z x r) with entries 0 and 1, a single 1 in each column, found without a search and decided exactly.
 
-    `pencil` is that of `exceptional`. `chosen` lists the r columns of [Fhat; Ghat] that are an equivalent pair by themselves: the first
-    independent columns of L(0), L(q) being a minimal basis, whose rank drops nowhere. Source: [F75], [G25] Theorem 3.
+    `pencil` is that of `exceptional`, or a System. `chosen` lists the r columns of [Fhat; Ghat] that are an equivalent pair by themselves:
+    the first independent columns of L(0), L(q) being a minimal basis, whose rank drops nowhere. Source: [F75], [G25] Theorem 3.
 
     Raises ArithmeticError if the construction failed, which would be an error of ours.
 
@@ -107,6 +108,7 @@ def good_columns(pencil: Exceptional) -> GoodColumns:
     >>> found.chosen, found.verdict.good
     ((0,), True)
     """
+    pencil = pencil_of(pencil)
     field = pencil.system.field
     at_zero = stacked(Matrix.zero(field, 0, pencil.n_z), *(row.rows([0]) for row in pencil.left_kernel))
     chosen = row_echelon(at_zero).pivots
@@ -116,11 +118,11 @@ def good_columns(pencil: Exceptional) -> GoodColumns:
     return GoodColumns(chosen, verdict)
 
 
-def bad_pair(pencil: Exceptional) -> BadPair | NoBadPair:
+def bad_pair(pencil: Exceptional | System) -> BadPair | NoBadPair:
     """The result is a bad P (n_z x r) of full column rank by construction, or the reason why there is none.
 
-    `pencil` is that of `exceptional`. There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1. A BadPair has
-    `verdict` with P and a null vector, and `conditions`, the rows that make it bad; a NoBadPair has the `reason`. Source: [F75], [G25]
+    `pencil` is that of `exceptional`, or a System. There is one iff r >= 1 and (A, C) is not observable, or r >= 2 and zeta >= 1. A BadPair
+    has `verdict` with P and a null vector, and `conditions`, the rows that make it bad; a NoBadPair has the `reason`. Source: [F75], [G25]
     Theorem 3.
 
     Raises ArithmeticError if the construction failed, which would be an error of ours.
@@ -131,6 +133,7 @@ def bad_pair(pencil: Exceptional) -> BadPair | NoBadPair:
     >>> found.verdict.rank, found.verdict.reason
     (2, 'P has full column rank, but D(q; P) = 0: the pair has normal rank below 2')
     """
+    pencil = pencil_of(pencil)
     field, r = pencil.system.field, pencil.columns
     if r == 0:
         return NoBadPair(pencil, "the normal rank is 0: P has no column, and the pair without faults is equivalent")

@@ -17,12 +17,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ...base.errors import InvalidInput, shorten
+from ...base.errors import InvalidInput
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
 from ..algebra.notation import entry, polynomial
 from ..system.systems import ResidualSystem, System, counted
-from .kernel_rows import KernelRepresentation, KernelRow, horner, kernel_representation
+from .kernel_rows import KernelRepresentation, KernelRow, horner, kernel_of
 from .signals import simulate
 
 MOST_SAMPLES = 24
@@ -173,7 +173,7 @@ def separation(inner: ResidualSystem, outer: KernelRepresentation) -> Separation
 
 
 def compare(first: System | KernelRepresentation, second: System | KernelRepresentation) -> Comparison:
-    """This tells whether two systems make the same outputs from any initial state and fault, and finds a word that only one makes.
+    """Tell whether two systems make the same outputs from any initial state and fault, and find a word that only one makes.
 
     The systems have p outputs each over the same field; their numbers of states and faults may differ, and inputs play no part. Where its
     kernel representation is at hand, it stands for a system. The Comparison has `equivalent`, `first_difference` (a number of samples, or
@@ -189,16 +189,8 @@ def compare(first: System | KernelRepresentation, second: System | KernelReprese
     >>> fs.compare(delayed, fs.System(A=[["1/2"]], F=[[0]], C=[[1]], G=[[0]]))
     <Comparison: different: first on 2 samples, the same on fewer>
     """
-    one, other = _kernel(first), _kernel(second)
+    one, other = kernel_of(first), kernel_of(second)
     return Comparison(one, other, separation(one.system, other), separation(other.system, one))
-
-
-def _kernel(system: System | KernelRepresentation) -> KernelRepresentation:
-    if isinstance(system, KernelRepresentation):
-        return system
-    if not isinstance(system, System):
-        raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
-    return kernel_representation(system.residual)
 
 
 def _first_nonzero(matrix: Matrix) -> tuple[int, int]:

@@ -15,12 +15,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ...base.errors import InvalidInput
+from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix, right_null_space, row_echelon, stacked
 from ..algebra.notation import named_matrix
-from ..system.systems import ResidualSystem, counted
-from .kernel_rows import KernelRepresentation, column_conditions
+from ..system.systems import ResidualSystem, System, counted
+from .kernel_rows import KernelRepresentation, column_conditions, kernel_of
 
 
 @dataclass(frozen=True, repr=False)
@@ -106,14 +106,14 @@ def from_kernel_rows(rows: Iterable[Matrix], A: Matrix, C: Matrix) -> Matrix:
     return row_echelon(right_null_space(conditions).transposed()).matrix
 
 
-def fault_space(kernel: KernelRepresentation, window: int | None = None) -> FaultSpace:
+def fault_space(kernel: KernelRepresentation | System, window: int | None = None) -> FaultSpace:
     """The result is the solution space of problem (11) on `window` samples, or its limit Z, of which every equivalent F and G is made.
 
-    `kernel` is a KernelRepresentation of a system with n states and p outputs; `window` is a number of samples >= 0, or None for the limit,
-    which is reached from lag + 1 samples on. A column z = [f; g] is in the space iff every kernel row of degree below the window
-    annihilates the system (A, f, C, g). Source: [G25] problem (11), Theorem 3.
+    `kernel` is a KernelRepresentation of a system with n states and p outputs, or a System, of which it is computed; `window` is a number
+    of samples >= 0, or None for the limit, which is reached from lag + 1 samples on. A column z = [f; g] is in the space iff every kernel
+    row of degree below the window annihilates the system (A, f, C, g). Source: [G25] problem (11), Theorem 3.
 
-    Raises InvalidInput for a window that is no integer >= 0.
+    Raises InvalidInput for a window that is no integer >= 0, and for what is no system.
 
     >>> from faultspace.exact import ResidualSystem, fault_space, kernel_representation
     >>> space = fault_space(kernel_representation(ResidualSystem.of([["1/2"]], [[1]], [[1], [0]], [[0], [0]])))
@@ -121,31 +121,36 @@ def fault_space(kernel: KernelRepresentation, window: int | None = None) -> Faul
     ([[1, 0]], [[0, 1], [0, 0]])
     """
     if window is not None and (type(window) is not int or window < 0):
-        raise InvalidInput(f"window: got {window!r}, expected an integer >= 0 or None")
+        raise InvalidInput(f"window: got {shorten(window)}, expected an integer >= 0 or None")
+    kernel = kernel_of(kernel)
     system = kernel.system
     basis = from_kernel_rows((row.coefficients for row in kernel.rows_within(window)), system.A, system.C)
     return FaultSpace(system, window, kernel.lag + 1, basis)
 
 
-def fault_space_dimension(kernel: KernelRepresentation, window: int | None = None) -> int:
+def fault_space_dimension(kernel: KernelRepresentation | System, window: int | None = None) -> int:
     """The result is the dimension of the space of problem (11), found without the space.
 
-    It is n + p less the sum of mu + 1 over the kernel rows of degree mu below the window. `kernel` is a KernelRepresentation; `window` is a
-    number of samples, None for the limit. Source: [G25] problem (11), [F75] for the indices. Raises nothing for a KernelRepresentation.
+    It is n + p less the sum of mu + 1 over the kernel rows of degree mu below the window. `kernel` is a KernelRepresentation or a System;
+    `window` is a number of samples, None for the limit. Source: [G25] problem (11), [F75] for the indices.
+
+    Raises InvalidInput for a window that is no integer >= 0, and for what is no system.
 
     >>> from faultspace.exact import ResidualSystem, fault_space_dimension, kernel_representation
     >>> kernel = kernel_representation(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0], [0, 0]], [[0], [1]]))
     >>> [fault_space_dimension(kernel, s) for s in (1, 2, 3, None)]
     [4, 4, 1, 1]
     """
+    kernel = kernel_of(kernel)
     system = kernel.system
     return system.n + system.p - sum(row.degree + 1 for row in kernel.rows_within(window))
 
 
-def with_pair(space: FaultSpace, P: object) -> ResidualSystem:
+def with_pair(space: FaultSpace | KernelRepresentation | System, P: object) -> ResidualSystem:
     """The result is the system (A, Fhat P, C, Ghat P) whose fault matrices are the columns of a fault space combined by P.
 
-    P is n_z x k, what `Matrix.of` takes, over the same field; `judge` says whether the result is equivalent. Source: [G25] Theorem 3.
+    `space` is a FaultSpace, or a system, whose limit is taken; P is n_z x k, what `Matrix.of` takes, over the same field; `judge` says
+    whether the result is equivalent. Source: [G25] Theorem 3.
 
     Raises InvalidInput for another shape.
 
@@ -154,6 +159,7 @@ def with_pair(space: FaultSpace, P: object) -> ResidualSystem:
     >>> print(with_pair(space, [[3], [2]]))
     A=[[1/2]], F=[[3]], C=[[1]], G=[[2]]
     """
+    space = space if isinstance(space, FaultSpace) else fault_space(space)
     P = Matrix.of(P, space.system.field, where="P")
     if P.nrows != space.dimension:
         raise InvalidInput(f"P: got {P.nrows} x {P.ncols}, expected {space.dimension} rows, one a basis column")

@@ -14,9 +14,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.matrices import Matrix, beside, column_basis, rank, right_null_space, solve_left, stacked
-from ..system.systems import ResidualSystem
+from ..algebra.validation import natural
+from ..system.systems import ResidualSystem, System, residual_of
 from ..system.windows import toeplitz_matrix, window_matrix
-from .kernel_rows import KernelRepresentation
+from .kernel_rows import KernelRepresentation, kernel_of
 
 
 @dataclass(frozen=True)
@@ -27,19 +28,20 @@ class AmbiguousWord:
     v: Matrix
 
 
-def delay_known_state(kernel: KernelRepresentation) -> int | None:
+def delay_known_state(kernel: KernelRepresentation | System) -> int | None:
     """The result is the least l with which r(0), ..., r(l) determine v(0) when x(0) is known, a number of samples; None where none do.
 
     It is the least l with rank T_(l+1) - rank T_l = m, and exists iff the system is left-invertible; it is 0 where there is no fault.
-    `kernel` is a KernelRepresentation. Source: [SM69].
+    `kernel` is a KernelRepresentation, or a System, of which it is computed. Source: [SM69].
 
-    Raises nothing for a KernelRepresentation.
+    Raises InvalidInput for what is neither.
 
     >>> from faultspace.exact import ResidualSystem, delay_known_state, kernel_representation
     >>> late = ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]])
     >>> delay_known_state(kernel_representation(late))
     2
     """
+    kernel = kernel_of(kernel)
     system = kernel.system
     if kernel.normal_rank < system.m:
         return None
@@ -51,13 +53,14 @@ def delay_known_state(kernel: KernelRepresentation) -> int | None:
         delay, previous = delay + 1, current
 
 
-def delay_unknown_state(kernel: KernelRepresentation) -> int | None:
+def delay_unknown_state(kernel: KernelRepresentation | System) -> int | None:
     """The result is the least number l with which r(0), ..., r(l) determine v(0) whatever x(0) is; None where none do.
 
     It is a number of samples, at most n, and 0 where there is no fault. A recursion modulo a prime finds it and shows that fewer samples do
-    not do; that l samples do is decided exactly. `kernel` is a KernelRepresentation. Source: [HP98], [MZ10], [K11].
+    not do; that l samples do is decided exactly. `kernel` is a KernelRepresentation, or a System, of which it is computed. Source: [HP98],
+    [MZ10], [K11].
 
-    Raises nothing for a KernelRepresentation.
+    Raises InvalidInput for what is neither.
 
     >>> from faultspace.exact import ResidualSystem, delay_unknown_state, kernel_representation
     >>> zero_at_2 = ResidualSystem.of([["1/2"]], [["-3/2"]], [[1]], [[1]])
@@ -65,6 +68,7 @@ def delay_unknown_state(kernel: KernelRepresentation) -> int | None:
     >>> [delay_unknown_state(kernel_representation(system)) for system in (zero_at_2, no_zero)]
     [None, 1]
     """
+    kernel = kernel_of(kernel)
     system = kernel.system
     for delay in range(_first_determined(kernel.image.system), system.n + 1):
         keep = [j for j in range(system.n + system.m * (delay + 1)) if not system.n <= j < system.n + system.m]
@@ -85,19 +89,21 @@ def largest_output_nulling(system: ResidualSystem) -> Matrix:
         subspace = successor
 
 
-def left_inverse(system: ResidualSystem, delay: int, *, known_state: bool) -> Matrix | None:
+def left_inverse(system: System, delay: int, *, known_state: bool) -> Matrix | None:
     """The result is a matrix of shape m x p(delay + 1) that takes r(0), ..., r(delay) to v(0), or None where there is none.
 
     With `known_state` the outputs are those from x(0) = 0, else they come from any initial state; `delay` is a number of samples >= 0.
     Source: [SM69] for a known state, [K11] for an unknown one.
 
-    Raises nothing for a ResidualSystem.
+    Raises InvalidInput for what is no system, for a delay that is no integer >= 0, and for a window of more than 2^27 entries.
 
     >>> from faultspace.exact import ResidualSystem, left_inverse
     >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
     >>> left_inverse(system, 1, known_state=False), left_inverse(system, 0, known_state=False)  # v(0) = r(1) - r(0) / 2
     ([[-1/2, 1]], None)
     """
+    system = residual_of(system)
+    natural(delay, "delay")
     built = toeplitz_matrix(system, delay + 1) if known_state else window_matrix(system, delay + 1)
     skipped = Matrix.zero(system.field, system.m, 0 if known_state else system.n)
     wanted = beside(skipped, Matrix.identity(system.field, system.m), Matrix.zero(system.field, system.m, system.m * delay))

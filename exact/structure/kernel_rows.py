@@ -5,6 +5,7 @@
     left minimal indices   the degrees mu of the rows; lag = the largest; normal rank r = p - number of rows
     horner_states          X_k = N_k C + X_(k+1) A, the one recursion behind the next two
     horner                 X_0 and N_k G + X_(k+1) F: all zero iff the row annihilates a system
+    kernel_of              the representation of whatever is given: a system, or one of these
     column_conditions      the rows [X_(k+1), N_k]: what the row asks of a fault column [f; g]
 
 Rows whose leading coefficients are triangular by their pivots, and which annihilate the system, bound every gap from above: gap(k) <= p
@@ -28,8 +29,9 @@ from ...base.sheets import Shown
 from ..algebra.fields import NumberField, PrimeField
 from ..algebra.matrices import Matrix, beside, stacked
 from ..algebra.notation import polynomial, several
+from ..algebra.validation import natural
 from ..system.modular import Image, image
-from ..system.systems import ResidualSystem, System
+from ..system.systems import ResidualSystem, System, residual_of
 from .relations import integer_relations, relations_over_prime_field
 from .zero_output import ZeroOutputChain, zero_output_chain
 
@@ -85,15 +87,22 @@ class KernelRepresentation(Shown):
         return max(self.left_minimal_indices, default=0)
 
     def gap(self, k: int) -> int:
-        """The result is rank [O_(k+1) T_(k+1)] - rank [O_k T_k] = p - #{mu <= k}."""
+        """The result is rank [O_(k+1) T_(k+1)] - rank [O_k T_k] = p - #{mu <= k}. Raises InvalidInput unless k is an integer >= 0."""
+        natural(k, "k")
         return self.system.p - sum(1 for mu in self.left_minimal_indices if mu <= k)
 
     def rank(self, s: int) -> int:
-        """The result is rank [O_s T_s] = s r + sum min(s, mu)."""
+        """The result is rank [O_s T_s] = s r + sum min(s, mu). Raises InvalidInput unless s is an integer >= 0."""
+        natural(s, "s")
         return s * self.normal_rank + sum(min(s, mu) for mu in self.left_minimal_indices)
 
     def rows_within(self, window: int | None) -> tuple[KernelRow, ...]:
-        """The rows of degree below `window` and their shifts span the left null space of [O_s T_s]; for None these are all rows."""
+        """The rows of degree below `window` and their shifts span the left null space of [O_s T_s]; for None these are all rows.
+
+        Raises InvalidInput for a window that is no integer >= 0.
+        """
+        if window is not None:
+            natural(window, "window")
         return tuple(row for row in self.rows if window is None or row.degree < window)
 
     @property
@@ -162,13 +171,13 @@ def kernel_representation(system: System) -> KernelRepresentation:
     `system` is a System of either kind with p outputs; B and D play no part. Over Q and Q(a) the shape of the rows comes from a prime,
     their coefficients from one exact solve by p-adic lifting [D82], and an exact check has the last word. Source: [F75], [W91].
 
-    Raises ArithmeticError if no prime fits, which the bound on misleading primes excludes.
+    Raises InvalidInput for what is no system, and ArithmeticError if no prime fits, which the bound on misleading primes excludes.
 
     >>> from faultspace.exact import ResidualSystem, kernel_representation
     >>> kernel_representation(ResidualSystem.of([["1/2"]], [[]], [[1]], [[]], m=0)).rows[0].coefficients  # 2 r(k+1) = r(k)
     [[-1], [2]]
     """
-    residual = system.residual
+    residual = residual_of(system)
     picture = image(residual)
     most = _misleading_primes(residual) + 1
     for _ in range(most):
@@ -178,6 +187,11 @@ def kernel_representation(system: System) -> KernelRepresentation:
             return KernelRepresentation(residual, rows, picture, chain)
         picture = image(residual, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
     raise ArithmeticError(f"no kernel rows fit at any of {most} primes")
+
+
+def kernel_of(given: System | KernelRepresentation, where: str = "system") -> KernelRepresentation:
+    """The result is the kernel representation that is given, or that of a System. Raises InvalidInput for anything else."""
+    return given if isinstance(given, KernelRepresentation) else kernel_representation(residual_of(given, where))
 
 
 def _misleading_primes(system: ResidualSystem) -> int:

@@ -10,12 +10,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown
 from ..algebra.matrices import Matrix
 from ..algebra.notation import named_matrix, polynomial, several
 from ..algebra.polynomials import Poly, written
-from ..system.systems import ResidualSystem, System
+from ..system.systems import ResidualSystem, System, residual_of
 from .fault_columns import FaultSpace, fault_space, fault_space_dimension
 from .inversion import delay_known_state, delay_unknown_state
 from .kernel_rows import KernelRepresentation, kernel_representation
@@ -127,7 +126,7 @@ class Structure(Shown):
 
 
 def analyze(system: System) -> Structure:
-    """This computes all that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
+    """Compute all that is known exactly about a system: its indices, zeros, delays, window ranks and fault space.
 
     `system` is a ResidualSystem or a FaultySystem over any field, with n states, m faults and p outputs, of any size, observable or not,
     left-invertible or not; B and D play no part. The Structure has `kernel.lag` (a number of samples), `kernel.left_minimal_indices`,
@@ -143,9 +142,7 @@ def analyze(system: System) -> Structure:
     >>> found.kernel.lag, found.delay_known_state
     (2, 0)
     """
-    if not isinstance(system, System):
-        raise InvalidInput(f"system: got {shorten(system)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
-    system = system.residual
+    system = residual_of(system)
     kernel = kernel_representation(system)
     right = right_minimal_indices(system)
     infinite = infinite_zero_orders(kernel)

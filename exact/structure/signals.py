@@ -18,9 +18,10 @@ from typing import Any
 
 from ...base.errors import InvalidInput
 from ...base.sheets import Shown
-from ..algebra.matrices import Matrix, left_null_space, rank, stacked
+from ..algebra.matrices import Matrix, as_matrix, left_null_space, rank, stacked
 from ..algebra.notation import named_matrix
-from ..system.systems import ResidualSystem
+from ..algebra.validation import natural
+from ..system.systems import System, residual_of
 from .fault_columns import from_kernel_rows
 
 
@@ -57,18 +58,21 @@ class Trajectory(Shown):
         return {"x": self.states.to_json(), "v": self.faults.to_json(), "r": self.residuals.to_json()}
 
 
-def simulate(system: ResidualSystem, x0: Matrix, v: Matrix) -> Trajectory:
+def simulate(system: System, x0: object, v: object) -> Trajectory:
     """The result is the exact trajectory of a residual system from x0 (n x 1) under the fault v (N x m, time down the rows).
 
-    x0 and v are of type Matrix over the field of the system. Source: [G25] section IV.
+    x0 and v are of type Matrix over the field of the system, or nested lists; of a system with inputs it is the trajectory for u = 0.
+    Source: [G25] section IV.
 
-    Raises InvalidInput when a shape does not fit.
+    Raises InvalidInput when a shape or field does not fit, and for what is no system.
 
     >>> from faultspace.exact import Matrix, ResidualSystem, simulate
     >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]])
     >>> simulate(system, x0=Matrix.of([[0]]), v=Matrix.of([[1], [0], [0]])).residuals
     [[0], [1], [1/2]]
     """
+    system = residual_of(system)
+    x0, v = Matrix.of(x0, system.field, where="x0"), Matrix.of(v, system.field, where="v")
     if x0.shape != (system.n, 1) or v.ncols != system.m:
         raise InvalidInput(f"x0, v: got {x0.shape} and {v.shape}, expected ({system.n}, 1) and (N, {system.m})")
     x = x0
@@ -85,6 +89,8 @@ def hankel(signal: Matrix, s: int) -> Matrix:
     """The result is the block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N <
     s.
     """
+    if type(s) is not int:
+        natural(s, "window")
     if not 0 <= s <= signal.nrows:
         raise InvalidInput(f"window: got {s} with {signal.nrows} samples, expected 0 <= window <= samples")
     columns = signal.nrows - s + 1
@@ -116,7 +122,7 @@ def data_fault_space(residuals: Matrix, A: Matrix, C: Matrix, s: int) -> Matrix:
     s; a fault that excites less leaves more null rows, and then a smaller space. Source: [G25] problem (11) and section IV, [WRMM05] for
     excitation.
 
-    Raises InvalidInput if there are fewer than s samples.
+    Nested lists are taken over Q. Raises InvalidInput for s that is no integer >= 0, and if there are fewer than s samples.
 
     >>> from faultspace.exact import Matrix, ResidualSystem, data_fault_space, simulate
     >>> system = ResidualSystem.of([["1/2"]], [[1]], [[1], [0]], [[0], [0]])
@@ -124,6 +130,8 @@ def data_fault_space(residuals: Matrix, A: Matrix, C: Matrix, s: int) -> Matrix:
     >>> data_fault_space(data.residuals, system.A, system.C, s=2)
     [[1, 0, 0], [0, 1, 0]]
     """
+    residuals = as_matrix(residuals, "residuals")
+    A, C = as_matrix(A, "A", residuals.field), as_matrix(C, "C", residuals.field)
     null = left_null_space(hankel(residuals, s))
     p = residuals.ncols
     rows = [

@@ -4,6 +4,7 @@
     FaultySystem       x(k+1) = A x + B u + F v,  y = C x + D u + G v  the same with nu inputs; `.residual` forgets them
     System             either; called with matrices, it makes one of the two
     read_system        one of the two, from the dict of an exact file
+    residual_of        the residual system of whatever kind of system is given
     from_float_exactly a float as the dyadic rational that it is (the only way in for floats)
 
 In JSON the matrices are "A", "F", "C", "G" ("B", "D"), the field "field", and with a zero dimension "n", "m", "p" ("nu") are required.
@@ -14,12 +15,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
+from os import PathLike
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown
 from ..algebra.fields import QQ, Field, field_from_json
-from ..algebra.matrices import Matrix
+from ..algebra.matrices import Matrix, not_rows
 from ..algebra.notation import field_words, named_matrix
 from ..algebra.validation import MAX_DIMENSION
 
@@ -27,11 +29,12 @@ from ..algebra.validation import MAX_DIMENSION
 class System(Shown):
     """This is the exact system x(k+1) = A x + B u + F v, y = C x + D u + G v with n states, m faults v, p outputs, n_u inputs u.
 
-    A is n x n, F n x m, C p x n, G p x m, B n x n_u, D p x n_u: nested lists of integers, strings such as "1/2" and Fractions, or sympy
-    matrices. Floats are refused, because a measured float has no exact zeros; `faultspace.exact.from_float_exactly` takes one as it is.
-    `field` is "Q", {"prime": 3}, {"minimal_polynomial": ["-2", "0", "1"]} for Q(sqrt 2), or a field of `faultspace.exact`. The sizes n, m
-    and p are needed where a dimension is zero. There are two kinds of System: the call gives a FaultySystem where B and D are given, else
-    a ResidualSystem, which has no inputs.
+    A is n x n, F n x m, C p x n, G p x m, B n x n_u, D p x n_u: nested lists of integers, strings such as "1/2" and Fractions, numpy arrays
+    of integers, or sympy matrices. The system has them again, of type Matrix, as `.A`, `.F`, `.C`, `.G`, `.B` and `.D`. Floats are refused,
+    because a measured float has no exact zeros; `faultspace.exact.from_float_exactly` takes one as it is. `field` is "Q", {"prime": 3},
+    {"minimal_polynomial": ["-2", "0", "1"]} for Q(sqrt 2), or a field of `faultspace.exact`. The sizes n, m and p are needed where a
+    dimension is zero. There are two kinds of System: the call gives a FaultySystem where B and D are given, else a ResidualSystem, whose B
+    and D have no columns.
 
     Raises InvalidInput when shapes or fields do not agree, for entries that are not exact, and for one of B and D without the other.
 
@@ -47,6 +50,12 @@ class System(Shown):
     """
 
     residual: ResidualSystem
+    A: Matrix
+    F: Matrix
+    C: Matrix
+    G: Matrix
+    B: Matrix
+    D: Matrix
 
     # Both kinds have a `__new__` and no `__init__`, as the paths of pathlib do: Python runs `__init__` again on what this one returns.
     def __new__(
@@ -70,6 +79,7 @@ class System(Shown):
         system = ResidualSystem.of(A, F, C, G, field=field, n=n, m=m, p=p)
         if B is None:
             return system
+        _refuse_what_has_no_rows({"B": B, "D": D})
         return _with_inputs(system, B, D, _dimension("n_u", None, (B, 1), (D, 1)), "n_u")
 
     def __getnewargs__(self) -> tuple[Any, ...]:
@@ -96,6 +106,11 @@ class System(Shown):
         return self.residual.C.nrows
 
     @property
+    def nu(self) -> int:
+        """n_u is the number of inputs."""
+        return self.B.ncols
+
+    @property
     def sizes(self) -> str:
         """This says how many states, faults and outputs there are, and over which field."""
         return f"{counted(self.n, 'state')}, {counted(self.m, 'fault')}, {counted(self.p, 'output')}, over {field_words(self.field)}"
@@ -109,6 +124,11 @@ class System(Shown):
         """The pairs are the matrices."""
         for name in "AFCG":
             yield from named_matrix(name, getattr(self.residual, name))
+
+    def __str__(self) -> str:
+        names = "AFCG" + ("BD" if self.nu else "")
+        where = "" if self.field == QQ else f" over {self.field}"
+        return ", ".join(f"{name}={getattr(self, name)}" for name in names) + where
 
     def to_json(self) -> dict[str, Any]:
         """The result is the dict that exact files hold."""
@@ -167,6 +187,7 @@ class ResidualSystem(System):
         n, m, p are needed where a dimension is zero. Raises InvalidInput.
         """
         given = {"A": A, "F": F, "C": C, "G": G}
+        _refuse_what_has_no_rows(given)
         n = _dimension("n", n, (A, 0), (A, 1), (F, 0), (C, 1))
         m = _dimension("m", m, (F, 1), (G, 1))
         p = _dimension("p", p, (C, 0), (G, 0))
@@ -187,9 +208,15 @@ class ResidualSystem(System):
         """The result has the same A, C and other fault matrices (n x m', p x m')."""
         return ResidualSystem(self.A, F, self.C, G)
 
-    def __str__(self) -> str:
-        where = "" if self.field == QQ else f" over {self.field}"
-        return f"A={self.A}, F={self.F}, C={self.C}, G={self.G}{where}"
+    @property
+    def B(self) -> Matrix:  # type: ignore[override]
+        """B is n x 0: there are no inputs."""
+        return Matrix.zero(self.field, self.n, 0)
+
+    @property
+    def D(self) -> Matrix:  # type: ignore[override]
+        """D is p x 0: there are no inputs."""
+        return Matrix.zero(self.field, self.p, 0)
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -223,9 +250,24 @@ class FaultySystem(System):
         return self
 
     @property
-    def nu(self) -> int:
-        """nu is the number of inputs."""
-        return self.B.ncols
+    def A(self) -> Matrix:  # type: ignore[override]
+        """A is n x n, that of `residual`."""
+        return self.residual.A
+
+    @property
+    def F(self) -> Matrix:  # type: ignore[override]
+        """F is n x m, that of `residual`."""
+        return self.residual.F
+
+    @property
+    def C(self) -> Matrix:  # type: ignore[override]
+        """C is p x n, that of `residual`."""
+        return self.residual.C
+
+    @property
+    def G(self) -> Matrix:  # type: ignore[override]
+        """G is p x m, that of `residual`."""
+        return self.residual.G
 
     @property
     def sizes(self) -> str:
@@ -245,6 +287,18 @@ class FaultySystem(System):
         if self.nu == 0 or "n" in result:
             result |= {"n": self.n, "m": self.m, "p": self.p, "nu": self.nu}
         return result | {"B": self.B.to_json(), "D": self.D.to_json()}
+
+
+def residual_of(given: object, where: str = "system") -> ResidualSystem:
+    """The result is the residual system of a System of either kind. Raises InvalidInput for anything else, and says what to try."""
+    if isinstance(given, System):
+        return given.residual
+    hint = ""
+    if isinstance(given, (str, PathLike)):
+        hint = "; the system in a file is faultspace.exact.read_system(json.load(open(path)))"
+    elif isinstance(given, Mapping):
+        hint = "; faultspace.exact.read_system takes the dict of a file"
+    raise InvalidInput(f"{where}: got {shorten(given)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them{hint}")
 
 
 def counted(count: int, word: str) -> str:
@@ -328,6 +382,13 @@ def _with_inputs(system: ResidualSystem, B: object, D: object, nu: int, name: st
     return FaultySystem(system, B, Matrix.of(D, system.field, shape=(system.p, nu), where="D"))
 
 
+def _refuse_what_has_no_rows(given: Mapping[str, object]) -> None:
+    """Raises InvalidInput for what is no matrix at all, before its dimensions are asked for."""
+    for name, entries in given.items():
+        if not isinstance(entries, (list, tuple)) and len(getattr(entries, "shape", ())) != 2:
+            raise InvalidInput(not_rows(entries, name))
+
+
 def _supported(name: str, size: int) -> None:
     if size > MAX_DIMENSION:
         raise InvalidInput(f"{name}: got {size}, at most {MAX_DIMENSION} is supported")
@@ -359,7 +420,7 @@ def _extent(entries: object, axis: int) -> int | None:
     """
     if isinstance(entries, (Matrix,)):
         return entries.shape[axis]
-    if hasattr(entries, "shape"):
+    if hasattr(entries, "shape") and len(entries.shape) == 2:
         return int(entries.shape[axis])
     if isinstance(entries, (list, tuple)) and entries:
         if axis == 0:

@@ -9,20 +9,23 @@ reachability_matrix    [F, AF, ..., A^(n-1) F]                                  
 from __future__ import annotations
 
 from ..algebra.matrices import Matrix, beside, stacked
-from .systems import ResidualSystem
+from ..algebra.validation import fits, natural
+from .systems import System, residual_of
 
 
-def observability_matrix(system: ResidualSystem, s: int) -> Matrix:
+def observability_matrix(system: System, s: int) -> Matrix:
     """The result is O_s, of shape p s x n: the s block rows C, C A, ..., C A^(s-1), which take x(0) to the outputs of s samples.
 
-    `system` is a ResidualSystem with n states and p outputs. Source: [G25] Theorem 2 after [SB21]; [K80].
+    `system` is a System of either kind with n states and p outputs. Source: [G25] Theorem 2 after [SB21]; [K80].
 
-    Raises nothing for s >= 0; O_0 has no rows.
+    Raises InvalidInput for what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries. O_0 has no rows.
 
     >>> from faultspace.exact import ResidualSystem, observability_matrix
     >>> observability_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 3)
     [[1], [1/2], [1/4]]
     """
+    system = residual_of(system)
+    fits(natural(s, "s") * system.p, system.n, "s")
     blocks = [Matrix.zero(system.field, 0, system.n)]
     row = system.C
     for _ in range(s):
@@ -31,17 +34,19 @@ def observability_matrix(system: ResidualSystem, s: int) -> Matrix:
     return stacked(*blocks)
 
 
-def toeplitz_matrix(system: ResidualSystem, s: int) -> Matrix:
+def toeplitz_matrix(system: System, s: int) -> Matrix:
     """The result is T_s, of shape p s x m s: G on the diagonal and C A^(i-j-1) F below, the response to the fault from rest.
 
-    `system` is a ResidualSystem with m faults and p outputs. Source: [G25] Theorem 2 after [SB21].
+    `system` is a System of either kind with m faults and p outputs. Source: [G25] Theorem 2 after [SB21].
 
-    Raises nothing for s >= 0; T_0 is empty.
+    Raises InvalidInput for what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries. T_0 is empty.
 
     >>> from faultspace.exact import ResidualSystem, toeplitz_matrix
     >>> toeplitz_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 3)
     [[0, 0, 0], [1, 0, 0], [1/2, 1, 0]]
     """
+    system = residual_of(system)
+    fits(natural(s, "s") * system.p, s * system.m, "s")
     markov = [system.G]
     state = system.F
     for _ in range(1, s):
@@ -52,13 +57,13 @@ def toeplitz_matrix(system: ResidualSystem, s: int) -> Matrix:
     return stacked(Matrix.zero(system.field, 0, system.m * s), *rows)
 
 
-def window_matrix(system: ResidualSystem, s: int) -> Matrix:
+def window_matrix(system: System, s: int) -> Matrix:
     """The result is [O_s T_s], of shape p s x (n + m s): its column space is the set of outputs that s samples can show.
 
-    It takes (x(0), v(0), ..., v(s-1)) to (r(0), ..., r(s-1)). `system` is a ResidualSystem; for ranks at many s ask
+    It takes (x(0), v(0), ..., v(s-1)) to (r(0), ..., r(s-1)). `system` is a System; for ranks at many s ask
     `kernel_representation(system).rank`, which builds no such matrix. Source: [G25] Theorem 2 after [SB21].
 
-    Raises nothing for s >= 0.
+    Raises InvalidInput for what is no system, for s that is no integer >= 0, and for a window of more than 2^27 entries.
 
     >>> from faultspace.exact import ResidualSystem, rank, window_matrix
     >>> built = window_matrix(ResidualSystem.of([["1/2"]], [[1]], [[1]], [[0]]), 2)
@@ -68,17 +73,18 @@ def window_matrix(system: ResidualSystem, s: int) -> Matrix:
     return beside(observability_matrix(system, s), toeplitz_matrix(system, s))
 
 
-def reachability_matrix(system: ResidualSystem) -> Matrix:
+def reachability_matrix(system: System) -> Matrix:
     """The result is [F, A F, ..., A^(n-1) F], of shape n x n m: its column space is what the fault can reach from rest.
 
-    `system` is a ResidualSystem with n states and m faults; (A, F) is controllable iff the rank is n. Source: [K80].
+    `system` is a System of either kind with n states and m faults; (A, F) is controllable iff the rank is n. Source: [K80].
 
-    Raises nothing for a ResidualSystem.
+    Raises InvalidInput for what is no system.
 
     >>> from faultspace.exact import ResidualSystem, reachability_matrix
     >>> reachability_matrix(ResidualSystem.of([[0, 1], [0, 0]], [[0], [1]], [[1, 0]], [[0]]))
     [[0, 1], [1, 0]]
     """
+    system = residual_of(system)
     blocks = [Matrix.zero(system.field, system.n, 0)]
     column = system.F
     for _ in range(system.n):

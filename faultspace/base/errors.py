@@ -2,6 +2,15 @@
 
 InvalidInput    input that cannot be used: the text is one line, what was got and what is needed
 InvalidData     the same of measured data
+    >>> import faultspace as fs
+    >>> try:
+    ...     fs.System(A=1, F=[[1]], C=[[1]], G=[[0]])
+    ... except fs.errors.InvalidInput as error:
+    ...     print(error)
+    A: got 1, expected a list of rows, try [[1]]
+
+What the checker says of a certificate it raises as `faultspace.proofs.Rejected` and `faultspace.proofs.Malformed`. Beside the errors:
+
 shorten         a value cut to a length that fits an error message
 quote_path      a file name as it can be shown on one line
 in_file         puts a file's name in front of the complaint about what is in it
@@ -11,6 +20,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+__all__ = ["InvalidData", "InvalidInput", "in_file", "quote_path", "shorten"]
+
+
+def __dir__() -> list[str]:
+    return __all__.copy()
 
 
 class InvalidInput(ValueError):

@@ -25,7 +25,8 @@ app = typer.Typer(
     name="faultspace",
     help="Exact verdicts on the claims of a paper about systems with additive faults, and exact answers about your own system.",
     epilog="A SYSTEM is a JSON file, - for standard input, or example:NAME (see: faultspace examples). "
-    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 70 an error of ours.",
+    "Exit codes: 0 answered as expected, 1 not as expected, 2 bad input, 3 from check: verified under an assumption that is told, "
+    "70 an error of ours, 130 interrupted.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -115,7 +116,7 @@ def verify(
     claim: Annotated[
         list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, a page of it; may be repeated.")
     ] = None,
-    jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="all cores")] = None,
+    jobs: Annotated[int | None, typer.Option(metavar="K", min=1, help="Processes at a time.", show_default="all cores")] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
     recheck: Annotated[
         bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
@@ -218,9 +219,13 @@ def identify(
             metavar="DIR", show_default=False, help="Write model, fault space, signal, plots there; only our own files are replaced."
         ),
     ],
-    order: Annotated[int | None, typer.Option(min=1, help="Number of states.", show_default="by the gap in the singular values")] = None,
-    block_rows: Annotated[int | None, typer.Option(min=2, help="Samples of a window.", show_default="20, or what is needed")] = None,
-    faults: Annotated[int | None, typer.Option(min=0, help="Number of independent faults.", show_default="estimated")] = None,
+    order: Annotated[
+        int | None, typer.Option(metavar="N", min=1, help="Number of states.", show_default="by the gap in the singular values")
+    ] = None,
+    block_rows: Annotated[
+        int | None, typer.Option(metavar="K", min=2, help="Samples of a window.", show_default="20, or what is needed")
+    ] = None,
+    faults: Annotated[int | None, typer.Option(metavar="K", min=0, help="Number of independent faults.", show_default="estimated")] = None,
     healthy_until: Annotated[
         int | None, typer.Option(metavar="K", min=1, help="The first K samples are without fault: count beyond them.", show_default=False)
     ] = None,
@@ -247,11 +252,13 @@ def identify(
 @_command("monte-carlo")
 def monte_carlo(
     out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write tables, figures and all cases there.")],
-    systems: Annotated[int, typer.Option(min=1, help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")] = 100,
-    samples: Annotated[int, typer.Option(min=1, help="Samples of each record.")] = 1001,
-    jobs: Annotated[int | None, typer.Option(min=1, help="Processes at a time.", show_default="as many cores as are worth it")] = None,
+    systems: Annotated[int, typer.Option(metavar="K", min=1, help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")] = 100,
+    samples: Annotated[int, typer.Option(metavar="K", min=1, help="Samples of each record.")] = 1001,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="K", min=1, help="Processes at a time.", show_default="as many cores as are worth it")
+    ] = None,
     dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Equal seeds give equal results, whoever does the work.")] = 1907,
+    seed: Annotated[int, typer.Option(metavar="K", min=0, help="Equal seeds give equal results, whoever does the work.")] = 1907,
     json: Json = False,
 ) -> int:
     """Repeat the paper's Monte Carlo study.

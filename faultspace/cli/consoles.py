@@ -79,7 +79,12 @@ def print_table(console: Console, table: Table) -> None:
     """Print the table where its columns fit, and else a paragraph for each row, which names every column that it has a value for."""
     unbounded = console.options.update(width=UNBOUNDED)  # else the measure is no wider than the window
     if Measurement.get(console, unbounded, table).minimum <= console.width:
-        console.print(table)
+        if console.is_terminal:
+            console.print(table)
+            return
+        with console.capture() as captured:
+            console.print(table)
+        console.print("\n".join(one.rstrip() for one in captured.get().splitlines()), soft_wrap=True)
         return
     if table.title:
         paragraph(console, str(table.title))

@@ -31,6 +31,8 @@ from ..exact.system.systems import read_system as system_of
 
 _HINT = "see from_float_exactly"
 _ADVICE = "--floats-exactly takes them as the dyadic rationals that they are"
+_TABLES = (".csv", ".tsv", ".txt", ".dat")
+_IDENTIFY = "`faultspace identify` takes it"
 
 MODEL_FORMAT = "faultspace-model/1"  # FORMAT of numeric/model/models.py, which would load numpy; a test compares the two
 _MODEL_KEYS = ("format", "n", "n_u", "p", "n_v", "A", "B", "C", "D", "F", "G", "inputs", "outputs", "dt")
@@ -77,7 +79,8 @@ def read_json(name: str, *, number: Callable[[str], object] = float) -> Any:
             return json.loads(text, object_pairs_hook=_object, parse_constant=_refused, parse_float=number, parse_int=_integer)
         except json.JSONDecodeError as error:
             place = f"line {error.lineno} column {error.colno}"
-            raise InvalidInput(f"got text that is not JSON ({error.msg.rstrip(':')}, {place}), expected JSON") from None
+            hint = f"; measured data? {_IDENTIFY}" if Path(name).suffix.lower() in _TABLES else ""
+            raise InvalidInput(f"got text that is not JSON ({error.msg.rstrip(':')}, {place}), expected JSON{hint}") from None
 
 
 def write_json(path: Path, document: object) -> None:

@@ -71,7 +71,7 @@ class Audit(Shown, Sequence[CheckResult]):
     def title(self) -> str:
         """This says how many checks there are of which functions, and how many failed."""
         names = ", ".join(dict.fromkeys(one.function for one in self.results))
-        return f"{len(self)} checks of {names or 'nothing'}: {len(self.failed)} failed"
+        return f"{len(self)} check{'' if len(self) == 1 else 's'} of {names or 'nothing'}: {len(self.failed)} failed"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield a line for each function, then the failures in words."""

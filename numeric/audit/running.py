@@ -8,12 +8,12 @@ ExpectedFailure           a failure with its reason; turns red when the check pa
 from __future__ import annotations
 
 import atexit
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeVar
 
-from ...base.errors import InvalidData
+from ...base.errors import InvalidData, shorten
 from ...base.processes import Limits
 from .catalogue import chosen
 from .isolation import Isolated
@@ -46,26 +46,27 @@ def audit(
     *,
     command: Command | None = None,
     peer: str | None = None,
-    only: Sequence[str] = (),
+    only: Sequence[str] | str = (),
     expected: Sequence[ExpectedFailure] = (),
     seconds: float = SECONDS,
     gibibytes: float = GIBIBYTES,
     on_progress: Callable[[str, int, int], None] = lambda name, done, total: None,
 ) -> Audit:
-    """An implementation of subspace identification and fault estimation, of anyone's, through checks with exactly known answers.
+    """Audit an implementation of subspace identification and fault estimation, of anyone's, by checks with exactly known answers.
 
     `adapter` has one or more of the functions that `faultspace.numeric.audit.adapter` describes (`identify`, `residual`, `fault_dimension`,
     `fault_space`, ...; arrays are time-major, y is N x p and u is N x n_u). It is any object, a module say, or a name, `package.module`,
     `module:object`, `file.py` or `file.py:object`. In its place `command` names a program that speaks JSON lines, and `peer` a published
     package that an adapter comes for; without any of the three our own numeric branch is audited. `only` names the checks to run, by slug
-    or slug[vector]; `expected` lists failures that are known; `on_progress(name, done, total)` hears of the progress.
+    or slug[vector], one or a list; `expected` lists failures that are known; `on_progress(name, done, total)` hears of the progress.
 
     What has a name runs in a process of its own, where a check (of a program: an answer) may take `seconds` and hold `gibibytes`; an
     object runs in this process, and nothing limits it. What the functions do, this never raises. The Audit is a sequence of results, one
     a check: `verdict`, and what was `got` beside the `bound`; it has `failed`, `summary()` and `to_json()`. Source: the checks take their
     truth from [G25] and the claims of this library.
 
-    Raises InvalidData for an implementation that cannot be reached or has none of the functions, and for names of checks that do not exist.
+    Raises InvalidData for an implementation that cannot be reached or has none of the functions, for names of checks that do not exist, and
+    for `seconds` or `gibibytes` that are not positive.
 
     >>> import faultspace as fs
     >>> from faultspace.numeric.audit import reference
@@ -75,6 +76,12 @@ def audit(
     >>> [(one.name, one.verdict, one.got, one.bound) for one in found if one.function == "fault_dimension"]
     [('fault-dimension[one-fault]', 'pass', 0.0, 0.0)]
     """
+    for name, value in (("seconds", seconds), ("gibibytes", gibibytes)):
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < float("inf"):
+            raise InvalidData(f"{name}: got {shorten(value)}, expected a positive number")
+    only = [only] if isinstance(only, str) else only
+    if not isinstance(only, Collection):
+        raise InvalidData(f"only: got {shorten(only)}, expected a list of names of checks")
     with opened(adapter, command, peer, Limits(seconds, int(gibibytes * 2**30))) as subject:
         todo = _todo(subject, only, expected)
         results = []

@@ -36,7 +36,7 @@ from typing import Any
 
 import numpy as np
 
-from ...base.errors import InvalidData
+from ...base.errors import InvalidData, shorten
 from ...base.sheets import Shown
 from ..data.validation import positive
 from .cases import LIKELIHOOD, PAPER, corrected_case, corrected_identified_case, identified_case, published_case
@@ -148,6 +148,8 @@ def monte_carlo(
         if plan not in STUDIES:
             raise InvalidData(f"plan: got {plan!r}; one of {', '.join(STUDIES)} is needed")
         plan = STUDIES[plan]
+    if not isinstance(plan, Plan):
+        raise InvalidData(f"plan: got {shorten(plan)}; one of {', '.join(STUDIES)} is needed")
     systems, samples = positive(systems, "systems"), positive(samples, "samples")
     if seed < 0:
         raise InvalidData(f"seed: got {seed}; a whole number from 0 on is needed")

@@ -16,7 +16,7 @@ from ...exact.limits.experiments import Experiment
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
-from ...exact.system.systems import ResidualSystem, System
+from ...exact.system.systems import ResidualSystem, System, residual_of
 from . import limit_certificates as limits
 from . import structure_certificates as structure
 from .structure_certificates import Certificate, Unprovable
@@ -94,7 +94,7 @@ OF_LIMITS = ("input-limit", "moesp-limit")
 
 
 def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **options: Any) -> Certificate:
-    """Return the certificate of this kind about a system: a statement with a witness, as a JSON-ready dict that `check` can decide.
+    """Make the certificate of this kind about a system: a statement with a witness, as a JSON-ready dict that `check` can decide.
 
     `subject` is an exact system (its inputs play no part), or, for "moesp-limit" and "input-limit", an Experiment or the dict of an
     experiment's file. Some kinds take options: `other`, a second system, for "behaviour-difference", "behaviour-equality",
@@ -143,9 +143,7 @@ def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **optio
 
 
 def _system(given: Any, name: str) -> ResidualSystem:
-    if not isinstance(given, System):
-        raise InvalidInput(f"{name}: got {shorten(given)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them")
-    return given.residual
+    return residual_of(given, name)
 
 
 def _choose(known: Mapping[str, Any], name: str, given: object) -> Any:

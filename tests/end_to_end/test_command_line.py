@@ -416,3 +416,24 @@ def test_the_schema_of_a_system_refuses(change: dict[str, object]) -> None:
     validator("system").validate(sound)
     with pytest.raises(jsonschema.ValidationError):
         validator("system").validate(sound | change)
+
+
+def test_the_help_tells_every_exit_code() -> None:
+    told = call("--help").out.partition("Exit codes:")[2]
+    assert [code for code in (0, 1, 2, 3, 70, 130) if f"{code} " not in " ".join(told.split())] == []
+
+
+@pytest.mark.parametrize("name", ["identify", "monte-carlo", "verify"])
+def test_numbers_are_letters_in_the_help(name: str) -> None:
+    assert "int range" not in call(name, "--help").out
+
+
+def test_measured_data_for_a_system_are_told_where_to_go(tmp_path: Path) -> None:
+    (tmp_path / "x.csv").write_text("a,b\n1,2\n")
+    run = call("inspect", str(tmp_path / "x.csv"))
+    assert run.code == 2 and run.err.endswith("measured data? `faultspace identify` takes it\n")
+
+
+def test_a_piped_table_has_no_trailing_blanks() -> None:
+    lines = call("audit", "--peers").out.splitlines()
+    assert len(lines) > 5 and [one for one in lines if one != one.rstrip()] == []

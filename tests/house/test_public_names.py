@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 ROOMS = ("faultspace", "faultspace.exact", "faultspace.numeric", "faultspace.proofs")
-PUBLIC = {room: tuple(getattr(importlib.import_module(room), "__all__", ())) for room in ROOMS}
+PUBLIC = {room: tuple(name for name in importlib.import_module(room).__all__ if f"{room}.{name}" not in ROOMS) for room in ROOMS}
 CALLED = [(room, name) for room in ROOMS for name in PUBLIC[room] if name not in ("errors", "Malformed", "Rejected", "Unprovable")]
 # They hold, read, check and judge what the others make; nobody's theorem stands behind them.
 WITHOUT_SOURCE = {
@@ -54,6 +54,14 @@ def lacking(docstring: str, *, from_literature: bool) -> list[str]:
 
 def test_import_loads_nothing_heavy() -> None:
     assert loaded_after("import faultspace, faultspace.exact, faultspace.proofs") == set()
+
+
+def test_the_rooms_are_there_after_the_import_of_the_front_door() -> None:
+    for room in ROOMS[1:]:
+        assert loaded_after(f"import faultspace; assert {room!r} in repr({room})") == set()
+    front = importlib.import_module("faultspace")
+    assert {"exact", "numeric", "proofs", "errors", "__version__"} <= set(dir(front))
+    assert set(dir(front.errors)) == {"InvalidInput", "InvalidData", "in_file", "quote_path", "shorten"}
 
 
 def test_import_is_fast() -> None:
