@@ -92,7 +92,7 @@ def count(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
     """Print a line for each number of zeros, and one for all of them, with true and with identified A, C."""
-    told: list[tuple[int, str, float, float, bool, float]] = []
+    rows: list[tuple[int, str, float, float, bool, float]] = []
     for trial in clock.range(trials):
         zeros = trial % 4
         system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
@@ -106,10 +106,10 @@ def space(seed: int, trials: int, samples: int, clock: Clock) -> None:
             if name == "true" and found.n_z == system.Z.shape[1] and found.uncertainty is not None:
                 inside = bool(principal_angles(system.Z, basis)[-1] <= found.uncertainty.angle())
             verdict = "right" if found.zeta == zeros else "undecided" if found.zeta is None else "wrong"
-            told.append((zeros, f"{name} {verdict}", 100 * two_sided_error(system.Z, basis), seconds, inside, float(found.n_z - N_V)))
+            rows.append((zeros, f"{name} {verdict}", 100 * two_sided_error(system.Z, basis), seconds, inside, float(found.n_z - N_V)))
     for name in ("true", "PI-MOESP", "reduction"):
         for group in ((0,), (1,), (2,), (3,), (0, 1, 2, 3)):
-            part = [row for row in told if row[0] in group and row[1].startswith(name)]
+            part = [row for row in rows if row[0] in group and row[1].startswith(name)]
             if not part:
                 continue
             verdicts = [sum(row[1].endswith(verdict) for row in part) for verdict in ("right", "undecided", "wrong")]

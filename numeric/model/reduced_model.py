@@ -74,7 +74,7 @@ class ReducedModel:
 
     @property
     def order(self) -> int:
-        """n."""
+        """n is the number of states."""
         return self.model.n
 
     @property

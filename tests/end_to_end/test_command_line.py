@@ -419,8 +419,8 @@ def test_the_schema_of_a_system_refuses(change: dict[str, object]) -> None:
 
 
 def test_the_help_tells_every_exit_code() -> None:
-    told = call("--help").out.partition("Exit codes:")[2]
-    assert [code for code in (0, 1, 2, 3, 70, 130) if f"{code} " not in " ".join(told.split())] == []
+    epilogue = call("--help").out.partition("Exit codes:")[2]
+    assert [code for code in (0, 1, 2, 3, 70, 130) if f"{code} " not in " ".join(epilogue.split())] == []
 
 
 @pytest.mark.parametrize("name", ["identify", "monte-carlo", "verify"])

@@ -62,10 +62,10 @@ def in_the_time_domain(samples: int) -> Array:
 def agrees_in_time(bound: Bound) -> bool:
     """End effects are the same for two lengths: the difference is what the samples in between tell."""
     longer, shorter = 70, 50
-    told = uncertainty_of(PLANT, in_the_time_domain(longer) - in_the_time_domain(shorter))
+    slow = uncertainty_of(PLANT, in_the_time_domain(longer) - in_the_time_domain(shorter))
     found = bound(PLANT, COLOURED, longer - shorter)
-    same = np.allclose(found.markov(8), told.markov(8), rtol=1e-4) and np.allclose(found.poles(), told.poles(), rtol=1e-4)
-    return bool(same and np.allclose(found.transfer([0.5, 2.0]), told.transfer([0.5, 2.0]), rtol=1e-4))
+    same = np.allclose(found.markov(8), slow.markov(8), rtol=1e-4) and np.allclose(found.poles(), slow.poles(), rtol=1e-4)
+    return bool(same and np.allclose(found.transfer([0.5, 2.0]), slow.transfer([0.5, 2.0]), rtol=1e-4))
 
 
 def agrees_with_likelihood(bound: Bound) -> bool:

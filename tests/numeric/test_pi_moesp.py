@@ -283,8 +283,8 @@ def test_the_order_rule_on_named_values() -> None:
     assert clean.ratio == pytest.approx(30)
     slow = choose_order(np.array([0.7**k for k in range(9)]), 1e-12, 8)
     assert not slow.clean
-    rivals = choose_order(np.array([100.0, 10.0, 0.8, 0.7, 0.6, 0.5]), 1e-12, 5)
-    assert (rivals.order, rivals.clean) == (2, False), "12.5 against 10 decides nothing"
+    ambiguous = choose_order(np.array([100.0, 10.0, 0.8, 0.7, 0.6, 0.5]), 1e-12, 5)
+    assert (ambiguous.order, ambiguous.clean) == (2, False), "12.5 against 10 decides nothing"
     assert choose_order(np.array([1.0, 0.9, 0.8, 0.7, 1e-9]), 1e-12, 4).order != 4, "the last of a random matrix may be small by itself"
     assert choose_order(np.array([1.0, 0.9, 0.8, 0.7, 1e-15]), 1e-12, 4).order == 4
     assert choose_order(np.array([1e-15, 1e-16]), 1e-12, 1).order == 0

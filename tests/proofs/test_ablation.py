@@ -116,8 +116,8 @@ def test_a_witness_that_is_not_degenerate_comes_first_and_a_degenerate_one_is_to
     smaller = replace(poor, b=True, c=True)
     found = rows([*meets, smaller, sound])["a"]
     assert found.evidence.startswith(str(sound)) and "degenerate ones left out" in found.evidence
-    told = rows([*meets, smaller])["a"]
-    assert told.verdict == "REFUTED" and told.evidence.endswith("every counterexample found is degenerate: C = 0")
+    row = rows([*meets, smaller])["a"]
+    assert row.verdict == "REFUTED" and row.evidence.endswith("every counterexample found is degenerate: C = 0")
 
 
 def test_a_hypothesis_follows_from_the_others_where_a_reason_is_given_and_no_subject_lacks_it() -> None:
@@ -138,10 +138,10 @@ def test_a_row_is_proved_where_the_theorems_do_without_what_is_dropped() -> None
     found = rows_of(proved, {"a": "REFUTED", "b": "CERTIFIED", "c": "CERTIFIED"})
     assert {name for name, row in found.items() if row.theorems} == {"b", "c", "b c"}
     checked = _Machine(object(), None, "")  # type: ignore[arg-type]
-    told = {name: _row_with_theorems(row, checked) for name, row in found.items()}
-    assert [told[name].verdict for name in ("a", "b", "c", "b c", "a b")] == ["REFUTED", "PROVED", "PROVED", "PROVED", "REFUTED"]
-    assert all(row.as_expected for row in told.values()) and told["b"].expected == "PROVED" and told["b"].meaning == "not needed"
-    assert "some_theorem" in told["b"].evidence and told["b"].to_json()["theorems"] == ["some_theorem"]
+    decided = {name: _row_with_theorems(row, checked) for name, row in found.items()}
+    assert [decided[name].verdict for name in ("a", "b", "c", "b c", "a b")] == ["REFUTED", "PROVED", "PROVED", "PROVED", "REFUTED"]
+    assert all(row.as_expected for row in decided.values()) and decided["b"].expected == "PROVED" and decided["b"].meaning == "not needed"
+    assert "some_theorem" in decided["b"].evidence and decided["b"].to_json()["theorems"] == ["some_theorem"]
     without_rocq = _row_with_theorems(found["b"], _Machine(None, None, ""))
     assert without_rocq == found["b"] and without_rocq.expected == "CERTIFIED" and without_rocq.to_json()["theorems"] == []
     broken = _row_with_theorems(found["b"], _Machine(None, "Rocq: broken", ""))

@@ -17,5 +17,5 @@ def test_every_kind_of_the_checker_can_be_made() -> None:
 def test_the_words_of_certify_name_every_kind_and_option() -> None:
     quoted = set(re.findall(r'"([\w-]+)"', certify.__doc__ or ""))
     assert {*MAKERS} <= quoted
-    told = set(re.findall(r"`(\w+)`", certify.__doc__ or ""))
-    assert {name for maker in MAKERS.values() for name in (*maker.needed, *maker.optional)} <= told
+    named = set(re.findall(r"`(\w+)`", certify.__doc__ or ""))
+    assert {name for maker in MAKERS.values() for name in (*maker.needed, *maker.optional)} <= named
