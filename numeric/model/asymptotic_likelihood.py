@@ -93,7 +93,24 @@ def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | 
         found = replace(found, orders=evidence, notes=notes)
     else:
         found = reduced(merge_windows([arx_windows(source, carried) for source in sources]), n)
-    return replace(found, initial_states=tuple(_initial_state(source, found.model) for source in sources))
+    notes = found.notes + _offsets(sources)
+    return replace(found, initial_states=tuple(_initial_state(source, found.model) for source in sources), notes=notes)
+
+
+def _offsets(sources: Sequence[Pieces]) -> tuple[str, ...]:
+    """Say which outputs are an offset for the most part: their mean has more power than what varies, and the model does not fit it."""
+    samples, first, second = 0, np.zeros(1), np.zeros(1)
+    for source in sources:
+        for y, _ in source:
+            samples, first, second = samples + len(y), first + y.sum(axis=0), second + (y * y).sum(axis=0)
+    mean = first / samples
+    large = np.flatnonzero(2 * mean**2 > second / samples)
+    if not large.size:
+        return ()
+    names = ", ".join(str(channel) for channel in large)
+    return (
+        f"outputs {names} (from 0) have a mean larger than their deviation, which the model does not fit: subtract the means of y and u",
+    )
 
 
 def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tuple[list[int], int]:

@@ -329,6 +329,15 @@ def test_a_plant_on_the_circle_is_told() -> None:
         assert np.max(np.abs(found.model.poles)) < 1 + 1e-12 and "integrate" in found.notes[0] and error(found, plant) < 0.02
 
 
+def test_an_offset_is_told_and_a_mean_of_zero_is_not() -> None:
+    u, noise = np.random.default_rng(5).standard_normal((2, 400, 1))
+    y = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]).simulate(u) + 0.1 * noise
+    assert arx_reduction(y, u, order=1).notes == ()
+    (note,) = (one for one in arx_reduction(y + 5, u, order=1).notes if "mean" in one)
+    assert note.startswith("outputs 0 (from 0) have a mean larger than their deviation")
+    assert not any("mean" in one for one in arx_reduction(y + 0.5, u, order=1).notes)
+
+
 def test_an_order_too_low_is_told() -> None:
     found = arx_reduction(PLANT.simulate(U) + 0.1 * coloured(0.9, N, 2), U, order=1)
     assert "misfit" in found.notes[0]
