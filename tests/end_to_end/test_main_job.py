@@ -7,11 +7,14 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import faultspace.proofs
+from faultspace.proofs.trust.structure_certificates import sha256
 from faultspace.proofs.verdict.ledger import load
+from tests.oracle import truth
 
 from .commands import command
 
@@ -32,6 +35,23 @@ def test_verify_quick_is_as_expected_and_makes_the_certificates_of_the_tree(tmp_
     kept = {path.name: path.read_text("utf-8") for path in HEADLINES.glob("*-*.json")}
     assert made.keys() == kept.keys(), "make them again: python -m tests.house.certificates"
     assert all(json.loads(made[name]) == json.loads(kept[name]) for name in made)
+    refutations_are_smallest_and_true(report, [json.loads(text) for text in made.values()])
+
+
+def refutations_are_smallest_and_true(report: dict[str, Any], certificates: list[dict[str, Any]]) -> None:
+    """See that the refutations of these claims come from a search, and that the oracle finds their statements true."""
+    by_hash = {sha256(certificate): certificate for certificate in certificates}
+    count = 0
+    for claim in report["claims"]:
+        if claim["id"] in ("theorem-3-ii", "problem-11", "theorem-2"):
+            for reading in claim["readings"]:
+                if reading["verdict"] == "REFUTED":
+                    assert reading["certificates"] and "the smallest with" in reading["evidence"], reading["id"]
+                    for one in reading["certificates"]:
+                        certificate = by_hash[one["sha256"]]
+                        assert truth(certificate["kind"], certificate["statement"]), one["sha256"]
+                        count += 1
+    assert count > 20
 
 
 def test_the_certificates_of_the_tree_are_accepted_by_a_lone_checker(tmp_path: Path) -> None:
