@@ -53,7 +53,7 @@ class Arx:
 
     @property
     def order(self) -> int:
-        """Return h."""
+        """This is h, the number of lags."""
         return len(self.outputs) - 1
 
     def plant(self, angles: Array) -> ComplexArray:

@@ -9,7 +9,7 @@ k signals; hence rows of degree d are as likely as those of degree D > d or less
 which, where d suffices, follows a chi-squared law with (D - d) (p + n_u) degrees of freedom [W38] multiplied by a misfit. Two things
 keep the misfit above one. At d the parameters of D are not identified: rows of D are rows of d times factors that can have any root, and
 the best root is taken, a maximum over a process that has the stated law at each root [D87]. And the colour of the noise is an
-autoregression of finite order. So the misfit is measured: `benchmarks/counting_at_the_bound.py --calibrate` does it on fresh seeds, and
+autoregression of finite order. So the misfit is measured: `benchmarks/counting_at_the_bound.py calibrate` does it on fresh seeds, and
 the parametric bootstrap for a given record.
 
     LeastDegree    the degree, the levels of all degrees, the probability that each suffices, and whether the answer is clear
