@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..data.validation import experiment, positive
 from .arx_windows import arx_windows, longest_lag, merge_windows
 from .compression import EPS, Pieces
@@ -38,6 +39,7 @@ from .weighted_reduction import spectral_radius
 MOST_FREE = 1 << 16  # samples from which an initial state is fitted at most: they stand in memory
 
 
+@one_thread()
 def arx_reduction(
     y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLike | None = None, *, order: int | None = None, lags: int | None = None
 ) -> ReducedModel:
@@ -62,6 +64,7 @@ def arx_reduction(
     return _from_experiments([experiment(y, u)], order, lags)
 
 
+@one_thread()
 def arx_reduction_experiments(
     experiments: Sequence[tuple[ArrayLike, ArrayLike]], *, order: int | None = None, lags: int | None = None
 ) -> ReducedModel:
