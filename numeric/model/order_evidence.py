@@ -19,12 +19,18 @@ weighed         the evidence of rows
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
+from ...base.sheets import Shown
+from ..data.plain import plain
+from ..drawing import plot_criteria
+
 LEVEL = 0.95
+WIDTHS = (5, 10, 8, 8, 5)  # of the columns of the table
 
 
 @dataclass(frozen=True)
@@ -51,12 +57,14 @@ class OrderRow:
         return self.cost + 2 * self.parameters
 
 
-@dataclass(frozen=True)
-class OrderEvidence:
+@dataclass(frozen=True, repr=False)
+class OrderEvidence(Shown):
     """What the data say of the order of the model, where it was left open.
 
     `rows` is a list of OrderRow, one an order; `best` is the order chosen, by Akaike's criterion [A74], and `least` to `most` are the
-    orders that the data leave open, from what the odds by Schwarz's criterion [S78] suggest. Printed, it is a table. Raises nothing.
+    orders that the data leave open, from what the odds by Schwarz's criterion [S78] suggest. Look at `decided` first, then at the table of
+    `summary()`: where several orders are open and the fit to samples held back is equal, the least of them is the simpler model. Raises
+    ImportError in `plot()` without matplotlib.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction
@@ -77,13 +85,34 @@ class OrderEvidence:
         """Whether one order alone is left."""
         return self.least == self.most
 
-    def __str__(self) -> str:
-        """The table, one line an order."""
-        lines = [f"{'order':>5} {'schwarz':>12} {'akaike':>12} {'odds':>6} {'one-step':>9} {'free-run':>9} {'gap':>9}"]
+    @property
+    def title(self) -> str:
+        """Return the answer, on one short line."""
+        left = "the only one left open" if self.decided else f"left open: {self.least} to {self.most}"
+        return f"order {self.best}, {left}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield one line an order: its odds, Akaike's criterion, both fits and the gap in the singular values."""
+        columns = ("odds", "akaike", "one-step", "free-run", "gap")
+        yield "", " ".join(f"{name:>{width}}" for name, width in zip(columns, WIDTHS, strict=True))
         for row in self.rows:
-            fits = f"{row.one_step:>9.4f} {row.free_run:>9.4f} {row.gap:>9.3g}"
-            lines.append(f"{row.order:>5} {row.schwarz:>12.6g} {row.akaike:>12.6g} {row.odds:>6.3f} {fits}")
-        return "\n".join(lines)
+            gap = f"{row.gap:.0e}" if row.gap >= 1000 else f"{row.gap:.1f}"
+            texts = (f"{row.odds:.3f}", f"{row.akaike:.5g}", f"{row.one_step:.4f}", f"{row.free_run:.4f}", gap)
+            values = ["-" if text == "nan" else text for text in texts]
+            name = f"order {row.order}{', taken' if row.order == self.best else ''}"
+            yield name, " ".join(f"{value:>{width}}" for value, width in zip(values, WIDTHS, strict=True))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: the choice, the range left open and the rows; null stands for a fit or gap that there is not."""
+        names = ("cost", "parameters", "schwarz", "akaike", "odds", "one_step", "free_run", "gap")
+        rows = [{"order": row.order} | {name: plain(getattr(row, name)) for name in names} for row in self.rows]
+        return {"best": self.best, "least": self.least, "most": self.most, "decided": self.decided, "rows": rows}
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw both criteria above their least value by order, the orders left open shaded, into the matplotlib axes `ax`, new ones where
+        None are given, and return them. Raises ImportError without matplotlib."""
+        curves = {"Schwarz": [row.schwarz for row in self.rows], "Akaike": [row.akaike for row in self.rows]}
+        return plot_criteria([row.order for row in self.rows], curves, taken=self.best, open_range=(self.least, self.most), ax=ax)
 
 
 def weighed(rows: Sequence[OrderRow]) -> OrderEvidence:

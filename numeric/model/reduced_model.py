@@ -14,14 +14,17 @@ enough_angles       how many angles the sums over them need
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.stats import chi2
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown
+from ..data.plain import plain
 from .arx import Arx, adjoint, fitted_arx, input_spectrum
 from .arx_windows import ArxWindows
 from .compression import EPS
@@ -44,8 +47,8 @@ UNBELIEVABLE = 1e-6  # probability of a misfit that is not put down to chance
 AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called unstable where data or misfit say so too
 
 
-@dataclass(frozen=True, eq=False)
-class ReducedModel:
+@dataclass(frozen=True, eq=False, repr=False)
+class ReducedModel(Shown):
     """The model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
 
     `model` has A of the shape (n, n), B (n, n_u), C (p, n) and D (p, n_u). `innovation_covariance` (p, p) is that of the one-step errors
@@ -54,7 +57,9 @@ class ReducedModel:
     which is the likelihood ratio of the ARX plant against this one. `offsets` has what the outputs are at rest with u = 0, of the shape
     (p,), for each experiment: sensors' zeros, the operating point and the means of the faults, which nothing in the data tells apart.
     `initial_states` has one of the shape (n,) an experiment, by least squares, and none where the data are not there any more. `orders`
-    is the evidence where the order was left open, and `notes` say what a user must know. Raises nothing.
+    is the evidence where the order was left open, and `notes` say what a user must know. Look at `notes` first, then at `orders` where
+    the order was left open, then at the poles with their deviations. Raises ImportError in `plot()` and `to_control()` where the package
+    that they need is not installed.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction
@@ -89,6 +94,50 @@ class ReducedModel:
     def x0(self) -> Array | None:
         """State (n,) at the first sample of the first experiment."""
         return self.initial_states[0] if self.initial_states else None
+
+    def to_control(self) -> Any:
+        """Return the model as control.StateSpace. Raises ImportError without python-control."""
+        return self.model.to_control()
+
+    def to_scipy(self) -> Any:
+        """Return the model as scipy.signal.dlti."""
+        return self.model.to_scipy()
+
+    @property
+    def title(self) -> str:
+        """Return what the model is, on one short line."""
+        return f"ARX model reduced to {self.model.title.removeprefix('state-space model of ')}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the notes, what the model rests on, its poles and Markov parameters with deviations, and the evidence for the order."""
+        yield from (("note", note) for note in self.notes)
+        yield "ARX model", f"{self.arx.order} lags, {self.arx.rows} windows of the data"
+        yield "misfit against the ARX model", f"{self.cost:.4g}"
+        yield "deviation of the innovations", ", ".join(f"{size:.4g}" for size in np.sqrt(np.diag(self.innovation_covariance)))
+        yield from self.uncertainty.sheet()
+        if self.orders is not None:
+            yield self.orders.title, ""
+            yield from self.orders.sheet()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: that of the model, how sure it is, and what it rests on; null stands for what there is not."""
+        arx = {"lags": self.arx.order, "windows": self.arx.rows, "A": plain(self.arx.outputs), "B": plain(self.arx.inputs)}
+        uncertainty = {name: value for name, value in self.uncertainty.to_json().items() if name != "model"}
+        return self.model.to_json() | {
+            "order": self.order,
+            "cost": plain(self.cost),
+            "innovation_covariance": plain(self.innovation_covariance),
+            "initial_states": [plain(state) for state in self.initial_states],
+            "arx": arx,
+            "uncertainty": uncertainty,
+            "orders": None if self.orders is None else self.orders.to_json(),
+            "notes": list(self.notes),
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the poles with the regions that hold them with probability 0.95, as `uncertainty.plot` does, into the matplotlib axes `ax`,
+        new ones where None are given, and return them. Raises ImportError without matplotlib."""
+        return self.uncertainty.plot(ax)
 
 
 def reduced(windows: ArxWindows, n: int) -> ReducedModel:

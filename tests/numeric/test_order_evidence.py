@@ -52,7 +52,7 @@ def test_the_order_is_found(plant: StateSpaceModel, noise: float) -> None:
     if below is not None:
         assert right.one_step > below.one_step and right.free_run > below.free_run and right.cost < below.cost
         assert right.gap > rows[plant.n + 1].gap
-    assert len(str(found.orders).splitlines()) == 1 + len(found.orders.rows)
+    assert len(found.orders.summary().splitlines()) == 2 + len(found.orders.rows)
 
 
 def test_data_that_tell_nothing_of_a_weak_state_leave_the_order_open_or_lower() -> None:
