@@ -20,6 +20,7 @@ from tests.exact import checks
 from tests.oracle.families import FIELDS, adversarial, paper_example, shift_register
 from tests.oracle.fields import parse_field
 from tests.oracle.strategies import planted_systems, systems
+from tests.thorough import examples
 
 Json = Any
 FIELD_PARAMETERS = pytest.mark.parametrize("field", list(FIELDS.values()), ids=list(FIELDS))
@@ -41,7 +42,7 @@ def all_systems(prime: int, n: int, p: int, m: int) -> Iterator[Json]:
 
 
 @FIELD_PARAMETERS
-@settings(max_examples=25)
+@settings(max_examples=examples(25))
 @given(data=st.data())
 def test_drawn_systems(field: Json, data: st.DataObject) -> None:
     checks.check_report(data.draw(systems(field=field)))
@@ -62,7 +63,7 @@ def test_all_small_systems(prime: int, n: int, p: int, m: int) -> None:
 
 
 @FIELD_PARAMETERS
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(data=st.data())
 def test_planted_structure_is_found(field: Json, data: st.DataObject) -> None:
     """Up to five states, outputs and faults: more than the oracle could do by minors."""
@@ -78,7 +79,7 @@ def test_planted_structure_is_found(field: Json, data: st.DataObject) -> None:
 
 
 @pytest.mark.parametrize("check", checks.SINGLE_CHECKS, ids=lambda check: check.__name__)
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(data=st.data())
 def test_every_check_on_drawn_systems(check: Callable[[Json], None], data: st.DataObject) -> None:
     check(data.draw(systems()))
@@ -91,7 +92,7 @@ def test_every_check_on_named_systems(check: Callable[[Json], None]) -> None:
             check(system)
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(systems(field={"prime": 2}, largest=4))
 def test_larger_systems_over_two_elements(system: Json) -> None:
     checks.check_window_ranks(system)
