@@ -52,6 +52,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..count.healthy_model import FEW_TAPERS, LEVEL, HealthyReference, Spectra, covering_spectra
 from ..data.plain import plain
 from ..drawing import plot_fault_signal, plot_roots
@@ -179,6 +180,7 @@ class FaultDirection(Shown):
         return plot_fault_signal(self.signal[:, None], ax=ax)
 
 
+@one_thread()
 def fault_dimension_against_healthy(
     r: ArrayLike, healthy: HealthyReference, *, u: ArrayLike | None = None, level: float = LEVEL
 ) -> FaultsAgainstHealthy:
@@ -245,6 +247,7 @@ def _kept_at_half_width(healthy: HealthyReference, record: Spectra, where: NDArr
     return float(np.median((healthy.roots(half)[:, last] - healthy.chance_roots(half, 0.5)[last]) / excess))
 
 
+@one_thread()
 def fault_direction_against_healthy(
     r: ArrayLike,
     healthy: HealthyReference,

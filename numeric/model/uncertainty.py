@@ -19,6 +19,7 @@ from scipy.linalg import eigh
 
 from ...base.arrays import Array
 from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..data.plain import plain
 from ..drawing import plot_uncertain_poles
 from .invariants import markov_jacobian, off_gauge, pole_jacobian, system_matrix, transfer_jacobian
@@ -85,17 +86,20 @@ class Uncertainty(Shown):
         with np.errstate(invalid="ignore"):
             return np.asarray(pole_jacobian(system_matrix(self.model), self.model.n)[1] @ self.root)
 
+    @one_thread()
     def markov(self, count: int) -> Array:
         """Standard deviations (count, p, n_u) of D, CB, CAB, .."""
         spread = markov_jacobian(system_matrix(self.model), self.model.n, count) @ self.root
         return np.asarray(np.linalg.norm(spread, axis=1).reshape(count, self.model.p, self.model.n_u))
 
+    @one_thread()
     def transfer(self, angles: ArrayLike) -> ComplexArray:
         """Standard deviations (M, p, n_u) of G(exp(i angle)), angles in radians a sample."""
         points = np.atleast_1d(np.asarray(angles, dtype=np.float64))
         spread = transfer_jacobian(system_matrix(self.model), self.model.n, points) @ self.root
         return _parts(spread).reshape(len(points), self.model.p, self.model.n_u)
 
+    @one_thread()
     def poles(self) -> ComplexArray:
         """Standard deviations (n,) of the poles, to first order, which says little where they come near the distances between poles, in the
         order of `model.poles`; a real pole has none across the real axis, a multiple one an infinite or huge one."""

@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
 from ..data.validation import constant_channels, positive, signals
@@ -97,6 +98,7 @@ class FaultCount(Shown):
         }
 
 
+@one_thread()
 def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLike | None = None, draws: int = 0) -> FaultCount:
     """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
 
