@@ -20,6 +20,7 @@ from typing import Any
 
 from joblib import Parallel, delayed
 
+from ...base.progress import Progress
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.algebra.matrices import Matrix, beside, rank, solve_left, stacked
 from ...exact.structure.behavior import compare
@@ -28,7 +29,6 @@ from ...exact.structure.kernel_rows import KernelRepresentation, kernel_represen
 from ...exact.system.systems import ResidualSystem
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
-from .corpus import Progress
 from .exhaustive import all_systems, orbits
 from .families import adversarial, random_systems, shift_registers
 

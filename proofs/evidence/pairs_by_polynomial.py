@@ -16,6 +16,7 @@ from itertools import product
 
 from joblib import Parallel, delayed
 
+from ...base.progress import Progress
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.algebra.polynomials import monic, multiply, written
@@ -28,7 +29,6 @@ from ...exact.system.systems import ResidualSystem
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import accept
 from .alternatives import comparison_certificate, fault_space_basis, ranked
-from .corpus import Progress
 from .exhaustive import orbits
 from .families import adversarial, random_systems
 

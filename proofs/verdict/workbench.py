@@ -15,10 +15,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
+from ...base.progress import Progress
 from ...exact.limits.experiments import Experiment
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import AlternativeEvidence, PairEvidence, alternatives, compared_pairs
-from ..evidence.corpus import Evidence, Progress, corpus, describe, examine
+from ..evidence.corpus import Evidence, corpus, describe, examine
 from ..evidence.experiments import LimitEvidence, certified_limits, examine_experiment
 from ..evidence.pairs_by_polynomial import PairByPolynomial, pairs_by_polynomial
 from ..evidence.search import Box, Facts, Flags, Known, chunks, smallest
