@@ -30,7 +30,9 @@ simulated cells of `benchmarks/fault_dimension.py`; FREEDOM, SPENT, FEW_TAPERS a
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -38,9 +40,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
 from ..count.largest_root import largest_root_quantile
 from ..count.windows import channel_sizes
+from ..data.plain import plain
 from ..data.validation import signal
 
 Complex = NDArray[np.complex128]
@@ -73,14 +77,15 @@ class Fold:
     inputs: Array
 
 
-@dataclass(frozen=True, eq=False)
-class HealthyReference:
+@dataclass(frozen=True, eq=False, repr=False)
+class HealthyReference(Shown):
     """This is how a residual behaves without a fault; the head of the module explains it.
 
     `scales` (p,) and `input_scales` (n_u,) are the units taken out of r and u. The predictor has `lags` lags and the `coefficients` (q, p),
     q = (p + n_u) lags + n_u; `root` (q, q) satisfies root' root = (X0' X0)^-1, and `samples` were predicted. The complex `covariances`
     (centres, p, p) of `freedom` degrees of freedom belong to `centres` (centres,), in cycles a sample, and `strains` holds frequencies and
-    strains by number of tapers; `folds` are both halves of the healthy record, each with what was learnt on the other. Raises
+    strains by number of tapers; `folds` are both halves of the healthy record, each with what was learnt on the other. Look at the largest
+    strain first, which `summary()` tells: far above 1 the healthy record is not steady, and only louder faults are seen. Raises
     InvalidData, in its methods, for a record that does not fit the healthy one. Sources: [RS95] for the tapers, [C60] for the forecast.
 
     >>> import numpy as np
@@ -102,6 +107,40 @@ class HealthyReference:
     freedom: int
     strains: dict[int, tuple[Array, Array]]
     folds: tuple[Fold, ...]
+
+    @property
+    def title(self) -> str:
+        """Return what was learnt from, on one short line."""
+        inputs = counted(len(self.input_scales), "input") if len(self.input_scales) else "no inputs"
+        return f"healthy reference from {counted(self.samples, 'sample')}, {counted(self.p, 'channel')}, {inputs}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield what was learnt, and where the healthy record itself is unsteady."""
+        yield "lags of the predictor", str(self.lags)
+        yield "frequencies, degrees of freedom", f"{len(self.centres)}, {self.freedom}"
+        yield "size of the channels", ", ".join(f"{size:.4g}" for size in self.scales)
+        for tapers, (frequencies, strains) in self.strains.items():
+            worst = int(np.argmax(strains))
+            yield f"largest strain, {tapers} tapers", f"{strains[worst]:.3g} at {frequencies[worst]:.4g} cycles a sample"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of everything but the samples of the halves; complex numbers are pairs."""
+        strains = [
+            {"tapers": tapers, "frequencies": plain(frequencies), "strains": plain(values)}
+            for tapers, (frequencies, values) in self.strains.items()
+        ]
+        return {
+            "samples": self.samples,
+            "scales": plain(self.scales),
+            "input_scales": plain(self.input_scales),
+            "lags": self.lags,
+            "coefficients": plain(self.coefficients),
+            "root": plain(self.root),
+            "centres": plain(self.centres),
+            "covariances": plain(self.covariances),
+            "freedom": self.freedom,
+            "strains": strains,
+        }
 
     @property
     def p(self) -> int:
