@@ -145,7 +145,8 @@ class _Problem:
 def _problem(moments: CrossMoments, within: Sequence[Array], shares: Array | None = None) -> _Problem:
     p, width = moments.channels, moments.channels * (moments.degree + 1)
     powers = np.exp(1j * np.outer(moments.angles, np.arange(moments.degree + 1)))
-    gains = np.einsum("bi,bj,kl->bikjl", powers, powers.conj(), np.eye(p) if shares is None else np.diag(shares), optimize=True)
+    lags = moments.coherence() * powers[:, :, None] * powers.conj()[:, None, :]
+    gains = np.einsum("bij,kl->bikjl", lags, np.eye(p) if shares is None else np.diag(shares), optimize=True)
     size = float(np.trace(moments.moments.sum(axis=0)).real) / width or 1.0
     counts = [len(basis) for basis in within]
     spread = np.zeros((sum(counts), len(within), width))
