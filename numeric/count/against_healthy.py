@@ -49,6 +49,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..count.healthy_model import FEW_TAPERS, LEVEL, HealthyReference, Spectra, covering_spectra
 
 Complex = NDArray[np.complex128]
@@ -117,6 +118,7 @@ class FaultDirection:
     strength: float
 
 
+@one_thread()
 def fault_dimension_against_healthy(
     r: ArrayLike, healthy: HealthyReference, *, u: ArrayLike | None = None, level: float = LEVEL
 ) -> FaultsAgainstHealthy:
@@ -183,6 +185,7 @@ def _kept_at_half_width(healthy: HealthyReference, record: Spectra, where: NDArr
     return float(np.median((healthy.roots(half)[:, last] - healthy.chance_roots(half, 0.5)[last]) / excess))
 
 
+@one_thread()
 def fault_direction_against_healthy(
     r: ArrayLike,
     healthy: HealthyReference,

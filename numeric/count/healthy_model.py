@@ -38,6 +38,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..count.largest_root import largest_root_quantile
 from ..count.windows import channel_sizes
 from ..data.validation import signal
@@ -117,6 +118,7 @@ class HealthyReference:
         """Return T, T / 2, T / 4 .. down to at least four, which are the widths at which a record may be looked at."""
         return tuple(self.tapers >> k for k in range(int(np.log2(self.tapers / FEW_TAPERS)) + 1))
 
+    @one_thread()
     def innovations(self, r: ArrayLike, u: ArrayLike | None = None) -> tuple[Array, Array]:
         """Return e (N - lags, p) of a residual r (N, p) with inputs u (N, n_u), and its regressors X root', (N - lags, q).
 
@@ -142,6 +144,7 @@ class HealthyReference:
         past, now = _about_means(*lagged(residual / self.scales, inputs / self.input_scales, self.lags))
         return now - past @ self.coefficients, past @ self.root.T
 
+    @one_thread()
     def spectra(self, r: ArrayLike, u: ArrayLike | None = None, *, tapers: int | None = None) -> Spectra:
         """Return tapered transforms of e, with the error of the forecast divided out; arguments as `innovations`."""
         return self.unchecked_spectra(*self._fitting(r, u), tapers or self.tapers)
@@ -203,6 +206,7 @@ class HealthyReference:
         return np.array([largest_root_quantile(chance, p - j, tapers, self.freedom) for j in range(p)])
 
 
+@one_thread()
 def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: float = LEVEL) -> HealthyReference:
     """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u), each channel in any units.
 

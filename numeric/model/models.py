@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..data.validation import signal
 
 FORMAT = "faultspace-model/1"
@@ -108,6 +109,7 @@ class StateSpaceModel:
             state = self.A @ state if k > 0 else state
         return values
 
+    @one_thread()
     def simulate(self, u: ArrayLike, x0: ArrayLike | None = None) -> Array:
         """Return y (N, p) from u (N, n_u) and the state x0 (n,) at the first sample, zero unless given. An unstable model may overflow to
         inf."""

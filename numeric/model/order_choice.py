@@ -16,10 +16,10 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from .arx import Arx, fitted_arx
-from .arx_windows import ArxWindows, arx_windows, merge_windows
+from .arx_windows import ArxWindows, about_zero, arx_windows, joined_windows, merge_windows
 from .compression import Pieces
 from .order_evidence import OrderEvidence, OrderRow, weighed
-from .reduced_model import ReducedModel, reduced, reduced_from
+from .reduced_model import ReducedModel, judged, reduced, reduced_from
 from .reduction_starts import hankel_factors
 from .residuals import residual
 
@@ -28,12 +28,13 @@ MOST_HELD = 1 << 15  # samples of an experiment that are held back at most: they
 PATIENCE = 4
 
 
-def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int) -> tuple[OrderEvidence, ReducedModel]:
-    """The evidence over orders and the model of the best, from experiments of these lengths. InvalidData as `arx_reduction`."""
+def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int, offset: bool) -> tuple[OrderEvidence, ReducedModel]:
+    """Return the evidence over orders and the model of the best, from experiments of these lengths. InvalidData as `arx_reduction`."""
     cuts = [max(length - length // KEPT_BACK, length - MOST_HELD) for length in lengths]
-    training = merge_windows([arx_windows(_part(source, 0, cut), lags) for source, cut in zip(sources, cuts, strict=True)])
+    first = [arx_windows(_part(source, 0, cut), lags) for source, cut in zip(sources, cuts, strict=True)]
     rest = [arx_windows(_part(source, max(cut - lags, 0), None), lags) for source, cut in zip(sources, cuts, strict=True)]
-    whole = merge_windows([training, *rest])
+    both = [joined_windows(*parts) for parts in zip(first, rest, strict=True)]
+    training, whole = (merge_windows(parts if offset else [about_zero(part) for part in parts]) for parts in (first, both))
     held = [_joined(_part(source, cut, None)) for source, cut in zip(sources, cuts, strict=True)]
     arx = fitted_arx(whole)
     gaps = _gaps(arx, max(lags, 1))
@@ -57,7 +58,8 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int) ->
         if since == PATIENCE:
             break
     evidence = weighed(rows)
-    return evidence, models[evidence.best]
+    # Orders too low may look like an unstable plant: only the choice is judged.
+    return evidence, judged(models[evidence.best], whole)
 
 
 def _part(source: Pieces, first: int, last: int | None) -> Iterator[tuple[Array, Array]]:
@@ -85,11 +87,12 @@ def _fits(training: ArxWindows, held: Sequence[tuple[Array, Array]], n: int) -> 
     """One-step and free-run fit, on the samples held back, of the model of the first part; NaN where it is too short."""
     try:
         found = reduced(training, n)
-        free = [residual(y, u, found.model).r for y, u in held]
+        free = [residual(y - mean, u, found.model).r for (y, u), mean in zip(held, found.offsets, strict=True)]
     except InvalidData:
         return float("nan"), float("nan")
     scale = training.scales[0]
-    h, power = found.arx.order, sum(float(np.sum((y[found.arx.order :] / scale) ** 2)) for y, _ in held)
+    h = found.arx.order
+    power = sum(float(np.sum(((y - mean)[h:] / scale) ** 2)) for (y, _), mean in zip(held, found.offsets, strict=True))
     errors = [sum(r[h - i : len(r) - i] @ found.arx.outputs[i].T for i in range(h + 1)) for r in free]
     sizes = [np.sqrt(sum(float(np.sum((part / scale) ** 2)) for part in parts) / power) for parts in (errors, [r[h:] for r in free])]
     return float(1 - sizes[0]), float(1 - sizes[1])

@@ -35,6 +35,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..data.validation import constant_channels, experiment, positive
 from ..model.compression import EPS, Compression, Pieces, compress, compress_chunks, merge
 from ..model.input_matrices import by_moesp, by_output_error, growth
@@ -300,6 +301,7 @@ def complete(found: Range, compression: Compression, experiments: Sequence[Piece
     )
 
 
+@one_thread()
 def pi_moesp(
     y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
     u: ArrayLike | None = None,
@@ -332,6 +334,7 @@ def pi_moesp(
     return _modelled([source], _compressed(y, u, source, block_rows, past_rows, route), order)
 
 
+@one_thread()
 def pi_moesp_experiments(
     experiments: Sequence[tuple[ArrayLike, ArrayLike]],
     *,
@@ -378,6 +381,7 @@ def _modelled(sources: Sequence[Pieces], compression: Compression, order: int | 
     return complete(_range_of(compression, order), compression, sources)
 
 
+@one_thread()
 def pi_moesp_from_compression(compression: Compression, *, order: int | None = None) -> MoespModel:
     """Return the model from a compression alone, with B and D by MOESP's own regression [V93]; no initial state and no residual
     covariance."""

@@ -7,6 +7,7 @@ by the same share to first order [KR97]. So the information is divided by both t
 
 ReducedModel        the result
 reduced             the model of order n from windows
+reduced_from, judged     the same in two steps: with an ARX model made beforehand, and with what must be said of it
 reduction_problem   the ARX model and what is minimised, at given angles
 enough_angles       how many angles the sums over them need
 """
@@ -14,7 +15,7 @@ enough_angles       how many angles the sums over them need
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2
@@ -24,7 +25,7 @@ from ...base.errors import InvalidData
 from .arx import Arx, adjoint, fitted_arx, input_spectrum
 from .arx_windows import ArxWindows
 from .compression import EPS
-from .invariants import state_space
+from .invariants import half_transfers, state_space, system_matrix
 from .models import StateSpaceModel
 from .order_evidence import OrderEvidence
 from .reduction_starts import one_state_less, starts
@@ -50,9 +51,10 @@ class ReducedModel:
     `model` has A of the shape (n, n), B (n, n_u), C (p, n) and D (p, n_u). `innovation_covariance` (p, p) is that of the one-step errors
     of the ARX model, `arx`, whose `disturbance(angles)` is the spectrum (M, p, p) of faults and noise together. `uncertainty` has the
     standard deviations of Markov parameters, transfer function and poles. `cost` is the weighted sum of squares that the reduction left,
-    which is the likelihood ratio of the ARX plant against this one. `initial_states` has one of the shape (n,) an experiment, by least
-    squares, and none where the data are not there any more. `orders` is the evidence where the order was left open, and `notes` say what
-    a user must know. Raises nothing.
+    which is the likelihood ratio of the ARX plant against this one. `offsets` has what the outputs are at rest with u = 0, of the shape
+    (p,), for each experiment: sensors' zeros, the operating point and the means of the faults, which nothing in the data tells apart.
+    `initial_states` has one of the shape (n,) an experiment, by least squares, and none where the data are not there any more. `orders`
+    is the evidence where the order was left open, and `notes` say what a user must know. Raises nothing.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction
@@ -68,6 +70,7 @@ class ReducedModel:
     uncertainty: Uncertainty
     arx: Arx
     cost: float
+    offsets: tuple[Array, ...] = ()
     initial_states: tuple[Array, ...] = ()
     orders: OrderEvidence | None = None
     notes: tuple[str, ...] = ()
@@ -78,6 +81,11 @@ class ReducedModel:
         return self.model.n
 
     @property
+    def offset(self) -> Array | None:
+        """Outputs (p,) of the first experiment at rest with u = 0."""
+        return self.offsets[0] if self.offsets else None
+
+    @property
     def x0(self) -> Array | None:
         """State (n,) at the first sample of the first experiment."""
         return self.initial_states[0] if self.initial_states else None
@@ -85,11 +93,11 @@ class ReducedModel:
 
 def reduced(windows: ArxWindows, n: int) -> ReducedModel:
     """Return the model of order n >= 0 from the windows alone, without initial states. Raises InvalidData as `arx_reduction` does."""
-    return reduced_from(windows, fitted_arx(windows, -(-n // windows.p)), n)
+    return judged(reduced_from(windows, fitted_arx(windows, -(-n // windows.p)), n), windows)
 
 
 def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
-    """Do the same with the ARX model (in channels of unit size) made beforehand."""
+    """Return it with the ARX model (in channels of unit deviation) made beforehand, not judged yet."""
     problem = reduction_problem(windows, arx, circle(enough_angles(windows, arx)))
     matrix, cost = _minimum(windows, arx, problem, n)
     y, u = windows.scales
@@ -100,7 +108,7 @@ def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
     model = state_space(matrix * rows[:, None] * columns, n)
     uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
     inner = arx.scaled(y, u)
-    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, notes=_notes(model, inner, windows, cost))
+    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, _offsets(model, inner, windows))
 
 
 def reduction_problem(windows: ArxWindows, arx: Arx, angles: Array) -> Reduction:
@@ -120,6 +128,23 @@ def enough_angles(windows: ArxWindows, arx: Arx) -> int:
         if count >= FINE:
             return count
         count, before = 2 * count, sums
+
+
+def _offsets(model: StateSpaceModel, arx: Arx, windows: ArxWindows) -> tuple[Array, ...]:
+    """Return for each experiment what its outputs are at rest with u = 0, from the means of its windows.
+
+    The constant of the ARX model is A(q) of the mean outputs less B(q) of the mean inputs, lag by lag, which is right whatever state the
+    experiment began in. At rest the outputs are A(1)^-1 of it, about the mean input, from which the model's own gain leads to u = 0.
+    """
+    rest = np.zeros(1)
+    gains = (arx.plant(rest)[0].real, half_transfers(system_matrix(model), model.n, rest)[0][0].real)
+    found = []
+    for mean in windows.means:
+        outputs, inputs = ([mean[columns(lag)] for lag in range(arx.order + 1)] for columns in (windows.outputs, windows.inputs))
+        constant = np.einsum("iab,ib->a", arx.outputs, outputs) - np.einsum("iab,ib->a", arx.inputs, inputs)
+        at_mean = np.linalg.lstsq(arx.outputs.sum(axis=0), constant, rcond=None)[0]
+        found.append(np.asarray(at_mean + (gains[0] - gains[1]) @ inputs[0], dtype=np.float64))
+    return tuple(found)
 
 
 def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple[Array, float]:
@@ -152,13 +177,14 @@ def _climbed(rungs: Sequence[Reduction], begun: Iterable[Array], n: int, kept: i
     return sorted(ends, key=lambda one: one[1])
 
 
-def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -> tuple[str, ...]:
-    """Return notes on what the cost and the poles show. Raises InvalidData for a plant that seems to be unstable.
+def judged(found: ReducedModel, windows: ArxWindows) -> ReducedModel:
+    """Return the model with notes on what its cost and poles show. Raises InvalidData for a plant that seems to be unstable.
 
     At the true plant the cost is part of the likelihood ratio of all ARX parameters, chi-squared with as many degrees of freedom; at its
     minimum it is less. Roots of A(q) outside the unit circle alone tell little: of many roots some lie there by chance. They count where
     the outputs grow or the misfit is large.
     """
+    model, arx, cost = found.model, found.arx, found.cost
     parameters = windows.p * windows.regressors(arx.order)
     radius, misfit = spectral_radius(model.A), float(chi2.sf(cost, parameters)) < UNBELIEVABLE
     on_circle, most = radius > 1 - EPS**0.25, np.log(AMPLIFICATION)
@@ -169,8 +195,9 @@ def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -
             f"{arx.radius():.6g}, the outputs grow by about exp({windows.growth:.3g}), and the misfit is {cost:.4g} where {parameters} is "
             "usual; the plant may be unstable (pi_moesp takes such), or the order too low"
         )
+    note = ""
     if misfit:
-        return (f"order {model.n} leaves a misfit of {cost:.4g} where at most about {parameters} is usual: the order may be too low",)
-    if on_circle:
-        return (f"a pole has modulus {radius:.6g}: the plant may be unstable, or integrate, which is not fitted here",)
-    return ()
+        note = f"order {model.n} leaves a misfit of {cost:.4g} where at most about {parameters} is usual: the order may be too low"
+    elif on_circle:
+        note = f"a pole has modulus {radius:.6g}: the plant may be unstable, or integrate, which is not fitted here"
+    return replace(found, notes=(*found.notes, note)) if note else found

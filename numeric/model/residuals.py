@@ -29,6 +29,7 @@ from numpy.typing import ArrayLike
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import Shown
+from ...base.threads import one_thread
 from ..data.plain import plain
 from ..data.records import SampleStore, stored
 from ..data.validation import experiment
@@ -113,6 +114,7 @@ class HasModel(Protocol):
         """Return the model that was identified, or another result that has it; None where there is none."""
 
 
+@one_thread()
 def residual(
     y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
     u: ArrayLike | None,

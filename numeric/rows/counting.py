@@ -29,6 +29,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.validation import constant_channels, positive, signals
 from .joint import ROUNDING, JointMoments, joint_moments
@@ -67,6 +68,7 @@ class FaultCount:
         return self.n_v is not None
 
 
+@one_thread()
 def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLike | None = None, draws: int = 0) -> FaultCount:
     """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
 

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..count.arguments import shaped
 from ..count.windows import ObservedCoordinates, observed_coordinates
 from ..data.validation import positive, signals
@@ -36,6 +37,7 @@ BEYOND = 1
 SEED = 20251123
 
 
+@one_thread()
 def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, draws: int = 0) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
 
