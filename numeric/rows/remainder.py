@@ -3,8 +3,7 @@
 With N w = N_y w the remainder of k rows has in every band the cross spectrum phi N_y diag(lam) N_y*. Hence the noise shares lam of the
 channels can be estimated, and whether the remainder has that shape can be tested without knowing phi.
 
-    Remainder     E (bands, k, k), the cross spectrum of N [y; u]; N_y (bands, k, r, p), with N_y diag(lam) N_y* as the sum over r, which is
-                  one for the middle of the band and more for the mean over it
+    Remainder     E (bands, k, k), the cross spectrum of N [y; u]; N_y (bands, k, p) at the middle of each band
     noise_shares  lam of maximum likelihood given the rows, by minorisation and maximisation, mean logarithm zero
     whitened      W^1/2 E W^(1/2)*, W = (N_y diag(lam) N_y*)^-1: phi I of a law
     sphericity    likelihood ratio of "one colour, k equal rows" against "any cross spectrum" [M82], smooth over each band
@@ -34,28 +33,22 @@ ComplexArray = NDArray[np.complex128]
 
 # Bands of the test: wide enough for the matrices to be estimated, narrow beside what the colour of a fault changes over.
 TEST_BANDS = 16
+# Complex samples of a band of the test for each row: with fewer the shape is hardly estimated.
+SAMPLES = 4
 SWEEPS = 40
 # A channel's noise beside that of the loudest: below it the likelihood of few bands would call a channel exact.
 LEAST_SHARE = 1e-4
-# Parts of the mean over a band that are smaller than this, beside the largest, are rounding.
-COHERENT = 1e-9
 TINY = float(np.finfo(float).tiny)
 
 
 @dataclass(frozen=True, eq=False)
 class Remainder:
-    """`powers` (bands, k, k) are those per sample, `gains` are (bands, k, r, p), `weights` (bands,) and `samples` are those of the moments."""
+    """`powers` (bands, k, k) are those per sample, `gains` are (bands, k, p), `weights` (bands,) and `samples` are those of the moments."""
 
     powers: ComplexArray
     gains: ComplexArray
     weights: Array
     samples: float
-
-    def shape(self, shares: Array) -> ComplexArray:
-        """Return what noise of unit power and these shares (p,) makes of it (bands, k, k)."""
-        bands, k = self.gains.shape[:2]
-        weighted = (self.gains * shares).reshape(bands, k, -1)
-        return np.asarray(weighted @ self.gains.reshape(bands, k, -1).conj().transpose(0, 2, 1))
 
 
 def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
@@ -64,10 +57,7 @@ def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
     moments = data.moments.of_degree(degree)
     N = np.array([np.pad(row, ((0, degree + 1 - len(row)), (0, 0))) for row in fit.rows])
     powers = np.exp(1j * np.outer(moments.angles, np.arange(degree + 1)))
-    values, vectors = np.linalg.eigh(moments.coherence())
-    seen = values > COHERENT * values[-1]
-    root = vectors[:, seen] * np.sqrt(values[seen])
-    gains = np.einsum("bj,jr,kjc->bkrc", powers, root, N[:, :, : data.p], optimize=True)
+    gains = np.einsum("bj,kjc->bkc", powers, N)[:, :, : data.p]
     flat = N.reshape(len(N), (degree + 1) * channels)
     E = flat @ moments.moments @ flat.T / moments.weights[:, None, None]
     return Remainder(np.asarray(E), np.asarray(gains, dtype=complex), moments.weights, moments.samples)
@@ -79,14 +69,13 @@ def noise_shares(rest: Remainder, start: Array) -> Array:
     A sweep multiplies lam_c by the root of seen over expected power, which never lowers the likelihood.
     """
     lam = start.copy()
-    flat = rest.gains.reshape(*rest.gains.shape[:2], -1)
     for _ in range(SWEEPS):
-        shape = rest.shape(lam)
+        shape = (rest.gains * lam) @ rest.gains.conj().transpose(0, 2, 1)
         inverse = np.linalg.pinv(shape, rcond=1e-10, hermitian=True)
         power = np.maximum(np.einsum("bij,bji->b", inverse, rest.powers).real, TINY)
-        weighted = inverse @ flat
-        seen = np.sum((rest.powers @ weighted) * weighted.conj(), axis=1).real.reshape(len(power), -1, len(lam)).sum(axis=1)
-        expected = np.sum(flat.conj() * weighted, axis=1).real.reshape(len(power), -1, len(lam)).sum(axis=1)
+        weighted = rest.gains.conj().transpose(0, 2, 1) @ inverse
+        seen = np.einsum("bik,bkl,bil->bi", weighted, rest.powers, weighted.conj(), optimize=True).real
+        expected = np.einsum("bik,bki->bi", weighted, rest.gains).real
         over, under = np.zeros(len(lam)), np.zeros(len(lam))
         for group in _groups(rest):
             spectrum = rest.weights[group] @ power[group] / (rest.weights[group].sum() * shape.shape[1])
@@ -99,13 +88,15 @@ def noise_shares(rest: Remainder, start: Array) -> Array:
 
 
 def _groups(rest: Remainder) -> list[NDArray[np.int_]]:
-    """Return the bands of the moments that each band of the test joins."""
-    return np.array_split(np.arange(len(rest.weights)), min(TEST_BANDS, len(rest.weights)))
+    """Return the bands of the moments that each band of the test joins: enough for SAMPLES samples a row."""
+    most = int(rest.samples / (2 * SAMPLES * rest.powers.shape[1]))
+    return np.array_split(np.arange(len(rest.weights)), max(1, min(TEST_BANDS, len(rest.weights), most)))
 
 
 def whitened(rest: Remainder, shares: Array) -> ComplexArray:
     """Return the whitened remainder (bands, k, k), which is phi I where the rows are laws."""
-    values, vectors = np.linalg.eigh(rest.shape(shares))
+    shape = (rest.gains * shares) @ rest.gains.conj().transpose(0, 2, 1)
+    values, vectors = np.linalg.eigh(shape)
     root = vectors / np.sqrt(np.maximum(values, 1e-12 * values[:, -1:] + TINY))[:, None, :]
     return np.asarray(root.conj().transpose(0, 2, 1) @ rest.powers @ root)
 

@@ -145,8 +145,7 @@ class _Problem:
 def _problem(moments: CrossMoments, within: Sequence[Array], shares: Array | None = None) -> _Problem:
     p, width = moments.channels, moments.channels * (moments.degree + 1)
     powers = np.exp(1j * np.outer(moments.angles, np.arange(moments.degree + 1)))
-    lags = moments.coherence() * powers[:, :, None] * powers.conj()[:, None, :]
-    gains = np.einsum("bij,kl->bikjl", lags, np.eye(p) if shares is None else np.diag(shares), optimize=True)
+    gains = np.einsum("bi,bj,kl->bikjl", powers, powers.conj(), np.eye(p) if shares is None else np.diag(shares), optimize=True)
     size = float(np.trace(moments.moments.sum(axis=0)).real) / width or 1.0
     counts = [len(basis) for basis in within]
     spread = np.zeros((sum(counts), len(within), width))
@@ -300,6 +299,11 @@ def _covariance(problem: _Problem, colour: Array, h: Array, power: float, sample
     second, scores = free.T @ second @ free, free.T @ scores @ free
     inverse = np.asarray(scipy.linalg.pinvh(second))
     return np.asarray(free @ inverse @ scores @ inverse @ free.T) * power / samples
+
+
+def colour_of(spectrum: Array, angles: Array, weights: Array, order: int = NOISE_ORDER) -> Array:
+    """Return the spectrum (bands,), of mean logarithm zero, of the autoregression that fits a spectrum (bands,) best."""
+    return _colour(_autoregression(spectrum, angles, weights, order), angles, weights)
 
 
 def _autoregression(spectrum: Array, angles: Array, weights: Array, order: int) -> Array:

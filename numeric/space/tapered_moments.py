@@ -13,7 +13,7 @@ Segments overlap by an edge, so that little is lost on long records.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy  # its folders are loaded when they are first used
@@ -36,8 +36,7 @@ class CrossMoments:
     """These are cross-spectral moments of the window psi.
 
     `moments` (bands, p (degree+1), p (degree+1)) are those of psi psi*, whose sum over bands has the mean square of psi as real part;
-    `weights` (bands,) are the shares of the bands and sum to one; `angles` (bands,) are their centres in radians a sample. `width` is that
-    of the band over which the noise is averaged, zero where it is taken at the centre.
+    `weights` (bands,) are the shares of the bands and sum to one; `angles` (bands,) are their centres in radians a sample.
     """
 
     moments: ComplexArray
@@ -46,31 +45,18 @@ class CrossMoments:
     channels: int
     degree: int
     samples: float
-    width: float = 0.0
 
     def of_degree(self, degree: int) -> CrossMoments:
         """Return the moments of the shorter window: the same samples, so that levels of different degrees are comparable."""
         size = self.channels * (degree + 1)
-        return replace(self, moments=self.moments[:, :size, :size], degree=degree)
-
-    def averaged(self) -> CrossMoments:
-        """Return the same moments, whose noise is told by its mean over each band and not by its middle."""
-        return replace(self, width=np.pi / len(self.angles))
-
-    def coherence(self) -> Array:
-        """Return (degree + 1, degree + 1): by how much less the white noise of two lags has in common than at the middle of a band.
-
-        White noise has E[psi psi*] proportional to the mean of e e* over the band, e = [1, exp(i angle), ..]: beside the middle of the band
-        that is sin(x) / x, x = width (i - j) / 2. It tells of rows that change much within a band.
-        """
-        lags = np.arange(self.degree + 1)
-        return np.asarray(np.sinc((lags[:, None] - lags) * self.width / (2 * np.pi)))
+        moments = self.moments[:, :size, :size]
+        return CrossMoments(moments, self.weights, self.angles, self.channels, degree, self.samples)
 
     def mixed(self, mix: Array) -> CrossMoments:
         """Return the moments of r @ mix, mix (p, k)."""
         repeated = np.kron(np.eye(self.degree + 1), mix)
         moments = repeated.T @ self.moments @ repeated
-        return replace(self, moments=moments, channels=mix.shape[1])
+        return CrossMoments(moments, self.weights, self.angles, mix.shape[1], self.degree, self.samples)
 
     def real_parts(self) -> WindowMoments:
         """Return what a single row asks of them."""
@@ -79,7 +65,10 @@ class CrossMoments:
 
 
 def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
-    """Return the moments of r (N, p) in `most` bands, or fewer where the record is short. Raises InvalidData where the windows are fewer than twice their own size."""
+    """Return the moments of r (N, p) in `most` bands, or fewer where the record is short.
+
+    Raises InvalidData where the windows are fewer than twice their own size.
+    """
     N, p = r.shape
     windows, size = N - degree, p * (degree + 1)
     if windows < 2 * size:
