@@ -11,6 +11,7 @@ its mean, which makes the bound larger, if anything.
 
 Cell, CELLS     the cells; `trial` draws one of a seed
 Trial           y, u, the true model and the spectra
+Faults          of a system of the study: F, G, the fault space, the spectra of faults and noise
 """
 
 from __future__ import annotations
@@ -38,13 +39,25 @@ ZEROS = 4  # numbers of zeros of the study, 0 to 3, in turn
 
 
 @dataclass(frozen=True)
+class Faults:
+    """The faults enter by F (n, n_v) and G (p, n_v), their space has the basis Z (n + p, n_z), and they and the noise have spectra."""
+
+    F: Array
+    G: Array
+    Z: Array
+    spectrum: Spectrum
+    noise: Spectrum
+
+
+@dataclass(frozen=True)
 class Trial:
-    """A trial has y (N, p), u (N, n_u), the model that made them but for faults and noise, and the spectra."""
+    """A trial has y (N, p), u (N, n_u), the model that made them but for faults and noise, the spectra, and the study's faults."""
 
     y: Array
     u: Array
     model: StateSpaceModel
     spectra: Spectra
+    faults: Faults | None = None
 
 
 @dataclass(frozen=True)
@@ -93,7 +106,8 @@ def _of_the_study(seed: int, number: int, samples: int, coloured: bool, rng: np.
         power = filtered(*LOW_PASS)(angles)[:, 0, 0].real
         return np.asarray(np.maximum(power, NULL * power.mean())[:, None, None] * np.diag(deviations**2), dtype=np.complex128)
 
-    return Trial(y, u, plant, Spectra(spectrum, total(through(faulty, _smoothed(v)), noise)))
+    faults = Faults(system.F, system.G, system.Z, _smoothed(v), noise)
+    return Trial(y, u, plant, Spectra(spectrum, total(through(faulty, faults.spectrum), noise)), faults)
 
 
 def _smoothed(v: Array) -> Spectrum:
