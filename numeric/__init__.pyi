@@ -31,6 +31,7 @@ from .result import Identification as Identification
 from .rows.counting import FaultCount as FaultCount
 from .rows.counting import count_faults as count_faults
 from .rows.space import fault_space_by_rows as fault_space_by_rows
+from .rows.space import identified_fault_space as identified_fault_space
 from .signal.reconstruction import Reconstruction as Reconstruction
 from .signal.reconstruction import reconstruct_fault as reconstruct_fault
 from .space.by_ranks import fault_space as fault_space

@@ -39,7 +39,7 @@ from ...base.threads import one_thread
 from ..data.validation import constant_channels, experiment, positive
 from ..model.compression import EPS, Compression, Pieces, compress, compress_chunks, merge
 from ..model.input_matrices import by_moesp, by_output_error, growth
-from ..model.models import Simulator, StateSpaceModel
+from ..model.models import StateSpaceModel
 from ..model.moesp_model import Gap, MoespModel, OrderUndecided
 
 CLEAN = 3.0
@@ -258,20 +258,6 @@ def _stability(A: Array) -> tuple[str, ...]:
     return (f"the identified A is not stable: its largest eigenvalue has modulus {radius:.6g}; it is reported as it was found",)
 
 
-def _residual_covariance(experiments: Sequence[Pieces], model: StateSpaceModel, states: tuple[Array, ...]) -> Array:
-    total, samples = np.zeros((model.p, model.p)), 0
-    for data, x0 in zip(experiments, states, strict=True):
-        simulator = Simulator(model, x0)
-        for y, u in data:
-            r = y - simulator.respond(u)
-            total += r.T @ r
-            samples += len(r)
-    # Parameters an output: B and x0 are shared by the p outputs.
-    fitted = model.n_u + (model.n * model.n_u + model.n * len(states)) / model.p
-    result: Array = total / max(samples - fitted, 1.0)
-    return result
-
-
 def complete(found: Range, compression: Compression, experiments: Sequence[Pieces] | None) -> MoespModel:
     """Complete the record with B, D, x0 and the rest, by output error where there are data and A allows it, else by MOESP's regression."""
     A, scale = found.A, found.scale[:, np.newaxis]
@@ -284,7 +270,10 @@ def complete(found: Range, compression: Compression, experiments: Sequence[Piece
         inputs = by_output_error(scaled, A, found.C, compression.n_u)
         D = inputs.D * scale
         model = StateSpaceModel(A, inputs.B, C, D)
-        covariance = _residual_covariance(experiments, model, inputs.initial_states)
+        # Parameters an output: B and x0 are shared by the p outputs.
+        fitted = model.n_u + (model.n * model.n_u + model.n * len(experiments)) / model.p
+        assert inputs.squares is not None
+        covariance = inputs.squares * scale * found.scale / max(compression.samples - fitted, 1.0)
     else:
         if experiments is not None:
             warnings += (

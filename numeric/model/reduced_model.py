@@ -7,14 +7,14 @@ by the same share to first order [KR97]. So the information is divided by both t
 
 ReducedModel        the result
 reduced             the model of order n from windows
-reduced_from, judged     the same in two steps: with an ARX model made beforehand, and with what must be said of it
-reduction_problem   the ARX model and what is minimised, at given angles
+described, judged   a minimum in the units of the data with its uncertainty, and what must be said of it
+reduction_problem   the ARX model and what is minimised, at given angles; reduction_problems: at angles enough, and for the search
 enough_angles       how many angles the sums over them need
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -31,18 +31,13 @@ from .compression import EPS
 from .invariants import half_transfers, state_space, system_matrix
 from .models import StateSpaceModel
 from .order_evidence import OrderEvidence
-from .reduction_starts import one_state_less, starts
+from .reduction_search import Found, minimum
 from .uncertainty import Uncertainty, uncertainty_of
-from .weighted_reduction import Reduction, circle, descend, ladder, spectral_radius
+from .weighted_reduction import Reduction, circle, spectral_radius
 
 # Angles: 32 to 256 give the same errors (`python benchmarks/at_the_bound.py --calibrate angles`), poles near the circle ask for more.
 COARSE, FINE = 64, 4096  # least and most angles
 SAME_SUM = 1e-2  # relative change of the sums that twice the angles may make
-# The search: one or three starts kept give the same errors (`--calibrate starts`); budgets only bound its time, the last one its end.
-KEPT = 2  # starts that are followed up the ladder
-NEAREST = 2  # starts of the least cost under the true weight that are followed without the ladder
-RUNGS, TRUE, LAST = (15, 1e-3), (25, 1e-4), (60, 1e-7)  # most steps, and relative gain of a step below which a descent ends
-DISTINCT = 1e-2  # relative difference of costs from which two starts are thought to lie in different valleys
 UNBELIEVABLE = 1e-6  # probability of a misfit that is not put down to chance
 AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called unstable where data or misfit say so too
 
@@ -142,22 +137,29 @@ class ReducedModel(Shown):
 
 def reduced(windows: ArxWindows, n: int) -> ReducedModel:
     """Return the model of order n >= 0 from the windows alone, without initial states. Raises InvalidData as `arx_reduction` does."""
-    return judged(reduced_from(windows, fitted_arx(windows, -(-n // windows.p)), n), windows)
+    arx = fitted_arx(windows, -(-n // windows.p))
+    problem, coarse = reduction_problems(windows, arx)
+    return judged(described(windows, arx, problem, minimum(windows, arx, problem, coarse, n), n), windows)
 
 
-def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
-    """Return it with the ARX model (in channels of unit deviation) made beforehand, not judged yet."""
-    problem = reduction_problem(windows, arx, circle(enough_angles(windows, arx)))
-    matrix, cost = _minimum(windows, arx, problem, n)
+def described(windows: ArxWindows, arx: Arx, problem: Reduction, found: Found, n: int) -> ReducedModel:
+    """Return a minimum, which is in channels of unit deviation, in the units of the data and with its uncertainty."""
     y, u = windows.scales
     rows, columns = np.concatenate([np.ones(n), y]), np.concatenate([np.ones(n), 1 / u])
     p, freedom = windows.p, arx.freedom
     too_large = (1 + p * arx.order / freedom) * freedom / max(freedom - p - 1, 1)
-    scaled = uncertainty_of(state_space(matrix, n), problem.information(matrix, n) / too_large**2)
-    model = state_space(matrix * rows[:, None] * columns, n)
+    scaled = uncertainty_of(state_space(found.matrix, n), problem.information(found.matrix, n) / too_large**2)
+    model = state_space(found.matrix * rows[:, None] * columns, n)
     uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
     inner = arx.scaled(y, u)
-    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, _offsets(model, inner, windows))
+    return ReducedModel(model, inner.covariance, uncertainty, inner, found.cost, _offsets(model, inner, windows))
+
+
+def reduction_problems(windows: ArxWindows, arx: Arx) -> tuple[Reduction, Reduction]:
+    """Return what is minimised, at angles enough, and the same at COARSE angles for the search."""
+    count = enough_angles(windows, arx)
+    problem = reduction_problem(windows, arx, circle(count))
+    return problem, problem if count == COARSE else reduction_problem(windows, arx, circle(COARSE))
 
 
 def reduction_problem(windows: ArxWindows, arx: Arx, angles: Array) -> Reduction:
@@ -194,36 +196,6 @@ def _offsets(model: StateSpaceModel, arx: Arx, windows: ArxWindows) -> tuple[Arr
         at_mean = np.linalg.lstsq(arx.outputs.sum(axis=0), constant, rcond=None)[0]
         found.append(np.asarray(at_mean + (gains[0] - gains[1]) @ inputs[0], dtype=np.float64))
     return tuple(found)
-
-
-def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple[Array, float]:
-    """Return T of the least cost found, and that cost. The search uses few angles, and only its end is the problem itself."""
-    coarse = problem if len(problem.angles) == COARSE else reduction_problem(windows, arx, circle(COARSE))
-    rungs = list(ladder(coarse, arx.disturbance(coarse.angles)))
-    begun = list(starts(windows, arx, rungs[0], n))
-    found = _climbed(rungs, begun, n, KEPT)
-    # What a flat weight cannot tell apart the true one can, from the start or from one state more.
-    longer = _climbed(rungs, starts(windows, arx, rungs[0], n + 1), n + 1, 1) if n else []
-    near = begun + [less for start, _ in longer for less in one_state_less(start, n + 1, coarse)]
-    near.sort(key=lambda start: coarse.cost(start, n))
-    found += [descend(coarse, start, n, *TRUE) for start in near[:NEAREST]]
-    if not found:
-        raise InvalidData(f"no start for order {n}: the data show no dynamics that a model of this order could be begun from")
-    return descend(problem, min(found, key=lambda one: one[1])[0], n, *LAST)
-
-
-def _climbed(rungs: Sequence[Reduction], begun: Iterable[Array], n: int, kept: int) -> list[tuple[Array, float]]:
-    """Return the ends of the ladder from the `kept` best distinct starts, the least cost first."""
-    distinct: list[tuple[Array, float]] = []
-    for matrix, cost in sorted((descend(rungs[0], start, n, *RUNGS) for start in begun), key=lambda one: one[1]):
-        if all(cost - other > DISTINCT * cost for _, other in distinct):
-            distinct.append((matrix, cost))
-    ends = []
-    for matrix, _ in distinct[:kept]:
-        for rung in rungs[1:-1]:
-            matrix, _ = descend(rung, matrix, n, *RUNGS)
-        ends.append(descend(rungs[-1], matrix, n, *TRUE))
-    return sorted(ends, key=lambda one: one[1])
 
 
 def judged(found: ReducedModel, windows: ArxWindows) -> ReducedModel:

@@ -37,7 +37,7 @@ WITHOUT_SOURCE = {
     "faultspace.proofs": {"certify", "check", "Checked", "CheckedFile", "check_file", "Verdict"},
 }
 # What goes into a question: numbers, fields, matrices and functions, not answers about something.
-VALUES = {"Rationals", "PrimeField", "NumberField", "Matrix", "RowEchelon", "Filter", "Spectra"}
+VALUES = {"Rationals", "PrimeField", "NumberField", "Matrix", "RowEchelon", "Filter", "Spectra", "FaultSpectra"}
 # A command's answer with a page of Markdown for a summary; every other record says it by its sheet.
 WITHOUT_SHEET = {"Identification"}
 PICTURED = {

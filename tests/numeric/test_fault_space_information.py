@@ -15,9 +15,11 @@ from faultspace.base.errors import InvalidData
 from faultspace.numeric import FaultSpectra, SpaceUncertainty, StateSpaceModel, fault_space_bound
 from faultspace.numeric.bound import space_information as room
 from faultspace.numeric.bound.spectra import filtered, white
+from faultspace.numeric.count.windows import observed_coordinates
 from faultspace.numeric.model.models import observability_matrix
 from faultspace.numeric.model.weighted_reduction import circle
 from faultspace.numeric.space.result import kernel_conditions, orthonormal
+from faultspace.numeric.space.uncertainty import turned_by_model, turned_by_rows
 
 Bound = Callable[[StateSpaceModel, Array, Array, FaultSpectra, int], SpaceUncertainty]
 Matrices = tuple[Array, ...]
@@ -305,3 +307,41 @@ def test_what_has_no_bound_is_refused(change: dict[str, Any], says: str) -> None
     asked: dict[str, Any] = {"A": A, "F": F, "G": G, "spectra": spectra} | change
     with pytest.raises(InvalidData, match=says):
         fault_space_bound(StateSpaceModel(asked["A"], B, C, D), asked["F"], asked["G"], asked["spectra"], 100)
+
+
+def test_a_change_of_the_model_turns_the_space_as_numerical_derivatives_say() -> None:
+    """Of the rows, A and C, which need not fit each other, in coordinates that are not the observed ones."""
+    rng = np.random.default_rng(4)
+    n, p = 3, 2
+    A, C, row = 0.4 * rng.standard_normal((n, n)), rng.standard_normal((p, n)), rng.standard_normal((n, p))
+    coordinates = observed_coordinates(rng.standard_normal((50, p)) * [1.0, 30.0], A, C, n + 1)
+
+    def basis(model: Array, row: Array) -> Array:
+        """Return a basis in the states of A, for rows of y, the states mapped to those of A."""
+        conditions = kernel_conditions(row[None], model[:n], model[n:])[0]
+        columns = np.linalg.svd(conditions)[2][len(conditions) :].T
+        true, other = (observability_matrix(a[:n], a[n:], 2 * n) for a in (np.vstack([A, C]), model))
+        return orthonormal(np.vstack([np.linalg.lstsq(true, other, rcond=None)[0] @ columns[:n], columns[n:]]))
+
+    start = np.vstack([A, C])
+    Q = basis(start, row)
+    inner = [row * coordinates.scale]
+    conditions = kernel_conditions(inner[0][None], coordinates.A, coordinates.C)[0]
+    columns = np.linalg.svd(conditions)[2][len(conditions) :].T
+    # An orthonormal basis of the same span may be turned: compare dQ Q', which is not.
+    answered = orthonormal(coordinates.back(columns))
+
+    def slow(of_model: Array, of_row: Array) -> Array:
+        there, back = (basis(start + step * of_model, row + step * of_row) for step in (1e-6, -1e-6))
+        return np.asarray((np.eye(n + p) - Q @ Q.T) @ (there @ there.T - back @ back.T) @ Q @ Q.T / 2e-6)
+
+    of_rows = turned_by_rows(inner, coordinates, columns)
+    for k, unit in enumerate(np.eye(row.size)):
+        change = unit.reshape(row.shape) / coordinates.scale
+        assert np.allclose(of_rows[k] @ answered.T, slow(0 * start, change), atol=1e-6)
+    of_model = turned_by_model(inner, coordinates, columns)
+    T, scale = coordinates.T, coordinates.scale[:, None]
+    for k, unit in enumerate(np.eye(start.size)):
+        change = unit.reshape(start.shape)
+        given = np.vstack([np.linalg.inv(T) @ change[:n] @ T, scale * change[n:] @ T])
+        assert np.allclose(of_model[k] @ answered.T, slow(given, 0 * row), atol=1e-5)

@@ -97,7 +97,7 @@ def test_floats_come_back_from_json_bit_for_bit(chain: dict[str, Any]) -> None:
     assert np.array_equal(reduced["uncertainty"]["root"], found.uncertainty.root)
     deviations = np.array(reduced["uncertainty"]["pole_deviations"])
     assert np.array_equal(deviations[:, 0] + 1j * deviations[:, 1], found.uncertainty.poles())
-    assert [row["odds"] for row in reduced["orders"]["rows"]] == [row.odds for row in found.orders.rows]
+    assert [row["chance"] for row in reduced["orders"]["rows"]] == [row.chance for row in found.orders.rows]
     assert record["deviation"] == chain["record"].channels.deviation.tolist()
     assert np.array_equal(against["roots"], chain["against"].roots) and against["n_v"] == 1
 
@@ -136,8 +136,8 @@ def test_the_picture_of_the_orders_shows_what_is_open_and_what_is_taken(chain: d
     ax: Any = Figure(layout="constrained").add_subplot()
     orders = chain["orders"]
     orders.plot(ax)
-    schwarz = np.array([row.schwarz for row in orders.rows])
-    assert np.allclose(ax.lines[0].get_ydata(), schwarz - schwarz.min()) and ax.lines[1].get_xdata().tolist() == [orders.best]
+    akaike = np.array([row.akaike for row in orders.rows])
+    assert np.allclose(ax.lines[0].get_ydata(), akaike - akaike.min()) and ax.lines[1].get_xdata().tolist() == [orders.best]
     assert f"left open: {orders.least}" in ax.get_legend().get_texts()[-1].get_text()
 
 

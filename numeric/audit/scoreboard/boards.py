@@ -5,7 +5,7 @@
     merged        new entries in place of old ones
     main          audits and writes scoreboard.json; what is not installed here keeps the entry that it has there
 
-The records of the file are in `scoreboard_records`; `scoreboard_pages` makes README's table and FINDINGS.md of it.
+The records of the file are in `records`; `pages` makes README's table and FINDINGS.md of it.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from .peers import PEERS
-from .peers import peer as peer_named
-from .records import CheckResult, Status, grouped
-from .running import audit
-from .scoreboard_pages import write_pages
-from .scoreboard_records import Audited, Board, Tally
+from ..peers import PEERS
+from ..peers import peer as peer_named
+from ..records import CheckResult, Status, grouped
+from ..running import audit
+from .pages import write_pages
+from .records import Audited, Board, Tally
 
 
 def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
@@ -88,7 +88,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
         file.write_text(json.dumps(found.to_json(), indent=1) + "\n", "utf-8")
     write_pages(found, given.out)
     return 0
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

@@ -1,11 +1,11 @@
 """How the vectors are computed: systems drawn from fixed seeds, data and answers by the exact branch, bounds from conditioning.
 
-    MAKERS                  kind -> function that makes its vectors; those of faults are in `making_fault_vectors`
+    MAKERS                  kind -> function that makes its vectors; those of faults are in `fault_records`
     identification_vectors  n_u, p = 1, 2, 3, with and without D and initial state; smooth inputs; a long window
     structure_vectors       the same questions for the system itself; not left-invertible, without zeros; other coordinates
     consistency_vectors     a coloured fault
     documents               all files, name -> JSON document
-    main                    `python -m faultspace.numeric.audit.making_vectors --out DIR` writes the files
+    main                    `python -m faultspace.numeric.audit.making --out DIR` writes the files
 
 The bounds are those of the problem, not of one program. A model: the largest over two ways to compress (QR, Gram) and two regressions for B
 and D, each a worst case to first order. A fault space: the kernel rows' conditioning. A zero: its condition number as an eigenvalue of the
@@ -32,17 +32,17 @@ from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
-from ...base.arrays import Array
-from ..model.compression import EPS, compress
-from ..model.past_inputs import pi_moesp, pi_moesp_from_compression
-from ..rounding.conditioning import SMALL, ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
+from ....base.arrays import Array
+from ...model.compression import EPS, compress
+from ...model.past_inputs import pi_moesp, pi_moesp_from_compression
+from ...rounding.conditioning import SMALL, ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
+from ..vectors.exact_comparison import matched, poles, roots
+from ..vectors.fault_vectors import FaultView
+from ..vectors.rationals import ROUNDING, floats, matrix, scaled
+from ..vectors.recipe_vectors import ConsistencyVector
+from ..vectors.shipped_vectors import FORMAT, KINDS, POINTS, IdentificationVector, StructureVector
 from .drawing import drawn, stable, upward
-from .exact_comparison import matched, poles, roots
-from .fault_vectors import FaultView
-from .making_fault_vectors import fault_vectors, noisy_vectors, unexciting_vectors
-from .rationals import ROUNDING, floats, matrix, scaled
-from .recipe_vectors import ConsistencyVector
-from .vectors import FORMAT, KINDS, POINTS, IdentificationVector, StructureVector
+from .fault_records import fault_vectors, noisy_vectors, unexciting_vectors
 
 
 def _upward(values: Any) -> Any:
@@ -252,7 +252,7 @@ def written(document: Mapping[str, Any]) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """This writes all files and returns 0."""
-    parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.making_vectors", description="Make the audit's vectors.")
+    parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.making", description="Make the audit's vectors.")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files, made if it is not there")
     out: Path = parser.parse_args(arguments).out
     texts = {name: written(document) for name, document in documents().items()}
@@ -260,7 +260,3 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for name, text in texts.items():
         (out / name).write_text(text, "utf-8")
     return 0
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

@@ -23,17 +23,17 @@ from faultspace.exact.structure.signals import excitation_matrix, hankel, simula
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.exact.system.windows import window_matrix
 
-from ..model.models import StateSpaceModel
-from ..model.residuals import residual
-from ..rounding.residual_conditioning import fault_signal_error, fitted_state_error
-from ..signal.reconstruction import reconstruct_fault
-from ..space.by_ranks import noise_free_fault_space
+from ...model.models import StateSpaceModel
+from ...model.residuals import residual
+from ...rounding.residual_conditioning import fault_signal_error, fitted_state_error
+from ...signal.reconstruction import reconstruct_fault
+from ...space.by_ranks import noise_free_fault_space
+from ..checks.excitation import unexciting_inputs
+from ..checks.faults import LONG_WINDOW, with_input
+from ..vectors.fault_vectors import AS_GIVEN, HALF, VIEWS, FaultVector, FaultView, UnexcitingVector, channel_units, in_channel_units
+from ..vectors.rationals import floats, fractions, matrix, scaled
+from ..vectors.recipe_vectors import NoisyVector
 from .drawing import drawn, stable, upward
-from .excitation_checks import unexciting_inputs
-from .fault_checks import LONG_WINDOW, with_input
-from .fault_vectors import AS_GIVEN, HALF, VIEWS, FaultVector, FaultView, UnexcitingVector, channel_units, in_channel_units
-from .rationals import floats, fractions, matrix, scaled
-from .recipe_vectors import NoisyVector
 
 TELLING = 1e-2  # of the signal: a bound above it asks for nothing
 CLEAR = 10.0  # how far above the noise's norm the least singular value must be, both certified
@@ -134,7 +134,7 @@ def _space_bound(r: Matrix, system: ResidualSystem, block_rows: int) -> float:
 
 
 def _residual_bound(r: Matrix, system: ResidualSystem, size: Fraction) -> float:
-    """For y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `fault_checks.with_input`), in channel units:
+    """For y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `checks.faults.with_input`), in channel units:
     what is computed for an output has its unit as a factor, whoever computes it.
     """
     units = channel_units(r)

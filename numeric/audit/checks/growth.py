@@ -23,12 +23,12 @@ from typing import Any
 import numpy as np
 import psutil
 
-from ...base.arrays import Array
-from ...base.processes import family, resident
-from ..model.models import StateSpaceModel
-from .rationals import floats, signs
-from .records import Check, Function, Measurement, Severity
-from .vectors import FaultVector, IdentificationVector, shipped
+from ....base.arrays import Array
+from ....base.processes import family, resident
+from ...model.models import StateSpaceModel
+from ..records import Check, Function, Measurement, Severity
+from ..vectors.rationals import floats, signs
+from ..vectors.shipped_vectors import FaultVector, IdentificationVector, shipped
 
 LENGTHS = (3000, 12000)  # a square of 8-byte numbers is 1.2 GB at the longer, one of bytes 0.14
 BOUND = 1.5

@@ -17,7 +17,7 @@ import numpy as np
 
 from faultspace.exact.algebra.matrices import Matrix
 
-from ...base.arrays import Array
+from ....base.arrays import Array
 
 ROUNDING = "each rational to the nearest IEEE binary64, ties to even, once"
 

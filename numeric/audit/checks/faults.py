@@ -20,13 +20,13 @@ from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.structure.signals import hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from ...base.errors import InvalidData
-from ..space.distances import compare_subspaces
-from .exact_comparison import lifted
-from .fault_vectors import FaultVector, channel_units
-from .rationals import floats, matrix, scaled
-from .records import Broken, Check, Demand, Function, Measurement, Severity
-from .vectors import shipped
+from ....base.errors import InvalidData
+from ...space.distances import compare_subspaces
+from ..records import Broken, Check, Demand, Function, Measurement, Severity
+from ..vectors.exact_comparison import lifted
+from ..vectors.fault_vectors import FaultVector, channel_units
+from ..vectors.rationals import floats, matrix, scaled
+from ..vectors.shipped_vectors import shipped
 
 LONG_WINDOW = 10
 # Suffix of the slug, what the answer then depends on, the views compared.

@@ -1,4 +1,4 @@
-"""`python -m faultspace.numeric.audit.worker ADAPTER`: performs checks on a named adapter in a process of its own, asked by JSON lines.
+"""`python -m faultspace.numeric.audit.subjects.worker ADAPTER`: checks of a named adapter in a process of its own, asked by JSON lines.
 
     {"load": true}                                 -> {"functions": [...]}, or {"invalid": why}
     {"check": slug[vector], "function": name}      -> {"record": {...}}
@@ -21,10 +21,10 @@ from typing import Any
 
 import psutil
 
-from ...base.errors import InvalidData
-from .adapter import guarded, load, offered
-from .catalogue import all_checks
-from .records import Function, perform
+from ....base.errors import InvalidData
+from ..adapter import guarded, load, offered
+from ..checks.catalogue import all_checks
+from ..records import Function, perform
 
 PATIENCE = 1.0  # seconds that copies of this process have to come back
 

@@ -20,9 +20,9 @@ from signal import Signals
 
 import psutil
 
-from ...base.errors import InvalidData
-from ...base.processes import Limits, family, kill_session, resident, session
-from .records import Broken
+from ....base.errors import InvalidData
+from ....base.processes import Limits, family, kill_session, resident, session
+from ..records import Broken
 
 LONGEST_ANSWER = 64 << 20
 GLANCE = 0.05  # seconds between two looks at the memory: what grows by gigabytes a second is seen in time

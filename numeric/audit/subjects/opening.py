@@ -14,12 +14,12 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Protocol
 
-from ...base.errors import InvalidData
-from ...base.processes import Limits
-from .adapter import guarded, offered
+from ....base.errors import InvalidData
+from ....base.processes import Limits
+from ..adapter import guarded, offered
+from ..peers import peer as peer_named
+from ..records import Check, CheckResult, perform
 from .isolation import Isolated
-from .peers import peer as peer_named
-from .records import Check, CheckResult, perform
 from .subprocess_adapter import Exec
 
 REFERENCE = "faultspace.numeric.audit.reference"

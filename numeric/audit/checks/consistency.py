@@ -13,12 +13,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .exact_comparison import matched, poles
-from .fault_checks import as_number
-from .identification_checks import matrices
-from .recipe_vectors import ConsistencyVector, NoisyVector
-from .records import Check, Function, Measurement, Severity
-from .vectors import shipped
+from ..records import Check, Function, Measurement, Severity
+from ..vectors.exact_comparison import matched, poles
+from ..vectors.recipe_vectors import ConsistencyVector, NoisyVector
+from ..vectors.shipped_vectors import shipped
+from .faults import as_number
+from .identification import matrices
 
 
 def checks() -> Iterator[Check]:

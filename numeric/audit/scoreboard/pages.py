@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from .records import Demand
-from .scoreboard_records import Audited, Board, Tally
+from ..records import Demand
+from .records import Audited, Board, Tally
 
 BEGIN, END = "<!-- scoreboard -->", "<!-- end of scoreboard -->"
 HEAD = """# What the audit found

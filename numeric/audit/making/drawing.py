@@ -13,7 +13,7 @@ import numpy as np
 
 from faultspace.exact.algebra.matrices import Matrix
 
-from .rationals import matrix
+from ..vectors.rationals import matrix
 
 
 def drawn(rng: Random, height: int, width: int, denominator: int) -> Matrix:

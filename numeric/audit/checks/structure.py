@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from .adapter import ZeroStructure
-from .exact_comparison import matched
-from .records import Broken, Check, Function, Measurement, NotOffered, Severity
-from .vectors import StructureVector, floats, shipped
+from ..adapter import ZeroStructure
+from ..records import Broken, Check, Function, Measurement, NotOffered, Severity
+from ..vectors.exact_comparison import matched
+from ..vectors.shipped_vectors import StructureVector, floats, shipped
 
 
 def checks() -> Iterator[Check]:

@@ -15,11 +15,11 @@ import numpy as np
 
 from faultspace.exact.algebra.matrices import Matrix
 
-from ...base.arrays import Array
-from .exact_comparison import distances, lifted, markov, matched, poles, polynomial_from_the_top, transfer
-from .rationals import floats, scaled
-from .records import Broken, Check, Function, Measurement, Severity
-from .vectors import POINTS, IdentificationVector, shipped
+from ....base.arrays import Array
+from ..records import Broken, Check, Function, Measurement, Severity
+from ..vectors.exact_comparison import distances, lifted, markov, matched, poles, polynomial_from_the_top, transfer
+from ..vectors.rationals import floats, scaled
+from ..vectors.shipped_vectors import POINTS, IdentificationVector, shipped
 
 SCALES = (-12, -6, 6)  # powers of ten
 LONG = 20  # block rows of a long window

@@ -6,7 +6,7 @@
     ConsistencyVector, NoisyVector       see `recipe_vectors`
     shipped                the vectors of one kind that come with the package
 
-`python -m faultspace.numeric.audit.making_vectors --out DIR` writes the files anew; they are never edited by hand.
+`python -m faultspace.numeric.audit.making --out DIR` writes the files anew; they are never edited by hand.
 Rationals are strings "p/q" as in every exact file; bounds are floats.
 """
 
@@ -25,7 +25,7 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from ...base.arrays import Array
+from ....base.arrays import Array
 from .fault_vectors import FaultVector, UnexcitingVector
 from .rationals import floats, fractions, matrix, scaled, signs
 from .recipe_vectors import ConsistencyVector, NoisyVector
@@ -166,7 +166,7 @@ KINDS = tuple(_READERS)
 @cache
 def shipped(kind: str) -> tuple[Any, ...]:
     """Return the vectors of one of KINDS that come with the package, as the class of that kind."""
-    text = files("faultspace.numeric.audit").joinpath(f"data/{kind}.json").read_text("utf-8")
+    text = files("faultspace.numeric.audit.vectors").joinpath(f"data/{kind}.json").read_text("utf-8")
     document = json.loads(text)
     if document["format"] != FORMAT:
         raise ValueError(f"{kind}.json has format {document['format']!r}, this program reads {FORMAT!r}")

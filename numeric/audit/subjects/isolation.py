@@ -12,10 +12,10 @@ import time
 from types import TracebackType
 from typing import Any, Self
 
-from ...base.errors import InvalidData
-from ...base.processes import STANDARD, Limits
+from ....base.errors import InvalidData
+from ....base.processes import STANDARD, Limits
+from ..records import Broken, Check, CheckResult, broken
 from .programs import Program
-from .records import Broken, Check, CheckResult, broken
 
 LOADING = 120.0  # seconds for Python and the adapter's imports, whatever a check may take
 
@@ -27,7 +27,7 @@ class Isolated:
         self._name = name
         # -P: what lies in the present folder must not stand in for a module of ours. The paths are the caller's, so that both see the same.
         paths = os.pathsep.join(path for path in sys.path if path)
-        command = [sys.executable, "-P", "-m", "faultspace.numeric.audit.worker", name]
+        command = [sys.executable, "-P", "-m", "faultspace.numeric.audit.subjects.worker", name]
         self._program = Program(command, limits, environment={**os.environ, "PYTHONPATH": paths})
         self._loaded = False
         try:

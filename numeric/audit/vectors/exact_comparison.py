@@ -28,8 +28,8 @@ from faultspace.exact.limits.lyapunov import solve
 from faultspace.exact.limits.moesp import markov_parameters
 from faultspace.exact.system.systems import from_float_exactly
 
-from ...base.arrays import Array
-from .records import Broken
+from ....base.arrays import Array
+from ..records import Broken
 
 
 def lifted(values: Any, name: str, shape: tuple[int, int]) -> Matrix:

@@ -17,11 +17,11 @@ from typing import Any, Self
 
 import numpy as np
 
-from ...base.errors import InvalidData
-from ...base.processes import STANDARD, Limits
-from .adapter import FUNCTIONS, ZeroStructure
+from ....base.errors import InvalidData
+from ....base.processes import STANDARD, Limits
+from ..adapter import FUNCTIONS, ZeroStructure
+from ..records import Broken, Refused
 from .programs import Program
-from .records import Broken, Refused
 
 ARGUMENTS = {
     "identify": ("y", "u", "order", "block_rows"),

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ...base.errors import InvalidData
+from ....base.errors import InvalidData
 
 FORMAT = "faultspace-audit-scoreboard/1"
 

@@ -17,11 +17,11 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from .fault_checks import as_number, ranks_off
-from .fault_vectors import UnexcitingVector
-from .rationals import floats, matrix
-from .records import Check, Demand, Function, Measurement, Severity
-from .vectors import IdentificationVector, shipped
+from ..records import Check, Demand, Function, Measurement, Severity
+from ..vectors.fault_vectors import UnexcitingVector
+from ..vectors.rationals import floats, matrix
+from ..vectors.shipped_vectors import IdentificationVector, shipped
+from .faults import as_number, ranks_off
 
 
 def checks() -> Iterator[Check]:

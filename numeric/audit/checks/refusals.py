@@ -15,12 +15,12 @@ import numpy as np
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from ...base.arrays import Array
-from .fault_checks import as_number, space_off
-from .fault_vectors import FaultVector
-from .rationals import floats, matrix
-from .records import Check, Demand, Function, Measurement, Refused, Severity
-from .vectors import IdentificationVector, shipped
+from ....base.arrays import Array
+from ..records import Check, Demand, Function, Measurement, Refused, Severity
+from ..vectors.fault_vectors import FaultVector
+from ..vectors.rationals import floats, matrix
+from ..vectors.shipped_vectors import IdentificationVector, shipped
+from .faults import as_number, space_off
 
 MISSING = "a missing sample goes into the estimate unnoticed"
 

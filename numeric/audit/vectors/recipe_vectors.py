@@ -18,8 +18,8 @@ import scipy  # its folders are loaded when they are first used
 
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
-from ...base.arrays import Array
-from ..model.models import StateSpaceModel
+from ....base.arrays import Array
+from ...model.models import StateSpaceModel
 from .exact_comparison import matched, poles
 from .rationals import floats, matrix, signs
 

@@ -9,29 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
-from ...base.errors import InvalidData
-from . import (
-    consistency_checks,
-    excitation_checks,
-    fault_checks,
-    growth_checks,
-    identification_checks,
-    manners_checks,
-    refusal_checks,
-    structure_checks,
-)
-from .records import Check
+from ....base.errors import InvalidData
+from ..records import Check
+from . import consistency, excitation, faults, growth, identification, manners, refusals, structure
 
-MODULES = (
-    identification_checks,
-    consistency_checks,
-    fault_checks,
-    excitation_checks,
-    structure_checks,
-    refusal_checks,
-    manners_checks,
-    growth_checks,
-)
+MODULES = (identification, consistency, faults, excitation, structure, refusals, manners, growth)
 
 
 def all_checks() -> Iterator[Check]:

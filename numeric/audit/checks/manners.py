@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from .fault_checks import with_input
-from .records import Check, Function, Measurement, Severity
-from .vectors import floats, shipped
+from ..records import Check, Function, Measurement, Severity
+from ..vectors.shipped_vectors import floats, shipped
+from .faults import with_input
 
 
 def checks() -> Iterator[Check]:
