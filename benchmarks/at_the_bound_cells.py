@@ -106,19 +106,22 @@ def _of_the_study(seed: int, number: int, samples: int, coloured: bool, rng: np.
         power = filtered(*LOW_PASS)(angles)[:, 0, 0].real
         return np.asarray(np.maximum(power, NULL * power.mean())[:, None, None] * np.diag(deviations**2), dtype=np.complex128)
 
-    faults = Faults(system.F, system.G, system.Z, _smoothed(v), noise)
-    return Trial(y, u, plant, Spectra(spectrum, total(through(faulty, faults.spectrum), noise)), faults)
+    # An offset disturbs the model at one angle only, but it tells the direction of its fault.
+    faults = Faults(system.F, system.G, system.Z, _smoothed(v, 0), noise)
+    return Trial(y, u, plant, Spectra(spectrum, total(through(faulty, _smoothed(v, 1)), noise)), faults)
 
 
-def _smoothed(v: Array) -> Spectrum:
-    """Return the smoothed periodogram of each fault as a spectrum."""
-    power = np.abs(np.fft.rfft(v - v.mean(axis=0), axis=0)[1:]) ** 2 / len(v)
-    at = 2 * np.pi * np.arange(1, len(power) + 1) / len(v)
+def _smoothed(v: Array, first_angle: int) -> Spectrum:
+    """Return the smoothed periodogram of each fault as a spectrum, from that angle on: 0 includes the offset, 1 leaves it out."""
+    power = np.abs(np.fft.rfft(v, axis=0)[first_angle:]) ** 2 / len(v)
+    at = 2 * np.pi * np.arange(first_angle, first_angle + len(power)) / len(v)
+    # Behind each angle but zero stands a negative one.
+    sides = np.where(at == 0, 0.5, 1.0)
 
     def spectrum(angles: Array) -> NDArray[np.complex128]:
         values = np.empty((len(angles), v.shape[1]))
         for first in range(0, len(angles), 256):
-            weights = np.exp(-0.5 * ((angles[first : first + 256, None] - at) / BANDWIDTH) ** 2)
+            weights = sides * np.exp(-0.5 * ((angles[first : first + 256, None] - at) / BANDWIDTH) ** 2)
             values[first : first + 256] = weights @ power / weights.sum(axis=1, keepdims=True)
         return np.asarray(values[:, :, None] * np.eye(v.shape[1]), dtype=np.complex128)
 

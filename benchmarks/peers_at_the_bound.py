@@ -38,14 +38,14 @@ from benchmarks.at_the_bound_cells import CELLS, Cell, Trial
 from benchmarks.identification_cells import environment
 from benchmarks.peers_at_the_bound_picture import picture
 from benchmarks.peers_at_the_bound_results import INFINITE, CellResults, Comparison, Result, from_json, notes, sheets, to_json, updated
-from benchmarks.peers_at_the_bound_spaces import author_command
+from benchmarks.peers_at_the_bound_spaces import WAYS, author, author_command
 from benchmarks.peers_at_the_bound_spaces import measured as measured_spaces
 from benchmarks.peers_at_the_bound_tools import AUTHOR, TOOLS, Tool
 from benchmarks.sheets import markdown, show
 from faultspace.base.errors import InvalidData
 from faultspace.base.processes import Limits
 from faultspace.numeric.audit.records import Broken, Refused
-from faultspace.numeric.audit.subprocess_adapter import Exec
+from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 from faultspace.numeric.bound.information_bound import cramer_rao, relative_error
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.model.uncertainty import Uncertainty
@@ -54,6 +54,7 @@ HERE = Path(__file__).resolve().parent
 STORED, PAGE, PICTURE = HERE / "peers_at_the_bound.json", HERE / "README.md", HERE.parent / "docs" / "peers.svg"
 BEGIN, END = "<!-- peers_at_the_bound.py --pages makes what stands here -->", "<!-- as far as here -->"
 KINDS = sorted({cell.kind for cell in CELLS})
+NAMES = list(dict.fromkeys([*(tool.name for tool in TOOLS), *WAYS]))
 UNUSED = 10  # the window that the protocol's question names where the tool has none
 
 
@@ -123,9 +124,11 @@ def run(options: argparse.Namespace) -> Iterator[Comparison]:
             for samples, cell in cells:
                 yield (known := replace(known, cells=updated(known.cells, compared(programs, cell, samples, options))))
         if "spaces" in options.parts:
-            program = stack.enter_context(Exec(author_command(), limits)) if AUTHOR in versions else None
+            ways = {name: way for name, way in WAYS.items() if name in options.tools}
+            if AUTHOR in versions:
+                ways[AUTHOR] = author(stack.enter_context(Exec(author_command(), limits)))
             for samples, cell in ((samples, cell) for samples, cell in cells if cell.kind == "paper"):
-                over, percent = measured_spaces(cell, samples, options.seed, options.systems, options.block_rows, program)
+                over, percent = measured_spaces(ways, cell, samples, options.seed, options.systems, options.block_rows)
                 known = replace(known, spaces=updated(known.spaces, over), distances=updated(known.distances, percent))
                 yield known
 
@@ -145,7 +148,7 @@ def main() -> None:
     parser.add_argument("--samples", type=int, nargs="+", default=[1000])
     parser.add_argument("--cells", nargs="+", default=KINDS, choices=KINDS)
     parser.add_argument("--parts", nargs="+", default=["models", "spaces"], choices=["models", "spaces"], help="what is measured")
-    parser.add_argument("--tools", nargs="+", default=[tool.name for tool in TOOLS], choices=[tool.name for tool in TOOLS], metavar="NAME")
+    parser.add_argument("--tools", nargs="+", default=NAMES, choices=NAMES, metavar="NAME")
     parser.add_argument("--block-rows", type=int, nargs="+", default=[10, 20], metavar="S", help="windows that each tool is given")
     parser.add_argument("--jobs", type=int, default=1, help="processes at a time")
     parser.add_argument("--limit", type=float, default=120.0, metavar="SECONDS", help="time of an answer (default %(default)g)")

@@ -13,18 +13,18 @@ bound is the median distance of an estimate whose errors have the least covarian
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from benchmarks.at_the_bound_cells import Array, Cell, Trial
 from benchmarks.peers_at_the_bound_results import INFINITE, CellResults, Result
-from benchmarks.peers_at_the_bound_tools import AUTHOR, OURS, PAPER
+from benchmarks.peers_at_the_bound_tools import OURS, PAPER
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import FaultSpectra, arx_reduction, fault_space, fault_space_bound, fault_space_by_rows, pi_moesp, residual
 from faultspace.numeric.audit import peers
 from faultspace.numeric.audit.records import Broken, Refused
-from faultspace.numeric.audit.subprocess_adapter import Exec
+from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 from faultspace.numeric.model.models import StateSpaceModel, observability_matrix
 from faultspace.numeric.model.toeplitz_factorisation import toeplitz_factorisation
 from faultspace.numeric.space.distances import two_sided_error
@@ -125,13 +125,12 @@ def bound(trial: Trial) -> float:
 
 
 def measured(
-    cell: Cell, samples: int, seed: int, systems: int, windows: Sequence[int], program: Exec | None
+    ways: Mapping[str, Way], cell: Cell, samples: int, seed: int, systems: int, windows: Sequence[int]
 ) -> tuple[CellResults, CellResults]:
     """Return the results over the bound, and those in percent."""
     trials = [cell.trial(seed, number, samples) for number in range(systems)]
     bounds = [bound(trial) for trial in trials]
     over, percent = [], []
-    ways = WAYS if program is None else WAYS | {AUTHOR: author(program)}
     for name, way in ways.items():
         for block_rows in (None,) if name == OURS else windows:
             errors, failures = [], Counter[str]()

@@ -34,7 +34,7 @@ from benchmarks.peers_at_the_bound_tools import IDENTIFY, OURS, PAPER, TOOLS, To
 from faultspace.base.errors import InvalidData
 from faultspace.base.processes import Limits
 from faultspace.numeric.audit.records import Refused
-from faultspace.numeric.audit.subprocess_adapter import Exec
+from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 from faultspace.numeric.bound.information_bound import cramer_rao, relative_error
 from faultspace.numeric.model.models import StateSpaceModel
 
