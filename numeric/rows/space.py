@@ -63,6 +63,7 @@ def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, 
     return _space(outputs, inputs, A, C, np.zeros((A.size + C.size, 0)), n_v, draws)
 
 
+@one_thread()
 def identified_fault_space(y: ArrayLike, u: ArrayLike, model: ReducedModel, *, n_v: int, draws: int = 0) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
 
