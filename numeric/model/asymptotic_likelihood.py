@@ -5,7 +5,7 @@
 3  The model of order n nearest to G_h under W and the input's spectrum (`weighted_reduction`), from several starts, up a ladder of weights.
 
 PI-MOESP uses past inputs as instruments and says nothing about the colour of what disturbs. On simulated records of 1000 samples its median
-errors are 1.3 to 3.6 times the Cramer-Rao bound of a known disturbance spectrum, those that remain here 0.8 to 1.1 times; such estimates
+errors are 1.2 to 3.6 times the Cramer-Rao bound of a known disturbance spectrum, those that remain here 0.9 to 1.1 times; such estimates
 are efficient for long records [W89]. `python benchmarks/at_the_bound.py` measures it. Nothing is random: equal data give equal models.
 
 What must hold: u and the faults uncorrelated (open loop), a stable model, u that excites lags + 1 samples beside its mean. The colour of u
