@@ -219,15 +219,17 @@ def identify(
             metavar="DIR", show_default=False, help="Write model, fault space, signal, plots there; only our own files are replaced."
         ),
     ],
-    order: Annotated[
-        int | None, typer.Option(metavar="N", min=1, help="Number of states.", show_default="by the gap in the singular values")
-    ] = None,
+    order: Annotated[int | None, typer.Option(metavar="N", min=1, help="Number of states.", show_default="chosen from the data")] = None,
     block_rows: Annotated[
-        int | None, typer.Option(metavar="K", min=2, help="Samples of a window.", show_default="20, or what is needed")
+        int | None, typer.Option(metavar="K", min=2, help="Samples of a window.", show_default="what the record carries")
     ] = None,
     faults: Annotated[int | None, typer.Option(metavar="K", min=0, help="Number of independent faults.", show_default="estimated")] = None,
     healthy_until: Annotated[
         int | None, typer.Option(metavar="K", min=1, help="The first K samples are without fault: count beyond them.", show_default=False)
+    ] = None,
+    noise_level: Annotated[
+        list[float] | None,
+        typer.Option(metavar="SIGMA", help="Deviation of the sensors' noise, once or once an output, in its units.", show_default=False),
     ] = None,
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
     dt: Annotated[
@@ -246,7 +248,8 @@ def identify(
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, dt=dt, as_json=json, **settings)
+    known = identifying.Known(**settings, noise_level=noise_level, remove_means=remove_means, dt=dt)
+    return identifying.run(data, known, inputs=inputs, outputs=outputs, out=out, as_json=json)
 
 
 @_command("monte-carlo")

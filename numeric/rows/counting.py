@@ -30,7 +30,7 @@ from numpy.typing import ArrayLike
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.rank_gap import fault_dimension
-from ..data.validation import constant_channels, positive, signals
+from ..data.validation import constant_channels, noise_deviations, positive, signals
 from .joint import ROUNDING, JointMoments, joint_moments
 from .laws import EXTRA, FAILS, SUFFICES, Laws, bootstrapped, tested
 
@@ -88,7 +88,7 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
     p, n = outputs.shape[1], positive(order, "order")
     _measured(outputs)
     data = joint_moments(outputs, inputs, n + EXTRA)
-    known = None if noise_level is None else _known(noise_level, p) / data.scale[:p]
+    known = None if noise_level is None else noise_deviations(noise_level, p) / data.scale[:p]
     one = tested(data, 1, n, None if known is None else known**2 / np.exp(np.mean(np.log(known**2))))
     if np.exp(one.level) < ROUNDING:
         return _by_ranks(outputs, inputs)
@@ -129,8 +129,11 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     if not found:
         reason = f"{p} faults, or an order above the one given: no row of its degree leaves noise alone (probability {one.probability:.1g})"
         return FaultCount(None, (p,), reason, _walk(tests))
-    if known is not None or p == 1:
+    if known is not None:
         return _answer(p - 1, one, tests, data)
+    if p == 1:
+        reason = "0 or 1: of one output a fault cannot be told from noise of its colour; a noise_level would settle it"
+        return FaultCount(None, (0, 1), reason, _walk(tests))
     step = laws(2).level - one.level
     if step < FAINTEST:
         reason = (
@@ -180,17 +183,6 @@ def _holds(laws: Laws, data: JointMoments, known: Array | None) -> bool | None:
 def _loudness(level: float, spectrum: Array, data: JointMoments, known: Array) -> float:
     """Return the ratio of the noise power that rows leave to the known one, whose deviations (p,) are in units of the moments."""
     return float(np.exp(level - np.mean(np.log(known**2))) * (spectrum @ data.moments.weights))
-
-
-def _known(noise_level: ArrayLike, p: int) -> Array:
-    """Return the noise level as (p,) positive deviations. Raises InvalidData where it is none."""
-    try:
-        level = np.broadcast_to(np.asarray(noise_level, dtype=float), (p,))
-    except (TypeError, ValueError):
-        level = np.zeros(p)
-    if not (np.all(np.isfinite(level)) and np.all(level > 0)):
-        raise InvalidData(f"noise_level: got {noise_level!r}; needed one positive standard deviation, or {p} of them, in units of y")
-    return level
 
 
 def _by_ranks(y: Array, u: Array) -> FaultCount:

@@ -22,7 +22,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.arguments import shaped
 from ..count.windows import ObservedCoordinates, observed_coordinates
-from ..data.validation import positive, signals
+from ..data.validation import noise_deviations, positive, signals
 from ..space.basis import KernelBasis
 from ..space.largest import largest_fault_space
 from ..space.result import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
@@ -36,13 +36,17 @@ BEYOND = 1
 SEED = 20251123
 
 
-def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, draws: int = 0) -> FaultSpaceEstimate:
+def fault_space_by_rows(
+    y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
+) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
 
     The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`); with `draws` their misfit is measured
     on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right; the
     error of an identified model is not in it. The basis is in the states of A and the units of y, which do not matter otherwise. The noise
-    is taken to have one colour, and the same power relative to the deviation of each output. Raises InvalidData for shapes that do not
+    is taken to have one colour, and powers as those of `noise_level` (one number or one an output, in units of y), of which only the ratios
+    matter; without it the same power relative to the deviation of each output. Noise of other ratios turns the space, and on long records
+    hides that a degree suffices; what `count_faults` finds serves, the root of its `noise_power`. Raises InvalidData for shapes that do not
     fit, n_v outside 1 .. p, and records too short for rows of degree n + 1. Source: [G25] problem (11), [W91].
 
     >>> import numpy as np
@@ -66,11 +70,15 @@ def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, 
     rows, seen = p - faults, coordinates.observed
     data = joint_moments(outputs, inputs, -(-(seen + BEYOND) // rows))
     largest = largest_fault_space(coordinates.A, coordinates.C, faults)
-    fits = course(data, rows, seen + BEYOND)
+    shares = np.ones(p)
+    if noise_level is not None:
+        powers = (noise_deviations(noise_level, p) / data.scale[:p]) ** 2
+        shares = powers / np.exp(np.mean(np.log(powers)))
+    fits = course(data, rows, seen + BEYOND, shares=shares)
     chosen = least_degree(data, fits, n + faults - largest, seen)
     misfits: Sequence[float] = MISFITS
     if draws:
-        misfits = _misfits(outputs, inputs, data, fits, chosen, draws)
+        misfits = _misfits(outputs, inputs, data, fits, chosen, shares, draws)
         chosen = least_degree(data, fits, n + faults - largest, seen, misfits)
     return _estimate(data, fits[chosen.degree], chosen, coordinates, faults, largest, misfits[0])
 
@@ -114,17 +122,19 @@ def _estimate(
     )
 
 
-def _misfits(y: Array, u: Array, data: JointMoments, fits: Sequence[KernelBasis], chosen: LeastDegree, draws: int) -> list[float]:
+def _misfits(
+    y: Array, u: Array, data: JointMoments, fits: Sequence[KernelBasis], chosen: LeastDegree, shares: Array, draws: int
+) -> list[float]:
     """Return the means of the ratios over their degrees of freedom, for one degree more, two, .., on records made from the chosen fit."""
     ratios = []
-    for record in redrawn(y, u, data, fits[chosen.degree], np.ones(data.p), draws, SEED):
+    for record in redrawn(y, u, data, fits[chosen.degree], shares, draws, SEED):
         again = joint_moments(record, u, data.degree)
         count = len(fits[0].rows)
-        steps = [refitted(again, even_split(chosen.degree, count), fits[chosen.degree].rows)]
+        steps = [refitted(again, even_split(chosen.degree, count), fits[chosen.degree].rows, shares=shares)]
         for total in range(chosen.degree + 1, len(fits)):
             degrees = even_split(total, count)
             starts = [padded(steps[-1].rows, degrees), padded(steps[-1].rows, degrees, below=True)]
-            steps.append(fitted(again, degrees, starts))
+            steps.append(fitted(again, degrees, starts, shares=shares))
         ratios.append([likelihood_ratio(again, steps[0], step) / freedom(again, steps[0], step) for step in steps[1:]])
     return [max(float(mean), 1.0) for mean in np.mean(ratios, axis=0)] or [1.0]
 
