@@ -71,7 +71,7 @@ class Cell:
 CELLS = tuple(Cell(kind, coloured) for kind in ("paper", "2in3out", "1in1out") for coloured in (False, True))
 
 
-def _input(samples: int, channels: int, coloured: bool, rng: np.random.Generator) -> tuple[Array, Spectrum]:
+def input_signal(samples: int, channels: int, coloured: bool, rng: np.random.Generator) -> tuple[Array, Spectrum]:
     pole = INPUT_POLE if coloured else 0.0
     numerator, denominator = [np.sqrt(1 - pole**2)], [1.0, -pole]
     u = scipy.signal.lfilter(numerator, denominator, rng.standard_normal((samples + SETTLING, channels)), axis=0)
@@ -81,7 +81,7 @@ def _input(samples: int, channels: int, coloured: bool, rng: np.random.Generator
 def _of_the_study(seed: int, number: int, samples: int, coloured: bool, rng: np.random.Generator) -> Trial:
     system = study_system(number % ZEROS, np.random.SeedSequence([seed, number]))
     plant = system.model
-    u, spectrum = _input(samples, plant.n_u, coloured, rng)
+    u, spectrum = input_signal(samples, plant.n_u, coloured, rng)
     u = u[SETTLING:]
     v = study_faults(samples, rng)
     faulty = StateSpaceModel(plant.A, system.F, plant.C, system.G)
@@ -113,14 +113,14 @@ def _smoothed(v: Array) -> Spectrum:
 
 def _one_fault(samples: int, coloured: bool, rng: np.random.Generator, n_u: int, p: int) -> Trial:
     n = 4
-    A, rotation = _stable(n, rng)
+    A, rotation = stable_matrix(n, rng)
 
     def entries(*shape: int) -> Array:
         return np.asarray(rng.choice((-1.0, 1.0), shape) * rng.uniform(0.5, 1.5, shape))
 
     plant = StateSpaceModel(A, rotation @ entries(n, n_u), entries(p, n) @ rotation.T, entries(p, n_u))
     fault_pole = rng.uniform(0.5, 0.95)
-    u, spectrum = _input(samples, n_u, coloured, rng)
+    u, spectrum = input_signal(samples, n_u, coloured, rng)
     v = scipy.signal.lfilter([1.0], [1.0, -fault_pole], rng.standard_normal((samples + SETTLING, 1)), axis=0)
     faulty = StateSpaceModel(A, rotation @ entries(n, 1), plant.C, entries(p, 1))
     driven, disturbed = plant.simulate(u)[SETTLING:], faulty.simulate(v)[SETTLING:]
@@ -132,7 +132,7 @@ def _one_fault(samples: int, coloured: bool, rng: np.random.Generator, n_u: int,
     return Trial(clean + deviations * rng.standard_normal(clean.shape), u[SETTLING:], plant, Spectra(spectrum, disturbance))
 
 
-def _stable(n: int, rng: np.random.Generator) -> tuple[Array, Array]:
+def stable_matrix(n: int, rng: np.random.Generator) -> tuple[Array, Array]:
     """Draw A (n, n) with poles 0.15 apart of modulus 0.3 to 0.95, turned by an orthogonal matrix that is returned too."""
     while True:
         poles: list[complex] = []

@@ -16,6 +16,7 @@ them, and `identify` does not call them yet:
 
 arx_reduction         A, B, C, D under strong coloured faults, with standard errors; arx_reduction_experiments: from several experiments
 cramer_rao            the least standard deviations that any unbiased estimate of A, B, C, D can have
+fault_space_bound     the least error that any unbiased estimate of the fault space can have
 count_faults          how many faults act on outputs and inputs, without a model
 fault_space_by_rows   all fault columns, from the laws that outputs and inputs obey
 
@@ -26,7 +27,7 @@ model         compression, PI-MOESP, PO-MOESP, ARX and its reduction, B and D, t
 count         the number of faults: rank gaps, kernel rows, against a healthy record
 space         the fault space, by ranks or by likelihood, with its uncertainty
 rows          the kernel rows of outputs and inputs: number of faults and fault space without a residual
-bound         the Cramer-Rao bound of the model
+bound         the Cramer-Rao bounds of the model and of the fault space
 signal        reconstruction, the zeros that limit it, plots
 rounding      how far rounding may carry the answers
 report        what the command writes and says

@@ -1,4 +1,6 @@
 from .bound.information_bound import cramer_rao as cramer_rao
+from .bound.space_information import FaultSpectra as FaultSpectra
+from .bound.space_information import fault_space_bound as fault_space_bound
 from .bound.spectra import Spectra as Spectra
 from .count.against_healthy import FaultDirection as FaultDirection
 from .count.against_healthy import FaultsAgainstHealthy as FaultsAgainstHealthy
@@ -29,10 +31,12 @@ from .result import Identification as Identification
 from .rows.counting import FaultCount as FaultCount
 from .rows.counting import count_faults as count_faults
 from .rows.space import fault_space_by_rows as fault_space_by_rows
+from .rows.space import identified_fault_space as identified_fault_space
 from .signal.reconstruction import Reconstruction as Reconstruction
 from .signal.reconstruction import reconstruct_fault as reconstruct_fault
 from .space.by_ranks import fault_space as fault_space
 from .space.distances import subspace_distance as subspace_distance
 from .space.result import FaultSpaceEstimate as FaultSpaceEstimate
+from .space.result import SpaceUncertainty as SpaceUncertainty
 
 __all__: list[str]

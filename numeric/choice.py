@@ -18,8 +18,9 @@ from ..base.arrays import Array
 from ..base.errors import InvalidData
 from .data.records import OnProgress, Record
 from .findings import Findings
+from .model.reduced_model import ReducedModel
 from .rows.joint import affordable
-from .rows.space import BEYOND, fault_space_by_rows
+from .rows.space import BEYOND, fault_space_by_rows, identified_fault_space
 from .signal.explained_share import noise_share
 from .signal.reconstruction import Reconstruction, reconstruct_fault
 from .signal.residual_sizes import loudest
@@ -43,7 +44,7 @@ def with_space(answer: Findings, on_progress: OnProgress) -> Findings:
         return answer
     on_progress("fault space", 0, 0)
     A, C = model.model.A, model.model.C
-    space, notes = None if answer.exact else _by_laws(answer, A, C, faults), answer.notes
+    space, notes = None if answer.exact else _by_laws(answer, faults), answer.notes
     if isinstance(space, str):
         notes += (f"the fault space is from the residual: {space}",)
     if not isinstance(space, FaultSpaceEstimate):
@@ -56,18 +57,21 @@ def with_space(answer: Findings, on_progress: OnProgress) -> Findings:
     return replace(answer, notes=notes, fault_space=space if answer.n_v_given else replace(space, reason=counted(space.reason)))
 
 
-def _by_laws(answer: Findings, A: Array, C: Array, faults: int) -> FaultSpaceEstimate | str:
+def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
     """Return the space from the laws of outputs and inputs, about their means as they were counted, or the reason why there is none."""
-    record, rows = answer.record, max(answer.record.p - faults, 1)
-    degree = -(-(len(A) + BEYOND) // rows)
-    if not affordable(record.p + record.n_u, degree):
-        return f"{record.p} outputs with {faults} faults at order {len(A)} are too many for the laws of outputs and inputs"
+    record, model, rows = answer.record, answer.model, max(answer.record.p - faults, 1)
+    assert model is not None
+    if not affordable(record.p + record.n_u, -(-(model.order + BEYOND) // rows)):
+        return f"{record.p} outputs with {faults} faults at order {model.order} are too many for the laws of outputs and inputs"
     y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
     count, level = answer.count, answer.noise_level
     if level is None and count is not None and count.n_v == faults and count.noise_power is not None:
         level = np.sqrt(count.noise_power)
     try:
-        space = fault_space_by_rows(y, u, A, C, n_v=faults, noise_level=level)
+        if isinstance(model, ReducedModel):
+            space = identified_fault_space(y, u, model, n_v=faults, noise_level=level)
+        else:
+            space = fault_space_by_rows(y, u, model.A, model.C, n_v=faults, noise_level=level)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return str(error)
     return replace(space, reason=f"{space.reason}; n_v as given")

@@ -33,6 +33,7 @@ from numpy.typing import ArrayLike
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
+from ..base.threads import one_thread
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
 from .data.records import OnProgress, Passes, Record, silent
@@ -47,6 +48,7 @@ from .result import Identification
 from .signal.residual_sizes import residual_sizes
 
 
+@one_thread()
 def identify(
     y: Source,
     u: Any = None,

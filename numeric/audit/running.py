@@ -15,11 +15,11 @@ from typing import TypeVar
 
 from ...base.errors import InvalidData, shorten
 from ...base.processes import Limits
-from .catalogue import chosen
-from .isolation import Isolated
+from .checks.catalogue import chosen
 from .outcome import Audit
 from .records import Check, CheckResult, Status, message
-from .subjects import Auditee, Command, InProcess, label, opened
+from .subjects.isolation import Isolated
+from .subjects.opening import Auditee, Command, InProcess, label, opened
 
 Test = TypeVar("Test", bound=Callable[..., object])
 SECONDS, GIBIBYTES = 60.0, 4.0

@@ -27,6 +27,8 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput
+from ...base.sheets import Shown, counted
+from .plain import plain
 from .validation import PIECE
 
 OnProgress = Callable[[str, int, int], None]
@@ -113,7 +115,7 @@ class Channels:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Record:
+class Record(Shown):
     """A Record is a measured record: y (N, p) and u (N, n_u) with the names of their channels, read in pieces and never held as a whole.
 
     `len` is the number of samples, `outputs` and `inputs` are the names, `y` and `u` read all samples, and iterating gives pieces (y, u) in
@@ -140,8 +142,34 @@ class Record:
     def __len__(self) -> int:
         return len(self.store) if self.length is None else self.length
 
-    def __repr__(self) -> str:
-        return f"<Record: {len(self)} samples, inputs {_names(self.inputs)}, outputs {_names(self.outputs)}>"
+    @property
+    def title(self) -> str:
+        """Return what the record is, on one short line."""
+        return f"{counted(len(self), 'sample')}, inputs {_names(self.inputs)}, outputs {_names(self.outputs)}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield one line a channel, inputs before outputs."""
+        yield "read from", self.format
+        yield "", "".join(f"{name:>10}" for name in ("least", "greatest", "mean", "deviation"))
+        known = self.channels
+        for j, name in enumerate(self.names):
+            moved = (part[j] - self.offset[j] for part in (known.least, known.greatest, known.mean))
+            row = (*moved, known.deviation[j])
+            yield f"{'input' if j < self.n_u else 'output'} {name}", "".join(f"{value:>10.3g}" for value in row)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of everything but the samples."""
+        known = self.channels
+        return {
+            "samples": len(self),
+            "inputs": list(self.inputs),
+            "outputs": list(self.outputs),
+            "format": self.format,
+            "least": plain(known.least - self.offset),
+            "greatest": plain(known.greatest - self.offset),
+            "mean": plain(known.mean - self.offset),
+            "deviation": plain(known.deviation),
+        }
 
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
         for rows in self.store.pieces(0, len(self)):

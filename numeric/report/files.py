@@ -23,7 +23,6 @@ from ..model.invariants import half_transfers, system_matrix
 from ..model.moesp_model import MoespModel
 from ..model.reduced_model import ReducedModel
 from ..model.weighted_reduction import circle
-from ..rows.counting import FaultCount
 from ..rows.joint import even_split
 from ..space.distances import containment_distance
 from .folders import refuse, replace
@@ -34,7 +33,7 @@ if TYPE_CHECKING:
     from ..findings import Findings
 
 MODEL, SPACE, SIGNAL, SUMMARY = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md"
-MARKOV, FREQUENCIES = 20, 32  # Markov parameters, and frequencies of the transfer function, with standard errors
+FREQUENCIES = 32  # of the transfer function with standard errors
 NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, *PICTURES)
 
 
@@ -74,7 +73,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         }
         result |= _of_reduction(model) if isinstance(model, ReducedModel) else _of_past_inputs(model)
     if answer.count:
-        result["laws"] = _laws(answer.count)
+        result["laws"] = answer.count.to_json()
     if answer.dimension:
         found = answer.dimension
         result |= {
@@ -135,32 +134,14 @@ def _of_past_inputs(model: MoespModel) -> dict[str, Any]:
 def _of_reduction(model: ReducedModel) -> dict[str, Any]:
     """Return how sure the reduced model is, and the evidence for its order where it was left open."""
     angles, sure = circle(FREQUENCIES), model.uncertainty
-    at = half_transfers(system_matrix(model.model), model.order, angles)[0]
-    result: dict[str, Any] = {
-        "standard_errors": {
-            "poles": plain(sure.poles()),
-            "markov": plain(model.model.markov(MARKOV)),
-            "markov_errors": plain(sure.markov(MARKOV)),
-            "angles": plain(angles),
-            "transfer": plain(at),
-            "transfer_errors": plain(sure.transfer(angles)),
-        }
+    errors = {name: value for name, value in sure.to_json().items() if name not in ("model", "root", "poles")}
+    errors |= {
+        "angles": plain(angles),
+        "transfer": plain(half_transfers(system_matrix(model.model), model.order, angles)[0]),
+        "transfer_deviations": plain(sure.transfer(angles)),
     }
-    if model.orders is not None:
-        names = ("order", "cost", "schwarz", "akaike", "odds", "one_step", "free_run", "gap")
-        rows = [{name: plain(getattr(row, name)) for name in names} for row in model.orders.rows]
-        result["orders"] = {"least": model.orders.least, "most": model.orders.most, "rows": rows}
-    return result
-
-
-def _laws(count: FaultCount) -> dict[str, Any]:
-    """Return what was asked of so many laws of outputs and inputs."""
-    tests = [
-        {"rows": laws.count, "holds": laws.holds} | {name: plain(getattr(laws, name)) for name in ("probability", "level")}
-        for laws in count.tests
-    ]
-    noise = None if count.noise_power is None else plain(np.sqrt(count.noise_power))
-    return {"n_v": count.n_v, "possible": list(count.possible), "reason": count.reason, "tests": tests, "noise": noise}
+    result: dict[str, Any] = {"standard_errors": errors, "offset": plain(model.offset)}
+    return result if model.orders is None else result | {"orders": model.orders.to_json()}
 
 
 def write(

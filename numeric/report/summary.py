@@ -116,10 +116,11 @@ def _orders(answer: Findings) -> Iterator[str]:
     if orders is None:
         return
     yield "fits on the last third, held back from models of the rest (1: perfect, 0: no better than zero):"
-    yield "    order  one-step  free run  odds"
+    yield "    order  one-step  free run  chance"
     for row in orders.rows:
         mark = "  <- taken" if row.order == orders.best else ""
-        yield f"    {row.order:>5}  {row.one_step:>8.4f}  {row.free_run:>8.4f}  {row.odds:>4.2f}{mark}"
+        yield f"    {row.order:>5}  {row.one_step:>8.4f}  {row.free_run:>8.4f}  {row.chance:>6.2g}{mark}"
+    yield "chance: the probability of so much worse an explanation than that of the order taken, were this order right"
     if not orders.decided:
         yield "the number of faults, the fault space and the signal rest on the order taken"
 
@@ -232,7 +233,8 @@ def _space_lines(answer: Findings) -> Iterator[str]:
     yield f"dimension n_z = **{space.n_z}**{'' if space.decided else ' (undecided)'}: {space.reason}"
     if space.uncertainty is not None:
         angle = np.degrees(space.uncertainty.angle())
-        yield f"angle to the true space: below {angle:.2g} degrees with probability 0.95, n_z, A and C taken as right"
+        taken = "n_z" if isinstance(answer.model, ReducedModel) and space.method == "kernel rows" else "n_z, A and C"
+        yield f"angle to the true space: below {angle:.2g} degrees with probability 0.95, {taken} taken as right"
     yield f"equations: {space.equations} independent ones for the {space.unknowns} entries of a fault column [f; g]"
     if space.zeta == 0:
         up_to = "a factor" if space.n_v == 1 else "a mixture of the faults"

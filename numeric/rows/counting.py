@@ -20,8 +20,9 @@ no theory gives them; those that decide whether rows are laws, SUFFICES, FAILS (
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -29,7 +30,10 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
+from ..data.plain import plain
 from ..data.validation import constant_channels, noise_deviations, positive, signals
 from .joint import ROUNDING, JointMoments, joint_moments
 from .laws import EXTRA, FAILS, SUFFICES, Laws, bootstrapped, tested
@@ -42,13 +46,14 @@ KNOWN_TO = 2.0
 DEPENDENT = 1e-10
 
 
-@dataclass(frozen=True, eq=False)
-class FaultCount:
+@dataclass(frozen=True, eq=False, repr=False)
+class FaultCount(Shown):
     """The number of faults that `count_faults` finds, with what it rests on [W91].
 
     `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why. `tests`: what was asked of k rows, by
     falling k; empty where there was no noise. `noise_power`, of shape (p,): what the rows leave of each output, in its own units, squared;
-    None where no rows are laws. Raises nothing itself.
+    None where no rows are laws. Look at `n_v` first, and where it is None at `reason`, which says what would settle it. Raises nothing
+    itself.
 
     >>> from faultspace.numeric import FaultCount
     >>> FaultCount(None, (2, 3), "2 or 3: a fainter fault would look the same", ()).decided
@@ -66,7 +71,34 @@ class FaultCount:
         """Whether there is one answer."""
         return self.n_v is not None
 
+    @property
+    def title(self) -> str:
+        """Return the answer, on one short line."""
+        if self.n_v is not None:
+            return f"number of faults n_v: {self.n_v}"
+        return f"number of faults n_v: undecided, of {', '.join(map(str, self.possible))}"
 
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the reason, what was asked of so many rows, and the deviation of the noise that the rows leave."""
+        yield "why", self.reason
+        for laws in self.tests:
+            one, several = {True: ("is a law", "are laws"), False: ("is no law", "are no laws"), None: ("in doubt",) * 2}[laws.holds]
+            yield counted(laws.count, "row"), f"{one if laws.count == 1 else several}, probability {laws.probability:.2g}"
+        if self.noise_power is not None:
+            yield "deviation of the noise, by output", ", ".join(f"{size:.4g}" for size in np.sqrt(self.noise_power))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: the answer, its reason and every test made; null stands for what there is not."""
+        return {
+            "n_v": self.n_v,
+            "possible": list(self.possible),
+            "reason": self.reason,
+            "tests": [laws.to_json() for laws in self.tests],
+            "noise_power": plain(self.noise_power),
+        }
+
+
+@one_thread()
 def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLike | None = None, draws: int = 0) -> FaultCount:
     """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
 
@@ -147,9 +179,8 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
 def _answer(n_v: int, found: Laws, tests: dict[int, Laws], data: JointMoments) -> FaultCount:
     """Return the count that follows where `found` are the most rows that are laws."""
     p = data.p
-    reason = (
-        f"{found.count} row{'s' if found.count > 1 else ''} of outputs and inputs leave noise alone (probability {found.probability:.2g})"
-    )
+    verb = "leaves" if found.count == 1 else "leave"
+    reason = f"{counted(found.count, 'row')} of outputs and inputs {verb} noise alone (probability {found.probability:.2g})"
     more = tests.get(found.count + 1)
     if more is not None:
         reason += f", {more.count} do not ({more.probability:.1g})"

@@ -18,10 +18,12 @@ EXTRA, TURNS and HOPELESS are compromises between time and power. How often the 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ...base.arrays import Array
+from ..data.plain import plain
 from ..space.basis import KernelBasis
 from .bootstrap import redrawn
 from .degree import MISFITS, excess, freedom, likelihood_ratio
@@ -78,6 +80,19 @@ class Laws:
         if self.sphericity is None:
             return False if self.probability <= FAILS else None
         return False if self.sphericity.nats > FAR * self.sphericity.expected else None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of the numbers that the answer rests on; the ratio of sphericity is null of a single row."""
+        shape = None if self.sphericity is None else {"nats": plain(self.sphericity.nats), "expected": plain(self.sphericity.expected)}
+        return {
+            "rows": self.count,
+            "holds": self.holds,
+            "probability": plain(self.probability),
+            "level": plain(self.level),
+            "gain": plain(self.gain),
+            "sphericity": shape,
+            "shares": plain(self.shares),
+        }
 
 
 def tested(data: JointMoments, count: int, order: int, shares: Array | None = None) -> Laws:

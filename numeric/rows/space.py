@@ -5,7 +5,8 @@ space iff N_y (g + C (q - A)^-1 f) vanishes, that is iff it meets the conditions
 row ([G25] problem (11)). Of k rows with degrees eta_i there are sum (eta_i + 1) conditions, exactly n + p - n_z, so that rows and A, C
 that do not fit exactly contradict each other nowhere: N_y O_s = 0, which holds for true ones, need not be imposed.
 
-    fault_space_by_rows     the space, its dimension with a probability, and the angle by which it may be off
+    fault_space_by_rows     the space, its dimension with a probability, and the angle by which it may be off where A, C are right
+    identified_fault_space  the same for an identified model, whose error is in the angle
     n_z                     n_v + n - (total degree of the rows)
 
 The total degree is not below the sum of the k = p - n_v least observability indices of (A, C), and not above n (`largest.py`).
@@ -16,17 +17,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy.linalg
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..count.arguments import shaped
 from ..count.windows import ObservedCoordinates, observed_coordinates
 from ..data.validation import noise_deviations, positive, signals
+from ..model.reduced_model import ReducedModel
 from ..space.basis import KernelBasis
 from ..space.largest import largest_fault_space
-from ..space.result import FaultSpaceEstimate, everything, kernel_conditions, orthonormal
-from ..space.uncertainty import space_uncertainty
+from ..space.result import FaultSpaceEstimate, SpaceUncertainty, everything, kernel_conditions, orthonormal
+from ..space.uncertainty import space_uncertainty, turned_by_model
 from .bootstrap import redrawn
 from .degree import MISFITS, LeastDegree, freedom, least_degree, likelihood_ratio
 from .joint import JointMoments, course, even_split, fitted, joint_moments, padded, refitted
@@ -36,18 +40,20 @@ BEYOND = 1
 SEED = 20251123
 
 
+@one_thread()
 def fault_space_by_rows(
     y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
 
     The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`); with `draws` their misfit is measured
-    on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right; the
-    error of an identified model is not in it. The basis is in the states of A and the units of y, which do not matter otherwise. The noise
-    is taken to have one colour, and powers as those of `noise_level` (one number or one an output, in units of y), of which only the ratios
-    matter; without it the same power relative to the deviation of each output. Noise of other ratios turns the space, and on long records
-    hides that a degree suffices; what `count_faults` finds serves, the root of its `noise_power`. Raises InvalidData for shapes that do not
-    fit, n_v outside 1 .. p, and records too short for rows of degree n + 1. Source: [G25] problem (11), [W91].
+    on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right:
+    `identified_fault_space` has the error of an identified model in it. The basis is in the states of A and the units of y, which do not
+    matter otherwise. The noise is taken to have one colour, and powers as those of `noise_level` (one number or one an output, in units of
+    y), of which only the ratios matter; without it the same power relative to the deviation of each output. Noise of other ratios turns
+    the space, and on long records hides that a degree suffices: what `count_faults` finds serves, the root of its `noise_power`. Raises
+    InvalidData for shapes that do not fit, n_v outside 1 .. p, and records too short for rows of degree n + 1. Source: [G25] problem (11),
+    [W91].
 
     >>> import numpy as np
     >>> from faultspace.numeric import fault_space_by_rows
@@ -59,6 +65,41 @@ def fault_space_by_rows(
     """
     outputs, inputs = signals(y, u)
     _, A, C = shaped(outputs, A, C)
+    return _space(outputs, inputs, A, C, np.zeros((A.size + C.size, 0)), n_v, noise_level, draws)
+
+
+def identified_fault_space(
+    y: ArrayLike, u: ArrayLike, model: ReducedModel, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
+) -> FaultSpaceEstimate:
+    """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
+
+    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`, which raises InvalidData in the same cases. Raises nothing else.
+    The covariance of A and C is carried to the space to first order [MN89] and added to that of the rows; both take the number of zeros as
+    right. The states of the model and the true ones are matched by least squares of their observability matrices.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, arx_reduction, identified_fault_space
+    >>> rng = np.random.default_rng(0)
+    >>> u, v, w = rng.standard_normal((3, 500, 2)) * np.array([[[1.0]], [[1.0]], [[0.01]]])
+    >>> y = StateSpaceModel([[0.5]], [[1.0, 2.0]], [[1.0], [1.0]], [[0.0, 1.0], [0.0, 0.0]]).simulate(np.hstack([u[:, :1], v[:, :1]])) + w
+    >>> found = identified_fault_space(y, u[:, :1], arx_reduction(y, u[:, :1], order=1), n_v=1)
+    >>> found.n_z, bool(found.uncertainty.angle() < 0.05)
+    (1, True)
+    """
+    outputs, inputs = signals(y, u)
+    A, C = model.model.A, model.model.C
+    _, A, C = shaped(outputs, A, C)
+    n, p, n_u = model.model.n, model.model.p, model.model.n_u
+    root = model.uncertainty.root
+    return _space(
+        outputs, inputs, A, C, root.reshape(n + p, n + n_u, root.shape[1])[:, :n].reshape(-1, root.shape[1]), n_v, noise_level, draws
+    )
+
+
+def _space(
+    outputs: Array, inputs: Array, A: Array, C: Array, model_root: Array, n_v: int, noise_level: ArrayLike | None, draws: int
+) -> FaultSpaceEstimate:
+    """Return the estimate for A, C whose entries [A; C], in row order, have the covariance model_root @ model_root.T."""
     p, n = C.shape
     faults = positive(n_v, "n_v")
     if faults > p:
@@ -80,7 +121,7 @@ def fault_space_by_rows(
     if draws:
         misfits = _misfits(outputs, inputs, data, fits, chosen, shares, draws)
         chosen = least_degree(data, fits, n + faults - largest, seen, misfits)
-    return _estimate(data, fits[chosen.degree], chosen, coordinates, faults, largest, misfits[0])
+    return _estimate(data, fits[chosen.degree], chosen, coordinates, faults, largest, misfits[0], model_root)
 
 
 def _estimate(
@@ -91,6 +132,7 @@ def _estimate(
     n_v: int,
     largest: int,
     misfit: float,
+    model_root: Array,
 ) -> FaultSpaceEstimate:
     """Return what rows of the chosen degree say; `misfit`, by which likelihood ratios exceed their law, widens their covariance [MN89]."""
     p, n = coordinates.C.shape
@@ -102,6 +144,8 @@ def _estimate(
     words = "; as many as the observability indices of (A, C) allow" if n_z == largest else ""
     doubt = "" if chosen.decided else "undecided: "
     reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; rows of total {chosen.reason}{words}"
+    of_rows = space_uncertainty(rows_of_y, _selections(fit, units), misfit * fit.covariance, coordinates, columns).root
+    of_model = np.tensordot(_observed(model_root, coordinates).T, turned_by_model(rows_of_y, coordinates, columns), axes=1)
     return FaultSpaceEstimate(
         orthonormal(coordinates.back(columns)),
         n_z,
@@ -118,8 +162,16 @@ def _estimate(
         reason,
         None,
         "kernel rows",
-        space_uncertainty(rows_of_y, _selections(fit, units), misfit * fit.covariance, coordinates, columns),
+        SpaceUncertainty(np.concatenate([of_rows, of_model])),
     )
+
+
+def _observed(model_root: Array, coordinates: ObservedCoordinates) -> Array:
+    """Return a root of the covariance of [A; C] in the observed coordinates from that in the given ones."""
+    p, n = coordinates.C.shape
+    left = scipy.linalg.block_diag(coordinates.T, np.diag(1 / coordinates.scale))
+    changes = model_root.reshape(n + p, n, model_root.shape[1])
+    return np.asarray(np.einsum("ir,rcq,cj->ijq", left, changes, np.linalg.inv(coordinates.T)).reshape(model_root.shape))
 
 
 def _misfits(

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.sheets import Shown
+from ...base.threads import one_thread
 from ..count.arguments import not_zero
 from ..data.plain import plain
 from ..data.records import OnProgress, SampleStore, Stored, silent, stored
@@ -69,6 +70,7 @@ class Reconstruction(Solution, Shown):
         return self.store.read(0, len(self.store))
 
     @cached_property
+    @one_thread()
     def _simulated(self) -> tuple[Array, Array]:
         return simulated(*self.pair, self.x0, self.v)
 
@@ -129,6 +131,7 @@ class Reconstruction(Solution, Shown):
         return 1.0 - float(np.sum(self.left / units**2)) / whole if whole else 0.0
 
 
+@one_thread()
 def reconstruct_fault(
     r: ArrayLike | SampleStore | Stored,
     A: ArrayLike,

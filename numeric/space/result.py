@@ -1,7 +1,7 @@
 """This is what every estimate of the fault space answers, and what a kernel row asks of a fault column.
 
     FaultSpaceEstimate   basis of the columns [f; g], its dimension, how it was found, whether it means anything and why
-    SpaceUncertainty     the estimate's error to first order, a matrix that is linear in standard normal numbers, and its angle
+    SpaceUncertainty     the estimate's error to first order, linear in standard normal numbers: an angle, a distance
     everything           the answer where nothing can be said: the whole space, not meaningful
     kernel_conditions    for rows N_0 .. N_(s-1) at once: the conditions [X_(k+1), N_k] z = 0, X_k = N_k C + X_(k+1) A
     condition_maps       the same as linear maps of the row, for carrying the row's uncertainty over
@@ -13,7 +13,7 @@ p). Source: [G25] problem (11).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,28 +29,52 @@ DRAWS = 4000
 _SEED = 20250519
 
 
-@dataclass(frozen=True, eq=False)
-class SpaceUncertainty:
-    """The uncertainty is given by `root` (q, n + p, n_z): to first order the basis is off by the sum of root[i] times standard normal
-    numbers."""
+@dataclass(frozen=True, eq=False, repr=False)
+class SpaceUncertainty(Shown):
+    """How far a fault space may be off, as a linear map of standard normal numbers, which is honest while errors are small [MN89].
+
+    `root` has the shape (q, n + p, n_z): to first order the orthonormal basis (n + p, n_z) of the space is off its span by the sum of
+    root[i] times standard normal numbers. Every call gives the same figures. Raises InvalidData for a confidence outside (0, 1).
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import SpaceUncertainty
+    >>> one = SpaceUncertainty(np.array([[[0.0], [0.01]]]))
+    >>> round(one.angle(0.95), 4), round(one.distance(0.95), 4)
+    (0.0194, 0.0124)
+    """
 
     root: Array
 
-    def angle(self, confidence: float = 0.95) -> float:
-        """Return the radians that the largest principal angle to the true space stays below with this probability; the same at
-        every call.
+    @property
+    def title(self) -> str:
+        """Return what it is about, on one short line."""
+        return f"a fault space is within {self.angle():.2g} rad of the true one with probability 0.95"
 
-        To first order in the noise: honest while it is small (up to half a radian, say). Raises InvalidData for a
-        confidence outside (0, 1).
-        """
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the angle and the distance that the error stays below, each with its probability."""
+        yield "angle, probability 0.95", f"{self.angle():.4g} rad"
+        yield "distance, probability 0.5", f"{self.distance():.4g}, of 1 at most"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: the linear map `root`, and the angle and the distance that `summary` tells."""
+        return {"root": plain(self.root), "angle": self.angle(), "distance": self.distance()}
+
+    def angle(self, confidence: float = 0.95) -> float:
+        """Return the radians that the largest principal angle to the true space stays below with this probability."""
+        return self._quantile(confidence, lambda tangents: np.arctan(tangents[:, 0]))
+
+    def distance(self, confidence: float = 0.5) -> float:
+        """Return what the two-sided distance of the spaces, between 0 and 1, stays below with this probability."""
+        return self._quantile(confidence, lambda tangents: np.sqrt(np.mean(np.arctan(tangents) ** 2, axis=1)) / (np.pi / 2))
+
+    def _quantile(self, confidence: float, size: Callable[[Array], Array]) -> float:
         if not 0 < confidence < 1:
             raise InvalidData(f"confidence: got {confidence}; a number between 0 and 1 is needed, for example 0.95")
         if 0 in self.root.shape:
             return 0.0
         normal = np.random.default_rng(_SEED).standard_normal((DRAWS, len(self.root)))
-        errors = np.tensordot(normal, self.root, axes=1)
-        sizes = np.linalg.norm(errors, 2, axis=(1, 2))
-        return float(np.arctan(np.quantile(sizes, confidence)))
+        tangents = np.asarray(np.linalg.svd(np.tensordot(normal, self.root, axes=1), compute_uv=False), dtype=np.float64)
+        return float(np.quantile(size(tangents), confidence))
 
 
 @dataclass(frozen=True, repr=False)

@@ -74,8 +74,8 @@ def test_the_packaged_record_gives_the_fault_that_made_it(csv_file: Path, record
     truth = sorted(np.linalg.eigvals(made.A), key=lambda z: (z.real, z.imag))
     poles = sorted((complex(*pair) for pair in answer["poles"]), key=lambda z: (z.real, z.imag))
     assert np.allclose(poles, truth, atol=0.01)
-    assert len(answer["standard_errors"]["markov"]) == len(answer["standard_errors"]["markov_errors"]) == 20
-    for pole, error in zip(answer["poles"], answer["standard_errors"]["poles"], strict=True):
+    assert len(answer["standard_errors"]["markov"]) == len(answer["standard_errors"]["markov_deviations"]) == 20
+    for pole, error in zip(answer["poles"], answer["standard_errors"]["pole_deviations"], strict=True):
         nearest = min(truth, key=lambda z: abs(z - complex(*pole)))
         assert abs(pole[0] - nearest.real) <= 4 * error[0] and abs(pole[1] - nearest.imag) <= 4 * error[1]
 

@@ -329,13 +329,62 @@ def test_a_plant_on_the_circle_is_told() -> None:
         assert np.max(np.abs(found.model.poles)) < 1 + 1e-12 and "integrate" in found.notes[0] and error(found, plant) < 0.02
 
 
-def test_an_offset_is_told_and_a_mean_of_zero_is_not() -> None:
-    u, noise = np.random.default_rng(5).standard_normal((2, 400, 1))
-    y = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]).simulate(u) + 0.1 * noise
-    assert arx_reduction(y, u, order=1).notes == ()
-    (note,) = (one for one in arx_reduction(y + 5, u, order=1).notes if "mean" in one)
-    assert note.startswith("outputs 0 (from 0) have a mean larger than their deviation")
-    assert not any("mean" in one for one in arx_reduction(y + 0.5, u, order=1).notes)
+SHIFTS = {"a hundred deviations": 100.0, "a million deviations": 1e6}
+
+
+@pytest.mark.parametrize("name", SHIFTS)
+def test_an_operating_point_changes_the_offset_and_nothing_else(name: str) -> None:
+    y = PLANT.simulate(U) + coloured(0.9, N, 2)
+    far, up = SHIFTS[name] * y.std(axis=0), 3 * SHIFTS[name]
+    zero, moved = arx_reduction(y, U, order=3), arx_reduction(y + far, U + up, order=3)
+    assert zero.offset is not None and moved.offset is not None
+    rounding = 1e-6 * SHIFTS[name] / 100
+    assert np.allclose(moved.model.markov(20), zero.model.markov(20), rtol=rounding, atol=rounding)
+    assert np.allclose(moved.uncertainty.markov(20), zero.uncertainty.markov(20), rtol=rounding)
+    gain = zero.model.C @ np.linalg.solve(np.eye(3) - zero.model.A, zero.model.B) + zero.model.D
+    assert np.allclose(moved.offset - zero.offset, far - gain[:, 0] * up, rtol=rounding, atol=rounding)
+    assert moved.notes == zero.notes == ()
+    # The mean of a disturbance with a pole at 0.9 is known to 10 / sqrt(N) at best.
+    assert np.all(np.abs(zero.offset) < 3 * 10 / np.sqrt(N))
+
+
+@pytest.mark.parametrize("far", [1.0, 100.0, 1e5])
+def test_without_noise_the_offset_is_exact_from_any_state(far: float) -> None:
+    u, offset = U + far, far * np.array([2.0, -1.0])
+    found = arx_reduction(PLANT.simulate(u, [5.0, 6.0, 7.0]) + offset, u, order=3)
+    assert error(found, PLANT) < 1e-10 * (1 + far) and found.offset is not None and found.x0 is not None
+    assert np.allclose(found.offset, offset, rtol=1e-9 * (1 + far))
+    assert np.allclose(found.model.simulate(u, found.x0) + found.offset, PLANT.simulate(u, [5.0, 6.0, 7.0]) + offset, rtol=1e-7)
+
+
+def test_experiments_about_operating_points_of_their_own() -> None:
+    offsets = [np.array([3.0, 1e3]), np.array([-50.0, 0.0])]
+    cuts = [slice(0, 250), slice(250, 600)]
+    exact = [(PLANT.simulate(U[cut], [1.0, 2.0, 3.0]) + mean, U[cut]) for cut, mean in zip(cuts, offsets, strict=True)]
+    found = arx_reduction_experiments(exact, order=3)
+    assert error(found, PLANT) < 1e-9 and np.allclose(found.offsets, offsets, rtol=1e-7, atol=1e-6)
+
+
+def test_where_zero_is_known_the_mean_excites() -> None:
+    """One input far from zero: with zero known the gain is known as well as the mean; a constant fault is then taken for gain."""
+    u = U + 20
+    y = PLANT.simulate(u, np.linalg.solve(np.eye(3) - PLANT.A, 20 * PLANT.B[:, 0])) + 0.3 * coloured(0.9, N, 2)
+    known, fitted = arx_reduction(y, u, order=3, offset=False), arx_reduction(y, u, order=3)
+    gains = [one.uncertainty.transfer([1e-6])[0].real for one in (known, fitted)]
+    assert np.all(gains[0] < 0.5 * gains[1]) and np.allclose(known.offsets, 0)
+    assert believed(known, PLANT) < 2.5 and believed(fitted, PLANT) < 2.5
+    assert believed(arx_reduction(y + 30, u, order=3), PLANT) < 2.5 < believed(arx_reduction(y + 30, u, order=3, offset=False), PLANT)
+    ones = np.ones((N, 1))
+    with pytest.raises(InvalidData, match="excite"):
+        arx_reduction(y, 20 * ones, order=3)
+    with pytest.raises(InvalidData, match="True or False"):
+        arx_reduction(y, u, order=3, offset="yes")  # type: ignore[arg-type]
+
+
+def test_a_constant_fault_is_part_of_the_offset() -> None:
+    y = PLANT.simulate(U) + 0.1 * coloured(0.5, N, 2)
+    moved = arx_reduction(y + np.array([0.0, 4.0]), U, order=3)
+    assert moved.offset is not None and np.allclose(moved.offset, [0.0, 4.0], atol=0.05) and believed(moved, PLANT) < 2.5
 
 
 def test_an_order_too_low_is_told() -> None:
@@ -370,4 +419,4 @@ def test_inputs_that_cannot_be_used(u: Array, says: str) -> None:
 )
 def test_arguments_that_cannot_be_used(arguments: dict[str, int]) -> None:
     with pytest.raises(InvalidData):
-        arx_reduction(PLANT.simulate(U) + coloured(0.9, N, 2), U, **arguments)
+        arx_reduction(PLANT.simulate(U) + coloured(0.9, N, 2), U, **arguments)  # type: ignore[arg-type]

@@ -1,0 +1,167 @@
+"""This measures how near fault spaces come to the Cramer-Rao bound, how often the number of zeros is right, and how honest the angles are.
+
+    python benchmarks/space_at_the_bound.py [--systems 100] [--seed 1] [--cells study random] [--samples 1001 10000] [--jobs 1]
+
+`identified_fault_space` with n_v and the order of the model given, on the systems of `space_at_the_bound_cells.py`. Error: the two-sided
+distance (`distances.py`) to the true space, the states of the model mapped to the true ones by least squares, over the median that the
+bound gives this distance, so that an efficient estimate scores about one. A wrong number of zeros is an error like any other: the space
+found counts, decided or not. A row a cell and N:
+
+    zeta        right/undecided/wrong with the A, C of `arx_reduction`; an abstention is neither right nor wrong
+    error       in % of its maximum, and error / bound: median with its 95 % bootstrap interval, and the 90 % quantile
+    true A, C   the same error / bound where A and C are the true ones: what the rows alone contribute
+    angle holds share of the largest principal angles, in the basis of the estimate, below the stated 95 % angle, where zeta is right
+
+Brackets of rates are Wilson's 95 % intervals. Seconds are CPU seconds of the space alone; hold BLAS to one thread.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import joblib
+import numpy as np
+import scipy.stats
+from at_the_bound import summary
+from numpy.typing import NDArray
+from space_at_the_bound_cells import CELLS, Cell, Trial
+
+from faultspace.base.errors import InvalidData
+from faultspace.numeric import (
+    FaultSpaceEstimate,
+    StateSpaceModel,
+    arx_reduction,
+    fault_space_bound,
+    fault_space_by_rows,
+    identified_fault_space,
+)
+from faultspace.numeric.model.models import observability_matrix
+from faultspace.numeric.space.distances import principal_angles, two_sided_error
+from faultspace.numeric.space.result import orthonormal
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Found:
+    """A fault space beside the true one: `verdict` on the number of zeros, distance (0 to 1), CPU seconds; `held` says whether the largest
+    angle lies below the stated one, None where zeta is wrong."""
+
+    verdict: str
+    error: float
+    seconds: float
+    held: bool | None
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One record: the median distance of the bound, and what was found with the true A, C and with identified ones."""
+
+    bound: float
+    true: Found
+    identified: Found
+
+
+def mapped(space: Array, source: StateSpaceModel, target: StateSpaceModel) -> Array:
+    """Return a basis (n + p, k) of a space in the states of the target."""
+    n = target.n
+    windows = (observability_matrix(model.A, model.C, 2 * n) for model in (target, source))
+    turn = np.linalg.lstsq(*windows, rcond=None)[0]
+    return orthonormal(np.vstack([turn @ space[:n], space[n:]]))
+
+
+def judged(trial: Trial, model: StateSpaceModel, found: FaultSpaceEstimate, seconds: float) -> Found:
+    """Return the found space beside the truth."""
+    verdict = "undecided" if found.zeta is None else "right" if found.zeta == trial.zeta else "wrong"
+    error = two_sided_error(trial.Z, mapped(found.basis, model, trial.model))
+    held = None
+    if found.n_z == trial.Z.shape[1] and found.uncertainty is not None:
+        held = bool(principal_angles(mapped(trial.Z, trial.model, model), found.basis)[-1] <= found.uncertainty.angle())
+    return Found(verdict, error, seconds, held)
+
+
+def compared(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
+    """Return what is found in one record."""
+    trial = cell.trial(seed, number, samples)
+    bound = fault_space_bound(trial.model, trial.F, trial.G, trial.spectra, samples).distance()
+    begin = time.process_time()
+    true = fault_space_by_rows(trial.y, trial.u, trial.model.A, trial.model.C, n_v=trial.n_v)
+    between = time.process_time()
+    seconds = between - begin
+    try:
+        model = arx_reduction(trial.y, trial.u, order=trial.model.n)
+        begin = time.process_time()
+        space = identified_fault_space(trial.y, trial.u, model, n_v=trial.n_v)
+        identified = judged(trial, model.model, space, time.process_time() - begin)
+    except InvalidData:
+        identified = Found("undecided", 1.0, float("nan"), None)
+    return Outcome(bound, judged(trial, trial.model, true, seconds), identified)
+
+
+def rate(count: int, total: int) -> str:
+    """Return the rate in %, with Wilson's interval."""
+    if not total:
+        return "none"
+    interval = scipy.stats.binomtest(count, total).proportion_ci(method="wilson")
+    return f"{100 * count / total:.0f} [{100 * interval.low:.0f},{100 * interval.high:.0f}]"
+
+
+HEADS = ("cell", "N", "systems", "zeta", "right %", "wrong %", "error %", "error / bound", "true A, C", "angle holds %", "true A, C", "s")
+
+
+def line(name: str, samples: int, outcomes: list[Outcome]) -> str:
+    """Return one row of the table."""
+    rng = np.random.default_rng(0)
+    verdicts = [sum(outcome.identified.verdict == verdict for outcome in outcomes) for verdict in ("right", "undecided", "wrong")]
+    errors = np.array([outcome.identified.error for outcome in outcomes])
+    bounds = np.array([outcome.bound for outcome in outcomes])
+    held = [
+        [found.held for found in kind if found.held is not None] for kind in zip(*((o.identified, o.true) for o in outcomes), strict=True)
+    ]
+    columns = [
+        "/".join(map(str, verdicts)),
+        rate(verdicts[0], len(outcomes)),
+        rate(verdicts[2], len(outcomes)),
+        summary(100 * errors, rng),
+        summary(errors / bounds, rng),
+        summary(np.array([outcome.true.error for outcome in outcomes]) / bounds, rng),
+        *(rate(sum(kind), len(kind)) for kind in held),
+        f"{np.nanmean([outcome.identified.seconds for outcome in outcomes]):.2f}",
+    ]
+    return f"| {name} | {samples} | {len(outcomes)} | {' | '.join(columns)} |"
+
+
+def tables(options: argparse.Namespace) -> Iterator[str]:
+    """Yield the lines of the table."""
+    run = joblib.Parallel(n_jobs=options.jobs)
+    yield f"| {' | '.join(HEADS)} |\n|{'---|' * len(HEADS)}"
+    for samples in options.samples:
+        for kind in options.cells:
+            together: dict[bool, list[Outcome]] = {}
+            for cell in (cell for cell in CELLS if cell.kind == kind):
+                outcomes = list(run(joblib.delayed(compared)(cell, options.seed, number, samples) for number in range(options.systems)))
+                together.setdefault(cell.coloured, []).extend(outcomes)
+                yield line(cell.name, samples, outcomes)
+            for coloured, outcomes in together.items():
+                yield line(f"{kind}, all, {'coloured' if coloured else 'white'}", samples, outcomes)
+
+
+def main() -> None:
+    """Print the table in Markdown."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--systems", type=int, default=100, help="records a cell")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--samples", type=int, nargs="+", default=[1001, 10000])
+    parser.add_argument("--cells", nargs="+", default=["study", "random"], choices=["study", "random"])
+    parser.add_argument("--jobs", type=int, default=1)
+    options = parser.parse_args()
+    print(f"median [95 % interval of the median] 90 % quantile; seed {options.seed}\n")
+    for text in tables(options):
+        print(text, flush=True)
+
+
+if __name__ == "__main__":
+    main()
