@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import scipy  # its folders are loaded when they are first used
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
@@ -34,6 +35,9 @@ from .signal.residual_sizes import loudest
 
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
 AS_MANY = "as many faults as outputs look like noise in every output"
+DEPENDENT = 1e-10  # singular values of the scaled outputs, beside the largest they could have, below which a channel is a combination
+UNLIKELY = 1e-6  # probability of spikes that is not put down to noise
+TINY = float(np.finfo(np.float64).tiny)
 LIKE_NOISE = "faults that are noise of that colour in single outputs, or constant over the whole record, would not be seen"
 
 
@@ -77,12 +81,17 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
     record, sizes = answer.record, answer.sizes
     assert sizes is not None
     try:
-        found = fault_dimension(r.astype(np.float32) if record.single else r, u=record.stretch(*answer.held)[1])
+        y, u = record.stretch(*answer.held)
+        found = fault_dimension(r.astype(np.float32) if record.single and answer.exact else r, u=u)
     except InvalidData as error:
         return replace(answer, reason=str(error))
     seen = int(np.sum(sizes.peak > ROUNDING * largest(record)))
     if found.n_v and found.n_v >= seen and seen < record.p:
         found = replace(found, n_v=None, reason=f"{found.reason}; but so many outputs are not explained to rounding: {AS_MANY}")
+    independent = np.linalg.matrix_rank((y - y.mean(axis=0)) / np.maximum(y.std(axis=0), TINY), tol=DEPENDENT * np.sqrt(y.size))
+    if found.n_v and found.n_v >= independent < record.p:
+        copies = f"but only {independent} of {record.p} outputs are no combinations of others, such as copies: leave these out"
+        found = replace(found, n_v=None, reason=f"{found.reason}; {copies}, for {AS_MANY}")
     by = None if found.n_v is None else "residual alone"
     return replace(answer, dimension=found, n_v=found.n_v, reason=found.reason, counted_by=by)
 
@@ -105,13 +114,34 @@ def _by_laws(answer: Findings, on_progress: OnProgress) -> Findings:
     if count.n_v == 0 and ranks is not None and ranks.n_v:
         reason = f"{count.reason}; but the residual shows {ranks.n_v}: {ranks.reason}"
         return replace(answer, n_v=None, possible=tuple(range(ranks.n_v + 1)), reason=reason, counted_by=None)
+    if count.n_v == 0 and (spikes := _spikes(answer)):
+        return replace(answer, n_v=None, possible=(), reason=f"{count.reason}; but {spikes}", counted_by=None)
     reason = f"{count.reason}; {LIKE_NOISE}" if count.n_v == 0 else count.reason
     return replace(answer, n_v=count.n_v, reason=reason, counted_by=None if count.n_v is None else "outputs and inputs")
 
 
+def _spikes(answer: Findings) -> str:
+    """Return which outputs have samples in their residual that normal noise would not have, empty where none has: no spectrum shows spikes.
+
+    Of N normal numbers, dependent or not, one exceeds t deviations with a probability of at most N times that of a single one. The
+    deviation is told by the median of the sizes, which spikes hardly move.
+    """
+    assert answer.residual is not None
+    r = answer.residual.store.read(*answer.held)
+    sizes = np.abs(r - np.median(r, axis=0))
+    deviation = np.median(sizes, axis=0) / scipy.special.ndtri(0.75)
+    most = -scipy.special.ndtri(UNLIKELY / (2 * sizes.size))
+    spiky = [name for name, peak, one in zip(answer.record.outputs, sizes.max(axis=0), deviation, strict=True) if peak > most * one]
+    return (
+        f"the residual of {', '.join(map(shorten, spiky))} has spikes beyond {most:.2g} deviations, as normal noise has not"
+        if spiky
+        else ""
+    )
+
+
 def _about_zero(answer: Findings, r: Array) -> Findings:
-    """Hold the mean of the residual against zero, where there are no healthy samples and it was not removed. It decides nothing, since a
-    constant fault over a whole record cannot be told from an operating point."""
+    """Hold the mean of the residual against zero, where there are no healthy samples and it was not removed. It decides nothing but that 0
+    is too much said, since a constant fault over a whole record cannot be told from an operating point."""
     if answer.n_v == 0 and answer.count is None:
         answer = replace(answer, reason=f"{answer.reason}; a fault that is constant over the whole record would not be seen")
     if answer.means_removed:
@@ -123,6 +153,9 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
             f"the residual is not about zero ({mean.reason}): an operating point, or a constant fault; which of them, only samples without "
             "fault can tell (healthy=K)",
         )
+        if answer.n_v == 0 and answer.count is not None:
+            reason = f"{answer.count.reason}; but the residual is not about zero: an operating point, or a constant fault"
+            answer = replace(answer, n_v=None, possible=(), reason=reason, counted_by=None)
     return replace(answer, mean=mean, notes=notes)
 
 

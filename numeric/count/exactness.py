@@ -31,4 +31,6 @@ def obeys_exactly(y: Array, u: Array, *, single: bool = False) -> bool:
         return False
     unit = float(np.finfo(np.float32 if single else np.float64).eps)
     joint, own = (rounding_ranks(values / channel_sizes(values), windows, unit=unit) for values in (np.hstack([u, y]), u))
-    return bool(joint.ranks[-1] - own.ranks[-1] < windows * y.shape[1])
+    # What stands above half the digits is no rounding, however alike the least singular values are.
+    rounding = joint.thresholds[-1] <= np.sqrt(unit) * float(np.linalg.norm(joint.values[-1]))
+    return bool(rounding and joint.ranks[-1] - own.ranks[-1] < windows * y.shape[1])

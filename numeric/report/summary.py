@@ -67,9 +67,10 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
         yield ""
         yield "## Faults"
-        yield f"number of independent faults n_v: **{_count(answer)}**"
+        yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
         yield f"why: {answer.reason}"
-        if " nats" in answer.reason or (answer.against is not None and " nats" in answer.against.reason):
+        said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
+        if any(" nats" in reason for reason in said):
             yield (
                 "law: an equation that the last few samples of these outputs obey up to noise; nats: the natural logarithm of a ratio of "
                 "powers, so that 1 nat is a factor of 2.72 (4.34 dB)"
@@ -180,6 +181,15 @@ def _law_lines(answer: Findings) -> Iterator[str]:
         yield f"noise that the laws leave, deviation: {_several([f'{name} {size:.3g}' for name, size in sizes])}"
     if ranks is not None:
         yield f"from the ranks of the residual, for comparison: {_said(ranks.n_v)} ({ranks.reason})"
+
+
+def _condition(answer: Findings) -> str:
+    """Return what a 0 of the laws rests on where nobody has said how large the noise is."""
+    count = answer.count
+    if answer.n_v != 0 or answer.n_v_given or answer.noise_level is not None or count is None or count.noise_power is None:
+        return ""
+    sizes = zip(answer.record.outputs, np.sqrt(count.noise_power), strict=True)
+    return f", if this is the noise of each output: {_several([f'{name} {size:.3g}' for name, size in sizes])} (deviation)"
 
 
 def _count(answer: Findings) -> str:
@@ -309,6 +319,8 @@ def advice(answer: Findings) -> list[str]:
             lines.append("for a constant fault: the outputs whose means moved, above, and by how much; record where it sets in or varies")
     elif answer.n_v == 0:
         lines.append("nothing about faults: record while one acts")
+        if answer.counted_by == "outputs and inputs" and answer.noise_level is None:
+            lines.append("noise_level=SIGMA or healthy=K, where one is known: they tell faults in single outputs from noise")
     elif answer.fault_space is None or not answer.fault_space.meaningful:
         lines.append("more outputs than independent faults: as many faults as outputs leave no relation to find F and G from")
     else:

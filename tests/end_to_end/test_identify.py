@@ -257,7 +257,7 @@ def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: P
     assert answer["orders"]["rows"][0]["order"] == 0 and any("no state" in note for note in answer["notes"])
     assert (out / report.MODEL).exists() and not (out / report.SIGNAL).exists()
     assert (out / "mine.txt").read_text("utf-8") == "kept"
-    assert "orders" in (out / report.SUMMARY).read_text("utf-8")
+    assert "chosen from the data" in (out / report.SUMMARY).read_text("utf-8")
 
 
 @pytest.mark.parametrize("name", report.NAMES)
@@ -341,8 +341,11 @@ def late_faults(folder: Path, loudness: float, number: int) -> Path:
 def test_faults_are_counted_against_healthy_samples(number: int, tmp_path: Path) -> None:
     path, channels = late_faults(tmp_path, 1.0, number), ("--inputs", "u", "--outputs", "y")
     alone = identified(path, tmp_path / "alone", "--json", "--order", "3", channels=channels).json
-    assert (alone["n_v"], alone["healthy_until"], "against_healthy" in alone) == (None, None, False)
-    assert any("--healthy-until" in line for line in alone["next"])
+    # Of two faults in three outputs the last one cannot be told from noise, unless its level is known.
+    assert (alone["n_v"], alone["healthy_until"], "against_healthy" in alone) == ({1: 1, 2: None}[number], None, False)
+    assert alone["n_v_possible"] == {1: [1], 2: [2, 3]}[number]
+    assert number == 1 or any("--healthy-until" in line for line in alone["next"])
+    assert number == 1 or any("--noise-level SIGMA" in line for line in alone["next"])
     run = identified(path, tmp_path / "out", "--json", "--order", "3", "--healthy-until", "1500", channels=channels)
     answer = valid("identify", run.json)
     assert (answer["n_v"], answer["n_v_from"], answer["n_v_given"]) == (number, "healthy samples", False)
