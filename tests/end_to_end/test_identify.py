@@ -127,7 +127,7 @@ def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path
 
 @needs_matplotlib
 def test_the_plots_are_pictures(csv_file: Path, tmp_path: Path) -> None:
-    run = identified(csv_file, tmp_path / "out", "--json")
+    run = identified(csv_file, tmp_path / "out", "--json", "--order", "3")
     assert set(PICTURES) <= set(run.json["files"])  # noisy data: the levels are pictured too
     for name in PICTURES:
         assert (tmp_path / "out" / name).read_bytes().startswith(b"\x89PNG"), name
@@ -138,14 +138,14 @@ def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Pat
         raise ImportError(name)
 
     monkeypatch.setattr("faultspace.numeric.report.pictures.import_module", without)
-    run = identified(csv_file, tmp_path / "out", "--json")
+    run = identified(csv_file, tmp_path / "out", "--json", "--order", "3")
     assert run.code == 0 and "matplotlib is not installed" in run.err
     assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, report.SUMMARY]
     assert "matplotlib" in (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
 
 
 def test_inspect_reads_the_model_where_floats_are_taken_exactly(csv_file: Path, tmp_path: Path) -> None:
-    assert identified(csv_file, tmp_path / "out").code == 0
+    assert identified(csv_file, tmp_path / "out", "--order", "3").code == 0
     model = tmp_path / "out" / report.MODEL
     validator("model", "faultspace.numeric").validate(json.loads(model.read_text("utf-8")))
     run = call("inspect", str(model), "--floats-exactly", "--json")
@@ -163,7 +163,7 @@ def test_who_reads_a_model_knows_the_format_and_the_keys_of_who_writes_it() -> N
 
 
 def test_the_sample_time_goes_into_the_model_that_is_inspected(csv_file: Path, tmp_path: Path) -> None:
-    run = identified(csv_file, tmp_path / "out", "--dt", "0.25", "--json")
+    run = identified(csv_file, tmp_path / "out", "--dt", "0.25", "--json", "--order", "3")
     model = tmp_path / "out" / report.MODEL
     content = json.loads(model.read_text("utf-8"))
     assert run.code == 0 and content["dt"] == 0.25
@@ -177,7 +177,7 @@ def test_the_sample_time_goes_into_the_model_that_is_inspected(csv_file: Path, t
 
 
 def test_the_summary_has_one_measure_of_what_is_explained(csv_file: Path, tmp_path: Path) -> None:
-    run = identified(csv_file, tmp_path / "out")
+    run = identified(csv_file, tmp_path / "out", "--order", "3")
     text = (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
     assert run.code == 0 and "explained of the residual: 99.68 %" in text and "unexplained" not in text
     for said in (
@@ -244,7 +244,7 @@ def test_without_a_fault_there_is_none() -> None:
 
 def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    assert identified(csv_file, out).code == 0 and (out / report.MODEL).exists()
+    assert identified(csv_file, out, "--order", "3").code == 0 and (out / report.MODEL).exists()
     draw = np.random.default_rng(5)
     path = tmp_path / "noise.npz"
     np.savez(path, u=draw.standard_normal(600), y=draw.standard_normal((600, 2)))
@@ -271,7 +271,7 @@ def test_a_file_of_somebody_else_is_refused_and_stays(name: str, csv_file: Path,
 
 def test_a_file_edited_since_is_its_owners(csv_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    assert identified(csv_file, out).code == 0 and identified(csv_file, out).code == 0
+    assert all(identified(csv_file, out, "--order", "3").code == 0 for _ in range(2))
     before = {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
     (out / report.SUMMARY).write_text("my remarks", encoding="utf-8")
     refused(identified(csv_file, out, "--order", "2"), report.SUMMARY, "not ours")
@@ -316,7 +316,7 @@ def test_an_interrupted_run_leaves_files_that_the_next_one_knows(tmp_path: Path,
 
 
 def test_faults_given_override_the_count_and_are_reported(csv_file: Path, tmp_path: Path) -> None:
-    run = identified(csv_file, tmp_path / "out", "--json", "--faults", "3")
+    run = identified(csv_file, tmp_path / "out", "--json", "--faults", "3", "--order", "3")
     assert (run.code, run.json["n_v"], run.json["n_v_given"]) == (0, 3, True)
     valid("identify", run.json)
     assert run.json["n_v_reason"].startswith("3 given; the data say 1")
@@ -343,7 +343,7 @@ def test_faults_are_counted_against_healthy_samples(number: int, tmp_path: Path)
     alone = identified(path, tmp_path / "alone", "--json", "--order", "3", channels=channels).json
     # Of two faults in three outputs the last one cannot be told from noise, unless its level is known.
     assert (alone["n_v"], alone["healthy_until"], "against_healthy" in alone) == ({1: 1, 2: None}[number], None, False)
-    assert alone["n_v_possible"] == {1: [1], 2: [2, 3]}[number]
+    assert number in alone["n_v_possible"] and (number == 1) == (len(alone["n_v_possible"]) == 1)
     assert number == 1 or any("--healthy-until" in line for line in alone["next"])
     assert number == 1 or any("--noise-level SIGMA" in line for line in alone["next"])
     run = identified(path, tmp_path / "out", "--json", "--order", "3", "--healthy-until", "1500", channels=channels)
