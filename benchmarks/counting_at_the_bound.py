@@ -30,7 +30,7 @@ from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.rows.counting import count_faults
 from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
 from faultspace.numeric.rows.joint import course, joint_moments
-from faultspace.numeric.rows.laws import EXTRA, SHAPE_MISFIT, tested
+from faultspace.numeric.rows.laws import FLAT_MISFIT, SHAPE_MISFIT, SINGLE_MISFITS, Evidence, tested
 from faultspace.numeric.rows.space import fault_space_by_rows
 from faultspace.numeric.space.distances import principal_angles, two_sided_error
 from faultspace.numeric.space.result import FaultSpaceEstimate, orthonormal
@@ -57,6 +57,9 @@ COUNT_CELLS = (
     (3, 3, 20.0, 1.0),
     (4, 4, 40.0, 1.0),
 )
+
+# Of those the ones where a single row is a law.
+SINGLE_CELLS = tuple(cell for cell in COUNT_CELLS if cell[0] - cell[1] == 1)
 
 
 def record(seed: int, p: int, n_v: int, decibels: float, spread: float, samples: int) -> tuple[Array, Array]:
@@ -155,6 +158,7 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
     """Print ratios over their expectations: of degrees on the study's systems, of sphericity and flatness on random plants."""
     degree: dict[int, list[float]] = {1: [], 2: [], 3: []}
     laws: list[tuple[float, float]] = []
+    singles: list[tuple[float, ...]] = []
     for trial in clock.range(trials):
         zeros = trial % 4
         system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
@@ -166,18 +170,20 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
             ratios.append(likelihood_ratio(data, low, high) / freedom(data, low, high))
         p, n_v, decibels, spread = COUNT_CELLS[trial % 9]
         y, u = record(seed + trial, p, n_v, decibels, spread, samples)
-        data = joint_moments(y, u, N_X + EXTRA)
-        found = tested(data, p - n_v, N_X)
-        assert found.sphericity is not None
-        gain = likelihood_ratio(data, found.fit, found.longer) / freedom(data, found.fit, found.longer)
-        laws.append((found.sphericity.nats / found.sphericity.expected, gain))
+        found = tested(Evidence(y, u, N_X), p - n_v)
+        if found.sphericity is not None and found.ratios:
+            laws.append((found.sphericity.nats / found.sphericity.expected, found.ratios[0]))
+        p, n_v, decibels, spread = SINGLE_CELLS[trial % len(SINGLE_CELLS)]
+        singles.append(tested(Evidence(*record(seed + trial, p, n_v, decibels, spread, samples), N_X), 1).ratios)
     for extra, ratios in degree.items():
         parameters = 4 * extra
         tail = scipy.stats.chi2.sf(np.array(ratios) * parameters / MISFITS[min(extra, 2) - 1], parameters)
         shares = ", ".join(f"{np.mean(tail < level):.2f} below {level:g}" for level in (0.05, 0.01, 1e-3, 1e-4))
         print(f"{extra} degrees more: ratio / freedom {quantiles(ratios)}; of the stated probabilities {shares}")
     print(f"sphericity / expected, k >= 2: {quantiles([law[0] for law in laws])} (SHAPE_MISFIT is {SHAPE_MISFIT:g})")
-    print(f"flatness / freedom, k >= 2: {quantiles([law[1] for law in laws])} (MISFITS are {MISFITS})")
+    print(f"flatness / freedom, k >= 2: {quantiles([law[1] for law in laws])} (FLAT_MISFIT is {FLAT_MISFIT:g})")
+    for i, misfit in enumerate(SINGLE_MISFITS):
+        print(f"flatness / freedom, k = 1, step {i + 1}: {quantiles([ratios[i] for ratios in singles])} (SINGLE_MISFITS has {misfit:g})")
 
 
 def quantiles(values: list[float]) -> str:

@@ -161,7 +161,10 @@ class Matrix:
         return self.field == other.field and self.shape == other.shape and bool(self.flint == other.flint)
 
     def __hash__(self) -> int:
-        return hash((self.field, self.shape, str(self.flint)))
+        if isinstance(self.field, PrimeField):
+            return hash((self.field, self.shape, tuple(map(int, self.flint.entries()))))
+        numerators, denominator = self.flint.numer_denom()
+        return hash((self.field, self.shape, tuple(map(int, numerators.entries())), int(denominator)))
 
     def __str__(self) -> str:
         rows = ["[" + ", ".join(str(x) for x in row) + "]" for row in self.elements()]

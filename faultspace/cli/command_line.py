@@ -17,7 +17,8 @@ from typing import Annotated, Any, ParamSpec
 import typer
 
 from .. import __version__
-from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded, say
+from ..base.messages import say
+from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded
 
 Given = ParamSpec("Given")
 

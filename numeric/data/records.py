@@ -1,6 +1,6 @@
 """This is a measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
 
-stored          a SampleStore of an array; silent: progress that nobody hears
+stored          a SampleStore of an array
 in_memory       the samples of a result that keeps them in a store, as an array
 SampleStore     rows (N, k) of floats: in memory while they are few, beyond IN_MEMORY bytes in a temporary file
 Record          inputs and outputs in one store, their names, and what is known of every channel; iterating gives pieces (y, u)
@@ -18,7 +18,7 @@ from __future__ import annotations
 import os
 import tempfile
 import weakref
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
@@ -27,11 +27,13 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput
+from ...base.progress import Progress
+from ...base.progress import silent as silent
 from ...base.sheets import Shown, counted
 from .plain import plain
 from .validation import PIECE
 
-OnProgress = Callable[[str, int, int], None]
+OnProgress = Progress
 
 IN_MEMORY = 1 << 24
 NUMBER = 8  # bytes
@@ -98,10 +100,6 @@ def in_memory(rows: ArrayLike | SampleStore | Stored) -> Any:
     """Return the samples of a store, or of a result that keeps them in one, as an array (N, k); an array as it is."""
     store = rows if isinstance(rows, SampleStore) else getattr(rows, "store", None)
     return store.read(0, len(store)) if isinstance(store, SampleStore) else rows
-
-
-def silent(stage: str, done: int, total: int) -> None:
-    """Hears of progress and says nothing."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ errors are 1.3 to 3.6 times the Cramer-Rao bound of a known disturbance spectrum
 are efficient for long records [W89]. `python benchmarks/at_the_bound.py` measures it. Nothing is random: equal data give equal models.
 
 What must hold: u and the faults uncorrelated (open loop), a stable model, u that excites lags + 1 samples beside its mean. The colour of u
-does not matter otherwise.
+does not matter otherwise. Feedback is tested for, and noted (`feedback`): with a delay in the loop the model stays consistent.
 
 Offsets. A constant stands among the regressors unless `offset=False`, one for each experiment. The zero of a sensor, an operating point and
 the mean of a fault all add a constant to the outputs, and a fault may be any signal: that its mean is zero is nothing that data could show.
@@ -36,6 +36,7 @@ from ...base.threads import one_thread
 from ..data.validation import experiment, positive
 from .arx_windows import about_zero, arx_windows, longest_lag, merge_windows
 from .compression import EPS, Pieces
+from .feedback import HEARD, LEVEL, feedback_chance
 from .models import StateSpaceModel
 from .order_choice import order_tried
 from .reduced_model import ReducedModel, reduced
@@ -117,7 +118,18 @@ def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | 
         parts = [arx_windows(source, carried) for source in sources]
         found = reduced(merge_windows(parts if offset else [about_zero(part) for part in parts]), n)
     states = (_initial_state(source, found.model, mean) for source, mean in zip(sources, found.offsets, strict=True))
-    return replace(found, initial_states=tuple(states))
+    return replace(found, initial_states=tuple(states), notes=found.notes + _feedback(sources, found, carried))
+
+
+def _feedback(sources: Sequence[Pieces], found: ReducedModel, lags: int) -> tuple[str, ...]:
+    """Say where the input follows earlier outputs."""
+    chance = feedback_chance([_beginning(source, HEARD) for source in sources], found.arx, lags)
+    if chance >= LEVEL:
+        return ()
+    return (
+        f"u follows what disturbed y before (a chance of {chance:.2g} in open loop): in a closed loop the standard errors are too "
+        "small, and D is wrong where the loop has no delay",
+    )
 
 
 def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tuple[list[int], int]:
@@ -141,11 +153,17 @@ def _initial_state(source: Pieces, model: StateSpaceModel, offset: Array) -> Arr
     """Estimate the initial state by least squares over the samples in which it can be seen."""
     radius = min(spectral_radius(model.A), 1.0)
     left = MOST_FREE if radius == 1 else model.n + (int(min(np.log(EPS) / np.log(radius), MOST_FREE)) if radius > 0 else 0) + 1
+    y, u = _beginning(source, left)
+    return residual(y - offset, u, model).x0
+
+
+def _beginning(source: Pieces, samples: int) -> tuple[Array, Array]:
+    """Return the first samples of an experiment, so many at most."""
     pieces: list[tuple[Array, Array]] = []
     for y, u in source:
-        pieces.append((y[:left], u[:left]))
-        left -= len(y)
-        if left <= 0:
+        pieces.append((y[:samples], u[:samples]))
+        samples -= len(y)
+        if samples <= 0:
             break
     y, u = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
-    return residual(y - offset, u, model).x0
+    return y, u

@@ -111,10 +111,10 @@ def _tells_powers(basis: PowerBasis, A: Array) -> bool:
     """Say whether the coordinates give A^k for k = 1, 2, 4, ... up to the rounding that k steps with A have."""
     power, step, largest = A, basis.H, 1.0
     for doubling in range(DOUBLINGS):
-        error = np.tensordot(step @ basis.identity, basis.matrices, axes=1) - power
-        largest = max(largest, float(np.linalg.norm(power)))
+        largest = max(largest, float(np.abs(power).max()))
         if not largest < HUGE:
             return True
+        error = np.tensordot(step @ basis.identity, basis.matrices, axes=1) - power
         if not np.linalg.norm(error) <= 64 * len(A) * EPS * 2**doubling * largest:
             return False
         power, step = power @ power, step @ step

@@ -35,8 +35,8 @@ from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
 from ..data.validation import constant_channels, noise_deviations, positive, signals
-from .joint import ROUNDING, JointMoments, joint_moments
-from .laws import EXTRA, FAILS, SUFFICES, Laws, bootstrapped, tested
+from .joint import ROUNDING, JointMoments
+from .laws import EXTRA, FAILS, SUFFICES, Evidence, Laws, bootstrapped, tested
 
 # Nats (22 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
 FAINTEST = 5.0
@@ -119,18 +119,21 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
     outputs, inputs = signals(y, u)
     p, n = outputs.shape[1], positive(order, "order")
     _measured(outputs)
-    data = joint_moments(outputs, inputs, n + EXTRA)
+    evidence = Evidence(outputs, inputs, n)
+    data = evidence.data
     known = None if noise_level is None else noise_deviations(noise_level, p) / data.scale[:p]
-    one = tested(data, 1, n, None if known is None else known**2 / np.exp(np.mean(np.log(known**2))))
-    if np.exp(one.level) < ROUNDING:
+    shares = None if known is None else known**2 / np.exp(np.mean(np.log(known**2)))
+    if not _exciting(data):
+        reason = f"the inputs excite no more than {n + EXTRA} samples in a row: what they do and what faults do cannot be told apart"
+        return FaultCount(None, tuple(range(p + 1)), reason, ())
+    if _least_power(data, 0) < ROUNDING:
         return _by_ranks(outputs, inputs)
-    shares = None if known is None else one.shares
     tests: dict[int, Laws] = {}
 
     def laws(count: int) -> Laws:
         if count not in tests:
-            quick = one if count == 1 else tested(data, count, n, shares)
-            tests[count] = bootstrapped(outputs, inputs, data, quick, draws) if draws else quick
+            quick = tested(evidence, count, shares)
+            tests[count] = bootstrapped(evidence, quick, draws) if draws else quick
         return tests[count]
 
     # Invariant: `some` rows may be laws, `more` are not. Where more of them are laws, a doubt about fewer does not matter.
@@ -151,7 +154,8 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     """Answer where no two rows are laws: p - 1, p, or either."""
     one = laws(1)
     if known is not None:
-        loud = _loudness(one.longer.level, one.longer.spectrum, data, known)
+        longest = one.fit if one.longest is None else one.longest
+        loud = _loudness(longest.level, longest.spectrum, data, known)
         if loud > KNOWN_TO:
             reason = f"not even one row comes down to the noise level: its remainder has {loud:.3g} times that power"
             return FaultCount(p, (p,), reason, _walk(tests))
@@ -214,6 +218,18 @@ def _holds(laws: Laws, data: JointMoments, known: Array | None) -> bool | None:
 def _loudness(level: float, spectrum: Array, data: JointMoments, known: Array) -> float:
     """Return the ratio of the noise power that rows leave to the known one, whose deviations (p,) are in units of the moments."""
     return float(np.exp(level - np.mean(np.log(known**2))) * (spectrum @ data.moments.weights))
+
+
+def _exciting(data: JointMoments) -> bool:
+    """Return whether the windows of the inputs have full rank: else a row of inputs alone is a law, whatever the outputs do."""
+    return data.n_u == 0 or _least_power(data, data.p) >= ROUNDING
+
+
+def _least_power(data: JointMoments, first: int) -> float:
+    """Return the least power of a combination, of unit norm, of the windows of the channels from `first` on."""
+    power = data.moments.moments.sum(axis=0).real
+    chosen = np.arange(len(power)) % data.moments.channels >= first
+    return float(scipy.linalg.eigvalsh(power[np.ix_(chosen, chosen)], subset_by_index=(0, 0))[0])
 
 
 def _by_ranks(y: Array, u: Array) -> FaultCount:

@@ -73,9 +73,10 @@ def identified_fault_space(
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
 
-    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`, which raises InvalidData in the same cases. Raises nothing else.
-    The covariance of A and C is carried to the space to first order [MN89] and added to that of the rows; both take the number of zeros as
-    right. The states of the model and the true ones are matched by least squares of their observability matrices.
+    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The covariance of A and C is carried to the space to first order
+    [MN89] and added to that of the rows; both take the number of zeros as right. The basis is in the states of the model and the units of
+    y, and the states are matched with the true ones by least squares of the observability matrices. Raises InvalidData as
+    `fault_space_by_rows` does.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction, identified_fault_space

@@ -301,6 +301,11 @@ def _covariance(problem: _Problem, colour: Array, h: Array, power: float, sample
     return np.asarray(free @ inverse @ scores @ inverse @ free.T) * power / samples
 
 
+def colour_of(spectrum: Array, angles: Array, weights: Array, order: int = NOISE_ORDER) -> Array:
+    """Return the spectrum (bands,), of mean logarithm zero, of the autoregression that fits a spectrum (bands,) best."""
+    return _colour(_autoregression(spectrum, angles, weights, order), angles, weights)
+
+
 def _autoregression(spectrum: Array, angles: Array, weights: Array, order: int) -> Array:
     """Return the monic Yule-Walker autoregression of a spectrum sampled at the angles."""
     lags = np.cos(np.outer(np.arange(order + 1), angles)) @ (spectrum * weights)

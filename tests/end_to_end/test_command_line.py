@@ -29,6 +29,7 @@ from faultspace.packaged_examples import DESCRIPTIONS, EXPERIMENTS
 from faultspace.proofs.trust import structure_certificates as certificates
 from tests.end_to_end.commands import EXAMPLES, ROOT, Run, call, command, environment, example, validator
 from tests.oracle.strategies import system_pairs, systems
+from tests.thorough import examples
 
 SCALAR = '{"A": [[x]], "F": [[1]], "C": [[1]], "G": [[0]]}'
 PAPER = {
@@ -197,7 +198,7 @@ def test_integers_of_any_permitted_length_are_read(tmp_path: Path) -> None:
     assert call("inspect", name).code == 0
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(system=systems())
 def test_what_inspect_reads_and_prints_agrees_with_the_schemas(tmp_path: Path, system: Any) -> None:
     validator("system").validate(system)
@@ -242,7 +243,7 @@ def test_the_table_shows_a_word_that_separates() -> None:
     assert "N(q) = [ q,  -2 ]" in run.out
 
 
-@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=examples(40), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(pair=system_pairs(field="Q"))
 def test_the_word_is_one_of_its_system_and_violates_the_row(tmp_path: Path, pair: tuple[Any, Any]) -> None:
     names = [saved(tmp_path, f"{i}.json", system) for i, system in enumerate(pair)]

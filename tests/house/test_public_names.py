@@ -102,6 +102,25 @@ def test_the_records_are_found_and_what_one_lacks_is_noticed() -> None:
     ]
 
 
+def unreadable(function: Callable[..., object]) -> list[str]:
+    """Return what keeps a person from reading a signature: a default whose text is an address, and types longer than their argument's
+    line, which is as wide as the house's lines less the four places before it."""
+    shown = [str(argument) for argument in inspect.signature(function).parameters.values()]
+    return [text for text in shown if " at 0x" in text or len(text) > 136]
+
+
+@pytest.mark.parametrize(("room", "name"), CALLED)
+def test_a_signature_can_be_read(room: str, name: str) -> None:
+    documented = getattr(importlib.import_module(room), name)
+    assert unreadable(documented) == []
+
+
+def test_an_unreadable_signature_is_noticed() -> None:
+    def deaf(on_progress: Callable[[str], None] = lambda name: None) -> None: ...
+
+    assert len(unreadable(deaf)) == 1
+
+
 def lacking(docstring: str, *, from_literature: bool) -> list[str]:
     """These are the things that a public docstring does not say."""
     first = docstring.strip().partition("\n")[0]

@@ -250,13 +250,14 @@ def test_two_hundred_samples() -> None:
 
 def test_the_bootstrap_finds_the_misfit() -> None:
     y, u = joint_record(plant(21, 3, 1), 21, 500, 40)
-    data = joint_moments(y, u, 3 + laws.EXTRA)
-    quick = laws.tested(data, 2, 3)
-    careful = laws.bootstrapped(y, u, data, quick, 4)
+    evidence = laws.Evidence(y, u, 3)
+    quick = laws.tested(evidence, 2)
+    careful = laws.bootstrapped(evidence, quick, 4)
     assert quick.holds and careful.holds
-    assert 1.0 <= careful.misfit < 6.0 and 1.0 <= careful.shape_misfit < 3.0
-    many = laws.tested(data, 3, 3)
-    assert many.holds is False and laws.bootstrapped(y, u, data, many, 4) is many
+    assert quick.sphericity is not None and careful.sphericity is not None
+    assert careful.flatness != quick.flatness and careful.sphericity.level != quick.sphericity.level
+    many = laws.tested(evidence, 3)
+    assert many.holds is False and laws.bootstrapped(evidence, many, 4) is many
 
 
 @pytest.mark.parametrize("zeros", [(), (0.5,), (0.3, -0.6)])

@@ -13,11 +13,12 @@ from __future__ import annotations
 import argparse
 import json
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from math import inf
 from pathlib import Path
 from typing import Any
 
+from ....base.progress import Progress, evenly, working
 from ..peers import PEERS
 from ..peers import peer as peer_named
 from ..records import CheckResult, Status, grouped
@@ -38,7 +39,7 @@ def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
     return tuple(found)
 
 
-def board(names: Sequence[str], seconds: float, on_progress: Callable[[str, int, int], None]) -> Board:
+def board(names: Sequence[str], seconds: float, on_progress: Progress) -> Board:
     """Our reference and these packages, those that are here; a check may take so many seconds."""
 
     def audited(name: str, title: str, version: str, needs: str, peer: str | None) -> Audited:
@@ -60,8 +61,6 @@ def merged(new: Board, old: Board) -> Board:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Audits, writes scoreboard.json; returns 0."""
-    from rich.progress import Progress
-
     parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.scoreboard", description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where scoreboard.json, README.md and FINDINGS.md are")
     parser.add_argument("--peer", action="append", metavar="NAME", help="only this package, beside our own; may be repeated")
@@ -74,16 +73,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     file: Path = given.out / "scoreboard.json"
     found = Board.from_json(json.loads(file.read_text("utf-8"))) if file.exists() else Board(())
     if not given.pages:
-        with Progress() as progress:
-            bars: dict[str, Any] = {}
-
-            def tell(name: str, done: int, total: int) -> None:
-                if name not in bars:
-                    bars[name] = progress.add_task(name, total=total)
-                progress.update(bars[name], completed=done + 1)
-
-            names = [] if given.own else given.peer or [one.name for one in PEERS]
-            found = merged(board(names, given.timeout, tell), found)
+        names = [] if given.own else given.peer or [one.name for one in PEERS]
+        with working("the audit of our own code") as tell:
+            found = merged(board(names, given.timeout, evenly(tell)), found)
         given.out.mkdir(parents=True, exist_ok=True)
         file.write_text(json.dumps(found.to_json(), indent=1) + "\n", "utf-8")
     write_pages(found, given.out)

@@ -1,8 +1,10 @@
-"""Show how far a command has come, on standard error and by the same code for every command.
+"""How far a long task has come: who hears of it, and how it is shown on standard error, by the same code for every command.
 
 Nothing is shown for two seconds. Then one line moves where standard error is a terminal; elsewhere there is a plain line, and another one
 after ten seconds at the least and only where something has changed.
 
+Progress     what every `on_progress` is: called with (stage, done, total)
+silent       hears of progress and says nothing
 working      gives a function to call with (stage, done, total, seconds left); total 0 says that nobody knows how much there is
 evenly       the same function for work whose parts take equally long: it adds the time that is left
 Tell         the type of that function
@@ -19,13 +21,19 @@ from dataclasses import dataclass
 from threading import Event, Thread
 from typing import Protocol
 
-from .failures import say
+from .messages import say
+
+Progress = Callable[[str, int, int], None]
 
 PATIENCE = 2.0
 EVERY = 10.0
 FRAME = 0.1
 BAR_WIDTH = 12
 MOST_COUNTED = 10_000
+
+
+def silent(stage: str, done: int, total: int) -> None:
+    """Hears of progress and says nothing."""
 
 
 class Tell(Protocol):
@@ -77,7 +85,7 @@ def working(stage: str) -> Iterator[Tell]:
         thread.join()
 
 
-def evenly(tell: Tell) -> Callable[[str, int, int], None]:
+def evenly(tell: Tell) -> Progress:
     """Return `tell` with the seconds that are left of the stage, as long as its parts take what those before them took."""
     stage, begun, first = "", 0.0, 0
 
@@ -107,7 +115,8 @@ def _moving(now: Callable[[], State], stopped: Event) -> None:
     if stopped.wait(PATIENCE):
         return
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn
+    from rich.progress import BarColumn, TextColumn
+    from rich.progress import Progress as Bar
     from rich.table import Column
 
     console = Console(file=sys.stderr, markup=False, highlight=False, emoji=False)
@@ -123,7 +132,7 @@ def _moving(now: Callable[[], State], stopped: Event) -> None:
     )
     with (
         suppress(OSError),  # nobody reads standard error any more
-        Progress(*columns, console=console, transient=True, expand=True, redirect_stdout=False) as bar,
+        Bar(*columns, console=console, transient=True, expand=True, redirect_stdout=False) as bar,
     ):
         task = bar.add_task("", total=None, elapsed="", amount="")
         while True:
