@@ -3,21 +3,16 @@
 modelled        the Modelled of a record
 Modelled        the model, what it was made of, and why in this way
 window_default  the block rows of PI-MOESP where none are given
-affordable_lags the lags of the ARX model where none are given
 
 Which way. PI-MOESP [V93] is exact on records without noise and fault, and far from what the data hold on others; the reduction [W89] is as
 good as the data allow, but its floor stands above rounding (`model/arx.py`). Ranks tell the two apart (`count/exactness.py`). PI-MOESP also
 stands in where the windows of an ARX model cannot be had: too few samples, an input that does not excite them, an unstable plant. Where
 PI-MOESP finds no gap in its singular values, the reduction chooses the order, so that there is a model whenever there can be one.
-
-Lags. One factor of all windows serves, read once; it costs the square of (lags + 1) (p + n_u) a sample, which WORK bounds: so that records
-of a million samples take seconds. The bias of a truncated autoregression falls as fast as any power of 1/lags [LR85], and LEAST lags stay.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isqrt
 
 import numpy as np
 
@@ -34,8 +29,6 @@ from .model.reduction_starts import hankel_factors
 
 DEFAULT_WINDOW = 20
 SPARE = 3  # windows for each row of the Hankel matrices of PI-MOESP, at least
-WORK = 1 << 36  # multiplications of numbers that the factor of an ARX model's windows may take: some seconds
-LEAST = 20  # lags that are taken whatever they cost
 STAGE = "identifying the model"
 
 
@@ -77,8 +70,7 @@ def _with_notes(found: Modelled, *notes: str) -> Modelled:
 
 
 def _by_reduction(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: OnProgress) -> Modelled:
-    lags = block_rows if block_rows is not None else affordable_lags(len(record), record.p, record.n_u, order)
-    found = arx_reduction(Passes(record, STAGE, on_progress), order=order, lags=lags)
+    found = arx_reduction(Passes(record, STAGE, on_progress), order=order, lags=block_rows)
     # Powers of two near the deviations: they round nothing, and are the same in whatever pieces the record came.
     units = np.exp2(-np.round(np.log2(record.channels.deviation)))
     arx = found.arx.scaled(units[record.n_u :], units[: record.n_u])
@@ -87,7 +79,8 @@ def _by_reduction(record: Record, order: int | None, block_rows: int | None, exa
     notes = found.notes
     if found.order == 0:
         notes += ("the outputs follow the inputs at once or not at all: the model has no state",)
-    return Modelled(found, values, lags or arx.order, exact, way, notes)
+    lags = block_rows if block_rows is not None else max(longest_lag([len(record)], record.p, record.n_u), 1)
+    return Modelled(found, values, lags, exact, way, notes)
 
 
 def _by_past_inputs(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: OnProgress) -> Modelled:
@@ -101,14 +94,6 @@ def _by_past_inputs(record: Record, order: int | None, block_rows: int | None, e
     if order is not None and not found.gap.clean:
         notes += (f"order {order} was given; the singular values have no clean gap there (ratio {found.gap.ratio:.3g})",)
     return Modelled(found, found.singular_values, rows, exact, way, notes)
-
-
-def affordable_lags(samples: int, p: int, n_u: int, order: int | None) -> int | None:
-    """Return as many lags as the samples carry and WORK allows, LEAST and what the order needs in any case; None where they carry none."""
-    carried = longest_lag([samples], p, n_u)
-    allowed = isqrt(WORK // samples) // (p + n_u) - 1
-    lags = min(carried, max(allowed, LEAST, -(-(order or 0) // p)))
-    return lags if lags > 0 else None
 
 
 def window_default(samples: int, p: int, n_u: int, order: int | None) -> int:
