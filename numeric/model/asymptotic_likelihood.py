@@ -127,8 +127,8 @@ def _feedback(sources: Sequence[Pieces], found: ReducedModel, lags: int) -> tupl
     if chance >= LEVEL:
         return ()
     return (
-        f"u follows what disturbed y before (a chance of {chance:.2g} in open loop): in a closed loop the standard errors are too "
-        "small, and D is wrong where the loop has no delay",
+        f"u follows what disturbed y before (a chance of {chance:.2g} in open loop): in a closed loop the standard errors are too small, "
+        "and D is wrong where the loop has no delay",
     )
 
 

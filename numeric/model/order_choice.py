@@ -19,7 +19,7 @@ from .arx import Arx, fitted_arx
 from .arx_windows import ArxWindows, about_zero, arx_windows, joined_windows, merge_windows
 from .compression import Pieces
 from .order_evidence import OrderEvidence, OrderRow, weighed
-from .reduced_model import ReducedModel, described, judged, reduction_problems
+from .reduced_model import ReducedModel, described, judged, reduction_problems, weight_inflation
 from .reduction_search import LAST, Found, minima
 from .reduction_starts import hankel_factors
 from .residuals import residual
@@ -40,14 +40,15 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int, of
     arx = fitted_arx(whole, min(lags, 1))
     problem, coarse = reduction_problems(whole, arx)
     a_state = whole.p + whole.n_u
-    found = minima(whole, arx, problem, coarse, 2.0 * a_state)
+    inflation = weight_inflation(arx)
+    found = minima(whole, arx, problem, coarse, 2.0 * a_state * inflation)
     if not found:
         raise InvalidData("no start for any order: the data show no dynamics that a model could be begun from")
     fits, gaps = _fits(training, whole, held, found), _gaps(arx, max(lags, 1))
     rows = []
     for n, (one, (one_step, free_run)) in enumerate(zip(found, fits, strict=True)):
         gap = float(gaps[n - 1]) if 0 < n <= len(gaps) else float("nan")
-        rows.append(OrderRow(n, one.cost, n * a_state + whole.p * whole.n_u, 0.0, one_step, free_run, gap))
+        rows.append(OrderRow(n, one.cost / inflation, n * a_state + whole.p * whole.n_u, 0.0, one_step, free_run, gap))
     evidence = weighed(rows)
     best = evidence.best
     ended = Found(*descend(problem, found[best].matrix, best, *LAST))

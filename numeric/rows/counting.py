@@ -36,12 +36,13 @@ from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
 from ..data.validation import constant_channels, noise_deviations, positive, signals
 from .joint import ROUNDING, JointMoments
-from .laws import EXTRA, FAILS, SUFFICES, Evidence, Laws, bootstrapped, tested
+from .laws import EXTRA, FAILS, SUFFICES, Evidence, Laws, bootstrapped, longer_are_laws, tested
 
 # Nats (22 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
-FAINTEST = 5.0
-# Factor of power to which a stated noise level is taken at its word.
-KNOWN_TO = 2.0
+FAINTEST = 2.0
+# Factor of power to which a stated noise level is taken at its word, and beyond which it is taken for a fault although it may be wrong by
+# two, which is four in power.
+KNOWN_TO, KNOWN_FAR = 2.0, 8.0
 # Singular values of the scaled outputs below which a channel is a combination of others.
 DEPENDENT = 1e-10
 
@@ -142,12 +143,24 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
         k = (some + more) // 2
         if k == 1:
             break
-        some, more = (some, k) if _holds(laws(k), data, known) is False else (k, more)
+        some, more = (some, k) if _holds(laws(k), known) is False else (k, more)
     if not some:
-        return _last(p, laws, tests, data, known)
-    if _holds(tests[some], data, known) is None:
-        return _undecided(p, some, tests[some], tests)
-    return _answer(p - some, tests[some], tests, data)
+        answer = _last(p, laws, tests, data, known)
+    elif _holds(tests[some], known) is None:
+        answer = _undecided(p, some, tests[some], tests)
+    else:
+        answer = _answer(p - some, tests[some], tests, data)
+    # Of too low an order fewer rows than there are may be laws, and would count as more faults.
+    refused = 0 if answer.n_v is None else p + 1 - answer.n_v
+    if not 2 <= refused <= p:
+        return answer
+    if n + EXTRA >= evidence.longest:
+        reason = f"the record is too short for rows of {EXTRA} degrees more, which would tell whether the order is too low"
+    elif longer_are_laws(evidence, refused, shares):
+        reason = f"{refused} rows of {EXTRA} degrees more have about the shape of noise: the order may be too low"
+    else:
+        return answer
+    return FaultCount(None, tuple(range(p + 2 - refused)), reason, answer.tests)
 
 
 def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: JointMoments, known: Array | None) -> FaultCount:
@@ -155,11 +168,19 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     one = laws(1)
     if known is not None:
         longest = one.fit if one.longest is None else one.longest
-        loud = _loudness(longest.level, longest.spectrum, data, known)
-        if loud > KNOWN_TO:
+        loud = _loudness(longest.level, longest.spectrum, known)
+        if loud > KNOWN_FAR:
             reason = f"not even one row comes down to the noise level: its remainder has {loud:.3g} times that power"
             return FaultCount(p, (p,), reason, _walk(tests))
-    found = _holds(one, data, known)
+        if loud > KNOWN_TO:
+            reason = (
+                f"{p - 1} or {p}: one row leaves {loud:.3g} times the power of the stated noise, too much for laws, too little for a fault"
+            )
+            return FaultCount(None, (p - 1, p), reason, _walk(tests))
+        if loud < 1 / KNOWN_TO:
+            # The level is too high to be one, and settles nothing.
+            known = None
+    found = _holds(one, known)
     if found is None:
         return _undecided(p, 1, one, tests)
     if not found:
@@ -188,8 +209,7 @@ def _answer(n_v: int, found: Laws, tests: dict[int, Laws], data: JointMoments) -
     more = tests.get(found.count + 1)
     if more is not None:
         reason += f", {more.count} do not ({more.probability:.1g})"
-    spread = float(found.fit.spectrum @ data.moments.weights)
-    power = np.exp(found.level) * spread * found.shares * data.scale[:p] ** 2
+    power = np.exp(found.level) * found.fit.spectrum.mean() * found.shares * data.scale[:p] ** 2
     return FaultCount(n_v, (n_v,), reason, _walk(tests), np.asarray(power))
 
 
@@ -208,16 +228,16 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
     return FaultCount(None, possible, reason, _walk(tests))
 
 
-def _holds(laws: Laws, data: JointMoments, known: Array | None) -> bool | None:
+def _holds(laws: Laws, known: Array | None) -> bool | None:
     """Return whether they are laws; where the noise level is known, laws leave no more than it."""
-    if known is not None and _loudness(laws.level, laws.fit.spectrum, data, known) > KNOWN_TO:
+    if known is not None and _loudness(laws.level, laws.fit.spectrum, known) > KNOWN_FAR:
         return False
     return laws.holds
 
 
-def _loudness(level: float, spectrum: Array, data: JointMoments, known: Array) -> float:
+def _loudness(level: float, spectrum: Array, known: Array) -> float:
     """Return the ratio of the noise power that rows leave to the known one, whose deviations (p,) are in units of the moments."""
-    return float(np.exp(level - np.mean(np.log(known**2))) * (spectrum @ data.moments.weights))
+    return float(np.exp(level - np.mean(np.log(known**2))) * spectrum.mean())
 
 
 def _exciting(data: JointMoments) -> bool:

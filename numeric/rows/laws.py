@@ -53,7 +53,7 @@ TURNS = 4
 # Mean of the ratio of sphericity over what it should have, where the rows are laws.
 SHAPE_MISFIT = 1.3
 # Mean of the ratio of flatness over its degrees of freedom: of several rows, and of one for EXTRA and for LONG.
-FLAT_MISFIT, SINGLE_MISFITS = 3.2, (3.2, 3.2)
+FLAT_MISFIT, SINGLE_MISFITS = 3.2, (3.2, 2.5)
 # Ratios that many times beyond these are worth neither another start nor a bootstrap.
 HOPELESS = 2.0
 # Probabilities from which rows are laws, and below which a single row is none. Rows that are no laws are far below.
@@ -74,15 +74,19 @@ class Evidence:
 
     @cached_property
     def data(self) -> JointMoments:
-        """The moments for several rows of degree order + EXTRA in all."""
-        return joint_moments(self.y, self.u, self.order + EXTRA)
+        """The moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
+        return joint_moments(self.y, self.u, self.order + max(1, min(EXTRA, self.longest - self.order)))
+
+    @property
+    def longest(self) -> int:
+        """The highest degree for which there are twice as many windows as a window has entries."""
+        channels = int(self.y.shape[1] + self.u.shape[1])
+        return (len(self.y) - 2 * channels) // (2 * channels + 1)
 
     @cached_property
     def single(self) -> JointMoments:
         """The moments for a single row, of degree order + LONG or as much of it as the record is long for."""
-        channels = self.y.shape[1] + self.u.shape[1]
-        most = (len(self.y) - 2 * channels) // (2 * channels + 1)
-        return joint_moments(self.y, self.u, self.order + max(EXTRA, min(LONG, most - self.order)))
+        return joint_moments(self.y, self.u, self.order + max(1, min(LONG, self.longest - self.order)))
 
     @cached_property
     def reduction(self) -> ReducedModel | None:
@@ -247,10 +251,11 @@ def _several(evidence: Evidence, fit: KernelBasis, shares: Array, misfits: Misfi
     shape = sphericity(remainder(data, fit), shares, misfits.shape)
     if shape.nats > HOPELESS * FAR * shape.expected:
         return Laws(count, fit, shares, shape, 0.0, 1.0, min(1.0, 2 * shape.level))
-    longer = refitted(data, even_split(evidence.order + EXTRA, count), fit.rows, shares=shares, rounds=2)
+    extra = data.degree - evidence.order
+    longer = refitted(data, even_split(evidence.order + extra, count), fit.rows, shares=shares, rounds=2)
     gain = fit.level - longer.level
     ratio = data.samples * count * max(gain, 0.0)
-    freedom = EXTRA * data.moments.channels
+    freedom = extra * data.moments.channels
     flat = float(scipy.stats.chi2.sf(ratio / misfits.flat, freedom))
     return Laws(count, fit, shares, shape, gain, flat, min(1.0, 2 * min(flat, shape.level)), (ratio / freedom,))
 
@@ -267,7 +272,7 @@ def _single(evidence: Evidence, shares: Array, misfits: Misfits = Misfits(), sta
     else:
         fit = refitted(data, (order,), start.rows, shares=shares, rounds=3)
     longest, probability, gains, ratios = fit, 1.0, list[float](), list[float]()
-    steps = [EXTRA, data.degree - order] if data.degree > order + EXTRA else [EXTRA]
+    steps = [EXTRA, data.degree - order] if data.degree > order + EXTRA else [data.degree - order]
     for degrees, misfit in zip(steps, misfits.single, strict=False):
         longest = refitted(data, (order + degrees,), longest.rows, shares=shares, rounds=3)
         gains.append(max(fit.level - longest.level, 0.0))
@@ -297,3 +302,14 @@ def _again(evidence: Evidence, laws: Laws, misfits: Misfits) -> Laws:
         return _all(evidence, evidence.unexplained, laws.shares, misfits)
     degrees = [len(row) - 1 for row in laws.fit.rows]
     return _several(evidence, refitted(evidence.data, degrees, laws.fit.rows, shares=laws.shares, rounds=3), laws.shares, misfits)
+
+
+def longer_are_laws(evidence: Evidence, count: int, known: Array | None) -> bool:
+    """Return whether `count` >= 2 rows of degree order + EXTRA have about the shape of noise: then the order is too low for fewer."""
+    higher = replace(evidence, order=evidence.order + EXTRA)
+    if count == evidence.data.p and higher.unexplained is not None:
+        shape = _all(higher, higher.unexplained, known, Misfits()).sphericity
+    else:
+        fit, shares = next(_descents(higher, count, known))
+        shape = sphericity(remainder(higher.data, fit), shares)
+    return shape is not None and shape.nats <= FAR * shape.expected
