@@ -11,14 +11,14 @@ fault_dimension       how many faults a residual shows, or "undecided"
 fault_space           all fault columns [f; g] that explain the residual
 reconstruct_fault     the fault signal for a chosen pair (F, G)
 
-`identify` calls these very functions, and so does the audit's reference. Estimators that come nearer to what the data allow stand beside
-them, and `identify` does not call them yet:
+The audit's reference calls these very functions, and so does `identify` on records without noise and, but for the model, beside samples
+that are stated to be healthy. On all others it calls estimators that come nearer to what the data allow:
 
 arx_reduction         A, B, C, D under strong coloured faults, with standard errors; arx_reduction_experiments: from several experiments
 cramer_rao            the least standard deviations that any unbiased estimate of A, B, C, D can have
 fault_space_bound     the least error that any unbiased estimate of the fault space can have
 count_faults          how many faults act on outputs and inputs, without a model
-fault_space_by_rows   all fault columns, from the laws that outputs and inputs obey
+fault_space_by_rows   all fault columns, from the laws that outputs and inputs obey; identified_fault_space: the model's error in its angle
 
 The folders:
 

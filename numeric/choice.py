@@ -18,6 +18,9 @@ from ..base.arrays import Array
 from ..base.errors import InvalidData
 from .data.records import OnProgress, Record
 from .findings import Findings
+from .model.reduced_model import ReducedModel
+from .rows.joint import affordable
+from .rows.space import BEYOND, fault_space_by_rows, identified_fault_space
 from .signal.explained_share import noise_share
 from .signal.reconstruction import Reconstruction, reconstruct_fault
 from .signal.residual_sizes import loudest
@@ -36,17 +39,42 @@ FROM_IDENTIFIED = (
 
 def with_space(answer: Findings, on_progress: OnProgress) -> Findings:
     """Return the space of all fault columns, on the samples that faults were counted on."""
-    model, rest = answer.model, answer.residual
-    if not answer.n_v or model is None or rest is None:
+    model, rest, faults = answer.model, answer.residual, answer.n_v
+    if not faults or model is None or rest is None:
         return answer
     on_progress("fault space", 0, 0)
+    A, C = model.model.A, model.model.C
+    space, notes = None if answer.exact else _by_laws(answer, faults), answer.notes
+    if isinstance(space, str):
+        notes += (f"the fault space is from the residual: {space}",)
+    if not isinstance(space, FaultSpaceEstimate):
+        try:
+            space = fault_space(beyond_rounding(answer), A, C, n_v=faults)
+        except InvalidData as error:
+            return replace(answer, notes=(*notes, f"no fault space: {error}"))
+        if space.method == "likelihood":
+            notes += (FROM_IDENTIFIED,)
+    return replace(answer, notes=notes, fault_space=space if answer.n_v_given else replace(space, reason=counted(space.reason)))
+
+
+def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
+    """Return the space from the laws of outputs and inputs, about their means as they were counted, or the reason why there is none."""
+    record, model, rows = answer.record, answer.model, max(answer.record.p - faults, 1)
+    assert model is not None
+    if not affordable(record.p + record.n_u, -(-(model.order + BEYOND) // rows)):
+        return f"{record.p} outputs with {faults} faults at order {model.order} are too many for the laws of outputs and inputs"
+    y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
+    count, level = answer.count, answer.noise_level
+    if level is None and count is not None and count.n_v == faults and count.noise_power is not None:
+        level = np.sqrt(count.noise_power)
     try:
-        space = fault_space(beyond_rounding(answer), model.A, model.C, n_v=answer.n_v)
-    except InvalidData as error:
-        return replace(answer, notes=(*answer.notes, f"no fault space: {error}"))
-    if space.method == "likelihood":
-        answer = replace(answer, notes=(*answer.notes, FROM_IDENTIFIED))
-    return replace(answer, fault_space=space if answer.n_v_given else replace(space, reason=counted(space.reason)))
+        if isinstance(model, ReducedModel):
+            space = identified_fault_space(y, u, model, n_v=faults, noise_level=level)
+        else:
+            space = fault_space_by_rows(y, u, model.A, model.C, n_v=faults, noise_level=level)
+    except (InvalidData, np.linalg.LinAlgError) as error:
+        return str(error)
+    return replace(space, reason=f"{space.reason}; n_v as given")
 
 
 def with_signal(answer: Findings, on_progress: OnProgress) -> Findings:
@@ -58,9 +86,10 @@ def with_signal(answer: Findings, on_progress: OnProgress) -> Findings:
         return replace(answer, notes=(*answer.notes, "F, G and the fault signal are withheld: n_z is undecided, see the fault space"))
     on_progress("choosing F and G", 0, 0)
     part = rest.store.read(*loudest(sizes.energies, len(answer.record), TRIED_ON))
-    F, G = choose_pair(part, model.A, model.C, space, count)
+    A, C = model.model.A, model.model.C
+    F, G = choose_pair(part, A, C, space, count)
     try:
-        signal = reconstruct_fault(rest.store, model.A, F, model.C, G, within=answer.held, on_progress=on_progress)
+        signal = reconstruct_fault(rest.store, A, F, C, G, within=answer.held, on_progress=on_progress)
     except InvalidData as error:
         return replace(answer, notes=(*answer.notes, f"no fault signal: {error}"))
     notes = answer.notes

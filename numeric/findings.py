@@ -14,13 +14,16 @@ from .count.mean_shift import MeanShift
 from .count.rank_gap import FaultDimension
 from .data.records import Record
 from .model.moesp_model import MoespModel
+from .model.order_evidence import OrderEvidence
+from .model.reduced_model import ReducedModel
 from .model.residuals import ResidualSignal
+from .rows.counting import FaultCount
 from .signal.reconstruction import Reconstruction
 from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
 
-COUNTED_BY = ("given", "model", "healthy samples", "residual alone")
-"""An n_v rests on one of these: the user, a model that explains everything, or one of the two ways of counting."""
+COUNTED_BY = ("given", "model", "healthy samples", "residual alone", "outputs and inputs")
+"""An n_v rests on one of these: the user, a model that explains everything, or one of the three ways of counting."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -35,13 +38,18 @@ class Findings:
     means_removed: bool
     order_given: bool
     singular_values: Array
-    model: MoespModel | None
+    model: MoespModel | ReducedModel | None
+    exact: bool = False
+    way: str = ""
     residual: ResidualSignal | None = None
     sizes: ResidualSizes | None = None
     held: tuple[int, int] = (0, 0)
     dimension: FaultDimension | None = None
     n_v: int | None = None
     n_v_given: bool = False
+    possible: tuple[int, ...] = ()
+    count: FaultCount | None = None
+    noise_level: Array | None = None
     reason: str = ""
     counted_by: str | None = None
     healthy: int | None = None
@@ -69,7 +77,13 @@ class Findings:
         included."""
         if self.n_v is not None:
             return self.n_v
-        return max(self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained))
+        seen = (self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained), min(self.possible, default=0))
+        return max(seen)
+
+    @property
+    def orders(self) -> OrderEvidence | None:
+        """Return the evidence for the order where it was left open and the model is one of `arx_reduction`."""
+        return self.model.orders if isinstance(self.model, ReducedModel) else None
 
     @property
     def moved(self) -> bool:

@@ -1,24 +1,24 @@
 """From a record of faulty data to model, number of faults, fault space and fault signal.
 
-identify         the whole chain on a record: an Identification, "undecided" where the data cannot tell
-default_block_rows   the window taken where none is given
+identify         the whole chain on a record: an Identification, with what remains possible where the data cannot tell
 
-1  PI-MOESP. No clean gap in the singular values and no order given: the order is undecided, and the chain ends there.
+1  The model (`modelling.py`): an ARX model of high order, reduced under its own weight, at the Cramer-Rao bound; the order given, or chosen
+with its evidence. PI-MOESP where the record has no noise, or where an ARX model cannot be had.
 2  The residual of that model, its initial state fitted.
-3  The fault dimension, of the residual beside the inputs: an identified model is wrong by about N^(-1/2), so that the residual alone has
-the inputs in it as if they were faults. Where the first samples are stated to be without fault, model and means are from these alone, the
-faults of the others are counted once more against what the residual shows there, and its mean is held against theirs: a constant fault
-moves the mean and no rank. The count against them goes first where it is decided, the other where it is not; 0 is said only where nothing
-is counted, no output has a spike or is stuck, and the mean is tested and has not moved, with the size of fault that would have been seen.
-Where the inputs leave what the healthy samples show, the model's error can look like a fault, and none is counted against them.
-4  The fault space, unless the dimension is undecided or 0.
+3  The number of faults (`counting.py`): by the laws that outputs and inputs obey, for which no model is needed. Where the first samples are
+stated to be without fault, model and means are from these alone, the faults of the others are counted against what the residual shows
+there, and its mean is held against theirs: a constant fault moves the mean and no rank. The count against them goes first where it is
+decided, the ranks of the residual where it is not; 0 is said only where nothing is counted, no output has a spike or is stuck, and the
+mean is tested and has not moved, with the size of fault that would have been seen. Where the inputs leave what the healthy samples show,
+the model's error can look like a fault, and none is counted against them. Records without noise are counted by ranks, which are exact.
+4  The fault space (`choice.py`), unless the number of faults is undecided or 0: from the same laws, with A and C of the model.
 5  F, G and the fault signal for one pair out of the space: determined up to that choice, and given only where n_z is decided and the signal
 explains more of the residual than it would of noise.
 
 Memory. Steps 1, 2 and 5 read the record, or the residual, in pieces and hold none of them, whatever N. Steps 3 and 4 hold the residual
-(N x p floats) and the inputs (N x n_u) of at most HELD numbers together: of a longer record the stretch with most of the residual's energy,
-and the notes say which. Models too unstable to be simulated forward, and signals whose uncertainty fades too slowly, are the exceptions
-(`residual`, `reconstruct_fault`).
+(N x p floats), the outputs and the inputs (N x n_u) of at most HELD numbers together: of a longer record the stretch with most of the
+residual's energy, and the notes say which. Models too unstable to be simulated forward, and signals whose uncertainty fades too slowly,
+are the exceptions (`residual`, `reconstruct_fault`).
 """
 
 from __future__ import annotations
@@ -29,31 +29,23 @@ from numbers import Real
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
 from ..base.threads import one_thread
-from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest, with_signal, with_space
-from .count.against_healthy import fault_dimension_against_healthy
-from .count.detectable import visible_white_faults
-from .count.healthy_model import healthy_reference
-from .count.mean_shift import POWER, mean_about_zero, mean_shift
-from .count.rank_gap import fault_dimension
-from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
+from .choice import ROUNDING, largest, with_signal, with_space
+from .counting import with_count
 from .data.records import OnProgress, Passes, Record, silent
 from .data.sources import Source, record_from
-from .data.validation import whole
+from .data.validation import noise_deviations, whole
 from .findings import Findings
-from .model.moesp_model import MoespModel, OrderUndecided
-from .model.past_inputs import pi_moesp
+from .model.moesp_model import MoespModel
+from .model.reduced_model import ReducedModel
 from .model.residuals import ResidualSignal, growing_modes, residual
+from .modelling import modelled, window_default
 from .result import Identification
-from .signal.residual_sizes import loudest, residual_sizes
-
-DEFAULT_WINDOW = 20
-SPARE = 3  # windows for each row of the Hankel matrices, at least
-HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
-AS_MANY = "as many faults as outputs look like noise in every output"
+from .signal.residual_sizes import residual_sizes
 
 
 @one_thread()
@@ -65,21 +57,26 @@ def identify(
     block_rows: int | None = None,
     n_v: int | None = None,
     healthy: int | None = None,
+    noise_level: ArrayLike | None = None,
     remove_means: bool = False,
     inputs: str | Sequence[str] | None = None,
     outputs: str | Sequence[str] | None = None,
     dt: float | None = None,
     on_progress: OnProgress | None = None,
 ) -> Identification:
-    """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults [V93], [G25].
+    """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
+
+    Source: [W89] for the model, [W91] for the laws, [G25] for the fault space; [V93] for the model of a record without noise.
 
     y (N, p) and u (N, n_u) are arrays or data frames, one row a sample, in any units. Without u, y holds both: a record, the path of a
     data file or a frame, whose channels `inputs` and `outputs` choose, or an iterator of consecutive pieces (y, u), which is read once.
     All of them become one record, and the same numbers give the same answer.
 
-    `order` is the number n of states, `block_rows` the samples of a window, `n_v` the number of faults, each found from the data where it
-    is not stated; `healthy` says how many samples, from the first on, are without fault; `remove_means` takes the means off, of the healthy
-    samples where there are any. `dt` is the time from sample to sample in seconds, which only the exports need. `on_progress(stage, done,
+    `order` is the number n of states, `block_rows` the samples of a window (the lags of the ARX model, the block rows of PI-MOESP), `n_v`
+    the number of faults, each found from the data where it is not stated; `healthy` says how many samples, from the first on, are without
+    fault; `noise_level`, one number or one an output, is the standard deviation of the sensors' noise in units of y, by which faults are
+    told from noise where no samples are healthy; `remove_means` takes the means off, of the healthy samples where there are any. `dt` is
+    the time from sample to sample in seconds, which only the exports need. `on_progress(stage, done,
     total)` hears how far it has come. Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can
     be had; what cannot be told after that is a note of the Identification.
 
@@ -102,7 +99,8 @@ def identify(
         raise InvalidData(f"n_v: got {n_v} for {record.p} outputs; at most as many can be told apart: state fewer")
     if healthy is not None and healthy >= len(record):
         raise InvalidData(f"healthy: got {healthy} for {len(record)} samples; some must follow: state fewer")
-    found = _findings(record, order, block_rows, n_v, healthy, bool(remove_means), on_progress)
+    level = None if noise_level is None else noise_deviations(noise_level, record.p)
+    found = _findings(record, order, block_rows, n_v, healthy, level, bool(remove_means), on_progress)
     return Identification(**vars(found) | {"dt": dt})
 
 
@@ -134,12 +132,13 @@ def _findings(
     block_rows: int | None,
     n_v: int | None,
     healthy: int | None,
+    noise_level: Array | None,
     remove_means: bool,
     on_progress: OnProgress,
 ) -> Findings:
     """Go through the chain of the module's docstring."""
     part = record if healthy is None else record.beginning(healthy)
-    rows = block_rows if block_rows is not None else default_block_rows(len(part), record.p, record.n_u, order)
+    rows = block_rows if block_rows is not None else window_default(len(part), record.p, record.n_u, order)
     try:
         _enough(part, rows)
         _varying(part)
@@ -148,30 +147,37 @@ def _findings(
     notes = () if remove_means else _far_from_zero(part)
     if remove_means:
         record, part = record.about(part.channels.mean), part.about_means()
-    model, values, refusal = _model(part, order, rows, on_progress)
-    answer = Findings(record, rows, remove_means, order is not None, values, model, notes=notes)
-    answer = replace(answer, n_v_given=n_v is not None, healthy=healthy)
-    if model is None:
-        return replace(answer, notes=(*notes, f"the order is undecided: {refusal}"))
-    notes += model.warnings
-    if order is not None and not model.gap.clean:
-        notes += (f"order {order} was given; the singular values have no clean gap there (ratio {model.gap.ratio:.3g})",)
-    rest = _residual(record, model, on_progress)
-    sizes = residual_sizes(rest.store, healthy or len(record))
-    answer = replace(answer, residual=rest, sizes=sizes, notes=(*notes, *rest.notes))
+    found = modelled(part, order, block_rows, on_progress)
+    if noise_level is not None and healthy is not None:
+        notes += ("noise_level is not used: the healthy samples show the noise themselves",)
+    answer = Findings(record, found.window, remove_means, order is not None, found.singular_values, found.model, found.exact, found.way)
+    answer = replace(answer, n_v_given=n_v is not None, healthy=healthy, noise_level=noise_level, notes=notes + found.notes)
+    if found.model is None:
+        return replace(answer, notes=(*answer.notes, f"the order is undecided: {found.refusal}"))
+    rest = _residual(record, found.model, len(part), on_progress)
+    sizes = residual_sizes(rest.store, len(part))
+    answer = replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes))
     if np.all(sizes.peak <= ROUNDING * largest(record)):
         return replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model")
-    return with_signal(with_space(_with_count(answer, n_v, on_progress), on_progress), on_progress)
+    return with_signal(with_space(with_count(answer, n_v, on_progress), on_progress), on_progress)
 
 
-def _residual(record: Record, model: MoespModel, on_progress: OnProgress) -> ResidualSignal:
-    """Take the residual from the state that goes with the model's B and D, where output error has found one and the model can be run from
-    it over the whole record, of which it may have seen a part: no sample is then held. Its covariance has taken off all parameters that
-    were fitted."""
+def _residual(record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: OnProgress) -> ResidualSignal:
+    """Take the residual from the state that goes with the model, where there is one and the model can be run from it over the whole record,
+    of which it may have seen the first samples alone: no sample is then held. Its covariance is that of the samples `modelled`, with all
+    parameters that were fitted taken off."""
     data = Passes(record, "residual", on_progress)
-    if model.x0 is None or model.residual_covariance is None or growing_modes(model.model, len(record)):
-        return residual(data, None, model.model)
-    return replace(residual(data, None, model.model, x0=model.x0), covariance=model.residual_covariance)
+    model = found.model
+    if isinstance(found, ReducedModel):
+        if found.x0 is None or growing_modes(model, len(record)):
+            return residual(data, None, model)
+        rest = residual(data, None, model, x0=found.x0)
+        squares = sum((r.T @ r for r in rest.store.pieces(0, modelled)), np.zeros((model.p, model.p)))
+        fitted = model.n * (model.p + model.n_u + 1) + model.p * model.n_u
+        return replace(rest, covariance=squares / max(modelled - fitted / model.p, 1.0))
+    if found.x0 is None or found.residual_covariance is None or growing_modes(model, len(record)):
+        return residual(data, None, model)
+    return replace(residual(data, None, model, x0=found.x0), covariance=found.residual_covariance)
 
 
 def _nothing_left(answer: Findings) -> str:
@@ -185,139 +191,6 @@ def _nothing_left(answer: Findings) -> str:
             else "; a fault that is constant over the whole record can pass for the response to the mean of the inputs"
         )
     return f"the model explains the outputs to rounding: nothing larger than {sizes} acts{hidden}"
-
-
-def _with_count(answer: Findings, faults: int | None, on_progress: OnProgress) -> Findings:
-    """Count the faults, from the residual beside the inputs."""
-    record, rest, sizes, notes = answer.record, answer.residual, answer.sizes, answer.notes
-    assert rest is not None and sizes is not None
-    on_progress("counting faults", 0, 0)
-    most = HELD // (record.p + record.n_u)
-    first, last = loudest(sizes.energies, len(record), most)
-    healthy = answer.healthy or 0
-    if first < healthy:
-        first, last = healthy, min(healthy + most, len(record))
-    if last - first < len(record):
-        why = "where the residual is largest" if first > healthy or not healthy else "after those stated to be without fault"
-        source = "the fault signal is from all samples, the model from the healthy ones"
-        source = source if healthy else "the model and the fault signal are from all samples"
-        notes += (f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; {source}",)
-    answer = replace(answer, held=(first, last), notes=notes)
-    r = beyond_rounding(answer)
-    try:
-        found = fault_dimension(r.astype(np.float32) if record.single else r, u=record.stretch(first, last)[1])
-        seen = int(np.sum(sizes.peak > ROUNDING * largest(record)))
-        if found.n_v and found.n_v >= seen and seen < record.p:
-            found = replace(found, n_v=None, reason=f"{found.reason}; but so many outputs are not explained to rounding: {AS_MANY}")
-        by = None if found.n_v is None else "residual alone"
-        answer = replace(answer, dimension=found, n_v=found.n_v, reason=found.reason, counted_by=by)
-    except InvalidData as error:
-        answer = replace(answer, reason=str(error))
-    try:
-        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            # Not those set to zero: rounding is held against rounding.
-            answer = _against_healthy(answer, rest.store.read(first, last), on_progress) if healthy else _about_zero(answer, r)
-    except np.linalg.LinAlgError:
-        reason = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
-        answer = replace(answer, n_v=None, counted_by=None, reason=reason)
-    if faults is None:
-        return answer
-    counted = "undecided" if answer.n_v is None else answer.n_v
-    agreement = "as the data say" if faults == answer.n_v else f"the data say {counted}: {answer.reason}"
-    return replace(answer, n_v=faults, reason=f"{faults} given; {agreement}", counted_by="given")
-
-
-def _about_zero(answer: Findings, r: Array) -> Findings:
-    """Hold the mean of the residual against zero, where there are no healthy samples and it was not removed. It decides nothing, since a
-    constant fault over a whole record cannot be told from an operating point."""
-    if answer.n_v == 0:
-        answer = replace(answer, reason=f"{answer.reason}; a fault that is constant over the whole record would not be seen")
-    if answer.means_removed:
-        return answer
-    mean = mean_about_zero(r[:MEANS_FROM])
-    notes = answer.notes
-    if mean.shifted:
-        notes += (
-            f"the residual is not about zero ({mean.reason}): an operating point, or a constant fault; which of them, only samples without "
-            "fault can tell (healthy=K)",
-        )
-    return replace(answer, mean=mean, notes=notes)
-
-
-def _against_healthy(answer: Findings, r: Array, on_progress: OnProgress) -> Findings:
-    """Count the faults in the residual r of `answer` against the samples stated to be without fault, of which the last HELD numbers are
-    held, and beside the test of the mean."""
-    record, rest, sizes, until = answer.record, answer.residual, answer.sizes, answer.healthy
-    assert rest is not None and sizes is not None and until is not None
-    if np.all(sizes.early_peak <= ROUNDING * largest(record)):
-        return _zero_or_not(replace(answer, unexplained=True))
-    on_progress("counting faults against the healthy samples", 0, 0)
-    start = max(until - HELD // (record.p + record.n_u), 0)
-    healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
-    mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[-MEANS_FROM:], before[-MEANS_FROM:])
-    if rest.fitted:
-        mean = replace(mean, shifted=None, reason="the model is too unstable to be run on from the healthy samples", visible=None)
-    answer = replace(answer, mean=mean)
-    driven = beyond_healthy_inputs(before, u, record.inputs)
-    if driven and mean.shifted:
-        answer = replace(answer, mean=replace(mean, shifted=None, reason=driven, visible=None))
-    try:
-        reference = healthy_reference(healthy, before)
-        against = fault_dimension_against_healthy(r, reference, u=u)
-    except InvalidData as error:
-        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}")))
-    if driven and against.n_v != 0:
-        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {driven}")))
-    strange = unlike_healthy(r, healthy, record.stretch(*answer.held)[0], record.stretch(start, until)[0], record.outputs)
-    if strange and against.n_v == 0:
-        against = replace(against, n_v=None, reason=f"{against.reason}; but {strange}")
-        # Ranks of the residual alone would count the noise of the other outputs as faults beside a dead one.
-        answer = replace(answer, n_v=None, counted_by=None, reason=against.reason)
-    answer = replace(answer, counted_against=(start, until), against=against, visible=visible_white_faults(reference, against, POWER))
-    if against.n_v is not None:
-        answer = replace(answer, n_v=against.n_v, reason=against.reason, counted_by="healthy samples")
-    return _zero_or_not(answer)
-
-
-def _zero_or_not(answer: Findings) -> Findings:
-    """Leave 0 only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
-    if answer.n_v != 0 and not (answer.n_v is None and (answer.moved or answer.unexplained)):
-        return answer
-    mean, against = answer.mean, answer.against
-    if answer.unexplained:
-        reason = f"the model explains the healthy samples to rounding and not the others, so that a fault acts; {answer.reason}"
-        return replace(answer, n_v=None, counted_by=None, reason=reason)
-    assert mean is not None
-    if mean.shifted:
-        where = ", ".join(shorten(answer.record.outputs[i]) for i in mean.channels) or "no output by itself, all of them together"
-        reason = (
-            f"a fault moves the mean of the residual ({where}; {mean.reason}), at least one; a constant fault changes no rank, so that "
-            f"ranks cannot count it; of faults that vary: {answer.reason}"
-        )
-        return replace(answer, n_v=None, counted_by=None, reason=reason)
-    if mean.shifted is None:
-        reason = f"{answer.reason}; but whether the mean has moved, as by a constant fault, is undecided: {mean.reason}"
-        return replace(answer, n_v=None, counted_by=None, reason=reason)
-    if against is not None and against.n_v is None:
-        return replace(answer, n_v=None, counted_by=None, reason=against.reason)
-    return replace(answer, reason=f"{answer.reason}; {mean.reason}")
-
-
-def default_block_rows(samples: int, p: int, n_u: int, order: int | None) -> int:
-    """Return 20 block rows, more where a given order needs them, fewer where the record is short."""
-    wanted = DEFAULT_WINDOW if order is None else max(DEFAULT_WINDOW, -(-order // p) + 2, -(-order // n_u) + 1)
-    affordable = samples // (2 + SPARE * (2 * n_u + p))
-    return max(min(wanted, affordable), 2)
-
-
-def _model(record: Record, order: int | None, rows: int, on_progress: OnProgress) -> tuple[MoespModel | None, Array, str]:
-    """Return the model with its singular values; without an order to trust None, the values and the reason. Raises InvalidData for bad
-    data."""
-    try:
-        found = pi_moesp(Passes(record, "identifying the model", on_progress), order=order, block_rows=rows)
-    except OrderUndecided as error:
-        return None, error.singular_values, str(error)
-    return found, found.singular_values, ""
 
 
 def _enough(record: Record, rows: int) -> None:

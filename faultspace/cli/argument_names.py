@@ -10,7 +10,7 @@ import re
 
 OPTIONS = {
     "order": "--order", "block_rows": "--block-rows", "n_v": "--faults", "healthy": "--healthy-until", "remove_means": "--remove-means",
-    "dt": "--dt",
+    "dt": "--dt", "noise_level": "--noise-level",
     "command": "--exec", "peer": "--peer",
 }  # fmt: skip
 _ARGUMENT = re.compile(r"\b(" + "|".join(OPTIONS) + r")=(?:True\b|(\w+))?")

@@ -270,11 +270,11 @@ def identify(
         ),
     ],
     order: Annotated[
-        int | None,
-        typer.Option(metavar="N", parser=_number(int, 1, 3), help="Number of states.", show_default="by the gap in the singular values"),
+        int | None, typer.Option(metavar="N", parser=_number(int, 1, 3), help="Number of states.", show_default="chosen from the data")
     ] = None,
     block_rows: Annotated[
-        int | None, typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of a window.", show_default="20, or what is needed")
+        int | None,
+        typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of a window.", show_default="what the record carries"),
     ] = None,
     faults: Annotated[
         int | None, typer.Option(metavar="K", parser=_number(int, 0, 1), help="Number of independent faults.", show_default="estimated")
@@ -283,6 +283,15 @@ def identify(
         int | None,
         typer.Option(
             metavar="K", parser=_number(int, 1, 1000), help="The first K samples are without fault: count beyond them.", show_default=False
+        ),
+    ] = None,
+    noise_level: Annotated[
+        list[float] | None,
+        typer.Option(
+            metavar="SIGMA",
+            parser=_number(float, 0, 0.1),
+            help="Deviation of the sensors' noise, once or once an output, in its units.",
+            show_default=False,
         ),
     ] = None,
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
@@ -308,7 +317,8 @@ def identify(
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    return identifying.run(data, inputs=inputs, outputs=outputs, out=out, remove_means=remove_means, dt=dt, as_json=json, **settings)
+    known = identifying.Known(**settings, noise_level=noise_level, remove_means=remove_means, dt=dt)
+    return identifying.run(data, known, inputs=inputs, outputs=outputs, out=out, as_json=json)
 
 
 @_command("monte-carlo")

@@ -1,12 +1,14 @@
 """Run `faultspace identify`, which reads a record, identifies it, writes the answer into a folder and prints it.
 
 run              the command's body
+Known            what the user knows of the record
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from rich.text import Text
@@ -25,20 +27,20 @@ from .failures import ANSWERED
 from .reading_files import prepare_folder
 
 
-def run(
-    data: str,
-    *,
-    inputs: Sequence[str],
-    outputs: Sequence[str],
-    out: Path,
-    order: int | None,
-    block_rows: int | None,
-    faults: int | None,
-    healthy_until: int | None,
-    remove_means: bool,
-    dt: float | None,
-    as_json: bool,
-) -> int:
+@dataclass(frozen=True)
+class Known:
+    """This is what the user knows of the record; None stands for what is to be found."""
+
+    order: int | None
+    block_rows: int | None
+    faults: int | None
+    healthy_until: int | None
+    noise_level: Sequence[float] | None
+    remove_means: bool
+    dt: float | None
+
+
+def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str], out: Path, as_json: bool) -> int:
     """Identify and write the files of `report.NAMES` into `out`; the exit code is 0 whenever there is an answer, "undecided" included.
 
     A folder with a file of these names that no earlier run wrote is refused before anything is read. Where there is no answer, folders that
@@ -57,12 +59,13 @@ def run(
             with in_file(data):
                 answer = identify(
                     record,
-                    order=order,
-                    block_rows=block_rows,
-                    n_v=faults,
-                    healthy=healthy_until,
-                    remove_means=remove_means,
-                    dt=dt,
+                    order=known.order,
+                    block_rows=known.block_rows,
+                    n_v=known.faults,
+                    healthy=known.healthy_until,
+                    noise_level=_one_or_each(known.noise_level),
+                    remove_means=known.remove_means,
+                    dt=known.dt,
                     on_progress=tell,
                 )
             tell("writing", 0, 0)
@@ -75,14 +78,19 @@ def run(
     for remark in remarks:
         say(remark)
     if as_json:
-        print_json(report.document(answer, data, folder=str(out), worded=as_options) | {"files": written})
+        print_json(report.document(answer, data, worded=as_options) | {"files": written})
         return ANSWERED
     console = answers()
-    for line in summary(answer, data, folder=str(out), worded=as_options):
+    for line in summary(answer, data, worded=as_options):
         paragraph(console, Text(line, style="bold cyan" if line.startswith("#") else ""))
     console.print()
     paragraph(console, f"written into {quote_path(str(out))}: {', '.join(written)}")
     return ANSWERED
+
+
+def _one_or_each(levels: Sequence[float] | None) -> float | Sequence[float] | None:
+    """Return the level that stands for all outputs, or those of each; None where there is none."""
+    return levels[0] if levels and len(levels) == 1 else levels or None
 
 
 def _missing(folder: Path) -> list[Path]:

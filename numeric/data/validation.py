@@ -12,6 +12,7 @@ enough_samples      a refusal of too few samples, with a hint at transposed data
 first_not_finite    where the first number stands that is NaN or infinite
 positive            a positive integer argument
 whole               an integer argument with a least value
+noise_deviations    the deviations of the noise in the outputs, as they are stated
 constant_channels   numbers of the channels that never change, from their least and greatest values
 """
 
@@ -196,3 +197,15 @@ def checked_pieces(chunks: Iterable[tuple[ArrayLike, ArrayLike]]) -> Iterator[tu
 def constant_channels(least: Array, greatest: Array) -> list[int]:
     """Return the numbers (from 0) of the channels whose least and greatest values are equal."""
     return [int(channel) for channel in np.flatnonzero(least == greatest)]
+
+
+def noise_deviations(level: ArrayLike, p: int) -> Array:
+    """Return the standard deviations (p,) of the noise in the outputs, given as one number for all or one for each. Raises InvalidData
+    for what is none."""
+    try:
+        values = np.broadcast_to(np.asarray(level, dtype=np.float64), (p,))
+    except (TypeError, ValueError):
+        values = np.zeros(p)
+    if not (np.all(np.isfinite(values)) and np.all(values > 0)):
+        raise InvalidData(f"noise_level: got {shorten(level)}; needed one positive standard deviation, or {p} of them, in units of y")
+    return np.asarray(values)

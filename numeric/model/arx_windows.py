@@ -21,6 +21,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import isqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +38,9 @@ are the same from 1.2 to 3.2, and larger at 0.8 where the noise has a spectral n
 SHARE = 4
 """At least that many windows for every regressor of an equation: the covariance of the innovations then has three degrees of freedom of
 four left, and its inverse is wrong by a factor of about 4/3 at most."""
+WORK, LEAST = 1 << 35, 20
+"""The factor costs the square of (lags + 1) (p + n_u) a sample: of long records so many lags are carried as WORK multiplications allow,
+some seconds, and LEAST in any case. The bias of a truncated autoregression falls as fast as any power of 1/lags [LR85]."""
 
 
 CONSTANT = 1e-13
@@ -107,11 +111,14 @@ class ArxWindows:
 
 
 def longest_lag(lengths: Sequence[int], p: int, n_u: int) -> int:
-    """Return RATE times the cube root of all samples of experiments of these lengths, or what leaves SHARE windows for each regressor.
+    """Return RATE times the cube root of all samples of experiments of these lengths, or what leaves SHARE windows for each regressor, or
+    what WORK allows.
 
     It is -1 where not even u(k) alone leaves that many.
     """
-    lags = int(RATE * np.cbrt(sum(lengths)))
+    samples = sum(lengths)
+    allowed = isqrt(WORK // max(samples, 1)) // (p + n_u) - 1
+    lags = min(int(RATE * np.cbrt(samples)), max(allowed, LEAST))
     while lags >= 0 and sum(max(length - lags, 0) for length in lengths) < SHARE * (n_u + lags * (p + n_u)):
         lags -= 1
     return lags

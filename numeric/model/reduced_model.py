@@ -81,6 +81,26 @@ class ReducedModel(Shown):
     notes: tuple[str, ...] = ()
 
     @property
+    def A(self) -> Array:
+        """Return the state matrix (n, n)."""
+        return self.model.A
+
+    @property
+    def B(self) -> Array:
+        """Return the input matrix (n, n_u)."""
+        return self.model.B
+
+    @property
+    def C(self) -> Array:
+        """Return the output matrix (p, n)."""
+        return self.model.C
+
+    @property
+    def D(self) -> Array:
+        """Return the direct feedthrough (p, n_u)."""
+        return self.model.D
+
+    @property
     def order(self) -> int:
         """n is the number of states."""
         return self.model.n

@@ -19,6 +19,11 @@ from ...base.errors import InvalidInput, quote_path
 from ..count.mean_shift import POWER
 from ..data.plain import plain
 from ..data.records import OnProgress, SampleStore
+from ..model.invariants import half_transfers, system_matrix
+from ..model.moesp_model import MoespModel
+from ..model.reduced_model import ReducedModel
+from ..model.weighted_reduction import circle
+from ..rows.joint import even_split
 from ..space.distances import containment_distance
 from .folders import refuse, replace
 from .pictures import PICTURES, pictures
@@ -28,12 +33,12 @@ if TYPE_CHECKING:
     from ..findings import Findings
 
 MODEL, SPACE, SIGNAL, SUMMARY = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md"
+FREQUENCIES = 32  # of the transfer function with standard errors
 NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, *PICTURES)
 
 
-def document(answer: Findings, data: str, *, folder: str | None = None, worded: Callable[[str], str] = str) -> dict[str, Any]:
-    """Return everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `folder` and `worded` as in
-    `summary`."""
+def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
+    """Return everything in JSON: null where there is no answer, complex numbers as [real, imaginary]; `worded` as in `summary`."""
     record, model = answer.record, answer.model
     result: dict[str, Any] = {
         "data": data,
@@ -45,26 +50,30 @@ def document(answer: Findings, data: str, *, folder: str | None = None, worded: 
         "order": model.order if model else None,
         "order_given": answer.order_given,
         "singular_values": plain(answer.singular_values),
+        "exact": answer.exact,
+        "model_from": answer.way,
         "n_v": answer.n_v,
+        "n_v_possible": list(answer.possible) if answer.n_v is None else [answer.n_v],
         "n_v_at_least": answer.at_least,
         "n_v_given": answer.n_v_given,
         "n_v_reason": answer.reason,
         "n_v_from": answer.counted_by,
         "healthy_until": answer.healthy,
+        "noise_level": plain(answer.noise_level),
         "notes": [worded(note) for note in answer.notes],
-        "next": [worded(line) for line in advice(answer, folder)],
+        "next": [worded(line) for line in advice(answer)],
     }
     if model:
         result |= {
-            "order_gap": plain(model.gap.ratio),
-            "order_gap_clean": model.gap.clean,
             "poles": plain(model.model.poles),
             "stable": model.model.is_stable,
             "fit": plain(fit(answer)),
             "residual_covariance": plain(answer.residual.covariance) if answer.residual else None,
             "x0": plain(answer.residual.x0) if answer.residual else None,
-            "condition_numbers": {name: plain(value) for name, value in model.condition_numbers.items()},
         }
+        result |= _of_reduction(model) if isinstance(model, ReducedModel) else _of_past_inputs(model)
+    if answer.count:
+        result["laws"] = answer.count.to_json()
     if answer.dimension:
         found = answer.dimension
         result |= {
@@ -113,6 +122,28 @@ def document(answer: Findings, data: str, *, folder: str | None = None, worded: 
     return result
 
 
+def _of_past_inputs(model: MoespModel) -> dict[str, Any]:
+    """Return what PI-MOESP's model rests on."""
+    return {
+        "order_gap": plain(model.gap.ratio),
+        "order_gap_clean": model.gap.clean,
+        "condition_numbers": {name: plain(value) for name, value in model.condition_numbers.items()},
+    }
+
+
+def _of_reduction(model: ReducedModel) -> dict[str, Any]:
+    """Return how sure the reduced model is, and the evidence for its order where it was left open."""
+    angles, sure = circle(FREQUENCIES), model.uncertainty
+    errors = {name: value for name, value in sure.to_json().items() if name not in ("model", "root", "poles")}
+    errors |= {
+        "angles": plain(angles),
+        "transfer": plain(half_transfers(system_matrix(model.model), model.order, angles)[0]),
+        "transfer_deviations": plain(sure.transfer(angles)),
+    }
+    result: dict[str, Any] = {"standard_errors": errors, "offset": plain(model.offset)}
+    return result if model.orders is None else result | {"orders": model.orders.to_json()}
+
+
 def write(
     answer: Findings, out: Path, data: str, on_progress: OnProgress, *, worded: Callable[[str], str] = str
 ) -> tuple[list[str], list[str]]:
@@ -128,7 +159,7 @@ def write(
             folder = Path(name)
             _tables(answer, folder, on_progress)
             remarks += pictures(answer, folder)
-            lines = [*summary(answer, data, folder=str(out), worded=worded)]
+            lines = [*summary(answer, data, worded=worded)]
             if remarks:
                 lines += ["", "## Missing", *(f"- {remark}" for remark in remarks)]
             (folder / SUMMARY).write_text(markdown(lines), encoding="utf-8")
@@ -174,7 +205,16 @@ def _space(answer: Findings) -> dict[str, Any] | None:
     space = answer.fault_space
     if space is None:
         return None
-    return space.to_json() | {"pair_in_space": plain(containment_distance(np.vstack(answer.pair), space.basis)) if answer.pair else None}
+    rows = len(space.basis) - space.n - (space.n_v or 0)
+    by_laws = space.method == "kernel rows"
+    # The rows of a fit have degrees as equal as can be.
+    degrees = list(even_split(space.n + (space.n_v or 0) - space.n_z, rows)) if by_laws and rows > 0 else None
+    return space.to_json() | {
+        "method": space.method,
+        "angle_degrees": None if space.uncertainty is None else plain(np.degrees(space.uncertainty.angle())),
+        "row_degrees": degrees,
+        "pair_in_space": plain(containment_distance(np.vstack(answer.pair), space.basis)) if answer.pair else None,
+    }
 
 
 def _json(path: Path, content: object) -> None:

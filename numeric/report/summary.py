@@ -8,8 +8,6 @@ markdown    the lines as a file: blank lines around headings, code and lists
 
 from __future__ import annotations
 
-import os
-import shlex
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -19,10 +17,14 @@ from numpy.typing import ArrayLike
 from ...base.arrays import Array
 from ...base.errors import quote_path
 from ..count.mean_shift import POWER
+from ..model.invariants import half_transfers, system_matrix
+from ..model.reduced_model import ReducedModel
 
 if TYPE_CHECKING:
     from ..findings import Findings
 
+NOISE = "noise fills every direction of outputs and inputs"
+NO_NOISE = "outputs and inputs obey a law without noise, to rounding"
 MODEL_FILE = "model.json"
 MOST_ROWS = 12
 DIGITS = 4
@@ -38,9 +40,8 @@ def fit(answer: Findings) -> Array | None:
     return np.asarray(100 * (1 - answer.sizes.early_norm / np.where(spread > 0, spread, 1.0)))
 
 
-def summary(answer: Findings, data: str, *, folder: str | None = None, worded: Callable[[str], str] = str) -> Iterator[str]:
-    """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does; `folder`
-    is where the files are, None where nothing has been saved."""
+def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> Iterator[str]:
+    """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
     yield f"{len(record)} samples, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
@@ -52,9 +53,9 @@ def summary(answer: Findings, data: str, *, folder: str | None = None, worded: C
         yield f"singular values: {_listed(answer.singular_values)}"
     else:
         yield f"order **{model.order}**, {_why_the_order(answer)}"
-        moduli = np.abs(model.model.poles)
-        stability = "stable" if model.model.is_stable else "NOT stable"
-        yield f"poles: {_listed(model.model.poles)} ({stability}, largest modulus {moduli.max(initial=0.0):.{DIGITS}g})"
+        yield f"from {answer.way}, since {NO_NOISE if answer.exact else NOISE}"
+        yield from _orders(answer)
+        yield from _certainty(answer)
         explained = fit(answer)
         if explained is not None:
             pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, explained, strict=True)]
@@ -66,13 +67,15 @@ def summary(answer: Findings, data: str, *, folder: str | None = None, worded: C
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
         yield ""
         yield "## Faults"
-        yield f"number of independent faults n_v: **{_count(answer)}**"
+        yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
         yield f"why: {answer.reason}"
-        if " nats" in answer.reason or (answer.against is not None and " nats" in answer.against.reason):
+        said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
+        if any(" nats" in reason for reason in said):
             yield (
                 "law: an equation that the last few samples of these outputs obey up to noise; nats: the natural logarithm of a ratio of "
                 "powers, so that 1 nat is a factor of 2.72 (4.34 dB)"
             )
+        yield from _law_lines(answer)
         yield from _healthy_lines(answer)
         yield from _mean_lines(answer)
         yield from _visible_lines(answer)
@@ -86,14 +89,19 @@ def summary(answer: Findings, data: str, *, folder: str | None = None, worded: C
         yield from (f"- {worded(note)}" for note in answer.notes)
     yield ""
     yield "## What to try next"
-    yield from (f"- {worded(line)}" for line in advice(answer, folder))
+    yield from (f"- {worded(line)}" for line in advice(answer))
 
 
 def _why_the_order(answer: Findings) -> str:
-    model = answer.model
+    model, orders = answer.model, answer.orders
     assert model is not None
-    gap = model.gap
+    if orders is not None:
+        left = "the only one left open" if orders.decided else f"orders {orders.least} to {orders.most} are left open by the data"
+        return f"chosen from the data: {left}"
     how = "as given" if answer.order_given else "by the gap in the singular values"
+    if isinstance(model, ReducedModel):
+        return how
+    gap = model.gap
     if gap.order >= len(answer.singular_values):
         return f"{how}: as many as there are singular values"
     clean = "clean" if gap.clean else "NOT clean"
@@ -101,6 +109,51 @@ def _why_the_order(answer: Findings) -> str:
         f"{how}: singular value {gap.order} is {gap.ratio:.3g} times the next, against {gap.runner_up_ratio:.3g} times at {gap.runner_up} "
         f"({clean})"
     )
+
+
+def _orders(answer: Findings) -> Iterator[str]:
+    """Yield the evidence for the order as a table, where it was left open."""
+    orders = answer.orders
+    if orders is None:
+        return
+    yield "fits on the last third, held back from models of the rest (1: perfect, 0: no better than zero):"
+    yield "    order  one-step  free run  chance"
+    for row in orders.rows:
+        mark = "  <- taken" if row.order == orders.best else ""
+        yield f"    {row.order:>5}  {row.one_step:>8.4f}  {row.free_run:>8.4f}  {row.chance:>6.2g}{mark}"
+    yield "chance: the probability of so much worse an explanation than that of the order taken, were this order right"
+    if not orders.decided:
+        yield "the number of faults, the fault space and the signal rest on the order taken"
+
+
+def _certainty(answer: Findings) -> Iterator[str]:
+    """Yield the poles and static gains, with standard errors where the model has them."""
+    found, record = answer.model, answer.record
+    assert found is not None
+    model = found.model
+    stability = "stable" if model.is_stable else "NOT stable"
+    radius = f"({stability}, largest modulus {np.abs(model.poles).max(initial=0.0):.{DIGITS}g})"
+    if not isinstance(found, ReducedModel):
+        yield f"poles: {_listed(model.poles)} {radius}"
+        return
+    poles = [
+        f"{_number(pole)} +- {_error(error if pole.imag else error.real)}"
+        for pole, error in zip(model.poles, found.uncertainty.poles(), strict=True)
+    ]
+    yield f"poles, +- standard error: {_several(poles) or 'none'} {radius}"
+    gains = half_transfers(system_matrix(model), model.n, np.zeros(1))[0][0].real
+    errors = found.uncertainty.transfer([0.0])[0].real
+    pairs = [
+        f"{u} to {y} {gain:.{DIGITS}g} +- {error:.2g}"
+        for y, row, spread in zip(record.outputs, gains, errors, strict=True)
+        for u, gain, error in zip(record.inputs, row, spread, strict=True)
+    ]
+    yield f"static gains: {_several(pairs)}; standard errors of Markov parameters and frequency response are in the JSON"
+
+
+def _error(value: complex) -> str:
+    """Return a standard error, of a complex pole those of both parts."""
+    return f"{value:.2g}" if not np.iscomplexobj(value) else f"({value.real:.2g}, {value.imag:.2g}i)"
 
 
 def _healthy_lines(answer: Findings) -> Iterator[str]:
@@ -114,9 +167,36 @@ def _healthy_lines(answer: Findings) -> Iterator[str]:
     yield f"from the residual alone: {_said(alone.n_v)} ({alone.reason}){taken}" if alone else f"from the residual alone: none{taken}"
 
 
+def _law_lines(answer: Findings) -> Iterator[str]:
+    """Yield what was asked of the laws of outputs and inputs, the noise that they leave, and what the ranks say beside them."""
+    count, ranks = answer.count, answer.dimension
+    if count is None:
+        return
+    answers = {True: "laws", False: "no laws", None: "in doubt"}
+    asked = [f"{laws.count} {answers[laws.holds]} ({laws.probability:.2g})" for laws in count.tests]
+    if asked:
+        yield f"rows asked whether they are laws of outputs and inputs (probability): {_several(asked)}"
+    if count.noise_power is not None:
+        sizes = zip(answer.record.outputs, np.sqrt(count.noise_power), strict=True)
+        yield f"noise that the laws leave, deviation: {_several([f'{name} {size:.3g}' for name, size in sizes])}"
+    if ranks is not None:
+        yield f"from the ranks of the residual, for comparison: {_said(ranks.n_v)} ({ranks.reason})"
+
+
+def _condition(answer: Findings) -> str:
+    """Return what a 0 of the laws rests on where nobody has said how large the noise is."""
+    count = answer.count
+    if answer.n_v != 0 or answer.n_v_given or answer.noise_level is not None or count is None or count.noise_power is None:
+        return ""
+    sizes = zip(answer.record.outputs, np.sqrt(count.noise_power), strict=True)
+    return f", if this is the noise of each output: {_several([f'{name} {size:.3g}' for name, size in sizes])} (deviation)"
+
+
 def _count(answer: Findings) -> str:
     if answer.n_v is not None:
         return str(answer.n_v)
+    if answer.possible:
+        return f"undecided: {' or '.join(map(str, answer.possible))}"
     return f"undecided, at least {answer.at_least}" if answer.at_least else "undecided"
 
 
@@ -161,6 +241,10 @@ def _space_lines(answer: Findings) -> Iterator[str]:
         yield f"**none that means anything**: {space.reason}"
         return
     yield f"dimension n_z = **{space.n_z}**{'' if space.decided else ' (undecided)'}: {space.reason}"
+    if space.uncertainty is not None:
+        angle = np.degrees(space.uncertainty.angle())
+        taken = "n_z" if isinstance(answer.model, ReducedModel) and space.method == "kernel rows" else "n_z, A and C"
+        yield f"angle to the true space: below {angle:.2g} degrees with probability 0.95, {taken} taken as right"
     yield f"equations: {space.equations} independent ones for the {space.unknowns} entries of a fault column [f; g]"
     if space.zeta == 0:
         up_to = "a factor" if space.n_v == 1 else "a mixture of the faults"
@@ -207,9 +291,9 @@ def _signal_lines(answer: Findings) -> Iterator[str]:
     yield "its scale, sign and mixture go with the columns of F and G in the model file"
 
 
-def advice(answer: Findings, folder: str | None = None) -> list[str]:
-    """Say what to try next: about what is undecided first, and how to make sure of what is not; `folder` is where the model was saved."""
-    model, record = answer.model, answer.record
+def advice(answer: Findings) -> list[str]:
+    """Say what to try next: about what is undecided first, and how to make sure of what is not."""
+    model, record, orders = answer.model, answer.record, answer.orders
     if model is None:
         return [
             f"order=K: the largest ratios of neighbouring singular values are {_candidates(answer.singular_values)}",
@@ -219,7 +303,11 @@ def advice(answer: Findings, folder: str | None = None) -> list[str]:
     lines = []
     if not model.model.is_stable:
         lines.append("the model is not stable: a lower order=, remove_means=True, or a record without drift, unless the plant is unstable")
+    if orders is not None and not orders.decided:
+        lines.append(f"order=K, for another of the orders {orders.least} to {orders.most}: what follows from it should stay as it is")
     if answer.n_v is None:
+        if answer.noise_level is None and answer.healthy is None and answer.possible:
+            lines.append("noise_level=SIGMA, the deviation of the noise in each output, where it is known: it tells faults from noise")
         lines.append("n_v=K, where the number of faults is known; the space and the signal then follow")
         if answer.healthy is None:
             lines.append("healthy=K, where the record begins with K samples without fault: what they show is not counted")
@@ -231,6 +319,8 @@ def advice(answer: Findings, folder: str | None = None) -> list[str]:
             lines.append("for a constant fault: the outputs whose means moved, above, and by how much; record where it sets in or varies")
     elif answer.n_v == 0:
         lines.append("nothing about faults: record while one acts")
+        if answer.counted_by == "outputs and inputs" and answer.noise_level is None:
+            lines.append("noise_level=SIGMA or healthy=K, where one is known: they tell faults in single outputs from noise")
     elif answer.fault_space is None or not answer.fault_space.meaningful:
         lines.append("more outputs than independent faults: as many faults as outputs leave no relation to find F and G from")
     else:
@@ -242,13 +332,6 @@ def advice(answer: Findings, folder: str | None = None) -> list[str]:
             lines.append("an output that sees the fault sooner, or another one: no sample of the signal is determined by these")
     other = answer.block_rows + max(answer.block_rows // 2, 2)
     lines.append(f"block_rows={other}: order, n_v and n_z should stay as they are")
-    if answer.pair is not None:
-        saved = 'found.save("RESULT") for this Identification, then on a command line ' if folder is None else ""
-        path = shlex.quote(os.path.join("RESULT" if folder is None else folder, MODEL_FILE))
-        lines.append(
-            f"{saved}faultspace inspect {path} --floats-exactly: indices and delays of these very floats; it can confirm no zeros, because "
-            "floats that were estimated have none exactly"
-        )
     return lines
 
 

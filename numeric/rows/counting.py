@@ -40,7 +40,7 @@ from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
-from ..data.validation import constant_channels, positive, signals
+from ..data.validation import constant_channels, noise_deviations, positive, signals
 from .joint import ROUNDING, JointMoments
 from .laws import EXTRA, FAILS, SUFFICES, Evidence, Laws, bootstrapped, longer_are_laws, tested
 
@@ -128,7 +128,7 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
     _measured(outputs)
     evidence = Evidence(outputs, inputs, n)
     data = evidence.data
-    known = None if noise_level is None else _known(noise_level, p) / data.scale[:p]
+    known = None if noise_level is None else noise_deviations(noise_level, p) / data.scale[:p]
     shares = None if known is None else known**2 / np.exp(np.mean(np.log(known**2)))
     if not _exciting(data):
         reason = f"the inputs excite no more than {n + EXTRA} samples in a row: what they do and what faults do cannot be told apart"
@@ -192,8 +192,11 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     if not found:
         reason = f"{p} faults, or an order above the one given: no row of its degree leaves noise alone (probability {one.probability:.1g})"
         return FaultCount(None, (p,), reason, _walk(tests))
-    if known is not None or p == 1:
+    if known is not None:
         return _answer(p - 1, one, tests, data)
+    if p == 1:
+        reason = "0 or 1: of one output a fault cannot be told from noise of its colour; a noise_level would settle it"
+        return FaultCount(None, (0, 1), reason, _walk(tests))
     step = laws(2).level - one.level
     if step < FAINTEST:
         reason = (
@@ -241,17 +244,6 @@ def _holds(laws: Laws, known: Array | None) -> bool | None:
 def _loudness(level: float, spectrum: Array, known: Array) -> float:
     """Return the ratio of the noise power that rows leave to the known one, whose deviations (p,) are in units of the moments."""
     return float(np.exp(level - np.mean(np.log(known**2))) * spectrum.mean())
-
-
-def _known(noise_level: ArrayLike, p: int) -> Array:
-    """Return the noise level as (p,) positive deviations. Raises InvalidData where it is none."""
-    try:
-        level = np.broadcast_to(np.asarray(noise_level, dtype=float), (p,))
-    except (TypeError, ValueError):
-        level = np.zeros(p)
-    if not (np.all(np.isfinite(level)) and np.all(level > 0)):
-        raise InvalidData(f"noise_level: got {noise_level!r}; needed one positive standard deviation, or {p} of them, in units of y")
-    return level
 
 
 def _exciting(data: JointMoments) -> bool:

@@ -36,6 +36,10 @@ ENOUGH, TOO_LOW = 0.01, 1e-6
 # several free pairs of roots, which can stand at any frequency; so the second is larger. Neither grows with N, because the moments have no
 # more bands.
 MISFITS = (1.6, 3.2)
+# Samples up to which these hold. Within a band of the moments the rows are taken at its middle: that leaves an error of the level, some
+# 1e-4 nats, which does not fall with N, so that on longer records the ratio would end by refusing every degree. They are judged as if
+# they had so many samples.
+CALIBRATED = 16000
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +61,7 @@ class LeastDegree:
 def likelihood_ratio(data: JointMoments, low: KernelBasis, high: KernelBasis) -> float:
     """Return twice the log likelihood ratio of two fits with equally many rows, which is zero where both are exact up to rounding."""
     floor = float(np.log(ROUNDING))
-    return max(data.samples * len(low.rows) * (max(low.level, floor) - max(high.level, floor)), 0.0)
+    return max(min(data.samples, CALIBRATED) * len(low.rows) * (max(low.level, floor) - max(high.level, floor)), 0.0)
 
 
 def freedom(data: JointMoments, low: KernelBasis, high: KernelBasis) -> int:

@@ -12,6 +12,7 @@ S the cross-spectral moments of [y; u]. Without noise the rows are exactly those
     JointMoments    the moments of [y; u], each channel in units of its deviation: the only place where N enters
     joint_moments   from y (N, p), u (N, n_u); joint_moments_experiments: from several experiments of the same system
     lam             (p,) powers of the noise in the channels relative to phi, in the units of the moments: the `shares`
+    affordable      whether moments of so many channels and degrees can be had
     even_split      degrees of k rows with a given sum, as equal as can be
     fitted          rows of given degrees from given starts and from those that the moments make least
     refitted        rows from one start alone
@@ -35,6 +36,8 @@ from ..space.tapered_moments import BANDS, CrossMoments, tapered_moments
 
 # Turns of colour and rows: the level moves by less than a thousandth of a nat afterwards.
 ROUNDS = 5
+# Rows of the largest moments that are made: 64 bands of so many rows squared take 80 MB, and a fit the cube of their number.
+LARGEST = 280
 # Power, beside that of a channel, that moments cannot tell from their rounding: rows that leave less are exact, and not refined further.
 ROUNDING = 1e-12
 
@@ -113,6 +116,11 @@ def _deviations(signals: Array) -> Array:
     """Return the standard deviations (c,), and the size of a constant channel: an offset does not show how loud a sensor's noise is."""
     deviations = channel_sizes(signals - signals.mean(axis=0))
     return np.where(np.ptp(signals, axis=0) > 0.0, deviations, channel_sizes(signals))
+
+
+def affordable(channels: int, degree: int) -> bool:
+    """Say whether moments of so many channels for rows up to this degree can be made and fitted in seconds."""
+    return channels * (degree + 1) <= LARGEST
 
 
 def even_split(total: int, rows: int) -> tuple[int, ...]:

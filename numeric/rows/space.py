@@ -25,7 +25,7 @@ from ...base.errors import InvalidData
 from ...base.threads import one_thread
 from ..count.arguments import shaped
 from ..count.windows import ObservedCoordinates, observed_coordinates
-from ..data.validation import positive, signals
+from ..data.validation import noise_deviations, positive, signals
 from ..model.reduced_model import ReducedModel
 from ..space.basis import KernelBasis
 from ..space.largest import largest_fault_space
@@ -41,14 +41,19 @@ SEED = 20251123
 
 
 @one_thread()
-def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, draws: int = 0) -> FaultSpaceEstimate:
+def fault_space_by_rows(
+    y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
+) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
 
     The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`); with `draws` their misfit is measured
     on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right:
     `identified_fault_space` has the error of an identified model in it. The basis is in the states of A and the units of y, which do not
-    matter otherwise. The noise is taken to have one colour, and the same power relative to the deviation of each output. Raises InvalidData
-    for shapes that do not fit, n_v outside 1 .. p, and records too short for rows of degree n + 1. Source: [G25] problem (11), [W91].
+    matter otherwise. The noise is taken to have one colour, and powers as those of `noise_level` (one number or one an output, in units of
+    y), of which only the ratios matter; without it the same power relative to the deviation of each output. Noise of other ratios turns
+    the space, and on long records hides that a degree suffices: what `count_faults` finds serves, the root of its `noise_power`. Raises
+    InvalidData for shapes that do not fit, n_v outside 1 .. p, and records too short for rows of degree n + 1. Source: [G25] problem (11),
+    [W91].
 
     >>> import numpy as np
     >>> from faultspace.numeric import fault_space_by_rows
@@ -60,16 +65,19 @@ def fault_space_by_rows(y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, 
     """
     outputs, inputs = signals(y, u)
     _, A, C = shaped(outputs, A, C)
-    return _space(outputs, inputs, A, C, np.zeros((A.size + C.size, 0)), n_v, draws)
+    return _space(outputs, inputs, A, C, np.zeros((A.size + C.size, 0)), n_v, noise_level, draws)
 
 
 @one_thread()
-def identified_fault_space(y: ArrayLike, u: ArrayLike, model: ReducedModel, *, n_v: int, draws: int = 0) -> FaultSpaceEstimate:
+def identified_fault_space(
+    y: ArrayLike, u: ArrayLike, model: ReducedModel, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
+) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
 
-    `n_v` and `draws` are those of `fault_space_by_rows`. The covariance of A and C is carried to the space to first order [MN89] and added
-    to that of the rows; both take the number of zeros as right. The basis is in the states of the model and the units of y, and the states
-    are matched with the true ones by least squares of the observability matrices. Raises InvalidData as `fault_space_by_rows` does.
+    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The covariance of A and C is carried to the space to first order
+    [MN89] and added to that of the rows; both take the number of zeros as right. The basis is in the states of the model and the units of
+    y, and the states are matched with the true ones by least squares of the observability matrices. Raises InvalidData as
+    `fault_space_by_rows` does.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction, identified_fault_space
@@ -85,10 +93,14 @@ def identified_fault_space(y: ArrayLike, u: ArrayLike, model: ReducedModel, *, n
     _, A, C = shaped(outputs, A, C)
     n, p, n_u = model.model.n, model.model.p, model.model.n_u
     root = model.uncertainty.root
-    return _space(outputs, inputs, A, C, root.reshape(n + p, n + n_u, root.shape[1])[:, :n].reshape(-1, root.shape[1]), n_v, draws)
+    return _space(
+        outputs, inputs, A, C, root.reshape(n + p, n + n_u, root.shape[1])[:, :n].reshape(-1, root.shape[1]), n_v, noise_level, draws
+    )
 
 
-def _space(outputs: Array, inputs: Array, A: Array, C: Array, model_root: Array, n_v: int, draws: int) -> FaultSpaceEstimate:
+def _space(
+    outputs: Array, inputs: Array, A: Array, C: Array, model_root: Array, n_v: int, noise_level: ArrayLike | None, draws: int
+) -> FaultSpaceEstimate:
     """Return the estimate for A, C whose entries [A; C], in row order, have the covariance model_root @ model_root.T."""
     p, n = C.shape
     faults = positive(n_v, "n_v")
@@ -101,11 +113,15 @@ def _space(outputs: Array, inputs: Array, A: Array, C: Array, model_root: Array,
     rows, seen = p - faults, coordinates.observed
     data = joint_moments(outputs, inputs, -(-(seen + BEYOND) // rows))
     largest = largest_fault_space(coordinates.A, coordinates.C, faults)
-    fits = course(data, rows, seen + BEYOND)
+    shares = np.ones(p)
+    if noise_level is not None:
+        powers = (noise_deviations(noise_level, p) / data.scale[:p]) ** 2
+        shares = powers / np.exp(np.mean(np.log(powers)))
+    fits = course(data, rows, seen + BEYOND, shares=shares)
     chosen = least_degree(data, fits, n + faults - largest, seen)
     misfits: Sequence[float] = MISFITS
     if draws:
-        misfits = _misfits(outputs, inputs, data, fits, chosen, draws)
+        misfits = _misfits(outputs, inputs, data, fits, chosen, shares, draws)
         chosen = least_degree(data, fits, n + faults - largest, seen, misfits)
     return _estimate(data, fits[chosen.degree], chosen, coordinates, faults, largest, misfits[0], model_root)
 
@@ -160,17 +176,19 @@ def _observed(model_root: Array, coordinates: ObservedCoordinates) -> Array:
     return np.asarray(np.einsum("ir,rcq,cj->ijq", left, changes, np.linalg.inv(coordinates.T)).reshape(model_root.shape))
 
 
-def _misfits(y: Array, u: Array, data: JointMoments, fits: Sequence[KernelBasis], chosen: LeastDegree, draws: int) -> list[float]:
+def _misfits(
+    y: Array, u: Array, data: JointMoments, fits: Sequence[KernelBasis], chosen: LeastDegree, shares: Array, draws: int
+) -> list[float]:
     """Return the means of the ratios over their degrees of freedom, for one degree more, two, .., on records made from the chosen fit."""
     ratios = []
-    for record in redrawn(y, u, data, fits[chosen.degree], np.ones(data.p), draws, SEED):
+    for record in redrawn(y, u, data, fits[chosen.degree], shares, draws, SEED):
         again = joint_moments(record, u, data.degree)
         count = len(fits[0].rows)
-        steps = [refitted(again, even_split(chosen.degree, count), fits[chosen.degree].rows)]
+        steps = [refitted(again, even_split(chosen.degree, count), fits[chosen.degree].rows, shares=shares)]
         for total in range(chosen.degree + 1, len(fits)):
             degrees = even_split(total, count)
             starts = [padded(steps[-1].rows, degrees), padded(steps[-1].rows, degrees, below=True)]
-            steps.append(fitted(again, degrees, starts))
+            steps.append(fitted(again, degrees, starts, shares=shares))
         ratios.append([likelihood_ratio(again, steps[0], step) / freedom(again, steps[0], step) for step in steps[1:]])
     return [max(float(mean), 1.0) for mean in np.mean(ratios, axis=0)] or [1.0]
 

@@ -7,6 +7,8 @@
     Errors                                       the same angles in three metrics
     PAPER                                        the published factorisation, which is told the rank of R_s and n_z
     LIKELIHOOD                                   `fault_space_by_likelihood`, which is told n_v and counts the zeros itself
+    LAWS                                         A, B, C, D by `arx_reduction`, told the order, and `identified_fault_space`, told n_v:
+                                                 what `identify` does; it has a model of its own, and no other estimator's
 
 A case is a function of its index and seed alone.
 """
@@ -21,10 +23,12 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.threads import one_thread
+from ..model.asymptotic_likelihood import arx_reduction
 from ..model.models import StateSpaceModel, observability_matrix
 from ..model.past_inputs import pi_moesp
 from ..model.residuals import residual
 from ..model.toeplitz_factorisation import toeplitz_factorisation
+from ..rows.space import identified_fault_space
 from ..space.by_likelihood import fault_space_by_likelihood
 from ..space.distances import containment_error, two_sided_error
 from ..space.result import orthonormal
@@ -38,7 +42,7 @@ NOISE_LEVEL = 0.01
 IDENTIFICATION_WINDOW = 20
 # Samples over which the identified state basis is laid onto the true one.
 ALIGNMENT_WINDOW = 2 * N_X
-PAPER, LIKELIHOOD = "paper", "likelihood"
+PAPER, LIKELIHOOD, LAWS = "paper", "likelihood", "laws"
 
 
 @dataclass(frozen=True)
@@ -110,8 +114,8 @@ def identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> C
 
 @one_thread()
 def corrected_identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
-    """Estimate a case as corrected, with the identified model and both estimators."""
-    return _with_identified_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD))
+    """Estimate a case as corrected, with the identified model and both estimators, and by what `identify` does beside them."""
+    return _with_identified_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD, LAWS))
 
 
 def _with_true_model(
@@ -126,15 +130,21 @@ def _with_identified_model(
     index: int, seed: np.random.SeedSequence, samples: int, window: int, level: float, estimators: tuple[str, ...]
 ) -> Case:
     drawn = _Drawn(index, seed, samples, level, window)
+    by_laws = {LAWS: drawn.estimate_by_laws()} if LAWS in estimators else {}
+    of_residual = [name for name in estimators if name != LAWS]
     try:
         model = pi_moesp(drawn.run.y, drawn.run.u, order=N_X, block_rows=IDENTIFICATION_WINDOW).model
         r = residual(drawn.run.y, drawn.run.u, model).r
     except InvalidData as error:
-        return drawn.case(dict.fromkeys(estimators, Estimate(None, None, str(error))))
-    # O_true T = O_identified: T takes the identified state to the true one.
-    true, found = (observability_matrix(each.A, each.C, ALIGNMENT_WINDOW) for each in (drawn.system.model, model))
-    to_true = np.asarray(np.linalg.lstsq(true, found, rcond=None)[0], dtype=np.float64)
-    return drawn.case({name: drawn.estimate(name, r, model, to_true) for name in estimators})
+        return drawn.case(dict.fromkeys(of_residual, Estimate(None, None, str(error))) | by_laws)
+    to_true = _aligned(drawn.system.model, model)
+    return drawn.case({name: drawn.estimate(name, r, model, to_true) for name in of_residual} | by_laws)
+
+
+def _aligned(true: StateSpaceModel, found: StateSpaceModel) -> Array:
+    """Return T with O_true T = O_found, by least squares: it takes the identified state to the true one."""
+    wanted, seen = (observability_matrix(each.A, each.C, ALIGNMENT_WINDOW) for each in (true, found))
+    return np.asarray(np.linalg.lstsq(wanted, seen, rcond=None)[0], dtype=np.float64)
 
 
 class _Drawn:
@@ -161,6 +171,20 @@ class _Drawn:
                 found = fault_space_by_likelihood(r, model.A, model.C, n_v=N_V).basis
         except InvalidData as error:
             return Estimate(None, None, str(error))
+        return self._judged(found, to_true)
+
+    def estimate_by_laws(self) -> Estimate:
+        """Estimate model and fault space from outputs and inputs about their means, as `identify` does, with order and n_v told."""
+        y, u = self.run.y, self.run.u
+        try:
+            model = arx_reduction(y, u, order=N_X)
+            found = identified_fault_space(y - y.mean(axis=0), u - u.mean(axis=0), model, n_v=N_V)
+        except (InvalidData, np.linalg.LinAlgError) as error:
+            return Estimate(None, None, str(error))
+        return self._judged(found.basis, _aligned(self.system.model, model.model))
+
+    def _judged(self, found: Array, to_true: Array) -> Estimate:
+        """Return the estimate with the basis `found` (n + p, n_z), whose states `to_true` takes to the true ones."""
         return Estimate(found.shape[1], _errors(self.system, orthonormal(np.vstack([to_true @ found[:N_X], found[N_X:]]))))
 
     def case(self, estimates: Mapping[str, Estimate]) -> Case:

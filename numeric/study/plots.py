@@ -16,13 +16,13 @@ from typing import Any
 
 import numpy as np
 
-from .cases import LIKELIHOOD, PAPER, Case
+from .cases import LAWS, LIKELIHOOD, PAPER, Case
 from .groups import Group, StudyCases, by_phase, by_zeros, cases_by_phase, cases_by_zeros
 
 # A palette that is told apart in grey print and by colour-blind readers (Okabe and Ito).
 COLOURS = {0: "#999999", 1: "#0072B2", 2: "#E69F00", 3: "#009E73"}
-ESTIMATORS = {PAPER: "#56B4E9", LIKELIHOOD: "#F0E442"}
-NAMES = {PAPER: "published estimator", LIKELIHOOD: "likelihood"}
+ESTIMATORS = {PAPER: "#56B4E9", LIKELIHOOD: "#F0E442", LAWS: "#009E73"}
+NAMES = {PAPER: "published estimator", LIKELIHOOD: "likelihood", LAWS: "laws, reduced model"}
 RANDOM, INK = "#D55E00", "#222222"
 BASELINE = "random subspaces, median"
 BOXES = "boxes: quartiles about the median in figures; whiskers: 10 % and 90 % quantiles; in brackets: number of cases"

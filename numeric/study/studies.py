@@ -6,7 +6,7 @@
     IDENTIFIED           as published, but with A, B, C, D from PI-MOESP on the same data in place of the true ones
     CORRECTED            s = 6, beyond the lag of every case; noise that is 40 dB down; error = two-sided distance between the true fault
                          space and the estimate over its maximum; the library's estimator beside the published one
-    CORRECTED_IDENTIFIED as corrected, with identified A, B, C, D
+    CORRECTED_IDENTIFIED as corrected, with A, B, C, D identified by PI-MOESP; beside it what `identify` does, with a model of its own
     STUDIES              these plans by name
     Study                what came of a plan: a Case for each system, read by people, programs and notebooks
 
@@ -40,7 +40,7 @@ from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import Shown
 from ..data.validation import positive
-from .cases import LIKELIHOOD, PAPER, corrected_case, corrected_identified_case, identified_case, published_case
+from .cases import LAWS, LIKELIHOOD, PAPER, corrected_case, corrected_identified_case, identified_case, published_case
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
 from .runs import SAMPLES
@@ -60,10 +60,10 @@ IDENTIFIED = Plan(
 CORRECTED = Plan("corrected", "as corrected: s = 6, true A, B, C, D, noise 40 dB down", "two_sided", _TWO_SIDED, _BOTH, corrected_case, 20)
 CORRECTED_IDENTIFIED = Plan(
     "corrected-identified",
-    "corrected and identified: s = 6, A, B, C, D by PI-MOESP, noise 40 dB down",
+    "corrected and identified: s = 6, A, B, C, D by PI-MOESP (laws: by reduction), noise 40 dB down",
     "two_sided",
     _TWO_SIDED,
-    _BOTH,
+    (*_BOTH, LAWS),
     corrected_identified_case,
     20,
 )

@@ -336,8 +336,9 @@ def test_block_rows_at_or_below_the_lag(tmp_path: Path) -> None:
     refused(run, "order = 3 is above p (block_rows - 1) = 1 * 2 = 2", "block_rows >= 4")
     enough = identified(tmp_path / "lag.npz", tmp_path / "out", "--order", "3", "--block-rows", "4", "--json", channels=channels)
     assert (enough.code, enough.json["order"], enough.json["n_v"]) == (0, 3, 0)
+    # PI-MOESP cannot choose an order there; an ARX model of three lags can, and holds this one.
     open_order = identified(tmp_path / "lag.npz", tmp_path / "open", "--block-rows", "3", "--json", channels=channels)
-    assert open_order.code == 2 or open_order.json["order"] is None, open_order
+    assert (open_order.code, open_order.json["order"]) == (0, 3) and open_order.json["orders"]["least"] == 3
 
 
 def test_windows_too_long_for_the_record_are_reported_with_those_that_fit(csv_file: Path, tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidData
+from faultspace.numeric import counting
 from faultspace.numeric import pipeline as identifying
 from faultspace.numeric.data import records
 from faultspace.numeric.data.records import Passes, Record, RecordWriter, SampleStore, recorded, stored
@@ -155,7 +156,7 @@ def test_a_late_fault_is_counted_and_the_stretch_is_reported(monkeypatch: pytest
     v[30_000:36_000] = draw.standard_normal((6000, 1))
     driven = StateSpaceModel(made.A, np.hstack([made.B, made.F]), made.C, np.hstack([made.D, made.G]))
     y = driven.simulate(np.hstack([u, v])) + 0.02 * draw.standard_normal((N, 3))
-    monkeypatch.setattr(identifying, "HELD", 5 * 6000)
+    monkeypatch.setattr(counting, "HELD", 5 * 6000)
     answer = identifying.identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
     first, last = answer.held
     assert last - first == 6000 and 28_900 < first < 31_100
@@ -169,10 +170,10 @@ def test_a_late_fault_is_counted_and_the_stretch_is_reported(monkeypatch: pytest
 SCRIPT = """
 import sys
 from faultspace.cli import command_line
-from faultspace.numeric import pipeline
+from faultspace.numeric import counting
 from faultspace.numeric.data import records
 from faultspace.numeric.signal import reconstruction
-pipeline.HELD, records.IN_MEMORY, reconstruction.LONGEST = 1 << 16, {in_memory}, 1 << 13
+counting.HELD, records.IN_MEMORY, reconstruction.LONGEST = 1 << 16, {in_memory}, 1 << 13
 code = command_line.main(sys.argv[1:])
 with open("/proc/self/status") as status:
     print(code, *[line.split()[1] for line in status if line.startswith("VmHWM")], file=sys.stderr)

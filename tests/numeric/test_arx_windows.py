@@ -118,6 +118,7 @@ def test_lags_leave_windows_enough() -> None:
         assert sum(max(length - lags, 0) for length in lengths) >= 4 * (n_u + lags * (p + n_u))
         assert lags <= 1.6 * np.cbrt(sum(lengths))
     assert longest_lag([1000], 3, 1) == 16 and longest_lag([3], 1, 1) == -1
+    assert longest_lag([10**6], 3, 2) == 36 and longest_lag([10**6], 28, 2) == 20
 
 
 def test_an_ar_model_has_the_spectrum_of_what_it_was_made_of() -> None:

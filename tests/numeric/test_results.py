@@ -10,6 +10,7 @@ import builtins
 import importlib.util
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -207,16 +208,8 @@ def test_each_function_takes_what_the_one_before_returns(chain: dict[str, Any]) 
     assert np.array_equal(again.v, chain["signal"].v)
 
 
-def undecided() -> Any:
-    """Return an identification without a model: noise alone."""
-    draw = np.random.default_rng(2)
-    found = numeric.identify(draw.standard_normal((400, 2)), draw.standard_normal((400, 1)))
-    assert found.model is None
-    return found
-
-
-def test_without_a_model_nothing_is_handed_on(tmp_path: Path) -> None:
-    found = undecided()
+def test_without_a_model_nothing_is_handed_on(chain: dict[str, Any], tmp_path: Path) -> None:
+    found = replace(chain["whole"], model=None, residual=None, signal=None)
     calls: list[Callable[[], object]] = [found.to_control, found.to_scipy, lambda: found.to_mat(tmp_path / "model.mat"), found.plot]
     calls.append(lambda: numeric.residual(np.zeros((9, 2)), np.zeros((9, 1)), found))
     for call in calls:

@@ -1,0 +1,218 @@
+"""Count the faults of `identify`: by the laws of outputs and inputs, against healthy samples, or by the ranks of the residual.
+
+with_count   the Findings with the number of faults, or with those that remain possible, and the reason
+
+    exact record             the ranks of the residual beside the inputs (`fault_dimension`), which are exact then
+    no healthy samples       the laws that outputs and inputs obey (`count_faults`), each with a probability; no model enters
+    healthy samples          against what the residual shows there; the ranks where that is undecided, and the mean beside both
+
+The ranks are looked at in any case, as evidence. A 0 of the laws is said only where the ranks do not find a fault either. Outputs and
+inputs are counted about their means: a constant is an operating point for the laws, so that one equation holds for both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import scipy  # its folders are loaded when they are first used
+
+from ..base.arrays import Array
+from ..base.errors import InvalidData, shorten
+from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest
+from .count.against_healthy import fault_dimension_against_healthy
+from .count.detectable import visible_white_faults
+from .count.healthy_model import healthy_reference
+from .count.mean_shift import POWER, mean_about_zero, mean_shift
+from .count.rank_gap import fault_dimension
+from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
+from .data.records import OnProgress
+from .findings import Findings
+from .rows.counting import count_faults
+from .rows.joint import affordable
+from .rows.laws import EXTRA
+from .signal.residual_sizes import loudest
+
+HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
+AS_MANY = "as many faults as outputs look like noise in every output"
+DEPENDENT = 1e-10  # singular values of the scaled outputs, beside the largest they could have, below which a channel is a combination
+UNLIKELY = 1e-6  # probability of spikes that is not put down to noise
+TINY = float(np.finfo(np.float64).tiny)
+LIKE_NOISE = "faults that are noise of that colour in single outputs, or constant over the whole record, would not be seen"
+
+
+def with_count(answer: Findings, faults: int | None, on_progress: OnProgress) -> Findings:
+    """Count the faults, from the residual beside the inputs."""
+    record, rest, sizes, notes = answer.record, answer.residual, answer.sizes, answer.notes
+    assert rest is not None and sizes is not None
+    on_progress("counting faults", 0, 0)
+    most = HELD // (record.p + record.n_u)
+    first, last = loudest(sizes.energies, len(record), most)
+    healthy = answer.healthy or 0
+    if first < healthy:
+        first, last = healthy, min(healthy + most, len(record))
+    if last - first < len(record):
+        why = "where the residual is largest" if first > healthy or not healthy else "after those stated to be without fault"
+        source = "the fault signal is from all samples, the model from the healthy ones"
+        source = source if healthy else "the model and the fault signal are from all samples"
+        notes += (f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; {source}",)
+    answer = replace(answer, held=(first, last), notes=notes)
+    r = beyond_rounding(answer)
+    answer = _by_ranks(answer, r)
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            # Not those set to zero: rounding is held against rounding.
+            if healthy:
+                answer = _against_healthy(answer, rest.store.read(first, last), on_progress)
+            else:
+                answer = _about_zero(answer if answer.exact else _by_laws(answer, on_progress), r)
+    except np.linalg.LinAlgError:
+        reason = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
+        answer = replace(answer, n_v=None, counted_by=None, reason=reason)
+    if faults is None:
+        return answer
+    counted = answer.n_v if answer.n_v is not None else " or ".join(map(str, answer.possible)) or "undecided"
+    agreement = "as the data say" if faults == answer.n_v else f"the data say {counted}: {answer.reason}"
+    return replace(answer, n_v=faults, possible=(faults,), reason=f"{faults} given; {agreement}", counted_by="given")
+
+
+def _by_ranks(answer: Findings, r: Array) -> Findings:
+    """Count by the ranks of the residual r on the samples held, beside the inputs."""
+    record, sizes = answer.record, answer.sizes
+    assert sizes is not None
+    try:
+        y, u = record.stretch(*answer.held)
+        found = fault_dimension(r.astype(np.float32) if record.single and answer.exact else r, u=u)
+    except InvalidData as error:
+        return replace(answer, reason=str(error))
+    seen = int(np.sum(sizes.peak > ROUNDING * largest(record)))
+    if found.n_v and found.n_v >= seen and seen < record.p:
+        found = replace(found, n_v=None, reason=f"{found.reason}; but so many outputs are not explained to rounding: {AS_MANY}")
+    independent = np.linalg.matrix_rank((y - y.mean(axis=0)) / np.maximum(y.std(axis=0), TINY), tol=DEPENDENT * np.sqrt(y.size))
+    if found.n_v and found.n_v >= independent < record.p:
+        copies = f"but only {independent} of {record.p} outputs are no combinations of others, such as copies: leave these out"
+        found = replace(found, n_v=None, reason=f"{found.reason}; {copies}, for {AS_MANY}")
+    by = None if found.n_v is None else "residual alone"
+    return replace(answer, dimension=found, n_v=found.n_v, reason=found.reason, counted_by=by)
+
+
+def _by_laws(answer: Findings, on_progress: OnProgress) -> Findings:
+    """Count by the laws of outputs and inputs on the samples held, for systems of the model's order or less."""
+    record, model, ranks = answer.record, answer.model, answer.dimension
+    assert model is not None
+    order = max(model.order, 1)
+    if not affordable(record.p + record.n_u, order + EXTRA):
+        note = f"{record.p} outputs at order {model.order} are too many for the laws of outputs and inputs: the residual alone is counted"
+        return replace(answer, notes=(*answer.notes, note))
+    on_progress("counting the laws of outputs and inputs", 0, 0)
+    y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
+    try:
+        count = count_faults(y, u, order=order, noise_level=answer.noise_level)
+    except (InvalidData, np.linalg.LinAlgError) as error:
+        return replace(answer, notes=(*answer.notes, f"the laws of outputs and inputs were not counted, the residual alone was: {error}"))
+    answer = replace(answer, count=count, possible=count.possible)
+    if count.n_v == 0 and ranks is not None and ranks.n_v:
+        reason = f"{count.reason}; but the residual shows {ranks.n_v}: {ranks.reason}"
+        return replace(answer, n_v=None, possible=tuple(range(ranks.n_v + 1)), reason=reason, counted_by=None)
+    if count.n_v == 0 and (spikes := _spikes(answer)):
+        return replace(answer, n_v=None, possible=(), reason=f"{count.reason}; but {spikes}", counted_by=None)
+    reason = f"{count.reason}; {LIKE_NOISE}" if count.n_v == 0 else count.reason
+    return replace(answer, n_v=count.n_v, reason=reason, counted_by=None if count.n_v is None else "outputs and inputs")
+
+
+def _spikes(answer: Findings) -> str:
+    """Return which outputs have samples in their residual that normal noise would not have, empty where none has: no spectrum shows spikes.
+
+    Of N normal numbers, dependent or not, one exceeds t deviations with a probability of at most N times that of a single one. The
+    deviation is told by the median of the sizes, which spikes hardly move.
+    """
+    assert answer.residual is not None
+    r = answer.residual.store.read(*answer.held)
+    sizes = np.abs(r - np.median(r, axis=0))
+    deviation = np.median(sizes, axis=0) / scipy.special.ndtri(0.75)
+    most = -scipy.special.ndtri(UNLIKELY / (2 * sizes.size))
+    spiky = [name for name, peak, one in zip(answer.record.outputs, sizes.max(axis=0), deviation, strict=True) if peak > most * one]
+    return (
+        f"the residual of {', '.join(map(shorten, spiky))} has spikes beyond {most:.2g} deviations, as normal noise has not"
+        if spiky
+        else ""
+    )
+
+
+def _about_zero(answer: Findings, r: Array) -> Findings:
+    """Hold the mean of the residual against zero, where there are no healthy samples and it was not removed. It decides nothing but that 0
+    is too much said, since a constant fault over a whole record cannot be told from an operating point."""
+    if answer.n_v == 0 and answer.count is None:
+        answer = replace(answer, reason=f"{answer.reason}; a fault that is constant over the whole record would not be seen")
+    if answer.means_removed:
+        return answer
+    mean = mean_about_zero(r[:MEANS_FROM])
+    notes = answer.notes
+    if mean.shifted:
+        notes += (
+            f"the residual is not about zero ({mean.reason}): an operating point, or a constant fault; which of them, only samples without "
+            "fault can tell (healthy=K)",
+        )
+        if answer.n_v == 0 and answer.count is not None:
+            reason = f"{answer.count.reason}; but the residual is not about zero: an operating point, or a constant fault"
+            answer = replace(answer, n_v=None, possible=(), reason=reason, counted_by=None)
+    return replace(answer, mean=mean, notes=notes)
+
+
+def _against_healthy(answer: Findings, r: Array, on_progress: OnProgress) -> Findings:
+    """Count the faults in the residual r of `answer` against the samples stated to be without fault, of which the last HELD numbers are
+    held, and beside the test of the mean."""
+    record, rest, sizes, until = answer.record, answer.residual, answer.sizes, answer.healthy
+    assert rest is not None and sizes is not None and until is not None
+    if np.all(sizes.early_peak <= ROUNDING * largest(record)):
+        return _zero_or_not(replace(answer, unexplained=True))
+    on_progress("counting faults against the healthy samples", 0, 0)
+    start = max(until - HELD // (record.p + record.n_u), 0)
+    healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
+    mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[-MEANS_FROM:], before[-MEANS_FROM:])
+    if rest.fitted:
+        mean = replace(mean, shifted=None, reason="the model is too unstable to be run on from the healthy samples", visible=None)
+    answer = replace(answer, mean=mean)
+    driven = beyond_healthy_inputs(before, u, record.inputs)
+    if driven and mean.shifted:
+        answer = replace(answer, mean=replace(mean, shifted=None, reason=driven, visible=None))
+    try:
+        reference = healthy_reference(healthy, before)
+        against = fault_dimension_against_healthy(r, reference, u=u)
+    except InvalidData as error:
+        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}")))
+    if driven and against.n_v != 0:
+        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {driven}")))
+    strange = unlike_healthy(r, healthy, record.stretch(*answer.held)[0], record.stretch(start, until)[0], record.outputs)
+    if strange and against.n_v == 0:
+        against = replace(against, n_v=None, reason=f"{against.reason}; but {strange}")
+        # Ranks of the residual alone would count the noise of the other outputs as faults beside a dead one.
+        answer = replace(answer, n_v=None, counted_by=None, reason=against.reason)
+    answer = replace(answer, counted_against=(start, until), against=against, visible=visible_white_faults(reference, against, POWER))
+    if against.n_v is not None:
+        answer = replace(answer, n_v=against.n_v, reason=against.reason, counted_by="healthy samples")
+    return _zero_or_not(answer)
+
+
+def _zero_or_not(answer: Findings) -> Findings:
+    """Leave 0 only where nothing was counted, against the healthy samples if possible, and the mean is known not to have moved."""
+    if answer.n_v != 0 and not (answer.n_v is None and (answer.moved or answer.unexplained)):
+        return answer
+    mean, against = answer.mean, answer.against
+    if answer.unexplained:
+        reason = f"the model explains the healthy samples to rounding and not the others, so that a fault acts; {answer.reason}"
+        return replace(answer, n_v=None, counted_by=None, reason=reason)
+    assert mean is not None
+    if mean.shifted:
+        where = ", ".join(shorten(answer.record.outputs[i]) for i in mean.channels) or "no output by itself, all of them together"
+        reason = (
+            f"a fault moves the mean of the residual ({where}; {mean.reason}), at least one; a constant fault changes no rank, so that "
+            f"ranks cannot count it; of faults that vary: {answer.reason}"
+        )
+        return replace(answer, n_v=None, counted_by=None, reason=reason)
+    if mean.shifted is None:
+        reason = f"{answer.reason}; but whether the mean has moved, as by a constant fault, is undecided: {mean.reason}"
+        return replace(answer, n_v=None, counted_by=None, reason=reason)
+    if against is not None and against.n_v is None:
+        return replace(answer, n_v=None, counted_by=None, reason=against.reason)
+    return replace(answer, reason=f"{answer.reason}; {mean.reason}")

@@ -1,0 +1,103 @@
+"""Make the model of `identify`: by reduction of an ARX model where there is noise, by PI-MOESP where there is none.
+
+modelled        the Modelled of a record
+Modelled        the model, what it was made of, and why in this way
+window_default  the block rows of PI-MOESP where none are given
+
+Which way. PI-MOESP [V93] is exact on records without noise and fault, and far from what the data hold on others; the reduction [W89] is as
+good as the data allow, but its floor stands above rounding (`model/arx.py`). Ranks tell the two apart (`count/exactness.py`). PI-MOESP also
+stands in where the windows of an ARX model cannot be had: too few samples, an input that does not excite them, an unstable plant. Where
+PI-MOESP finds no gap in its singular values, the reduction chooses the order, so that there is a model whenever there can be one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..base.arrays import Array
+from ..base.errors import InvalidData
+from .count.exactness import SCREENED, obeys_exactly
+from .data.records import OnProgress, Passes, Record
+from .model.arx_windows import longest_lag
+from .model.asymptotic_likelihood import arx_reduction
+from .model.moesp_model import MoespModel, OrderUndecided
+from .model.past_inputs import pi_moesp
+from .model.reduced_model import ReducedModel
+from .model.reduction_starts import hankel_factors
+
+DEFAULT_WINDOW = 20
+SPARE = 3  # windows for each row of the Hankel matrices of PI-MOESP, at least
+STAGE = "identifying the model"
+
+
+@dataclass(frozen=True, eq=False)
+class Modelled:
+    """The model, or None with the `refusal`; singular values and the window that they belong to; `exact`: the record has no noise."""
+
+    model: MoespModel | ReducedModel | None
+    singular_values: Array
+    window: int
+    exact: bool
+    way: str
+    notes: tuple[str, ...] = ()
+    refusal: str = ""
+
+
+def modelled(record: Record, order: int | None, block_rows: int | None, on_progress: OnProgress) -> Modelled:
+    """Make the model of a record. Raises InvalidData where neither way can have one, with the reason of the first."""
+    exact = obeys_exactly(*record.stretch(0, SCREENED), single=record.single)
+    if not exact:
+        try:
+            return _by_reduction(record, order, block_rows, exact, on_progress)
+        except InvalidData as error:
+            found = _by_past_inputs(record, order, block_rows, exact, on_progress)
+            note = f"the model is from PI-MOESP, without standard errors, for want of an ARX model: {error}"
+            return _with_notes(found, note)
+    found = _by_past_inputs(record, order, block_rows, exact, on_progress)
+    if found.model is not None:
+        return found
+    try:
+        other = _by_reduction(record, order, block_rows, exact, on_progress)
+    except InvalidData:
+        return found
+    return _with_notes(other, f"PI-MOESP leaves the order undecided: {found.refusal}")
+
+
+def _with_notes(found: Modelled, *notes: str) -> Modelled:
+    return Modelled(found.model, found.singular_values, found.window, found.exact, found.way, (*notes, *found.notes), found.refusal)
+
+
+def _by_reduction(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: OnProgress) -> Modelled:
+    found = arx_reduction(Passes(record, STAGE, on_progress), order=order, lags=block_rows)
+    # Powers of two near the deviations: they round nothing, and are the same in whatever pieces the record came.
+    units = np.exp2(-np.round(np.log2(record.channels.deviation)))
+    arx = found.arx.scaled(units[record.n_u :], units[: record.n_u])
+    values = hankel_factors(arx, max(arx.order, 1), weighted=True)[2]
+    way = f"an ARX model of {arx.order} lags, reduced under its own weight"
+    notes = found.notes
+    if found.order == 0:
+        notes += ("the outputs follow the inputs at once or not at all: the model has no state",)
+    lags = block_rows if block_rows is not None else max(longest_lag([len(record)], record.p, record.n_u), 1)
+    return Modelled(found, values, lags, exact, way, notes)
+
+
+def _by_past_inputs(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: OnProgress) -> Modelled:
+    rows = block_rows if block_rows is not None else window_default(len(record), record.p, record.n_u, order)
+    way = f"PI-MOESP with windows of {rows} samples"
+    try:
+        found = pi_moesp(Passes(record, STAGE, on_progress), order=order, block_rows=rows)
+    except OrderUndecided as error:
+        return Modelled(None, error.singular_values, rows, exact, way, refusal=str(error))
+    notes = found.warnings
+    if order is not None and not found.gap.clean:
+        notes += (f"order {order} was given; the singular values have no clean gap there (ratio {found.gap.ratio:.3g})",)
+    return Modelled(found, found.singular_values, rows, exact, way, notes)
+
+
+def window_default(samples: int, p: int, n_u: int, order: int | None) -> int:
+    """Return 20 block rows, more where a given order needs them, fewer where the record is short."""
+    wanted = DEFAULT_WINDOW if order is None else max(DEFAULT_WINDOW, -(-order // p) + 2, -(-order // n_u) + 1)
+    affordable = samples // (2 + SPARE * (2 * n_u + p))
+    return max(min(wanted, affordable), 2)
