@@ -73,8 +73,9 @@ def draw(comparison: Comparison) -> Any:
     for line, words in enumerate(
         (
             "How near to the truth does each tool come, from the same faulty records?",
-            "1 is the Cramér-Rao bound: the root mean square error of no unbiased method is less. At the bound the median is about 0.9.",
-            f"{comparison.systems} systems a mark, {samples} samples each, strong coloured faults; every tool is told the order.",
+            "1 is the Cramér-Rao bound: no unbiased method has a smaller root mean square error. A method at the bound has a median of",
+            f"about 0.9 for models and 1 for fault spaces. {comparison.systems} systems a mark, {samples} samples each, "
+            "strong coloured faults, the order told.",
         )
     ):
         style = {"fontsize": 13, "weight": "bold"} if line == 0 else {"fontsize": 9.5}

@@ -20,11 +20,15 @@ is deadbeat are such, F = K and G = I with A - K C nilpotent. For any other d th
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import Shown, counted
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix, rank, stacked
+from ..algebra.notation import named_matrix
 from .experiments import MAX_WINDOW_ROWS, Experiment
 from .filters import Filter
 from .lyapunov import solve
@@ -32,8 +36,8 @@ from .moments import covariances
 from .process import Signal
 
 
-@dataclass(frozen=True)
-class ARXLimit:
+@dataclass(frozen=True, repr=False)
+class ARXLimit(Shown):
     """This is the limit of an ARX model of h lags: `outputs` has I, A_1, .., A_h (p x p), `inputs` has B_0, .., B_h (p x nu).
 
     `innovation` (p x p) is the covariance of e, and `open_loop` tells whether u and the faults are uncorrelated at all lags. Source:
@@ -50,6 +54,29 @@ class ARXLimit:
     inputs: tuple[Matrix, ...]
     innovation: Matrix
     open_loop: bool
+
+    @property
+    def title(self) -> str:
+        """This says how many lags the model has, and whether it was in open loop."""
+        loop = "in open loop" if self.open_loop else "with inputs that follow the faults"
+        return f"the limit of an ARX model of {counted(self.lags, 'lag')}, {loop}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """The result has the coefficients of the outputs and of the inputs, and the covariance of what they leave."""
+        for name, matrices in (("A", self.outputs[1:]), ("B", self.inputs)):
+            for k, matrix in enumerate(matrices, start=int(name == "A")):
+                yield from named_matrix(f"{name}_{k}", matrix)
+        yield from named_matrix("covariance of e", self.innovation)
+
+    def to_json(self) -> dict[str, Any]:
+        """The result is a JSON-ready dict of exact numbers."""
+        return {
+            "lags": self.lags,
+            "open_loop": self.open_loop,
+            "outputs": [matrix.to_json() for matrix in self.outputs],
+            "inputs": [matrix.to_json() for matrix in self.inputs],
+            "innovation": self.innovation.to_json(),
+        }
 
     @property
     def lags(self) -> int:

@@ -19,7 +19,7 @@ from .arx import Arx, fitted_arx
 from .arx_windows import ArxWindows, about_zero, arx_windows, joined_windows, merge_windows
 from .compression import Pieces
 from .order_evidence import OrderEvidence, OrderRow, weighed
-from .reduced_model import ReducedModel, described, judged, reduction_problems
+from .reduced_model import ReducedModel, described, judged, reduction_problems, weight_inflation
 from .reduction_search import LAST, Found, minima
 from .reduction_starts import hankel_factors
 from .residuals import residual
@@ -36,18 +36,19 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int, of
     rest = [arx_windows(_part(source, max(cut - lags, 0), None), lags) for source, cut in zip(sources, cuts, strict=True)]
     both = [joined_windows(*parts) for parts in zip(first, rest, strict=True)]
     training, whole = (merge_windows(parts if offset else [about_zero(part) for part in parts]) for parts in (first, both))
-    held = [_joined(_part(source, cut, None)) for source, cut in zip(sources, cuts, strict=True)]
+    held = [_joined(_part(source, cut, None)) if part.windows else None for source, cut, part in zip(sources, cuts, first, strict=True)]
     arx = fitted_arx(whole, min(lags, 1))
     problem, coarse = reduction_problems(whole, arx)
     a_state = whole.p + whole.n_u
-    found = minima(whole, arx, problem, coarse, 2.0 * a_state)
+    inflation = weight_inflation(arx)
+    found = minima(whole, arx, problem, coarse, 2.0 * a_state * inflation)
     if not found:
         raise InvalidData("no start for any order: the data show no dynamics that a model could be begun from")
     fits, gaps = _fits(training, whole, held, found), _gaps(arx, max(lags, 1))
     rows = []
     for n, (one, (one_step, free_run)) in enumerate(zip(found, fits, strict=True)):
         gap = float(gaps[n - 1]) if 0 < n <= len(gaps) else float("nan")
-        rows.append(OrderRow(n, one.cost, n * a_state + whole.p * whole.n_u, 0.0, one_step, free_run, gap))
+        rows.append(OrderRow(n, one.cost / inflation, n * a_state + whole.p * whole.n_u, 0.0, one_step, free_run, gap))
     evidence = weighed(rows)
     best = evidence.best
     ended = Found(*descend(problem, found[best].matrix, best, *LAST))
@@ -77,7 +78,7 @@ def _gaps(arx: Arx, rows: int) -> Array:
 
 
 def _fits(
-    training: ArxWindows, whole: ArxWindows, held: Sequence[tuple[Array, Array]], found: Sequence[Found]
+    training: ArxWindows, whole: ArxWindows, held: Sequence[tuple[Array, Array] | None], found: Sequence[Found]
 ) -> list[tuple[float, float]]:
     """Return for each order the one-step and free-run fit, on the samples held back, of the model of the first part; NaN where it is too
     short."""
@@ -100,9 +101,9 @@ def _fits(
     return fits
 
 
-def _fit(found: ReducedModel, training: ArxWindows, held: Sequence[tuple[Array, Array]]) -> tuple[float, float]:
+def _fit(found: ReducedModel, training: ArxWindows, held: Sequence[tuple[Array, Array] | None]) -> tuple[float, float]:
     scale, h = training.scales[0], found.arx.order
-    about = [(y - mean, u) for (y, u), mean in zip(held, found.offsets, strict=True)]
+    about = [(one[0] - mean, one[1]) for one, mean in zip(held, found.offsets, strict=True) if one is not None]
     free = [residual(y, u, found.model).r for y, u in about]
     power = sum(float(np.sum((y[h:] / scale) ** 2)) for y, _ in about)
     errors = [sum(r[h - i : len(r) - i] @ found.arx.outputs[i].T for i in range(h + 1)) for r in free]

@@ -8,8 +8,9 @@ is least, on average, where the expected divergence from the truth is: that orde
 out, be it there or not; one too many is taken now and then, which costs little.
 
 The range left open runs from the least order that is not refused to the choice. An order is refused where its cost exceeds that of the
-choice by more than chance does in one record of a hundred: the gain of k states that are not there is chi-squared with k (p + n_u)
-degrees of freedom, about, which `python benchmarks/at_the_bound.py --orders` holds against simulated records. There is no
+choice by more than chance does in one record of a hundred. The gain of k states that are not there is chi-squared with k (p + n_u)
+degrees of freedom, about [D87], and any of the orders tried may be the choice, so that the chances of all of them add up, at most;
+`python benchmarks/at_the_bound.py --orders` counts how often the true order is refused in simulated records. There is no
 upper end of that kind, for any model could have more states which these data hardly show [D88]: beyond the choice, the data say no more
 than that they show none worth having. Where the range is one order, the order is decided. Beside the criterion stand fits of models made of
 the first part of the data to the part held back, and the gap in the singular values, which users know: they take no part in the choice.
@@ -39,7 +40,8 @@ WIDTHS = (10, 8, 8, 8, 5)  # of the columns of the table
 class OrderRow:
     """A row has the `cost` of the reduction with its d `parameters`, and `akaike` is the criterion of the choice.
 
-    `chance` is the probability of a cost so much larger than that of the choice where this order is right, and one from the choice on.
+    `cost` is that of the reduction without the inflation by its estimated weight. `chance` bounds the probability of a cost so much larger
+    than that of the choice where this order is right, and is one from the choice on.
     `one_step` and `free_run` are 1 - |error| / |y| on samples held back, with channels scaled to equal size, of the one-step prediction and
     of the simulation with fitted initial state, NaN where there were too few. `gap` is the ratio of singular value n to the next of the
     weighted Hankel matrix of the ARX plant, NaN for order 0.
@@ -120,9 +122,11 @@ class OrderEvidence(Shown):
 def weighed(rows: Sequence[OrderRow]) -> OrderEvidence:
     """Return the evidence of rows by rising order, one at least, whose chances are still to be filled in."""
     best = min(rows, key=lambda row: row.akaike)
-    chances = [
-        float(chi2.sf(max(row.cost - best.cost, 0.0), best.parameters - row.parameters)) if row.order < best.order else 1.0 for row in rows
-    ]
+    chances = [1.0] * len(rows)
+    for above, row in enumerate(reversed(rows)):
+        if row.order < best.order:
+            gain, states = max(row.cost - best.cost, 0.0), best.parameters - row.parameters
+            chances[len(rows) - 1 - above] = min(above * float(chi2.sf(gain, states)), 1.0)
     filled = tuple(replace(row, chance=chance) for row, chance in zip(rows, chances, strict=True))
     least = min(row.order for row in filled if row.chance >= REFUSED)
     return OrderEvidence(filled, best.order, least, best.order)

@@ -5,10 +5,15 @@ and too large on average: by 1 + p h / f, since the errors of A at one angle hav
 f / (f - p - 1), the mean of an inverse Wishart matrix with f degrees of freedom. The same errors of the weight make the estimate vary more,
 by the same share to first order [KR97]. So the information is divided by both twice.
 
+A disturbance d that is not stationary, as faults may be, asks for no other covariance. Let u be stationary and independent of d. The slope
+of the sum at the true T is linear in u and in d, so that its variance, given d, is an integral over angles of the spectrum of u times
+the periodogram of d: the average spectrum of d alone counts, and that is what the ARX model fits.
+
 ReducedModel        the result
 reduced             the model of order n from windows
 described, judged   a minimum in the units of the data with its uncertainty, and what must be said of it
 reduction_problem   the ARX model and what is minimised, at given angles; reduction_problems: at angles enough, and for the search
+weight_inflation    by how much the estimated weight makes information and costs too large
 enough_angles       how many angles the sums over them need
 """
 
@@ -146,13 +151,17 @@ def described(windows: ArxWindows, arx: Arx, problem: Reduction, found: Found, n
     """Return a minimum, which is in channels of unit deviation, in the units of the data and with its uncertainty."""
     y, u = windows.scales
     rows, columns = np.concatenate([np.ones(n), y]), np.concatenate([np.ones(n), 1 / u])
-    p, freedom = windows.p, arx.freedom
-    too_large = (1 + p * arx.order / freedom) * freedom / max(freedom - p - 1, 1)
-    scaled = uncertainty_of(state_space(found.matrix, n), problem.information(found.matrix, n) / too_large**2)
+    scaled = uncertainty_of(state_space(found.matrix, n), problem.information(found.matrix, n) / weight_inflation(arx))
     model = state_space(found.matrix * rows[:, None] * columns, n)
     uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
     inner = arx.scaled(y, u)
     return ReducedModel(model, inner.covariance, uncertainty, inner, found.cost, _offsets(model, inner, windows))
+
+
+def weight_inflation(arx: Arx) -> float:
+    """Return what information and costs under an estimated weight are to be divided by: see the head of the module."""
+    p, freedom = len(arx.covariance), arx.freedom
+    return float(((1 + p * arx.order / freedom) * freedom / max(freedom - p - 1, 1)) ** 2)
 
 
 def reduction_problems(windows: ArxWindows, arx: Arx) -> tuple[Reduction, Reduction]:

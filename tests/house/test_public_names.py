@@ -143,7 +143,7 @@ def test_the_rooms_are_there_after_the_import_of_the_front_door() -> None:
         assert loaded_after(f"import faultspace; assert {room!r} in repr({room})") == set()
     front = importlib.import_module("faultspace")
     assert {"exact", "numeric", "proofs", "errors", "__version__"} <= set(dir(front))
-    assert set(dir(front.errors)) == {"InvalidInput", "InvalidData", "in_file", "quote_path", "shorten"}
+    assert set(dir(front.errors)) == {"InvalidInput", "InvalidData", "Malformed", "Rejected", "Unprovable"}
 
 
 def test_import_is_fast() -> None:

@@ -29,21 +29,21 @@ def row(order: int, cost: float) -> OrderRow:
 def test_the_choice_is_akaikes_and_the_range_what_is_not_refused_below_it() -> None:
     clear = weighed([row(0, 100.0), row(1, 20.0), row(2, 15.0)])
     assert (clear.best, clear.least, clear.most, clear.decided) == (1, 1, 1, True)
-    # Three parameters a state: 7 is worth a state, and is no more than chance may do, 11.3 in one record of a hundred.
+    # Three parameters a state: 7 is worth a state, and chance does as much in .072 of records, in each of the two orders above.
     open_ = weighed([row(0, 100.0), row(1, 20.0), row(2, 13.0), row(3, 8.0)])
     assert (open_.best, open_.least, open_.most, open_.decided) == (2, 1, 2, False)
-    assert [one.chance for one in open_.rows[2:]] == [1.0, 1.0] and open_.rows[1].chance == pytest.approx(0.0719, abs=1e-3)
+    assert [one.chance for one in open_.rows[2:]] == [1.0, 1.0] and open_.rows[1].chance == pytest.approx(2 * 0.0719, abs=2e-3)
     assert weighed([row(0, 100.0), row(1, 11.4), row(2, 0.0)]).least == 2 and weighed([row(0, 100.0), row(1, 11.3), row(2, 0.0)]).least == 1
     alone = weighed([row(0, 5.0)])
     assert alone.decided and alone.best == 0
 
 
 def test_an_order_is_refused_by_chance_as_seldom_as_is_said() -> None:
-    """Chi-squared gains of one state, then of two, that are not there: the level is that of each test."""
+    """Chi-squared gains of two states that are not there; the deviation of the share is .0016."""
     rng = np.random.default_rng(0)
     gains = rng.chisquare(3, (4000, 2))
     refused = [weighed([row(0, one + two), row(1, two), row(2, 0.0)]).least > 0 for one, two in gains]
-    assert 0.005 < np.mean(refused) < 0.025
+    assert 0.004 < np.mean(refused) < 0.015
 
 
 @pytest.mark.parametrize(("plant", "noise"), [(PLANT, 0.3), (PLANT, 0.0), (STATIC, 1.0)])
