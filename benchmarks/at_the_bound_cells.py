@@ -11,6 +11,7 @@ its mean, which makes the bound larger, if anything.
 
 Cell, CELLS     the cells; `trial` draws one of a seed
 Trial           y, u, the true model and the spectra
+Faults          of a system of the study: F, G, the fault space, the spectra of faults and noise
 """
 
 from __future__ import annotations
@@ -38,13 +39,25 @@ ZEROS = 4  # numbers of zeros of the study, 0 to 3, in turn
 
 
 @dataclass(frozen=True)
+class Faults:
+    """The faults enter by F (n, n_v) and G (p, n_v), their space has the basis Z (n + p, n_z), and they and the noise have spectra."""
+
+    F: Array
+    G: Array
+    Z: Array
+    spectrum: Spectrum
+    noise: Spectrum
+
+
+@dataclass(frozen=True)
 class Trial:
-    """A trial has y (N, p), u (N, n_u), the model that made them but for faults and noise, and the spectra."""
+    """A trial has y (N, p), u (N, n_u), the model that made them but for faults and noise, the spectra, and the study's faults."""
 
     y: Array
     u: Array
     model: StateSpaceModel
     spectra: Spectra
+    faults: Faults | None = None
 
 
 @dataclass(frozen=True)
@@ -93,18 +106,22 @@ def _of_the_study(seed: int, number: int, samples: int, coloured: bool, rng: np.
         power = filtered(*LOW_PASS)(angles)[:, 0, 0].real
         return np.asarray(np.maximum(power, NULL * power.mean())[:, None, None] * np.diag(deviations**2), dtype=np.complex128)
 
-    return Trial(y, u, plant, Spectra(spectrum, total(through(faulty, _smoothed(v)), noise)))
+    # An offset disturbs the model at one angle only, but it tells the direction of its fault.
+    faults = Faults(system.F, system.G, system.Z, _smoothed(v, 0), noise)
+    return Trial(y, u, plant, Spectra(spectrum, total(through(faulty, _smoothed(v, 1)), noise)), faults)
 
 
-def _smoothed(v: Array) -> Spectrum:
-    """Return the smoothed periodogram of each fault as a spectrum."""
-    power = np.abs(np.fft.rfft(v - v.mean(axis=0), axis=0)[1:]) ** 2 / len(v)
-    at = 2 * np.pi * np.arange(1, len(power) + 1) / len(v)
+def _smoothed(v: Array, first_angle: int) -> Spectrum:
+    """Return the smoothed periodogram of each fault as a spectrum, from that angle on: 0 includes the offset, 1 leaves it out."""
+    power = np.abs(np.fft.rfft(v, axis=0)[first_angle:]) ** 2 / len(v)
+    at = 2 * np.pi * np.arange(first_angle, first_angle + len(power)) / len(v)
+    # Behind each angle but zero stands a negative one.
+    sides = np.where(at == 0, 0.5, 1.0)
 
     def spectrum(angles: Array) -> NDArray[np.complex128]:
         values = np.empty((len(angles), v.shape[1]))
         for first in range(0, len(angles), 256):
-            weights = np.exp(-0.5 * ((angles[first : first + 256, None] - at) / BANDWIDTH) ** 2)
+            weights = sides * np.exp(-0.5 * ((angles[first : first + 256, None] - at) / BANDWIDTH) ** 2)
             values[first : first + 256] = weights @ power / weights.sum(axis=1, keepdims=True)
         return np.asarray(values[:, :, None] * np.eye(v.shape[1]), dtype=np.complex128)
 

@@ -1,10 +1,11 @@
 """Try kernel rows of outputs and inputs: the number of faults, on seeds that no rule was chosen on.
 
-    python benchmarks/counting_at_the_bound.py {count,calibrate} [--trials 30] [--seed 1] [--samples 1001] [--limit SECONDS]
+    python benchmarks/counting_at_the_bound.py {count,calibrate,laws} [--trials 30] [--seed 1] [--samples 1001] [--limit SECONDS]
 
 count       `count_faults` on random plants of order 5 with one input (`fault_dimension.py`): p outputs, n_v faults, noise so many
             decibels below each output, equal for spread 1, else the loudest to the faintest in that ratio, in random order
-calibrate   means of the likelihood ratios over what they should be, where the rows are laws: what MISFITS and SHAPE_MISFIT are set by
+calibrate   means of the likelihood ratios of degrees over what they should be: what MISFITS is set by
+laws        the ratios of `laws.py` over what they should be, where the rows are laws and where they are none: what its constants are set by
 
 Brackets are Wilson's 95 % intervals. Seconds are CPU seconds; hold BLAS to one thread.
 """
@@ -23,7 +24,7 @@ from numpy.typing import NDArray
 from faultspace.numeric.rows.counting import count_faults
 from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
 from faultspace.numeric.rows.joint import course, joint_moments
-from faultspace.numeric.rows.laws import EXTRA, SHAPE_MISFIT, tested
+from faultspace.numeric.rows.laws import FAR, FAR_LONGER, FLAT_MISFIT, SHAPE_MISFIT, SINGLE_MISFITS, Evidence, tested
 from faultspace.numeric.study.runs import NOISE_GAIN, study_run
 from faultspace.numeric.study.systems import N_X, study_system
 
@@ -47,6 +48,9 @@ COUNT_CELLS = (
     (3, 3, 20.0, 1.0),
     (4, 4, 40.0, 1.0),
 )
+
+# Of those the ones where a single row is a law.
+SINGLE_CELLS = tuple(cell for cell in COUNT_CELLS if cell[0] - cell[1] == 1)
 
 
 def record(seed: int, p: int, n_v: int, decibels: float, spread: float, samples: int) -> tuple[Array, Array]:
@@ -83,7 +87,6 @@ def count(seed: int, trials: int, samples: int, clock: Clock) -> None:
 def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
     """Print ratios over their expectations: of degrees on the study's systems, of sphericity and flatness on random plants."""
     degree: dict[int, list[float]] = {1: [], 2: [], 3: []}
-    laws: list[tuple[float, float]] = []
     for trial in clock.range(trials):
         zeros = trial % 4
         system = study_system(zeros, np.random.SeedSequence([seed + trial, zeros]))
@@ -93,20 +96,43 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
         for extra, ratios in degree.items():
             low, high = fits[N_X - zeros], fits[N_X - zeros + extra]
             ratios.append(likelihood_ratio(data, low, high) / freedom(data, low, high))
-        p, n_v, decibels, spread = COUNT_CELLS[trial % 9]
-        y, u = record(seed + trial, p, n_v, decibels, spread, samples)
-        data = joint_moments(y, u, N_X + EXTRA)
-        found = tested(data, p - n_v, N_X)
-        assert found.sphericity is not None
-        gain = likelihood_ratio(data, found.fit, found.longer) / freedom(data, found.fit, found.longer)
-        laws.append((found.sphericity.nats / found.sphericity.expected, gain))
     for extra, ratios in degree.items():
         parameters = 4 * extra
         tail = scipy.stats.chi2.sf(np.array(ratios) * parameters / MISFITS[min(extra, 2) - 1], parameters)
         shares = ", ".join(f"{np.mean(tail < level):.2f} below {level:g}" for level in (0.05, 0.01, 1e-3, 1e-4))
         print(f"{extra} degrees more: ratio / freedom {quantiles(ratios)}; of the stated probabilities {shares}")
-    print(f"sphericity / expected, k >= 2: {quantiles([law[0] for law in laws])} (SHAPE_MISFIT is {SHAPE_MISFIT:g})")
-    print(f"flatness / freedom, k >= 2: {quantiles([law[1] for law in laws])} (MISFITS are {MISFITS})")
+
+
+def laws(seed: int, trials: int, samples: int, clock: Clock) -> None:
+    """Print the ratios of `laws.py` over their expectations: of as many rows as are laws, and of one more, which are none."""
+    shapes, flats, others, steps = list[float](), list[float](), list[float](), list[float]()
+    singles: list[tuple[float, ...]] = []
+    full: list[bool] = []
+    for trial in clock.range(trials):
+        p, n_v, decibels, spread = COUNT_CELLS[trial % len(COUNT_CELLS)]
+        evidence = Evidence(*record(seed + trial, p, n_v, decibels, spread, samples), N_X)
+        if n_v < p:
+            found = tested(evidence, p - n_v)
+            if found.sphericity is None:
+                singles.append(found.ratios)
+            else:
+                shapes.append(found.sphericity.nats / found.sphericity.expected)
+                flats.extend(found.ratios)
+        if 0 < n_v < p:
+            others.append(tested(evidence, p - n_v + 1).farness)
+        if n_v == p:
+            found = tested(evidence, 1)
+            full.append(found.holds is not False)
+            if found.holds:
+                steps.append(tested(evidence, 2).level - found.level)
+    print(f"laws, k >= 2: sphericity / expected {quantiles(shapes)} (SHAPE_MISFIT is {SHAPE_MISFIT:g}, FAR {FAR:g})")
+    print(f"laws, k >= 2: flatness / freedom {quantiles(flats)} (FLAT_MISFIT is {FLAT_MISFIT:g}, FAR_LONGER {FAR_LONGER:g})")
+    for i, misfit in enumerate(SINGLE_MISFITS):
+        print(
+            f"laws, k = 1: flatness / freedom, step {i + 1}: {quantiles([ratios[i] for ratios in singles])} (SINGLE_MISFITS has {misfit:g})"
+        )
+    print(f"no laws, k >= 2: the larger of the ratios over FAR and FAR_LONGER: least {min(others):.2f}, {quantiles(others)}")
+    print(f"n_v = p, k = 1: not refused {sum(full)} of {len(full)}, accepted {len(steps)}, with steps {np.round(steps, 1).tolist()}")
 
 
 def quantiles(values: list[float]) -> str:
@@ -140,14 +166,16 @@ class Clock:
 def main() -> None:
     """Parse the arguments, run what they ask for, and print it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("table", choices=("count", "calibrate"))
+    parser.add_argument("table", choices=("count", "calibrate", "laws"))
     parser.add_argument("--trials", type=int, default=30)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--samples", type=int, default=1001)
     parser.add_argument("--limit", type=float, default=float("inf"))
     chosen = parser.parse_args()
     calls = len(COUNT_CELLS) if chosen.table == "count" else 1
-    {"count": count, "calibrate": calibrate}[chosen.table](chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, calls))
+    {"count": count, "calibrate": calibrate, "laws": laws}[chosen.table](
+        chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, calls)
+    )
 
 
 if __name__ == "__main__":

@@ -29,10 +29,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
 
-from rich.console import Console
-from rich.progress import track
 
 from benchmarks.sheets import Sheet, markdown
+from faultspace.base.progress import evenly, working
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.exact.limits.moesp import PopulationLimits, limit
 from faultspace.numeric.model.displacement_gram import DisplacementGram
@@ -211,8 +210,11 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error(f"got --largest {options.largest} --seeds {options.seeds}, needed at least {SHORTEST} samples and 3 seeds")
     lengths = [N for N in (SHORTEST * 10**k for k in range(8)) if options.largest > N] + [options.largest]
     rows: list[Comparison] = []
-    for family in track(list(FAMILIES), "floats against limits", console=Console(stderr=True), transient=True):
-        rows += compared(family, chosen(family), lengths, options.seeds)
+    with working("floats against limits") as tell:
+        heard = evenly(tell)
+        for done, family in enumerate(FAMILIES):
+            heard("floats against limits", done, len(FAMILIES))
+            rows += compared(family, chosen(family), lengths, options.seeds)
     print(markdown([table(rows)], []))
     if options.plot:
         drawn(rows, options.plot)

@@ -29,13 +29,12 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
 
-from rich.console import Console
-from rich.progress import track
 
 from benchmarks.identification_cells import CELL, measure, python_command
 from benchmarks.identification_data import FAULT_POLE, ORDER, Setting, errors, record, system, write
 from benchmarks.sheets import Sheet, markdown
 from faultspace.base.processes import Limits
+from faultspace.base.progress import working
 from faultspace.exact.algebra.matrices import Matrix, beside, column_basis, stacked
 from faultspace.exact.algebra.stability import rational_characteristic_polynomial
 from faultspace.exact.limits.column_space import state_part
@@ -184,9 +183,10 @@ def main(arguments: list[str] | None = None) -> int:
     if options.peer_python and shutil.which(options.peer_python) is None:
         parser.error(f"got --peer-python {options.peer_python}, needed a program that can be run")
     lengths = [N for N in (10**4, 10**5) if options.largest > N] + [options.largest]
-    steps = track(CELLS[: 2 if options.quick else None], "past outputs", console=Console(stderr=True), transient=True)
-    for n_u, p, block_rows, noise in steps:
-        sheet, note = examined(Setting(n_u, p, block_rows, options.largest, noise), lengths, options.peer_python)
+    cells = CELLS[: 2 if options.quick else None]
+    for done, (n_u, p, block_rows, noise) in enumerate(cells):
+        with working(f"past outputs, cell {done + 1} of {len(cells)}"):
+            sheet, note = examined(Setting(n_u, p, block_rows, options.largest, noise), lengths, options.peer_python)
         print(markdown([sheet], note), end="\n\n", flush=True)
     return 0
 

@@ -8,6 +8,8 @@ from .algebra.matrices import rank as rank
 from .algebra.matrices import right_null_space as right_null_space
 from .algebra.matrices import row_echelon as row_echelon
 from .algebra.stability import is_stable as is_stable
+from .limits.autoregression import ARXLimit as ARXLimit
+from .limits.autoregression import arx_limit as arx_limit
 from .limits.experiments import Experiment as Experiment
 from .limits.experiments import read_experiment as read_experiment
 from .limits.filters import Filter as Filter

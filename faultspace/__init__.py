@@ -16,7 +16,7 @@ BIBLIOGRAPHY.md; the paper is [G25]. A name is loaded when it is first asked for
 
 import lazy_loader
 
-from .base import errors as errors
+from . import errors as errors
 
 __version__ = "0.1.0"
 

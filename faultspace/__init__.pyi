@@ -1,7 +1,7 @@
+from . import errors as errors
 from . import exact as exact
 from . import numeric as numeric
 from . import proofs as proofs
-from .base import errors as errors
 from .exact.limits.moesp import limit as limit
 from .exact.structure.behavior import compare as compare
 from .exact.structure.record import analyze as analyze

@@ -4,6 +4,9 @@ plot_singular_values          of PI-MOESP, with the order
 plot_conditions               singular values of the conditions on a fault column, with the dimension of the fault space
 plot_window_ranks             singular values of R_s and R_(s+1), with thresholds and chosen ranks
 plot_zeros_and_poles          in the complex plane, with the unit circle
+plot_uncertain_poles          the poles with the regions that hold them with a stated probability
+plot_criteria                 criteria of the order above their least values, the orders left open shaded
+plot_roots                    what stands out of a healthy record at each frequency, with what chance reaches
 plot_measured_and_simulated   outputs and the model's, one below the other
 plot_fault_signal             the reconstructed signals, the samples shaded that are not determined
 plot_stored_signal            the same for a signal of any length in a store
@@ -16,15 +19,17 @@ apart, and never the only difference. Long signals are drawn as the band between
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import import_module
+from statistics import NormalDist
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData
+from ..base.sheets import counted
 from .data.records import SampleStore
 from .data.validation import signal
 
@@ -33,6 +38,7 @@ MOST_POINTS = 3000
 MOST_DRAWN = 1 << 15  # rows of a stored signal that are drawn: of a longer one the extremes of equal parts, two rows each
 TICKS = 7
 MOST_CHANNELS = 8
+SEEN = 0.2  # of the picture: smaller regions are drawn larger by a power of ten that does not go beyond it
 LOWEST = 1e-18  # relative: smaller singular values are drawn there
 
 
@@ -163,14 +169,86 @@ def plot_zeros_and_poles(poles: ArrayLike, zeros: ArrayLike = (), *, ax: Any = N
     ax.plot(np.cos(turn), np.sin(turn), color=GREY, linewidth=1)
     ax.axhline(0, color=GREY, linewidth=0.5)
     ax.axvline(0, color=GREY, linewidth=0.5)
-    ax.plot(sets["poles"].real, sets["poles"].imag, "x", color=BLUE, markersize=8, markeredgewidth=1.8, label=_count(sets["poles"], "pole"))
+    cross: dict[str, Any] = {"color": BLUE, "markersize": 8, "markeredgewidth": 1.8}
+    ax.plot(sets["poles"].real, sets["poles"].imag, "x", label=counted(len(sets["poles"]), "pole"), **cross)
     if len(sets["zeros"]):
         style = {"color": ORANGE, "markersize": 8, "markeredgewidth": 1.6, "fillstyle": "none"}
-        ax.plot(sets["zeros"].real, sets["zeros"].imag, "o", label=_count(sets["zeros"], "finite zero"), **style)
+        ax.plot(sets["zeros"].real, sets["zeros"].imag, "o", label=counted(len(sets["zeros"]), "finite zero"), **style)
     reach = 1.15 * max(1.0, *(float(np.max(np.abs(given), initial=0.0)) for given in sets.values()))
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="real part", ylabel="imaginary part", title="Poles and finite zeros")
     ax.set_aspect("equal")
     return _finished(ax, legend=True, place="upper left")
+
+
+def plot_uncertain_poles(poles: ArrayLike, roots: ArrayLike, *, confidence: float = 0.95, ax: Any = None) -> Any:
+    """Draw poles (n,), each with the region that holds it with this probability: an ellipse, and of a real pole a bar.
+
+    To first order a pole is off by its row of `roots` (n, K), complex, times K standard normal numbers. Regions too small to be seen are
+    all drawn so many powers of ten larger, which the legend tells. A pole whose row is not finite has none, and the legend says so.
+    """
+    places, maps = np.asarray(poles, dtype=np.complex128).ravel(), np.asarray(roots, dtype=np.complex128)
+    sure = np.all(np.isfinite(maps), axis=1)
+    turn = np.linspace(0, 2 * np.pi, 361)
+    edges = []
+    for place, row in zip(places[sure], maps[sure], strict=True):
+        axes, sizes, _ = np.linalg.svd(np.stack([row.real, row.imag]), full_matrices=False)
+        # The distance in deviations has two degrees of freedom where the pole is complex, one where it is real.
+        factor = np.sqrt(-2 * np.log(1 - confidence)) if place.imag else NormalDist().inv_cdf((1 + confidence) / 2)
+        circle = np.stack([np.cos(turn), np.sin(turn)])[: len(sizes)]
+        edges.append(np.array([1, 1j]) @ axes @ (factor * sizes[:, None] * circle))
+    ax = plot_zeros_and_poles(places, ax=ax)
+    largest = max((float(np.max(np.abs(edge))) for edge in edges), default=0.0)
+    larger = 10 ** max(0, int(np.floor(np.log10(SEEN * ax.get_xlim()[1] / largest)))) if largest > 0 else 1
+    label = f"{100 * confidence:g} % region" + (f", drawn {larger} times larger" if larger > 1 else "")
+    for place, edge in zip(places[sure], edges, strict=True):
+        drawn = place + larger * edge
+        ax.plot(drawn.real, drawn.imag, color=ORANGE, linewidth=1.6, label=label)
+        label = ""
+    if not np.all(sure):
+        ax.plot([], [], " ", label=f"{counted(int(np.sum(~sure)), 'pole')} without: multiple")
+    ax.set_title("Poles, and how sure they are")
+    return _finished(ax, legend=True, place="upper left")
+
+
+def plot_criteria(
+    orders: Sequence[int], curves: Mapping[str, Sequence[float]], *, taken: int, open_range: tuple[int, int], ax: Any = None
+) -> Any:
+    """Draw each curve of a criterion (one number an order) above its least value, the order taken filled, the orders left open shaded.
+
+    The scale is linear up to 10 and logarithmic beyond, where orders are out of the question.
+    """
+    ax = _axes(ax)
+    for (name, values), colour, marker, style in zip(curves.items(), (BLUE, ORANGE, GREEN), "os^", ("-", "--", ":"), strict=False):
+        above = np.asarray(values, dtype=np.float64) - np.min(values)
+        ax.plot(orders, above, marker + style, color=colour, fillstyle="none", linewidth=1.2, markersize=6, label=name)
+        chosen = [above[k] for k, order in enumerate(orders) if order == taken]
+        ax.plot([taken] * len(chosen), chosen, marker, color=colour, markersize=6)
+    least, most = open_range
+    words = f"left open: {least} to {most}" if least < most else f"left open: {least} alone"
+    ax.axvspan(least - 0.4, most + 0.4, color=GREY, alpha=0.2, linewidth=0, label=words)
+    ax.set_yscale("symlog", linthresh=10)
+    ax.set(xlabel="order", ylabel="criterion above its least value", title=f"What the data say of the order; taken: {taken} (filled)")
+    ticker: Any = import_module("matplotlib.ticker")
+    ax.xaxis.set_major_locator(ticker.MaxNLocator(integer=True, min_n_ticks=1))
+    return _finished(ax, legend=True)
+
+
+def plot_roots(frequencies: Array, roots: Array, thresholds: Array, n_v: int | None, *, ax: Any = None) -> Any:
+    """Draw the roots (centres, p) by frequency, in cycles a sample, against their thresholds: at most the three largest, with markers
+    where one stands above its threshold and so do those before it."""
+    ax = _axes(ax)
+    above = np.cumprod(roots > thresholds, axis=1).astype(bool)
+    for j, (colour, marker) in enumerate(zip((BLUE, ORANGE, GREEN), "os^", strict=True)):
+        if j < roots.shape[1]:
+            drawn = np.maximum(roots[:, j], LOWEST)
+            ax.semilogy(frequencies, drawn, "-", color=colour, linewidth=1.2, label=f"direction {j + 1}, {int(above[:, j].sum())} above")
+            ax.semilogy(frequencies[above[:, j]], drawn[above[:, j]], marker, color=colour, markersize=4)
+            ax.semilogy(frequencies, thresholds[:, j], ":", color=colour, linewidth=1.2, label=f"what chance reaches in direction {j + 1}")
+    verdict = "undecided" if n_v is None else f"$n_v$ = {n_v}"
+    ax.set(
+        xlabel="frequency (cycles a sample)", ylabel="power over that of the healthy record", title=f"Beyond the healthy record: {verdict}"
+    )
+    return _finished(ax, legend=True)
 
 
 def plot_measured_and_simulated(
@@ -319,10 +397,6 @@ def _stacked(ax: Any, names: Sequence[str], what: str, size: Array) -> list[floa
     ax.set_yticks(levels, [f"{names[j]}\n±{size[j]:.2g}" for j in range(drawn_channels)])
     ax.set_ylabel(f"{what}, each in its own scale")
     return levels
-
-
-def _count(values: NDArray[np.complex128], word: str) -> str:
-    return f"{len(values)} {word}{'' if len(values) == 1 else 's'}"
 
 
 def _some_of(count: int) -> str:

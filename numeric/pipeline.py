@@ -32,6 +32,7 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
+from ..base.threads import one_thread
 from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest, with_signal, with_space
 from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
@@ -55,6 +56,7 @@ HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
 AS_MANY = "as many faults as outputs look like noise in every output"
 
 
+@one_thread()
 def identify(
     y: Source,
     u: Any = None,

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ..base.errors import InvalidInput, quote_path
+from ..base.threads import one_thread
 from .data.records import silent
 from .findings import Findings
 
@@ -59,12 +60,14 @@ class Identification(Findings):
         """Return what a notebook shows: the summary."""
         return f"<pre>{html.escape(self.summary())}</pre>"
 
+    @one_thread()
     def summary(self, title: str = "Identification") -> str:
         """Tell people what was found, in lines of Markdown under this title."""
         from .report.summary import summary
 
         return "\n".join(summary(self, title))
 
+    @one_thread()
     def to_json(self, data: str = "arrays") -> dict[str, Any]:
         """Return everything but the signals as a JSON-ready dict, by the schema identify.schema.json; `data` says where the record is
         from."""
@@ -72,6 +75,7 @@ class Identification(Findings):
 
         return document(self, data)
 
+    @one_thread()
     def plot(self, ax: Any = None) -> Any:
         """Draws the fault signal, or measured and simulated outputs where there is none, into the matplotlib axes `ax` (new ones where None
         are given) and returns them. Raises InvalidData where there is no model, and ModuleNotFoundError without matplotlib."""
@@ -106,6 +110,7 @@ class Identification(Findings):
 
         to_mat(self, path)
 
+    @one_thread()
     def save(self, folder: str | os.PathLike[str], data: str = "arrays") -> list[str]:
         """Writes model, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their names.
 

@@ -16,10 +16,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..base.errors import InvalidInput, quote_path, shorten
+from ..base.progress import Progress, silent
 from ..base.sheets import Shown
 from ..exact.limits.experiments import Experiment
 from ..exact.system.systems import System
-from .rocq.build import BrokenTheory, NoRocq, Progress
+from .rocq.build import BrokenTheory, NoRocq
 from .rocq.recompute import Recomputed, recomputed
 from .trust import checker
 
@@ -157,7 +158,7 @@ def check_file(path: str | os.PathLike[str], systems: Any = ()) -> CheckedFile:
     return CheckedFile(checker.result_of(os.fspath(path), [_subject(one) for one in _several(systems)]))
 
 
-def ask_rocq(files: Sequence[CheckedFile], progress: Progress = lambda stage, done, total: None) -> list[CheckedFile]:
+def ask_rocq(files: Sequence[CheckedFile], progress: Progress = silent) -> list[CheckedFile]:
     """The files, each that parses with what Rocq makes of it: its kernel is asked about verified ones alone, about all of them at once.
 
     `files` is a list of what `check_file` returns, and `progress(stage, done, total)` hears how far the work is. Certificates are not kept
@@ -212,7 +213,7 @@ def _subject(given: Any) -> checker.System:
     return checker.subject(checker.load(os.fspath(given)) if isinstance(given, (str, os.PathLike)) else given)
 
 
-def _recomputed(certificates: Sequence[Any], progress: Progress = lambda stage, done, total: None) -> list[Recomputed]:
+def _recomputed(certificates: Sequence[Any], progress: Progress = silent) -> list[Recomputed]:
     try:
         return recomputed(certificates, progress)
     except NoRocq as error:

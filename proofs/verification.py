@@ -11,8 +11,9 @@ from dataclasses import dataclass, field, replace
 from importlib import import_module
 
 from ..base.errors import InvalidInput, shorten
+from ..base.progress import Progress, silent
 from .adversary.attacking import attacking, of_reading, of_row
-from .evidence.corpus import Progress, describe
+from .evidence.corpus import describe
 from .hypotheses import ablations
 from .rocq.build import BrokenTheory, NoRocq, NotProved
 from .rocq.locks import held
@@ -63,7 +64,7 @@ def verify(
     if unknown:
         raise InvalidInput(f"claim: got {shorten(unknown[0])}, expected one of {', '.join(ledger)}")
     chosen = [claim for claim in ledger.values() if claims is None or claim.id in claims]
-    report = on_progress or (lambda stage, done, total: None)
+    report = on_progress or (silent)
     started = time.perf_counter()
     bench = Workbench(effort, jobs, report)
     total = sum(len(claim.readings) for claim in chosen)

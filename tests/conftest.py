@@ -1,6 +1,6 @@
 """These are the settings for every test.
 
-ci          the profile in force: the same examples in every run, nothing remembered between runs
+ci          the profile in force: the same examples in every run, as many as `thorough` says, nothing remembered between runs
 explore     fresh examples and no clock, for looking further: `pytest --hypothesis-profile=explore`
 
 Where tests run in several processes, each begins with a stretch of them in the order of the files, so that what the tests of a file share
@@ -16,10 +16,12 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
+from tests.thorough import examples
+
 # Before numpy is loaded, and inherited by every process that a test starts.
 for threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(threads, "1")
-settings.register_profile("ci", derandomize=True, database=None, deadline=None)
+settings.register_profile("ci", derandomize=True, database=None, deadline=None, max_examples=examples(100))
 settings.register_profile("explore", derandomize=False, database=None, deadline=None, max_examples=1000)
 settings.load_profile("ci")
 

@@ -25,7 +25,7 @@ from flint import fmpq, fmpq_poly, fmpz, fmpz_poly, nmod
 from ...base.errors import InvalidInput, shorten
 from . import pickling as pickling
 from .sympy_values import is_rational
-from .validation import MAX_FIELD_DEGREE, parse_rational
+from .validation import MAX_FIELD_DEGREE, parse_rational, whole
 from .writing import sum_of_powers
 
 
@@ -103,8 +103,10 @@ class PrimeField:
     degree: ClassVar[int] = 1
 
     def __post_init__(self) -> None:
-        if type(self.p) is not int or not 2 <= self.p < 2**64 or not fmpz(self.p).is_prime():
+        prime = whole(self.p)
+        if prime is None or not 2 <= prime < 2**64 or not fmpz(prime).is_prime():
             raise InvalidInput(f"field.prime: got {shorten(self.p)}, expected a prime below 2^64")
+        object.__setattr__(self, "p", prime)
 
     @property
     def characteristic(self) -> int:

@@ -161,7 +161,10 @@ class Matrix:
         return self.field == other.field and self.shape == other.shape and bool(self.flint == other.flint)
 
     def __hash__(self) -> int:
-        return hash((self.field, self.shape, str(self.flint)))
+        if isinstance(self.field, PrimeField):
+            return hash((self.field, self.shape, tuple(map(int, self.flint.entries()))))
+        numerators, denominator = self.flint.numer_denom()
+        return hash((self.field, self.shape, tuple(map(int, numerators.entries())), int(denominator)))
 
     def __str__(self) -> str:
         rows = ["[" + ", ".join(str(x) for x in row) + "]" for row in self.elements()]
@@ -211,16 +214,15 @@ class Matrix:
     def rows(self, indices: Iterable[int]) -> Matrix:
         """The result is the matrix of these rows, in this order."""
         d = self.field.degree
-        table = self.flint.tolist()
-        chosen = [table[i * d + c] for i in indices for c in range(d)]
-        scalars = [x for row in chosen for x in row]
-        return Matrix(self.field, len(chosen) // d, self.ncols, base_matrix(self.field, len(chosen), self.ncols * d, scalars))
+        chosen, width = [i * d + c for i in indices for c in range(d)], self.ncols * d
+        scalars = [self.flint[i, j] for i in chosen for j in range(width)]  # not the whole table, which may be long
+        return Matrix(self.field, len(chosen) // d, self.ncols, base_matrix(self.field, len(chosen), width, scalars))
 
     def columns(self, indices: Iterable[int]) -> Matrix:
         """The result is the matrix of these columns, in this order."""
         d = self.field.degree
         wanted = [j * d + c for j in indices for c in range(d)]
-        scalars = [row[j] for row in self.flint.tolist() for j in wanted]
+        scalars = [self.flint[i, j] for i in range(self.nrows * d) for j in wanted]
         return Matrix(self.field, self.nrows, len(wanted) // d, base_matrix(self.field, self.nrows * d, len(wanted), scalars))
 
 

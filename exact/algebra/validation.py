@@ -4,15 +4,17 @@ MAX_DIMENSION       n + m + p may be at most this
 MAX_BITS            bits of one numerator or denominator
 MAX_FILE_BYTES      bytes of one file
 MAX_ENTRIES         entries of one matrix: at eight bytes each, before there is a number in them, this is one GiB
+whole               an integer of any type as an int, None for what is none
 natural             an integer >= 0, or InvalidInput
 fits                InvalidInput for a matrix of more entries than MAX_ENTRIES
-parse_rational      "-?[0-9]+(/[1-9][0-9]*)?" or a Python integer, nothing else
+parse_rational      "-?[0-9]+(/[1-9][0-9]*)?" or an integer, nothing else
 """
 
 from __future__ import annotations
 
 import re
 from fractions import Fraction
+from numbers import Integral
 
 from flint import fmpq, fmpz
 
@@ -28,11 +30,20 @@ _RATIONAL = re.compile(r"-?[0-9]+(/[1-9][0-9]*)?", re.ASCII)
 _SCIENTIFIC = re.compile(r"-?[0-9]{1,99}(\.[0-9]{0,99})?[eE][+-]?[0-9]{1,2}", re.ASCII)
 
 
-def natural(value: object, name: str, *, least: int = 0) -> int:
-    """The result is the value where it is an integer >= `least`, of type int and no truth value. Raises InvalidInput, naming `name`."""
-    if type(value) is not int or value < least:
-        raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer >= {least}")
-    return value
+def whole(value: object) -> int | None:
+    """The result is the value as an int where it is an integer, numpy's among them; None for anything else, truth values and floats too."""
+    if type(value) is int:
+        return value
+    return int(value) if isinstance(value, Integral) and not isinstance(value, bool) else None
+
+
+def natural(value: object, name: str, *, least: int = 0, most: int | None = None) -> int:
+    """The result is the value where it is an integer from `least` to `most`, and no truth value. Raises InvalidInput, naming `name`."""
+    number = whole(value)
+    if number is None or number < least or (most is not None and number > most):
+        wanted = f">= {least}" if most is None else f"from {least} to {most}"
+        raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer {wanted}")
+    return number
 
 
 def fits(rows: int, columns: int, name: str) -> None:
@@ -46,8 +57,8 @@ def parse_rational(value: object, where: str) -> fmpq:
 
     Raises InvalidInput, naming `where`, for anything else: floats, booleans, exponents, decimal points, a zero denominator.
     """
-    if type(value) is int:
-        number = value
+    number = None if type(value) is str else whole(value)
+    if number is not None:
         if number.bit_length() > MAX_BITS:
             raise InvalidInput(f"{where}: got an integer of {number.bit_length()} bits, at most {MAX_BITS} are allowed")
         return fmpq(number)

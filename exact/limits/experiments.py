@@ -15,10 +15,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..algebra.fields import QQ
 from ..algebra.stability import is_stable
-from ..system.systems import FaultySystem, counted, read_system
+from ..algebra.validation import whole
+from ..system.systems import FaultySystem, read_system
 from .filters import Filter, read_filter
 
 MAX_WINDOW_ROWS = 2048
@@ -61,8 +62,9 @@ class Experiment(Shown):
         if residual.p == 0:
             raise InvalidInput("C: got no output, expected one at least")
         for name, value in (("s", self.s), ("past", self.past)):
-            if type(value) is not int or value < 1:
+            if (number := whole(value)) is None or number < 1:
                 raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer >= 1, a number of block rows")
+            object.__setattr__(self, name, number)
         rows = (self.s + self.past) * (nu + residual.p)
         if rows > MAX_WINDOW_ROWS:
             raise InvalidInput(f"s, past: got windows of (s + past)(nu + p) = {rows} rows, at most {MAX_WINDOW_ROWS} are supported")

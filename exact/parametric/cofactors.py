@@ -26,9 +26,11 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+from ...base.errors import InvalidInput
 from ..algebra import polynomials
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix
+from ..algebra.validation import natural
 from ..pairs.polynomial import exceptional
 from ..structure.kernel_rows import kernel_representation
 from ..system.systems import ResidualSystem
@@ -97,21 +99,20 @@ class GenericExceptional:
 
 
 def generic_exceptional(n: int, p: int, m: int) -> GenericExceptional:
-    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) are indeterminate. Raises ValueError beyond n = 2, p = 3, m = 2."""
+    """All entries of A (n x n), C (p x n), F (n x m), G (p x m) are indeterminate. Raises InvalidInput beyond n = 2, p = 3, m = 2."""
     return _generic(n, p, m, zero_feedthrough=False)
 
 
 def generic_exceptional_without_feedthrough(n: int, p: int, m: int) -> GenericExceptional:
-    """G is 0, all other entries are indeterminate. Raises ValueError unless m < p and m <= n, and beyond n = 2, p = 3, m = 2."""
+    """G is 0, all other entries are indeterminate. Raises InvalidInput unless m < p and m <= n, and beyond n = 2, p = 3, m = 2."""
     if not (m < p and m <= n):
-        raise ValueError(f"without feedthrough m must be below p and at most n (got n = {n}, p = {p}, m = {m})")
+        raise InvalidInput(f"m: got {m} with n = {n}, p = {p}; without feedthrough expected m < p and m <= n")
     return _generic(n, p, m, zero_feedthrough=True)
 
 
 def _generic(n: int, p: int, m: int, *, zero_feedthrough: bool) -> GenericExceptional:
     for name, value, largest in zip("npm", (n, p, m), LARGEST, strict=True):
-        if type(value) is not int or not 0 <= value <= largest:
-            raise ValueError(f"{name} must be an integer from 0 to {largest} (got {value!r})")
+        natural(value, name, most=largest)
     r = min(p, m)
     zeta = n if m >= p else m if zero_feedthrough else 0
     names = [f"p{i + 1}{j + 1}" for i in range(r + zeta) for j in range(r)]

@@ -18,6 +18,7 @@ from itertools import combinations
 from typing import Any
 
 from ...base.sheets import Shown
+from ..algebra.validation import natural
 from .case_tree import Polynomial
 from .identities import FlintPolynomial, FlintWindow, SecondRoute
 from .stratification import Indeterminates, indeterminates
@@ -105,7 +106,7 @@ def generic_window_ranks(n: int, p: int, m: int, windows: Iterable[int]) -> Gene
     their number grows as a binomial coefficient in s p and n + s m, so that this is meant for matrices up to about 10 x 8. Source: [G25]
     Theorem 2 after [SB21] for the ranks themselves.
 
-    Raises ValueError for a dimension outside 0..9 and for a window that is no positive integer.
+    Raises InvalidInput for a dimension outside 0..9 and for a window that is no positive integer.
 
     >>> from faultspace.exact import generic_window_ranks
     >>> (window,) = generic_window_ranks(1, 2, 1, [2]).windows
@@ -118,9 +119,7 @@ def generic_window_ranks(n: int, p: int, m: int, windows: Iterable[int]) -> Gene
     entries = indeterminates(n, p, m)
     found = []
     for s in windows:
-        if isinstance(s, bool) or not isinstance(s, int) or s < 1:
-            raise ValueError(f"a window has a positive number of samples (got {s!r})")
-        found.append(_generic_window(entries, s))
+        found.append(_generic_window(entries, natural(s, "window", least=1)))
     return GenericRanks(entries, tuple(found))
 
 

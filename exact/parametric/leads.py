@@ -25,6 +25,7 @@ from typing import Any
 from sympy import ZZ
 from sympy.polys.rings import ring as polynomial_ring
 
+from ..algebra.validation import natural
 from .case_tree import Polynomial, Ring
 from .identities import SecondRoute
 
@@ -55,11 +56,10 @@ class LeadIdentities:
 def lead_identities(n: int, nu: int, m: int, p: int, J: int) -> LeadIdentities:
     """This expands all identities of the module's docstring at n, m, J from 0 to 2 and nu, p from 1 to 2.
 
-    Raises ValueError for other dimensions, IdentityFailure at the first identity that does not hold.
+    Raises InvalidInput for other dimensions, IdentityFailure at the first identity that does not hold.
     """
     for name, value, least, most in zip(("n", "nu", "m", "p", "J"), (n, nu, m, p, J), (0, 1, 0, 1, 0), LARGEST, strict=True):
-        if type(value) is not int or not least <= value <= most:
-            raise ValueError(f"{name} must be an integer from {least} to {most} (got {value!r})")
+        natural(value, name, least=least, most=most)
     shapes = {"a": (n, n), "b": (n, nu), "c": (p, n), "d": (p, nu), "f": (n, m), "g": (p, m)}
     shapes |= {f"phi{j}_": (m, nu) for j in range(J + 1)}
     names = [f"{letter}{i + 1}{k + 1}" for letter, (h, w) in shapes.items() for i in range(h) for k in range(w)]

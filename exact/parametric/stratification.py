@@ -30,7 +30,9 @@ from typing import Any, Literal
 from sympy import ZZ
 from sympy.polys.rings import ring as polynomial_ring
 
+from ...base.errors import InvalidInput
 from ...base.sheets import Shown
+from ..algebra.validation import natural
 from .case_tree import Branch, Cases, Congruence, Polynomial, Ring, UnitProduct, explore
 
 LARGEST_DIMENSION = 9
@@ -75,10 +77,9 @@ class Indeterminates:
 
 
 def indeterminates(n: int, p: int, m: int, more: Sequence[str] = ()) -> Indeterminates:
-    """`more` names further generators, after q. Raises ValueError for dimensions that are no integers from 0 to 9."""
+    """`more` names further generators, after q. Raises InvalidInput for dimensions that are no integers from 0 to 9."""
     for name, value in (("n", n), ("p", p), ("m", m)):
-        if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= LARGEST_DIMENSION:
-            raise ValueError(f"{name} must be an integer from 0 to {LARGEST_DIMENSION} (got {value!r})")
+        natural(value, name, most=LARGEST_DIMENSION)
     shapes = {"a": (n, n), "c": (p, n), "f": (n, m), "g": (p, m)}
     names = [f"{letter}{i + 1}{j + 1}" for letter, (h, w) in shapes.items() for i in range(h) for j in range(w)]
     ring, *generators = polynomial_ring([*names, "q", *more], ZZ)
@@ -198,9 +199,9 @@ class Stratification(Shown):
         return tuple(self.entries.ring.symbols[: self.entries.parameters])
 
     def locate(self, values: Sequence[Any]) -> Stratum:
-        """The one stratum of exact parameter values; raises ValueError when their number is wrong."""
+        """The one stratum of exact parameter values; raises InvalidInput when their number is wrong."""
         if len(values) != self.entries.parameters:
-            raise ValueError(f"{self.entries.parameters} parameter values are needed (got {len(values)})")
+            raise InvalidInput(f"values: got {len(values)}, expected {self.entries.parameters}, one a parameter")
         found = [stratum for stratum in self.strata if stratum.contains(values)]
         if len(found) != 1:
             raise ArithmeticError(f"{len(found)} strata contain {tuple(values)}; there must be one")
@@ -246,7 +247,7 @@ def stratify(n: int, p: int, m: int, windows: int | None = None) -> Stratificati
     entries and comes with the rows that prove its ranks. `windows`, n + 3 by default, is the number of samples up to which identities are
     expanded later. Source: [Si69], whose algorithm is run on indeterminates; [F75] for the indices.
 
-    Raises ValueError for a dimension outside 0..9 and for windows below 1, and NonlinearCondition where a condition is linear in no entry,
+    Raises InvalidInput for a dimension outside 0..9 and windows below 1, and NonlinearCondition where a condition is linear in no entry,
     which was not seen up to n = 2.
 
     >>> from faultspace.exact import stratify
@@ -254,10 +255,8 @@ def stratify(n: int, p: int, m: int, windows: int | None = None) -> Stratificati
     >>> [(stratum.equations, stratum.inequations, stratum.left_minimal_indices) for stratum in found.strata]
     [((), (c11,), (1,)), ((c11,), (), (0,))]
     """
-    windows = n + 3 if windows is None else windows
     entries = indeterminates(n, p, m)
-    if isinstance(windows, bool) or not isinstance(windows, int) or windows < 1:
-        raise ValueError(f"windows must be a positive integer (got {windows!r})")
+    windows = n + 3 if windows is None else natural(windows, "windows", least=1)
     root = Branch(entries.ring, entries.parameters)
     cases = explore(root, lambda branch: eliminate(entries, branch))
     strata = tuple(Stratum(branch, tuple(certified(entries, branch, work) for work in rows)) for branch, rows in cases)

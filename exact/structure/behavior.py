@@ -18,10 +18,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..algebra.matrices import Matrix
 from ..algebra.notation import entry, polynomial
-from ..system.systems import ResidualSystem, System, counted
+from ..system.systems import ResidualSystem, System
 from .kernel_rows import KernelRepresentation, KernelRow, horner, kernel_of
 from .signals import simulate
 

@@ -15,11 +15,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ...base.errors import InvalidInput, shorten
-from ...base.sheets import Shown
+from ...base.errors import InvalidInput
+from ...base.sheets import Shown, counted
 from ..algebra.matrices import Matrix, right_null_space, row_echelon, stacked
 from ..algebra.notation import named_matrix
-from ..system.systems import ResidualSystem, System, counted
+from ..algebra.validation import natural
+from ..system.systems import ResidualSystem, System
 from .kernel_rows import KernelRepresentation, column_conditions, kernel_of
 
 
@@ -120,8 +121,7 @@ def fault_space(kernel: KernelRepresentation | System, window: int | None = None
     >>> space.F, space.G  # the second output is no fault's
     ([[1, 0]], [[0, 1], [0, 0]])
     """
-    if window is not None and (type(window) is not int or window < 0):
-        raise InvalidInput(f"window: got {shorten(window)}, expected an integer >= 0 or None")
+    window = None if window is None else natural(window, "window")
     kernel = kernel_of(kernel)
     system = kernel.system
     basis = from_kernel_rows((row.coefficients for row in kernel.rows_within(window)), system.A, system.C)

@@ -89,9 +89,8 @@ def hankel(signal: Matrix, s: int) -> Matrix:
     """The result is the block Hankel matrix with s block rows of a time-major signal (N x q): qs x (N - s + 1). Raises InvalidInput if N <
     s.
     """
-    if type(s) is not int:
-        natural(s, "window")
-    if not 0 <= s <= signal.nrows:
+    s = natural(s, "window")
+    if s > signal.nrows:
         raise InvalidInput(f"window: got {s} with {signal.nrows} samples, expected 0 <= window <= samples")
     columns = signal.nrows - s + 1
     blocks = [signal.rows(range(i, i + columns)).transposed() for i in range(s)]

@@ -19,11 +19,11 @@ from os import PathLike
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..algebra.fields import QQ, Field, field_from_json
 from ..algebra.matrices import Matrix, not_rows
 from ..algebra.notation import field_words, named_matrix
-from ..algebra.validation import MAX_DIMENSION
+from ..algebra.validation import MAX_DIMENSION, natural
 
 
 class System(Shown):
@@ -301,11 +301,6 @@ def residual_of(given: object, where: str = "system") -> ResidualSystem:
     raise InvalidInput(f"{where}: got {shorten(given)}, expected a ResidualSystem or a FaultySystem, as fs.System makes them{hint}")
 
 
-def counted(count: int, word: str) -> str:
-    """The result is the number with the word in its singular or plural: "1 state", "2 states"."""
-    return f"{count} {word}{'' if count == 1 else 's'}"
-
-
 def read_system(data: object, *, where: str = "system") -> System:
     """The result is the System that the dict of an exact file holds; `where` is how messages call it.
 
@@ -404,9 +399,7 @@ def _agree(name: str, matrix: Matrix, shape: tuple[int, int], field: Field) -> N
 def _dimension(name: str, given: object, *places: tuple[object, int]) -> int:
     """The result is the stated dimension, or the one that the first matrix with entries shows."""
     if given is not None:
-        if type(given) is not int or given < 0:
-            raise InvalidInput(f"{name}: got {shorten(given)}, expected an integer >= 0")
-        return given
+        return natural(given, name)
     for entries, axis in places:
         size = _extent(entries, axis)
         if size is not None:

@@ -1,1 +1,1 @@
-"""What every room may import and what imports none: errors, how results are shown (sheets.py), programs started under limits."""
+"""What every room may import and what imports none: errors, how results and progress are shown, programs under limits, threads of BLAS."""

@@ -9,7 +9,7 @@ InvalidData     the same of measured data
     ...     print(error)
     A: got 1, expected a list of rows, try [[1]]
 
-What the checker says of a certificate it raises as `faultspace.proofs.Rejected` and `faultspace.proofs.Malformed`. Beside the errors:
+`faultspace.errors` has those of the checker beside these. What errors are made of:
 
 shorten         a value cut to a length that fits an error message
 quote_path      a file name as it can be shown on one line

@@ -2,6 +2,7 @@
 
 Sheet      (name, value) pairs; a pair without a value is a heading, one without a name goes on with the value above it
 line       one pair as a line of text
+counted    a number with its noun: 1 sample, 2 samples
 Shown      gives a record with `title` and `sheet` its `summary()`, a short `repr` and the table that a notebook shows
 """
 
@@ -10,15 +11,30 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from html import escape
+from textwrap import fill
 
 Sheet = Iterable[tuple[str, str]]
 
 NAME_WIDTH = 36
+WIDTH = 80
 
 
 def line(name: str, value: str) -> str:
     """Return one pair of a sheet on one line, the values of a sheet below each other."""
     return f"    {name:<{NAME_WIDTH}}{value}" if value else f"  {name}"
+
+
+def counted(count: int, noun: str, plural: str = "") -> str:
+    """Return the number with its noun, in the plural unless it is one; `plural` is needed where it is not the noun with an s."""
+    return f"{count} {noun if count == 1 else plural or noun + 's'}"
+
+
+def _broken(name: str, value: str) -> str:
+    """Return the pair on one line, or where that is wider than WIDTH, on lines whose values stand below each other."""
+    whole, margin = line(name, value), " " * len(line("", " ")[:-1])
+    if len(whole) <= WIDTH or not value:
+        return whole
+    return fill(value, WIDTH, initial_indent=line(name, " ")[:-1], subsequent_indent=margin, break_long_words=False, break_on_hyphens=False)
 
 
 class Shown(ABC):
@@ -34,8 +50,9 @@ class Shown(ABC):
         """These pairs are what there is to say of the record."""
 
     def summary(self) -> str:
-        """Return the record in words: the title, then a line for each pair of the sheet. It is what the command of the same name prints."""
-        return "\n".join([self.title, *(line(name, value) for name, value in self.sheet())])
+        """Return the record in words: the title, then a line for each pair of the sheet, or more where 80 columns are not enough for it.
+        These are the words that the command of the same name prints."""
+        return "\n".join([self.title, *(_broken(name, value) for name, value in self.sheet())])
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {self.title}>"

@@ -14,13 +14,13 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from ..base.progress import working
 from ..numeric.audit.outcome import Audit, FunctionTally
 from ..numeric.audit.peers import PEERS
 from ..numeric.audit.records import CheckResult, Demand
 from ..numeric.audit.running import audit
 from .consoles import answers, paragraph, print_json, print_table
 from .failures import ANSWERED, NOT_AS_EXPECTED
-from .progress import working
 
 HELP = "free: asked without a must, or not offered; ratio: what was got over its bound, at most 1 where all is well; -v prints every check."
 

@@ -14,11 +14,12 @@ from rich.text import Text
 
 from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path
+from ..base.messages import say
+from ..base.progress import working
 from ..proofs.checking import CheckedFile, ask_rocq, check_file
 from ..proofs.trust import checker
 from .consoles import answers, paragraph, print_json
-from .failures import NOT_AS_EXPECTED, say
-from .progress import working
+from .failures import NOT_AS_EXPECTED
 
 STYLES = dict.fromkeys(("verified", "accepted"), "green") | dict.fromkeys(("rejected", "malformed"), "red")
 STYLES |= dict.fromkeys(("verified under an assumption", "not covered", "undecided", "not asked"), "yellow")

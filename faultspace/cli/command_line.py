@@ -2,11 +2,13 @@
 
 main         runs it and returns the exit code
 app          the commands, for typer
+Plain        a command whose help shows its arguments as they are typed
 """
 
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Callable, Sequence
 from enum import StrEnum
@@ -15,9 +17,12 @@ from pathlib import Path
 from typing import Annotated, Any, ParamSpec
 
 import typer
+from typer.core import TyperCommand
 
 from .. import __version__
-from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded, say
+from ..base.errors import shorten
+from ..base.messages import say
+from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded
 
 Given = ParamSpec("Given")
 
@@ -50,6 +55,49 @@ class Expected(StrEnum):
     different = "different"
 
 
+class Plain(TyperCommand):
+    """The usage and the list of arguments show each by its `metavar`, without braces and types around it."""
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """Return the words after the command's name."""
+        return ["[OPTIONS]", *(str(one.metavar) for one in self.get_params(ctx) if one.param_type_name == "argument")]
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write arguments and options with their help."""
+        rows: dict[str, list[tuple[str, str]]] = {"argument": [], "option": []}
+        for one in self.get_params(ctx):
+            if record := one.get_help_record(ctx):
+                rows[one.param_type_name].append((str(one.metavar) if one.param_type_name == "argument" else record[0], record[1]))
+        for kind, shown in rows.items():
+            if shown:
+                with formatter.section(f"{kind.title()}s"):
+                    formatter.write_dl(shown)
+
+
+def _number(kind: type[int] | type[float], least: float, such_as: float) -> Callable[[str], Any]:
+    """Return the parser of a number from `least` on, which says what it got, what it needs and what to try."""
+
+    def parsed(text: str) -> Any:
+        try:
+            value = kind(str(text))
+        except ValueError:
+            value = None
+        open_end = kind is float and not least
+        if value is None or not (value > 0 if open_end else least <= value) or value == float("inf"):
+            wanted = "positive number" if open_end else f"{'whole ' if kind is int else ''}number from {least:g} on"
+            raise typer.BadParameter(f"got {shorten(str(text))}, expected a {wanted}, try {such_as:g}")
+        return value
+
+    return parsed
+
+
+def _in_our_words(message: str) -> str:
+    """Return a complaint about options as all complaints about input are: the place, what was got, what is expected."""
+    message = re.sub(r"^Invalid value for '([^']*)': ", lambda found: f"{found[1].split(' / ')[-1]}: ", message)
+    message = re.sub(r"^Missing (option|argument) '([^']*)'\.", r"\2: got none, expected the \1", message)
+    return re.sub(r"(?:Value error, )?'([^']*)' is not one of (.*?)\.?$", r"got '\1', expected one of \2", message)
+
+
 Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else on standard output.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print the long tables, too.")]
 Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as the dyadic rationals that they are.")]
@@ -72,7 +120,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return code if isinstance(code, int) else 0
     except _UsageError as error:
         context = getattr(error, "ctx", None)
-        say(f"{error.format_message()} (see: {context.command_path if context else 'faultspace'} --help)")
+        say(f"{_in_our_words(error.format_message())} (see: {context.command_path if context else 'faultspace'} --help)")
         return BAD_INPUT
     except (KeyboardInterrupt, typer.Abort):
         say("interrupted")
@@ -104,7 +152,7 @@ def _command(name: str | None = None) -> Callable[[Callable[Given, int]], Callab
         def command(*arguments: Given.args, **options: Given.kwargs) -> int:
             raise typer.Exit(guarded(lambda: body(*arguments, **options)))
 
-        app.command(name)(command)
+        app.command(name, cls=Plain)(command)
         return body
 
     return made
@@ -116,7 +164,9 @@ def verify(
     claim: Annotated[
         list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, a page of it; may be repeated.")
     ] = None,
-    jobs: Annotated[int | None, typer.Option(metavar="K", min=1, help="Processes at a time.", show_default="all cores")] = None,
+    jobs: Annotated[
+        int | None, typer.Option(metavar="K", parser=_number(int, 1, 2), help="Processes at a time.", show_default="all cores")
+    ] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
     recheck: Annotated[
         bool, typer.Option("--recheck", help="First compile the Rocq theory anew, whatever is cached, and let coqchk read it.")
@@ -220,18 +270,30 @@ def identify(
         ),
     ],
     order: Annotated[
-        int | None, typer.Option(metavar="N", min=1, help="Number of states.", show_default="by the gap in the singular values")
+        int | None,
+        typer.Option(metavar="N", parser=_number(int, 1, 3), help="Number of states.", show_default="by the gap in the singular values"),
     ] = None,
     block_rows: Annotated[
-        int | None, typer.Option(metavar="K", min=2, help="Samples of a window.", show_default="20, or what is needed")
+        int | None, typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of a window.", show_default="20, or what is needed")
     ] = None,
-    faults: Annotated[int | None, typer.Option(metavar="K", min=0, help="Number of independent faults.", show_default="estimated")] = None,
+    faults: Annotated[
+        int | None, typer.Option(metavar="K", parser=_number(int, 0, 1), help="Number of independent faults.", show_default="estimated")
+    ] = None,
     healthy_until: Annotated[
-        int | None, typer.Option(metavar="K", min=1, help="The first K samples are without fault: count beyond them.", show_default=False)
+        int | None,
+        typer.Option(
+            metavar="K", parser=_number(int, 1, 1000), help="The first K samples are without fault: count beyond them.", show_default=False
+        ),
     ] = None,
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
     dt: Annotated[
-        float | None, typer.Option(metavar="SECONDS", help="Time from sample to sample; the model's file keeps it.", show_default=False)
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            parser=_number(float, 0, 0.1),
+            help="Time from sample to sample; the model's file keeps it.",
+            show_default=False,
+        ),
     ] = None,
     json: Json = False,
 ) -> int:
@@ -252,13 +314,18 @@ def identify(
 @_command("monte-carlo")
 def monte_carlo(
     out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write tables, figures and all cases there.")],
-    systems: Annotated[int, typer.Option(metavar="K", min=1, help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")] = 100,
-    samples: Annotated[int, typer.Option(metavar="K", min=1, help="Samples of each record.")] = 1001,
+    systems: Annotated[
+        int, typer.Option(metavar="K", parser=_number(int, 1, 100), help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")
+    ] = 100,
+    samples: Annotated[int, typer.Option(metavar="K", parser=_number(int, 1, 1001), help="Samples of each record.")] = 1001,
     jobs: Annotated[
-        int | None, typer.Option(metavar="K", min=1, help="Processes at a time.", show_default="as many cores as are worth it")
+        int | None,
+        typer.Option(metavar="K", parser=_number(int, 1, 2), help="Processes at a time.", show_default="as many cores as are worth it"),
     ] = None,
     dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
-    seed: Annotated[int, typer.Option(metavar="K", min=0, help="Equal seeds give equal results, whoever does the work.")] = 1907,
+    seed: Annotated[
+        int, typer.Option(metavar="K", parser=_number(int, 0, 1907), help="Equal seeds give equal results, whoever does the work.")
+    ] = 1907,
     json: Json = False,
 ) -> int:
     """Repeat the paper's Monte Carlo study.
@@ -284,8 +351,10 @@ def audit(
     check: Annotated[
         list[str] | None, typer.Option("--check", metavar="SLUG", help="Only these: SLUG, SLUG[VECTOR], SLUG[VECTOR]-FUNCTION; repeatable.")
     ] = None,
-    timeout: Annotated[float, typer.Option(min=0.1, metavar="SECONDS", help="How long a check, with --exec an answer, may take.")] = 60.0,
-    memory: Annotated[float, typer.Option(min=0.5, metavar="GIB", help="How much memory a check may take.")] = 4.0,
+    timeout: Annotated[
+        float, typer.Option(metavar="SECONDS", parser=_number(float, 0.1, 60), help="How long a check, with --exec an answer, may take.")
+    ] = 60.0,
+    memory: Annotated[float, typer.Option(metavar="GIB", parser=_number(float, 0.5, 4), help="How much memory a check may take.")] = 4.0,
     verbose: Verbose = False,
     json: Json = False,
 ) -> int:

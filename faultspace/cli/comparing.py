@@ -10,10 +10,11 @@ import sys
 from rich.text import Text
 
 from ..base.errors import in_file, quote_path
+from ..base.messages import say
+from ..base.progress import working
 from ..exact.structure.behavior import MOST_SAMPLES, compare
 from .consoles import answers, paragraph, print_json
-from .failures import ANSWERED, NOT_AS_EXPECTED, say
-from .progress import working
+from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import read_system
 
 

@@ -1,4 +1,4 @@
-"""Print answers on standard output; how far a command has come is shown on standard error (`progress`).
+"""Print answers on standard output; how far a command has come is shown on standard error (`base/progress.py`).
 
 answers        the console for tables: colours and the window's width on a terminal, plain and 140 wide or more elsewhere
 print_json     one document on one line

@@ -12,10 +12,11 @@ from pathlib import Path
 from rich.text import Text
 
 from ..base.errors import quote_path
+from ..base.messages import say
 from ..example_data import FILE_NAME, INPUTS, OUTPUTS, csv_text, faulty_record
 from ..packaged_examples import DESCRIPTIONS, EXPERIMENTS, PREFIX, content
 from .consoles import answers, paragraph, print_json
-from .failures import ANSWERED, say
+from .failures import ANSWERED
 from .reading_files import prepare_folder, write_json, write_text
 
 RESULT = "result"  # the folder beside the record that the printed command writes into

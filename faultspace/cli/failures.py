@@ -2,7 +2,6 @@
 
 guarded       runs a command's body and returns its exit code
 asks_report   reports an error that is ours, with what to send; the code OUR_ERROR
-say           one line on standard error
 TRACEBACK     the environment variable that has the traceback of an error of ours printed, too
 ANSWERED 0, NOT_AS_EXPECTED 1, BAD_INPUT 2; OUR_ERROR 70 as in sysexits.h; INTERRUPTED 130 and BROKEN_PIPE 141 as shells count signals
 """
@@ -12,18 +11,17 @@ from __future__ import annotations
 import os
 import platform
 import sys
-import textwrap
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
 
 from .. import __version__
 from ..base.errors import InvalidInput
+from ..base.messages import LONGEST_LINE, say
 from .argument_names import as_options
 
 ANSWERED, NOT_AS_EXPECTED, BAD_INPUT, OUR_ERROR, INTERRUPTED, BROKEN_PIPE = 0, 1, 2, 70, 130, 141
 TRACEBACK = "FAULTSPACE_TRACEBACK"
-LONGEST_LINE = 1200
 
 
 def guarded(body: Callable[[], int]) -> int:
@@ -71,26 +69,6 @@ def asks_report(error: Exception) -> int:
         f"(faultspace {__version__}, Python {platform.python_version()}, {platform.platform()})"
     )
     return OUR_ERROR
-
-
-def say(message: str) -> None:
-    """Print one line on standard error, whatever the message holds, on a terminal broken between words; a long one lacks its middle."""
-    line = " ".join(message.split())
-    if len(line) > LONGEST_LINE:
-        line = f"{line[: LONGEST_LINE // 2]} ... {line[-LONGEST_LINE // 2 :]}"
-    line = f"faultspace: {line}"
-    with suppress(OSError):
-        if sys.stderr.isatty() and (columns := _columns()):
-            line = textwrap.fill(line, max(columns, 20), subsequent_indent="    ", break_on_hyphens=False)
-        print(line, file=sys.stderr, flush=True)
-
-
-def _columns() -> int:
-    """Return how wide the terminal of standard error is; 0 where nobody knows."""
-    try:
-        return int(os.environ.get("COLUMNS") or 0) or os.get_terminal_size(sys.stderr.fileno()).columns
-    except (OSError, ValueError):
-        return 0
 
 
 def forget_output() -> None:

@@ -14,9 +14,10 @@ from rich.console import Console
 from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path
+from ..base.messages import say
 from ..base.sheets import Sheet, line
 from .consoles import answers, paragraph, print_json
-from .failures import ANSWERED, BAD_INPUT, say
+from .failures import ANSWERED, BAD_INPUT
 
 
 class Readable(Protocol):

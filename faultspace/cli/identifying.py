@@ -12,6 +12,8 @@ from pathlib import Path
 from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path
+from ..base.messages import say
+from ..base.progress import evenly, working
 from ..numeric.data.files import read_record
 from ..numeric.pipeline import identify
 from ..numeric.report import files as report
@@ -19,8 +21,7 @@ from ..numeric.report.folders import refuse
 from ..numeric.report.summary import summary
 from .argument_names import as_options
 from .consoles import answers, paragraph, print_json
-from .failures import ANSWERED, say
-from .progress import evenly, working
+from .failures import ANSWERED
 from .reading_files import prepare_folder
 
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..base.errors import in_file, quote_path
+from ..base.messages import say
+from ..base.progress import working
 from ..exact.structure.record import analyze
-from .failures import say
 from .file_by_file import FileAnswer, answer_each
-from .progress import working
 from .reading_files import read_system
 
 FLOATS = (

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..base.errors import in_file, quote_path
+from ..base.progress import working
 from ..exact.limits.moesp import limit
 from .file_by_file import FileAnswer, answer_each
-from .progress import working
 from .reading_files import read_experiment
 
 

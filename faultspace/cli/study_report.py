@@ -21,10 +21,10 @@ from rich import box
 from rich.table import Table
 
 from ..base.errors import InvalidInput, quote_path
+from ..base.messages import say
 from ..numeric.study.cases import LIKELIHOOD
 from ..numeric.study.groups import QUANTILES, Group, by_phase, by_zeros
 from ..numeric.study.studies import Study
-from .failures import say
 
 DOCUMENT, CASES, SUMMARY = "studies.json", "cases.csv", "summary.md"
 FORMAT = "faultspace-monte-carlo/1"

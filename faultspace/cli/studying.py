@@ -5,14 +5,14 @@ run        the command's body
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 from ..base.errors import quote_path
+from ..base.messages import say
+from ..base.progress import evenly, working
 from ..numeric.study.studies import STUDIES, monte_carlo
 from .consoles import answers, paragraph, print_json, print_table
-from .failures import ANSWERED, say
-from .progress import Tell, working
+from .failures import ANSWERED
 from .reading_files import prepare_folder
 from .study_report import EXPLANATION, document, remarks, table, write
 
@@ -24,8 +24,8 @@ def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, se
     prepare_folder(out)
     studies = []
     with working("starting") as tell:
-        for name, plan in STUDIES.items():
-            watch = _of_study(tell, name)
+        for plan in STUDIES.values():
+            watch = evenly(tell)
             studies.append(monte_carlo(plan, systems=systems, seed=seed, samples=samples, jobs=jobs, cluster=cluster, on_progress=watch))
     written = write(studies, out)
     if as_json:
@@ -38,7 +38,3 @@ def run(*, systems: int, samples: int, jobs: int | None, cluster: str | None, se
             paragraph(console, line)
     say(f"{', '.join(written)} are in {quote_path(str(out))}")
     return ANSWERED
-
-
-def _of_study(tell: Tell, name: str) -> Callable[[int, int, float], None]:
-    return lambda done, total, left: tell(name, done, total, left)

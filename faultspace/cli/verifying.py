@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..base.errors import InvalidInput, quote_path, shorten
+from ..base.messages import say
+from ..base.progress import working
 from ..proofs.evidence.specimens import specimens
 from ..proofs.rocq import recheck as rocq_recheck
 from ..proofs.rocq.build import BrokenTheory, NoRocq, NotProved
@@ -18,8 +20,7 @@ from ..proofs.verdict.ledger import load
 from ..proofs.verdict.verdicts import Report
 from ..proofs.verification import verify
 from .consoles import answers, paragraph, print_json
-from .failures import ANSWERED, NOT_AS_EXPECTED, say
-from .progress import working
+from .failures import ANSWERED, NOT_AS_EXPECTED
 from .reading_files import prepare_folder, write_json
 from .verdict_page import print_page
 from .verdict_summary import print_lines, print_summary

@@ -21,6 +21,8 @@ from enum import StrEnum
 from math import inf, isnan
 from typing import Any
 
+from ...base.threads import one_thread
+
 Function = Callable[..., Any]
 
 
@@ -143,6 +145,7 @@ class CheckResult(Named):
         return {"check": self.name, **values, "failed": self.failed}
 
 
+@one_thread()
 def perform(check: Check, function: Function) -> CheckResult:
     """Return the result of one check on a guarded function."""
     begun = time.perf_counter()

@@ -15,11 +15,12 @@ from typing import TypeVar
 
 from ...base.errors import InvalidData, shorten
 from ...base.processes import Limits
-from .catalogue import chosen
-from .isolation import Isolated
+from ...base.progress import Progress, silent
+from .checks.catalogue import chosen
 from .outcome import Audit
 from .records import Check, CheckResult, Status, message
-from .subjects import Auditee, Command, InProcess, label, opened
+from .subjects.isolation import Isolated
+from .subjects.opening import Auditee, Command, InProcess, label, opened
 
 Test = TypeVar("Test", bound=Callable[..., object])
 SECONDS, GIBIBYTES = 60.0, 4.0
@@ -50,7 +51,7 @@ def audit(
     expected: Sequence[ExpectedFailure] = (),
     seconds: float = SECONDS,
     gibibytes: float = GIBIBYTES,
-    on_progress: Callable[[str, int, int], None] = lambda name, done, total: None,
+    on_progress: Progress | None = None,
 ) -> Audit:
     """Audit an implementation of subspace identification and fault estimation, of anyone's, by checks with exactly known answers.
 
@@ -84,9 +85,9 @@ def audit(
         raise InvalidData(f"only: got {shorten(only)}, expected a list of names of checks")
     with opened(adapter, command, peer, Limits(seconds, int(gibibytes * 2**30))) as subject:
         todo = _todo(subject, only, expected)
-        results = []
+        heard, results = on_progress or silent, []
         for done, check in enumerate(todo):
-            on_progress(check.name, done, len(todo))
+            heard(check.name, done, len(todo))
             results.append(_expecting(subject.perform(check), expected))
     return Audit(label(adapter, command, peer), tuple(results))
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..data.validation import positive
 from ..model.invariants import system_matrix
 from ..model.models import StateSpaceModel
@@ -30,6 +31,7 @@ SAME_INTEGRAL = 1e-6  # relative change of the information that twice the angles
 COUNT = 20
 
 
+@one_thread()
 def cramer_rao(model: StateSpaceModel, spectra: Spectra, N: int) -> Uncertainty:
     """Compute the least standard deviations of an unbiased estimate of a stable, minimal model from N samples [W53].
 

@@ -41,7 +41,9 @@ draws), and with the level measured by .78 to .94.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy  # its folders are loaded when they are first used
@@ -49,7 +51,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..count.healthy_model import FEW_TAPERS, LEVEL, HealthyReference, Spectra, covering_spectra
+from ..data.plain import plain
+from ..drawing import plot_fault_signal, plot_roots
 
 Complex = NDArray[np.complex128]
 
@@ -58,13 +64,14 @@ TURNED = 0.25
 halves are compared at all, and against the geometric mean, was settled after looking at data (head of the module)."""
 
 
-@dataclass(frozen=True, eq=False)
-class FaultsAgainstHealthy:
+@dataclass(frozen=True, eq=False, repr=False)
+class FaultsAgainstHealthy(Shown):
     """This is how many faults stand out of what the healthy record shows, with the evidence.
 
     `n_v` is the count (None where it is undecided), and `reason` says why. `roots` and `thresholds` of shape (centres, p) belong to the
     `frequencies` (centres,) in cycles a sample, and `counts` (centres,) are the roots above. A fault of less than `visible` times its noise
-    would not be seen, and `kept` is the share of its excess that the last counted root keeps at half the width. Raises nothing itself;
+    would not be seen, and `kept` is the share of its excess that the last counted root keeps at half the width. Look at `n_v` first; where
+    it is 0, at `visible`: smaller faults may be there. Raises nothing itself, but ImportError in `plot()` without matplotlib;
     `fault_dimension_against_healthy`, which makes it, raises InvalidData. Sources: [K64], [RS95].
 
     >>> import numpy as np
@@ -94,14 +101,50 @@ class FaultsAgainstHealthy:
         """Say whether there is an answer."""
         return self.n_v is not None
 
+    @property
+    def title(self) -> str:
+        """Return the answer, on one short line."""
+        answer = f"undecided, at least {self.at_least}" if self.n_v is None else f"{self.n_v}"
+        return f"number of faults beyond the healthy record: {answer}"
 
-@dataclass(frozen=True, eq=False)
-class FaultDirection:
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the reason, what would be seen, and the loudest frequency."""
+        yield "why", self.reason
+        yield "faults seen from", f"{self.visible:.3g} times the noise on"
+        loudest = int(np.argmax(self.roots[:, 0] / self.thresholds[:, 0]))
+        times = self.roots[loudest, 0] / self.thresholds[loudest, 0]
+        yield "loudest frequency", f"{self.frequencies[loudest]:.4g} cycles a sample, {times:.3g} times its threshold"
+        for count in range(int(self.counts.max()), 0, -1):
+            yield f"frequencies with {count} above", f"{int(np.sum(self.counts == count))} of {len(self.counts)}"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of the answer, its reason and everything by frequency."""
+        return {
+            "n_v": self.n_v,
+            "at_least": self.at_least,
+            "reason": self.reason,
+            "visible": plain(self.visible),
+            "kept": plain(self.kept),
+            "frequencies": plain(self.frequencies),
+            "roots": plain(self.roots),
+            "thresholds": plain(self.thresholds),
+            "counts": [int(count) for count in self.counts],
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the largest roots and their thresholds by frequency into the matplotlib axes `ax`, new ones where None are given, and
+        return them. Raises ImportError without matplotlib."""
+        return plot_roots(self.frequencies, self.roots, self.thresholds, self.n_v, ax=ax)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FaultDirection(Shown):
     """This is the direction of one fault and its signal.
 
     `z` = [F; G] (n + p,) has unit norm, and F is empty without A and C. `signal` (N,) is zero before the first whitened sample and is
     shrunk at each frequency by the share that noise explains. `strength` is the mean of |w* x|^2 / (w* w), which is one for noise alone.
-    Raises nothing itself; `fault_direction_against_healthy`, which makes it, raises InvalidData. Source: [RS95] for the tapers.
+    Look at `strength` first: near one there is nothing but noise in the direction. Raises nothing itself, but ImportError in `plot()`
+    without matplotlib; `fault_direction_against_healthy`, which makes it, raises InvalidData. Source: [RS95] for the tapers.
 
     >>> import numpy as np
     >>> from faultspace.numeric import fault_direction_against_healthy, healthy_reference
@@ -116,7 +159,28 @@ class FaultDirection:
     signal: Array
     strength: float
 
+    @property
+    def title(self) -> str:
+        """Return what it is, on one short line."""
+        return f"direction of a fault, {self.strength:.3g} times the power of noise, {counted(len(self.signal), 'sample')}"
 
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the direction and the size of the signal."""
+        yield "z = [F; G]", ", ".join(f"{entry:.4g}" for entry in self.z)
+        yield "root mean square of the signal", f"{float(np.sqrt(np.mean(self.signal**2))):.4g}"
+        yield "largest sample", f"{float(np.max(np.abs(self.signal))):.4g}, number {int(np.argmax(np.abs(self.signal)))}"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of everything but the samples of the signal."""
+        return {"z": plain(self.z), "strength": plain(self.strength), "samples": len(self.signal)}
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the signal into the matplotlib axes `ax`, new ones where None are given, and return them. Raises ImportError without
+        matplotlib."""
+        return plot_fault_signal(self.signal[:, None], ax=ax)
+
+
+@one_thread()
 def fault_dimension_against_healthy(
     r: ArrayLike, healthy: HealthyReference, *, u: ArrayLike | None = None, level: float = LEVEL
 ) -> FaultsAgainstHealthy:
@@ -143,8 +207,8 @@ def fault_dimension_against_healthy(
         counts = np.cumprod(roots > thresholds, axis=1).sum(axis=1)
         found = int(counts.max())
         # The forecast's error is left in here: dividing it out shrinks a strong direction more than what its turn adds.
-        plain = covering_spectra(e, tapers)
-        kept = _kept_at_half_width(healthy, plain, counts == found, found) if 1 < found < healthy.p else None
+        whole = covering_spectra(e, tapers)
+        kept = _kept_at_half_width(healthy, whole, counts == found, found) if 1 < found < healthy.p else None
         needed = _enough_kept(found, tapers)
         if kept is None or kept >= needed:
             break
@@ -183,6 +247,7 @@ def _kept_at_half_width(healthy: HealthyReference, record: Spectra, where: NDArr
     return float(np.median((healthy.roots(half)[:, last] - healthy.chance_roots(half, 0.5)[last]) / excess))
 
 
+@one_thread()
 def fault_direction_against_healthy(
     r: ArrayLike,
     healthy: HealthyReference,

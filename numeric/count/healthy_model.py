@@ -30,7 +30,9 @@ simulated cells of `benchmarks/fault_dimension.py`; FREEDOM, SPENT, FEW_TAPERS a
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -38,8 +40,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..count.largest_root import largest_root_quantile
 from ..count.windows import channel_sizes
+from ..data.plain import plain
 from ..data.validation import signal
 
 Complex = NDArray[np.complex128]
@@ -72,14 +77,15 @@ class Fold:
     inputs: Array
 
 
-@dataclass(frozen=True, eq=False)
-class HealthyReference:
+@dataclass(frozen=True, eq=False, repr=False)
+class HealthyReference(Shown):
     """This is how a residual behaves without a fault; the head of the module explains it.
 
     `scales` (p,) and `input_scales` (n_u,) are the units taken out of r and u. The predictor has `lags` lags and the `coefficients` (q, p),
     q = (p + n_u) lags + n_u; `root` (q, q) satisfies root' root = (X0' X0)^-1, and `samples` were predicted. The complex `covariances`
     (centres, p, p) of `freedom` degrees of freedom belong to `centres` (centres,), in cycles a sample, and `strains` holds frequencies and
-    strains by number of tapers; `folds` are both halves of the healthy record, each with what was learnt on the other. Raises
+    strains by number of tapers; `folds` are both halves of the healthy record, each with what was learnt on the other. Look at the largest
+    strain first, which `summary()` tells: far above 1 the healthy record is not steady, and only louder faults are seen. Raises
     InvalidData, in its methods, for a record that does not fit the healthy one. Sources: [RS95] for the tapers, [C60] for the forecast.
 
     >>> import numpy as np
@@ -103,6 +109,40 @@ class HealthyReference:
     folds: tuple[Fold, ...]
 
     @property
+    def title(self) -> str:
+        """Return what was learnt from, on one short line."""
+        inputs = counted(len(self.input_scales), "input") if len(self.input_scales) else "no inputs"
+        return f"healthy reference from {counted(self.samples, 'sample')}, {counted(self.p, 'channel')}, {inputs}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield what was learnt, and where the healthy record itself is unsteady."""
+        yield "lags of the predictor", str(self.lags)
+        yield "frequencies, degrees of freedom", f"{len(self.centres)}, {self.freedom}"
+        yield "size of the channels", ", ".join(f"{size:.4g}" for size in self.scales)
+        for tapers, (frequencies, strains) in self.strains.items():
+            worst = int(np.argmax(strains))
+            yield f"largest strain, {tapers} tapers", f"{strains[worst]:.3g} at {frequencies[worst]:.4g} cycles a sample"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of everything but the samples of the halves; complex numbers are pairs."""
+        strains = [
+            {"tapers": tapers, "frequencies": plain(frequencies), "strains": plain(values)}
+            for tapers, (frequencies, values) in self.strains.items()
+        ]
+        return {
+            "samples": self.samples,
+            "scales": plain(self.scales),
+            "input_scales": plain(self.input_scales),
+            "lags": self.lags,
+            "coefficients": plain(self.coefficients),
+            "root": plain(self.root),
+            "centres": plain(self.centres),
+            "covariances": plain(self.covariances),
+            "freedom": self.freedom,
+            "strains": strains,
+        }
+
+    @property
     def p(self) -> int:
         """Return the number of channels."""
         return len(self.scales)
@@ -117,6 +157,7 @@ class HealthyReference:
         """Return T, T / 2, T / 4 .. down to at least four, which are the widths at which a record may be looked at."""
         return tuple(self.tapers >> k for k in range(int(np.log2(self.tapers / FEW_TAPERS)) + 1))
 
+    @one_thread()
     def innovations(self, r: ArrayLike, u: ArrayLike | None = None) -> tuple[Array, Array]:
         """Return e (N - lags, p) of a residual r (N, p) with inputs u (N, n_u), and its regressors X root', (N - lags, q).
 
@@ -142,6 +183,7 @@ class HealthyReference:
         past, now = _about_means(*lagged(residual / self.scales, inputs / self.input_scales, self.lags))
         return now - past @ self.coefficients, past @ self.root.T
 
+    @one_thread()
     def spectra(self, r: ArrayLike, u: ArrayLike | None = None, *, tapers: int | None = None) -> Spectra:
         """Return tapered transforms of e, with the error of the forecast divided out; arguments as `innovations`."""
         return self.unchecked_spectra(*self._fitting(r, u), tapers or self.tapers)
@@ -203,6 +245,7 @@ class HealthyReference:
         return np.array([largest_root_quantile(chance, p - j, tapers, self.freedom) for j in range(p)])
 
 
+@one_thread()
 def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: float = LEVEL) -> HealthyReference:
     """Learn from a healthy residual (N, p) and, where given, its inputs u (N, n_u), each channel in any units.
 

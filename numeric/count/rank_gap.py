@@ -38,6 +38,7 @@ from numpy.typing import ArrayLike
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ...base.sheets import Shown
+from ...base.threads import one_thread
 from ..count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
 from ..count.residual_laws import LawLevel, kernel_row_test
 from ..data.plain import plain
@@ -126,6 +127,7 @@ class FaultDimension(Shown):
         return plot_levels(self.levels, self.n_v, ax=ax) if self.levels else plot_window_ranks(self, ax=ax)
 
 
+@one_thread()
 def fault_dimension(r: ArrayLike | Stored, *, block_rows: int | None = None, u: ArrayLike | None = None) -> FaultDimension:
     """Return the number of independent faults in a residual r (N, p), in any units, from its gaps up to s = block_rows.
 

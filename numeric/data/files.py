@@ -36,7 +36,8 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
-from .records import OnProgress, Record, RecordWriter, silent
+from ...base.progress import Progress, silent
+from .records import Record, RecordWriter
 from .text_tables import TextTable
 from .validation import first_not_finite
 
@@ -76,7 +77,7 @@ def split_names(given: str | Sequence[str]) -> list[str]:
 
 
 def read_record(
-    path: str | os.PathLike[str], *, inputs: str | Sequence[str], outputs: str | Sequence[str], on_progress: OnProgress | None = None
+    path: str | os.PathLike[str], *, inputs: str | Sequence[str], outputs: str | Sequence[str], on_progress: Progress | None = None
 ) -> Record:
     """Return the record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 

@@ -1,6 +1,6 @@
 """This is a measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
 
-stored          a SampleStore of an array; silent: progress that nobody hears
+stored          a SampleStore of an array
 in_memory       the samples of a result that keeps them in a store, as an array
 SampleStore     rows (N, k) of floats: in memory while they are few, beyond IN_MEMORY bytes in a temporary file
 Record          inputs and outputs in one store, their names, and what is known of every channel; iterating gives pieces (y, u)
@@ -18,7 +18,7 @@ from __future__ import annotations
 import os
 import tempfile
 import weakref
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
@@ -27,9 +27,13 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput
+from ...base.progress import Progress
+from ...base.progress import silent as silent
+from ...base.sheets import Shown, counted
+from .plain import plain
 from .validation import PIECE
 
-OnProgress = Callable[[str, int, int], None]
+OnProgress = Progress
 
 IN_MEMORY = 1 << 24
 NUMBER = 8  # bytes
@@ -98,10 +102,6 @@ def in_memory(rows: ArrayLike | SampleStore | Stored) -> Any:
     return store.read(0, len(store)) if isinstance(store, SampleStore) else rows
 
 
-def silent(stage: str, done: int, total: int) -> None:
-    """Hears of progress and says nothing."""
-
-
 @dataclass(frozen=True)
 class Channels:
     """This is what is known of every channel, inputs before outputs: least and greatest value, mean and standard deviation, each (k,)."""
@@ -113,7 +113,7 @@ class Channels:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Record:
+class Record(Shown):
     """A Record is a measured record: y (N, p) and u (N, n_u) with the names of their channels, read in pieces and never held as a whole.
 
     `len` is the number of samples, `outputs` and `inputs` are the names, `y` and `u` read all samples, and iterating gives pieces (y, u) in
@@ -140,8 +140,34 @@ class Record:
     def __len__(self) -> int:
         return len(self.store) if self.length is None else self.length
 
-    def __repr__(self) -> str:
-        return f"<Record: {len(self)} samples, inputs {_names(self.inputs)}, outputs {_names(self.outputs)}>"
+    @property
+    def title(self) -> str:
+        """Return what the record is, on one short line."""
+        return f"{counted(len(self), 'sample')}, inputs {_names(self.inputs)}, outputs {_names(self.outputs)}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield one line a channel, inputs before outputs."""
+        yield "read from", self.format
+        yield "", "".join(f"{name:>10}" for name in ("least", "greatest", "mean", "deviation"))
+        known = self.channels
+        for j, name in enumerate(self.names):
+            moved = (part[j] - self.offset[j] for part in (known.least, known.greatest, known.mean))
+            row = (*moved, known.deviation[j])
+            yield f"{'input' if j < self.n_u else 'output'} {name}", "".join(f"{value:>10.3g}" for value in row)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of everything but the samples."""
+        known = self.channels
+        return {
+            "samples": len(self),
+            "inputs": list(self.inputs),
+            "outputs": list(self.outputs),
+            "format": self.format,
+            "least": plain(known.least - self.offset),
+            "greatest": plain(known.greatest - self.offset),
+            "mean": plain(known.mean - self.offset),
+            "deviation": plain(known.deviation),
+        }
 
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
         for rows in self.store.pieces(0, len(self)):

@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.errors import InvalidData, shorten
+from ...base.progress import Progress
 from .files import named_once, read_record, split_names
-from .records import OnProgress, Record, RecordWriter
+from .records import Record, RecordWriter
 from .validation import checked_pieces, two_dimensional
 
 Source = ArrayLike | str | os.PathLike[str] | Record | Iterable[tuple[ArrayLike, ArrayLike]]
@@ -30,7 +31,7 @@ def record_from(
     *,
     inputs: str | Sequence[str] | None = None,
     outputs: str | Sequence[str] | None = None,
-    on_progress: OnProgress | None = None,
+    on_progress: Progress | None = None,
 ) -> Record:
     """Return the Record of whatever holds one: arrays, data frames, a file, pieces or a Record.
 

@@ -27,6 +27,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import counted
 
 SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab", " ": "blanks"}
 PIECE = 1 << 15
@@ -63,6 +64,7 @@ class TextTable:
         if len(lines) == 1 and all(_number(field) is None for separator in SEPARATORS for field in _fields(lines[0], separator)):
             raise InvalidInput("got a line of names and no samples, expected a record of many")
         separator = _separator(lines)
+        _quotes_closed(beginning, separator)
         fields = _fields(lines[0], separator)
         named = any(_number(field) is None for field in fields)
         names = tuple(fields) if named else None
@@ -79,6 +81,7 @@ class TextTable:
             empty = True
             while piece := list(islice(numbered, PIECE)):
                 empty = False
+                _quotes_closed(piece, self.separator)
                 yield self._parsed(piece, columns)
                 on_read(min(stream.buffer.tell(), size), size)
         if empty:
@@ -102,9 +105,9 @@ class TextTable:
         """Parse one line, slowly, so that the complaint names the line and the column."""
         fields = _fields(line, self.separator)
         if len(fields) != self.width:
-            got = f"{len(fields)} field{'' if len(fields) == 1 else 's'}"
             raise InvalidInput(
-                f"line {number} has {got} separated by {self.separator_name}, expected {self.width} as in the first line: "
+                f"line {number} has {counted(len(fields), 'field')} separated by {self.separator_name}, expected {self.width} as in the "
+                "first line: "
                 "mend the line, or write the table with one separator throughout"
             )
         row = []
@@ -179,6 +182,23 @@ def _fields(line: str, separator: str) -> list[str]:
     if separator == " ":
         return line.replace('"', "").split()
     return [field.strip() for field in next(csv.reader([line], delimiter=separator, skipinitialspace=True), [])]
+
+
+def _quotes_closed(numbered: Sequence[tuple[int, str]], separator: str) -> None:
+    """Raise InvalidInput for a line with a field that begins with a quotation mark and does not end with one."""
+    for number, line in numbered:
+        if '"' not in line:
+            continue
+        try:
+            closed = separator != " " or line.count('"') % 2 == 0
+            next(csv.reader([line], delimiter=separator, skipinitialspace=True, strict=separator != " "), [])
+        except csv.Error:
+            closed = False
+        if not closed:
+            raise InvalidInput(
+                f"line {number} has a quotation mark without its partner, expected a field in quotes to end with one on its line: "
+                f"take the mark away, or close it; the line begins with {shorten(line[:40])}"
+            )
 
 
 def _number(field: str) -> float | None:

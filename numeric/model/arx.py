@@ -114,7 +114,7 @@ def polynomial(coefficients: Array, angles: Array) -> ComplexArray:
 
 
 def fitted_arx(windows: ArxWindows, least: int = 0) -> Arx:
-    """Fit the ARX model in channels of unit root mean square whose order, `least` or more, has the least criterion.
+    """Fit the ARX model in channels of unit deviation whose order, `least` or more, has the least criterion.
 
     Raises InvalidData where u does not excite all windows of lags + 1 samples, or the windows are too few.
     """
@@ -130,7 +130,7 @@ def fitted_arx(windows: ArxWindows, least: int = 0) -> Arx:
 
 
 def input_spectrum(windows: ArxWindows, angles: Array) -> ComplexArray:
-    """Return the spectrum (M, n_u, n_u) of u in channels of unit root mean square, by the autoregression of the best order."""
+    """Return the spectrum (M, n_u, n_u) of u in channels of unit deviation, by the autoregression of the best order."""
     lags, n_u = windows.lags, windows.n_u
     chosen = np.concatenate([windows.inputs(lag) for lag in [*range(1, lags + 1), 0]])
     factor = triangular(windows.scaled[:, chosen])
@@ -142,14 +142,18 @@ def input_spectrum(windows: ArxWindows, angles: Array) -> ComplexArray:
 
 
 def check_excitation(windows: ArxWindows) -> None:
-    """Raise InvalidData where the inputs' windows do not have full rank, or squares overflow."""
-    largest = float(np.max(np.abs(windows.factor)))
+    """Raise InvalidData where the inputs' windows, less their means, do not have full rank, or squares overflow."""
+    largest = float(max(np.max(np.abs(windows.factor)), *(np.max(np.abs(mean)) for mean in windows.means)))
     if not largest < HUGE:
         raise InvalidData(f"the signals are so large (about {largest:.1g}) that their squares overflow: choose other units")
     columns = np.concatenate([windows.inputs(lag) for lag in range(windows.lags + 1)])
     inputs = windows.factor[:, columns]
     lengths = np.linalg.norm(inputs, axis=0)
-    seen = 0 if np.any(lengths == 0) else int(np.linalg.matrix_rank(inputs / lengths, tol=len(columns) * EXCITED))
+    # Rounding is relative to the signals as they are, which may stand far from zero.
+    whole = np.sqrt(lengths**2 + windows.windows * np.max([mean[columns] ** 2 for mean in windows.means], axis=0))
+    seen = 0
+    if np.all(lengths > 0):
+        seen = int(np.linalg.matrix_rank(inputs / lengths, tol=len(columns) * EXCITED * float(np.max(whole / lengths, initial=1.0))))
     if seen < len(columns):
         raise InvalidData(
             f"u does not excite enough: its windows of {windows.lags + 1} samples span {seen or 'fewer than all'} of {len(columns)} "

@@ -1,13 +1,17 @@
 """Make one triangular factor of a record's windows: an ARX model, an input spectrum and PI-MOESP need no more, whatever its length.
 
-A window of lags + 1 samples that ends at k is the row [u(k), y(k-1), u(k-1), ..., y(k-lags), u(k-lags), y(k)]. With R upper triangular and
-R.T @ R = the sum of row.T @ row over all windows, the squared residuals of the ARX model of EVERY order h <= lags stand in R: those of y(k)
-on the first n_u + h (p + n_u) columns are what R has in its last p columns from row n_u + h (p + n_u) on. So the length of the record
-enters once. Factors of pieces, and of several experiments, add up: the factor of stacked factors is that of all windows.
+A window of lags + 1 samples that ends at k is the row [u(k), y(k-1), u(k-1), ..., y(k-lags), u(k-lags), y(k)]. Beside it stands a constant
+among the regressors, first of all, so that what is left of the row is its distance from the mean of all windows. With R upper triangular
+and R.T @ R = the sum of row.T @ row over these distances, the squared residuals of the ARX model of EVERY order h <= lags, its constant
+fitted, stand in R: those of y(k) on the first n_u + h (p + n_u) columns are what R has in its last p columns from row n_u + h (p + n_u) on.
+So the length of the record enters once, and an operating point of any size enters nowhere but in `means`. Factors of pieces, and of several
+experiments, add up.
 
-ArxWindows          the factor with its dimensions
+ArxWindows          the factor with its dimensions and means
 arx_windows         of one experiment, given in consecutive pieces
-merge_windows       of several experiments
+joined_windows      of one experiment, out of parts of it that have one constant in common
+merge_windows       of several experiments, each with a constant of its own
+about_zero          the same windows with no constant fitted
 longest_lag         how many lags experiments of given lengths carry
 past_input_compression   the factor of [Uf; Up; Yf] that PI-MOESP asks for, out of the windows
 """
@@ -15,7 +19,7 @@ past_input_compression   the factor of [Uf; Up; Yf] that PI-MOESP asks for, out 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -35,16 +39,32 @@ SHARE = 4
 four left, and its inverse is wrong by a factor of about 4/3 at most."""
 
 
+CONSTANT = 1e-13
+"""A channel whose distances from its mean are below that share of the mean is taken as constant: it has no more than two digits left, which
+are rounding."""
+
+
 @dataclass(frozen=True, eq=False)
 class ArxWindows:
-    """`factor` (k, k), k = (lags + 1) (p + n_u), is that of `rows` windows of `lags` + 1 samples; `samples` counts all experiments."""
+    """`factor` (k, k), k = (lags + 1) (p + n_u), is that of windows of `lags` + 1 samples less their means.
+
+    `windows` is their number and `constants` that of the constants fitted; `samples` counts all experiments, and `means` has the windows'
+    mean (k,) of each.
+    """
 
     factor: Array
     lags: int
     p: int
     n_u: int
-    rows: int
+    windows: int
+    constants: int
     samples: int
+    means: tuple[Array, ...]
+
+    @property
+    def rows(self) -> int:
+        """Return the degrees of freedom that the constants leave: a regression on j columns leaves rows - j."""
+        return self.windows - self.constants
 
     def regressors(self, order: int) -> int:
         """Return how many columns an ARX model of this order regresses on."""
@@ -52,14 +72,14 @@ class ArxWindows:
 
     @cached_property
     def scales(self) -> tuple[Array, Array]:
-        """Return the root mean squares (p,), (n_u,) of outputs and inputs at the windows' ends, 1 for a channel that is zero."""
+        """Return the deviations (p,), (n_u,) of outputs and inputs at the windows' ends, 1 for a channel that is constant."""
         sizes = np.linalg.norm(self.factor, axis=0) / np.sqrt(max(self.rows, 1))
         sizes = np.where(sizes > 0, sizes, 1.0)
         return sizes[-self.p :], sizes[: self.n_u]
 
     @cached_property
     def scaled(self) -> Array:
-        """Return the factor of the record in channels of root mean square one."""
+        """Return the factor of the record in channels of unit deviation."""
         y, u = self.scales
         result: Array = self.factor / np.concatenate([u, np.tile(np.concatenate([y, u]), self.lags), y])
         return result
@@ -104,20 +124,46 @@ def arx_windows(data: Iterable[tuple[Array, Array]], lags: int) -> ArxWindows:
     for y, u in data:
         if running is None:
             p, n_u = y.shape[1], u.shape[1]
-            running = SequentialQR(_rows(p, n_u, lags), n_u + p)
+            running = SequentialQR(_rows(p, n_u, lags), n_u + p + 1)
         elif (y.shape[1], u.shape[1]) != (p, n_u):
             raise InvalidData(
                 f"a piece has {u.shape[1]} inputs and {y.shape[1]} outputs where the first has {n_u} and {p}: all need the same"
             )
-        running.append(np.concatenate([u, y], axis=1))
+        running.append(np.concatenate([u, y, np.ones((len(y), 1))], axis=1))
         samples += len(y)
     if running is None:
         raise InvalidData("no data: the iterable of pieces (y, u) is empty")
-    return ArxWindows(running.factor(), lags, p, n_u, running.columns, samples)
+    whole, windows = running.factor(), running.columns
+    means = whole[0, 1:] / np.sqrt(max(windows, 1))
+    factor = whole[1:, 1:].copy()
+    factor[:, np.abs(factor).max(axis=0) <= CONSTANT * np.abs(whole[:, 1:]).max(axis=0)] = 0.0
+    return ArxWindows(factor, lags, p, n_u, windows, min(windows, 1), samples, (means,))
+
+
+def joined_windows(first: ArxWindows, second: ArxWindows) -> ArxWindows:
+    """Return the windows of one experiment out of two parts of it, which share `lags` samples; one constant is fitted to both.
+
+    The squares about the common mean are those about the two means, and those of the means' distance [CGL83].
+    """
+    one, two = first.windows, second.windows
+    both = max(one + two, 1)
+    (mean,), (other,) = first.means, second.means
+    apart = np.sqrt(one * two / both) * (mean - other)
+    return replace(
+        first,
+        factor=triangular(first.factor, second.factor, apart[None]),
+        windows=one + two,
+        constants=min(one + two, 1),
+        samples=first.lags + one + two,
+        means=((one * mean + two * other) / both,),
+    )
 
 
 def merge_windows(parts: Sequence[ArxWindows]) -> ArxWindows:
-    """Return the windows of all parts together. Raises InvalidData without parts or where lags or channels differ."""
+    """Return the windows of all experiments together, each with a constant of its own: their operating points may differ.
+
+    Raises InvalidData without parts or where lags or channels differ.
+    """
     if not parts:
         raise InvalidData("nothing to merge: give the windows of at least one experiment")
     first = parts[0]
@@ -127,8 +173,21 @@ def merge_windows(parts: Sequence[ArxWindows]) -> ArxWindows:
                 raise InvalidData(f"windows with {name} = {getattr(first, name)} and {getattr(other, name)} cannot be merged")
     if len(parts) == 1:
         return first
-    factor = triangular(*(part.factor for part in parts))
-    return ArxWindows(factor, first.lags, first.p, first.n_u, sum(part.rows for part in parts), sum(part.samples for part in parts))
+    return replace(
+        first,
+        factor=triangular(*(part.factor for part in parts)),
+        windows=sum(part.windows for part in parts),
+        constants=sum(part.constants for part in parts),
+        samples=sum(part.samples for part in parts),
+        means=tuple(mean for part in parts for mean in part.means),
+    )
+
+
+def about_zero(windows: ArxWindows) -> ArxWindows:
+    """Return the windows of one experiment where zero is known to be zero: no constant is fitted, and the means excite."""
+    (mean,) = windows.means
+    factor = triangular(windows.factor, np.sqrt(windows.windows) * mean[None])
+    return replace(windows, factor=factor, constants=0, means=(np.zeros_like(mean),))
 
 
 def past_input_compression(windows: ArxWindows, block_rows: int, past_rows: int) -> Compression:
@@ -145,7 +204,7 @@ def past_input_compression(windows: ArxWindows, block_rows: int, past_rows: int)
 
 
 def _rows(p: int, n_u: int, lags: int) -> NDArray[np.intp]:
-    """Return (lag, channel) of the joint signal [u, y] for each column, where lags count from the window's first sample."""
-    inputs, outputs = range(n_u), range(n_u, n_u + p)
+    """Return (lag, channel) of the joint signal [u, y, 1] for each column, where lags count from the window's first sample."""
+    inputs, outputs, one = range(n_u), range(n_u, n_u + p), n_u + p
     past = [(lags - back, channel) for back in range(1, lags + 1) for part in (outputs, inputs) for channel in part]
-    return np.array([(lags, c) for c in inputs] + past + [(lags, c) for c in outputs], dtype=np.intp)
+    return np.array([(0, one)] + [(lags, c) for c in inputs] + past + [(lags, c) for c in outputs], dtype=np.intp)

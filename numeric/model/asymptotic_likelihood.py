@@ -8,8 +8,14 @@ PI-MOESP uses past inputs as instruments and says nothing about the colour of wh
 errors are 1.3 to 3.6 times the Cramer-Rao bound of a known disturbance spectrum, those that remain here 0.8 to 1.1 times; such estimates
 are efficient for long records [W89]. `python benchmarks/at_the_bound.py` measures it. Nothing is random: equal data give equal models.
 
-What must hold: u and the faults uncorrelated (open loop), a stable model without offsets (subtract means first), u that excites lags + 1
-samples. The colour of u does not matter otherwise.
+What must hold: u and the faults uncorrelated (open loop), a stable model, u that excites lags + 1 samples beside its mean. The colour of u
+does not matter otherwise. Feedback is tested for, and noted (`feedback`): with a delay in the loop the model stays consistent.
+
+Offsets. A constant stands among the regressors unless `offset=False`, one for each experiment. The zero of a sensor, an operating point and
+the mean of a fault all add a constant to the outputs, and a fault may be any signal: that its mean is zero is nothing that data could show.
+The price is p parameters, and that the mean of u tells nothing of the gain any more: a constant excites only where it is known what the
+outputs would be without it. For the same reason a constant fault is part of the offset. Where zero is known to be zero, and no fault has a
+mean, `offset=False` lets the means excite; with a mean of the faults its gain at frequency zero is then wrong.
 
 arx_reduction              from y and u: arrays, or pieces that can be read more than once
 arx_reduction_experiments  from several experiments
@@ -25,10 +31,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
-from ...base.errors import InvalidData
+from ...base.errors import InvalidData, shorten
+from ...base.threads import one_thread
 from ..data.validation import experiment, positive
-from .arx_windows import arx_windows, longest_lag, merge_windows
+from .arx_windows import about_zero, arx_windows, longest_lag, merge_windows
 from .compression import EPS, Pieces
+from .feedback import HEARD, LEVEL, feedback_chance
 from .models import StateSpaceModel
 from .order_choice import order_tried
 from .reduced_model import ReducedModel, reduced
@@ -38,16 +46,23 @@ from .weighted_reduction import spectral_radius
 MOST_FREE = 1 << 16  # samples from which an initial state is fitted at most: they stand in memory
 
 
+@one_thread()
 def arx_reduction(
-    y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLike | None = None, *, order: int | None = None, lags: int | None = None
+    y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
+    u: ArrayLike | None = None,
+    *,
+    order: int | None = None,
+    lags: int | None = None,
+    offset: bool = True,
 ) -> ReducedModel:
     """Estimate the stable model of order n from one experiment with coloured faults, by ARX and weighted reduction [W89].
 
     y (N, p) and u (N, n_u) are arrays in any units, and are not modified; without u, y gives the consecutive pieces (y, u) of the
-    experiment anew at each `iter`, as a list or a record does. Means are not taken off. `order` is n >= 0; where it is not given, orders
-    are tried, `orders` of the result has the evidence for each, and the model is that of the best. `lags` bounds the order of the ARX
-    model, about 1.6 N^(1/3) where it is not given. Raises InvalidData where the data cannot give a model: too few samples, an input that
-    does not excite lags + 1 samples, an unstable plant, NaN.
+    experiment anew at each `iter`, as a list or a record does. `order` is n >= 0; where it is not given, orders are tried, `orders` of the
+    result has the evidence for each, and the model is that of the best. `lags` bounds the order of the ARX model, about 1.6 N^(1/3) where
+    it is not given. A constant of any size in y and u changes `offsets` of the result and nothing else; with offset=False none is
+    fitted, which is right where neither sensors nor faults have a mean of their own. Raises InvalidData where the data cannot give a
+    model: too few samples, an input that does not excite lags + 1 samples (beside a constant, where one is fitted), an unstable plant, NaN.
 
     >>> import numpy as np
     >>> from faultspace.numeric import arx_reduction
@@ -58,14 +73,20 @@ def arx_reduction(
     >>> found = arx_reduction(y, u, order=1)
     >>> found.model.A.round(6).tolist(), found.model.markov(4).ravel()[1:].round(6).tolist()
     ([[0.5]], [1.0, 0.5, 0.25])
+    >>> again = arx_reduction(y + 70, u, order=1)
+    >>> again.model.A.round(6).tolist(), again.offset.round(6).tolist()
+    ([[0.5]], [70.0])
     """
-    return _from_experiments([experiment(y, u)], order, lags)
+    return _from_experiments([experiment(y, u)], order, lags, offset)
 
 
+@one_thread()
 def arx_reduction_experiments(
-    experiments: Sequence[tuple[ArrayLike, ArrayLike]], *, order: int | None = None, lags: int | None = None
+    experiments: Sequence[tuple[ArrayLike, ArrayLike]], *, order: int | None = None, lags: int | None = None, offset: bool = True
 ) -> ReducedModel:
-    """Estimate one model from several experiments (y, u) with the same channels and units, each with an own initial state and length [W89].
+    """Estimate one model from several experiments (y, u) with the same channels and units [W89].
+
+    Each has a length, an initial state and an offset of its own: their operating points may differ.
 
     `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u); the other arguments and the result are those of
     `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
@@ -79,37 +100,35 @@ def arx_reduction_experiments(
     """
     if len(experiments) == 0:
         raise InvalidData("no experiment: give at least one pair (y, u)")
-    return _from_experiments([experiment(y, u) for y, u in experiments], order, lags)
+    return _from_experiments([experiment(y, u) for y, u in experiments], order, lags, offset)
 
 
-def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | None) -> ReducedModel:
+def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | None, offset: bool) -> ReducedModel:
     n = order if order is None or (order == 0 and not isinstance(order, bool)) else positive(order, "order")
+    if not isinstance(offset, bool | np.bool_):
+        raise InvalidData(f"offset: got {shorten(offset)}; True or False is needed")
     lengths, carried = lengths_and_lags(sources, n or 0, lags)
     if n is None:
-        evidence, found = order_tried(sources, lengths, carried)
+        evidence, found = order_tried(sources, lengths, carried, bool(offset))
         notes = found.notes
         if not evidence.decided:
             notes += (f"the data leave orders {evidence.least} to {evidence.most} open; the model has {evidence.best}",)
         found = replace(found, orders=evidence, notes=notes)
     else:
-        found = reduced(merge_windows([arx_windows(source, carried) for source in sources]), n)
-    notes = found.notes + _offsets(sources)
-    return replace(found, initial_states=tuple(_initial_state(source, found.model) for source in sources), notes=notes)
+        parts = [arx_windows(source, carried) for source in sources]
+        found = reduced(merge_windows(parts if offset else [about_zero(part) for part in parts]), n)
+    states = (_initial_state(source, found.model, mean) for source, mean in zip(sources, found.offsets, strict=True))
+    return replace(found, initial_states=tuple(states), notes=found.notes + _feedback(sources, found, carried))
 
 
-def _offsets(sources: Sequence[Pieces]) -> tuple[str, ...]:
-    """Say which outputs are an offset for the most part: their mean has more power than what varies, and the model does not fit it."""
-    samples, first, second = 0, np.zeros(1), np.zeros(1)
-    for source in sources:
-        for y, _ in source:
-            samples, first, second = samples + len(y), first + y.sum(axis=0), second + (y * y).sum(axis=0)
-    mean = first / samples
-    large = np.flatnonzero(2 * mean**2 > second / samples)
-    if not large.size:
+def _feedback(sources: Sequence[Pieces], found: ReducedModel, lags: int) -> tuple[str, ...]:
+    """Say where the input follows earlier outputs."""
+    chance = feedback_chance([_beginning(source, HEARD) for source in sources], found.arx, lags)
+    if chance >= LEVEL:
         return ()
-    names = ", ".join(str(channel) for channel in large)
     return (
-        f"outputs {names} (from 0) have a mean larger than their deviation, which the model does not fit: subtract the means of y and u",
+        f"u follows what disturbed y before (a chance of {chance:.2g} in open loop): in a closed loop the standard errors are too small, "
+        "and D is wrong where the loop has no delay",
     )
 
 
@@ -130,15 +149,21 @@ def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tup
     return lengths, carried
 
 
-def _initial_state(source: Pieces, model: StateSpaceModel) -> Array:
+def _initial_state(source: Pieces, model: StateSpaceModel, offset: Array) -> Array:
     """Estimate the initial state by least squares over the samples in which it can be seen."""
     radius = min(spectral_radius(model.A), 1.0)
     left = MOST_FREE if radius == 1 else model.n + (int(min(np.log(EPS) / np.log(radius), MOST_FREE)) if radius > 0 else 0) + 1
+    y, u = _beginning(source, left)
+    return residual(y - offset, u, model).x0
+
+
+def _beginning(source: Pieces, samples: int) -> tuple[Array, Array]:
+    """Return the first samples of an experiment, so many at most."""
     pieces: list[tuple[Array, Array]] = []
     for y, u in source:
-        pieces.append((y[:left], u[:left]))
-        left -= len(y)
-        if left <= 0:
+        pieces.append((y[:samples], u[:samples]))
+        samples -= len(y)
+        if samples <= 0:
             break
     y, u = (np.concatenate(parts) for parts in zip(*pieces, strict=True))
-    return residual(y, u, model).x0
+    return y, u

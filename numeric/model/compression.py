@@ -29,6 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..data.validation import checked_pieces, enough_samples, pieces, positive, two_dimensional
 from ..model.displacement_gram import DisplacementGram, factor_from_gram
 from ..model.sequential_qr import SequentialQR, triangular
@@ -184,6 +185,7 @@ def _by_route(again: Callable[[], Pieces] | None, once: Pieces | None, past_rows
     return by_gram if by_gram is not None and by_gram.rounding <= HARMLESS else _by_qr(again(), past_rows, block_rows)
 
 
+@one_thread()
 def compress(
     y: ArrayLike, u: ArrayLike, *, block_rows: int, past_rows: int | None = None, route: str | None = None, chunk: int = 1 << 14
 ) -> Compression:
@@ -200,6 +202,7 @@ def compress(
     return _by_route(lambda: pieces(outputs, inputs, size), None, past, future, route)
 
 
+@one_thread()
 def compress_chunks(
     chunks: Iterable[tuple[ArrayLike, ArrayLike]], *, block_rows: int, past_rows: int | None = None, route: str | None = None
 ) -> Compression:
@@ -220,6 +223,7 @@ def windows(block_rows: int, past_rows: int | None) -> tuple[int, int]:
     return future, future if past_rows is None else positive(past_rows, "past_rows")
 
 
+@one_thread()
 def merge(*compressions: Compression) -> Compression:
     """Return the compression of all windows of the given ones: of several experiments, or of parts of one.
 

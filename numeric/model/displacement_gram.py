@@ -4,8 +4,10 @@ With H[(l, c), j] = w(j + l)[c], j = 0..N'-1, the blocks of G = H H^T are G[i, j
 
     G[i+1, j+1] = G[i, j] + w(N'+i) w(N'+j)^T - w(i) w(j)^T.
 
-Only the correlations G[0, d] cost time. They are summed by matrix products without a shifted copy: samples stand in groups of b, a group
-times a later group gives every product of samples up to their distance, and the diagonals of those products are the correlations.
+Only the correlations G[0, d] cost time. They are summed block by block, by the fast Fourier transform of n samples at a time: it gives the
+circular correlations of a block, and what they join wrongly, the end of a block to its own beginning in place of what follows it, is
+mended by products of these few samples. All channels are transformed apart, so that units do not mix; the rounding is that of the sums
+themselves, some eps times the root mean squares of both channels.
 
 DisplacementGram    takes a signal in pieces, gives G
 factor_from_gram    the triangular factor of [inputs; outputs] with the input block alone factored, and what may be lost by it
@@ -14,12 +16,14 @@ factor_from_gram    the triangular factor of [inputs; outputs] with the input bl
 from typing import NamedTuple
 
 import numpy as np
+from scipy.fft import irfft, rfft
 from scipy.linalg import LinAlgError, cholesky, eigh, solve_triangular
 
 from ...base.arrays import Array
 from ..model.sequential_qr import triangular
 
-GROUP_WIDTH = 64  # entries of a group of samples, about: wide enough for fast products, short enough for few wasted lags
+BLOCK, LAGS_IN_BLOCK = 128, 8  # samples of a block at least, and in lags: few of them need mending
+ENTRIES = 1 << 17  # entries of the samples transformed at once: they stay in the cache
 
 
 class DisplacementGram:
@@ -31,12 +35,10 @@ class DisplacementGram:
 
     def __init__(self, channels: int, lags: int) -> None:
         self._channels, self._lags = channels, lags
-        # A group is paired with itself and `later` groups, b later >= lags - 1: at least two, since one would waste half the products.
-        later = max(1, min(lags - 1, max(2, -(-(lags - 1) * channels // GROUP_WIDTH))))
-        self._group = max(1, -(-(lags - 1) // later))
-        self._reach = 1 + later
-        width = self._group * channels
-        self._products = np.zeros((self._reach, width, width))
+        self._block = 1 << (max(BLOCK, LAGS_IN_BLOCK * lags) - 1).bit_length()
+        # Products of the real and imaginary parts of the channels at each frequency, and of the ends of blocks with what they lack.
+        self._spectra = np.zeros((self._block // 2 + 1, 2 * channels, 2 * channels))
+        self._edges = np.zeros(((lags - 1) * channels,) * 2)
         self._kept = np.empty((0, channels))
         self._head = np.empty((0, channels))
         self.samples = 0
@@ -48,31 +50,39 @@ class DisplacementGram:
 
     def append(self, piece: Array) -> None:
         """Take the next samples (T, channels)."""
+        at_once = max(4 * self._block, ENTRIES // self._channels)
+        for first in range(0, len(piece), at_once):
+            self._take(piece[first : first + at_once])
+
+    def _take(self, piece: Array) -> None:
         self.samples += len(piece)
         if len(self._head) < self._lags:
             self._head = np.concatenate([self._head, piece[: self._lags - len(self._head)]])
         joint = np.concatenate([self._kept, piece])
-        groups = len(joint) // self._group
-        first_groups = groups - self._reach + 1
-        if first_groups < 1:
+        count, reach = (len(joint) - self._lags + 1) // self._block, self._lags - 1
+        if count < 1:
             self._kept = joint
             return
-        grouped = joint[: groups * self._group].reshape(groups, -1)
-        for distance in range(self._reach):
-            self._products[distance] += grouped[:first_groups].T @ grouped[distance : distance + first_groups]
-        self._kept = joint[first_groups * self._group :].copy()
+        whole = count * self._block
+        blocks = joint[:whole].reshape(count, self._block, self._channels)
+        parts = rfft(blocks, axis=1).view(np.float64).transpose(1, 0, 2)
+        self._spectra += parts.transpose(0, 2, 1) @ parts
+        following = np.concatenate([blocks[1:, :reach], joint[np.newaxis, whole : whole + reach]])
+        lacking = (following - blocks[:, :reach]).reshape(count, -1)
+        self._edges += blocks[:, self._block - reach :].reshape(count, -1).T @ lacking
+        self._kept = joint[whole:].copy()
 
     def _first_row(self) -> Array:
         """Return G[0, d], d = 0..lags-1, as an array (lags, channels, channels)."""
-        lags, group, channels = self._lags, self._group, self._channels
-        blocks = self._products.reshape(self._reach, group, channels, group, channels)
-        row = np.zeros((lags, channels, channels))
-        rest = len(self._kept) - lags + 1
+        lags, reach = self._lags, self._lags - 1
+        real, imaginary = self._spectra[:, 0::2], self._spectra[:, 1::2]
+        crossed = real[:, :, 0::2] + imaginary[:, :, 1::2] + 1j * (real[:, :, 1::2] - imaginary[:, :, 0::2])
+        row: Array = irfft(crossed, self._block, axis=0)[:lags]
+        edges = self._edges.reshape(reach, self._channels, reach, self._channels)
+        rest = len(self._kept) - reach
         for lag in range(lags):
-            for position in range(group):
-                ahead, other = divmod(position + lag, group)
-                row[lag] += blocks[ahead, position, :, other, :]
-            # What the last groups could not pair yet.
+            row[lag] += np.einsum("kakb->ab", edges[reach - lag :, :, :lag])
+            # What no block holds yet.
             row[lag] += self._kept[:rest].T @ self._kept[lag : lag + rest]
         return row
 

@@ -13,7 +13,7 @@ by_output_error         from experiments, each an iterable of pieces (y, u)
 growth                  how much A amplifies over N samples
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,22 +23,24 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..model.compression import Compression
 from ..model.models import observability_matrix
+from ..model.recursion import Recursion, power_basis
 from ..model.sequential_qr import append_rows
 
-ENTRIES = 1 << 18  # entries of the matrices built at once
-CONDENSED = 512  # length up to which block vectors are gathered before they are mapped
+ENTRIES = 1 << 17  # entries of the matrices built at once
+BLOCK, LONGEST_BLOCK = 8, 32  # samples of a block
 Pieces = Iterable[tuple[Array, Array]]
 
 
 @dataclass(frozen=True, eq=False)
 class InputMatrices:
-    """These are B (n, n_u), D (p, n_u), one initial state (n,) an experiment where the data were read, and the condition of the scaled
-    regression."""
+    """These are B (n, n_u), D (p, n_u), one initial state (n,) an experiment where the data were read, the condition of the scaled
+    regression, and where the data were read the sum `squares` (p, p) of r(k) r(k)^T over all samples, r being what the model leaves."""
 
     B: Array
     D: Array
     initial_states: tuple[Array, ...]
     condition: float
+    squares: Array | None = None
 
 
 def _least_squares(matrix: Array, right: Array) -> tuple[Array, float]:
@@ -81,19 +83,22 @@ def growth(A: Array, samples: int) -> float:
 class _Regression:
     """The object takes the rows (y(k); x0, B, D) of one experiment piece by piece into a triangular factor with the columns [x0, B, D, y].
 
-    B's columns are the responses of x(k+1) = A x(k) + e_i u_j(k) for each i and j. All rows of a block of samples are one linear map of a
-    short vector: the states of those responses at the block's start, and its inputs and outputs. Where that vector is short enough
-    (CONDENSED), the factor of the vectors is gathered first and mapped once at the end, which costs far less than mapping every block.
+    B's columns are the responses of X(k+1) = A X(k) + I u_j(k), whose states are polynomials in A and told by a few coordinates. All rows
+    of a block of samples are one linear map of a short vector: these coordinates at the block's start, and its inputs and outputs. The
+    factor of the vectors is gathered, and mapped once at the end.
     """
 
     def __init__(self, A: Array, C: Array, n_u: int) -> None:
         (self.p, self.n), self.n_u = C.shape, n_u
         n, p = self.n, self.p
         self.width = n + n_u * n + n_u * p + 1
-        self.block = max(4, min(32, int((ENTRIES / max(1, p * n)) ** 0.5)))
-        self._length = (1 + n_u) * n * n + self.block * (n_u + p)
-        self._condenses = self._length <= CONDENSED
-        self._mapped_at_once = max(1, ENTRIES // (self.block * p * self.width))
+        basis = power_basis(A)
+        self._basis = basis.matrices.reshape(-1, n * n)
+        d = len(self._basis)
+        self._held = (1 + n_u) * d
+        # About as many samples as coordinates make the factor of the vectors cheapest.
+        self.block = min(LONGEST_BLOCK, max(BLOCK, self._held // (n_u + p)))
+        self._length = self._held + self.block * (n_u + p)
         powers = observability_matrix(A, np.eye(n), self.block).reshape(self.block, n, n)
         self._free = (C @ powers).reshape(self.block * p, n)
         # forced[l, t] = C A^(t-1-l) for t > l: what input sample l of a block does to output sample t of it.
@@ -101,76 +106,82 @@ class _Regression:
         for sample in range(self.block - 1):
             forced[sample, sample + 1 :] = (C @ powers)[: self.block - 1 - sample]
         self._forced = forced.reshape(self.block, self.block * p * n)
-        self._reach = powers[::-1].reshape(self.block, n * n)
-        self._step = powers[-1] @ A
-        # States of the responses at the next block: the first to x0, then one matrix an input.
-        self._states = np.zeros((1 + n_u, n, n))
-        self._states[0] = np.eye(n)
-        self._vectors_factor = np.zeros((self._length,) * 2 if self._condenses else (0, 0), order="F")
-        self._factor = np.zeros((self.width, self.width), order="F")
+        steps = observability_matrix(basis.H, np.eye(d), self.block).reshape(self.block, d, d)
+        self._reach = (steps @ basis.identity)[::-1]
+        self._recursion = Recursion(steps[-1] @ basis.H)
+        # Coordinates of the responses at the next block: the first to x0, then one row an input.
+        self._states = np.zeros((1 + n_u, d))
+        self._states[0] = basis.identity
+        self._vectors_factor = np.zeros((self._length,) * 2, order="F")
+        self._last = np.empty((0, p, self.width))
 
     def take(self, y: Array, u: Array) -> None:
         """Take the next samples: whole blocks, but for the end of the experiment."""
-        whole = len(y) // self.block
-        at_once = max(1, ENTRIES // (2 * self._length)) if self._condenses else self._mapped_at_once
+        joint = np.concatenate([u, y], axis=1)
+        whole, at_once = len(joint) // self.block, max(self._length, ENTRIES // self._length)
         for first in range(0, whole, at_once):
-            part = slice(first * self.block, min(first + at_once, whole) * self.block)
-            vectors = self._vectors(y[part], u[part])
-            if self._condenses:
-                self._vectors_factor = append_rows(self._vectors_factor, vectors)
-            else:
-                self._map(vectors, part.stop - part.start)
-        rest = len(y) - whole * self.block
+            part = joint[first * self.block : min(first + at_once, whole) * self.block]
+            self._vectors_factor = append_rows(self._vectors_factor, self._vectors(part))
+        rest = len(joint) - whole * self.block
         if rest:
             # Zeros fill the block up, and their rows are cut off.
-            filled = [np.concatenate([part[-rest:], np.zeros((self.block - rest, part.shape[1]))]) for part in (y, u)]
-            self._map(self._vectors(filled[0], filled[1]), rest)
+            filled = np.zeros((self.block, joint.shape[1]))
+            filled[:rest] = joint[-rest:]
+            self._last = self._rows(self._vectors(filled))[:rest]
+
+    def rows(self) -> Iterator[Array]:
+        """Yield arrays (any, p, width) whose rows have the triangular factor of all rows taken, in total and for each pair of outputs."""
+        vectors = np.triu(self._vectors_factor)
+        at_once = max(1, ENTRIES // (self.block * self.p * self.width))
+        for first in range(0, len(vectors), at_once):
+            yield self._rows(vectors[first : first + at_once])
+        yield self._last
 
     def factor(self) -> Array:
-        """Return the triangular factor of all rows taken; nothing can be taken afterwards."""
-        if self._condenses:
-            vectors = np.triu(self._vectors_factor)
-            for first in range(0, len(vectors), self._mapped_at_once):
-                part = vectors[first : first + self._mapped_at_once]
-                self._map(part, len(part) * self.block)
-        return np.triu(self._factor)
+        """Return the triangular factor (width, width) of all rows taken."""
+        factor = np.zeros((self.width, self.width), order="F")
+        for rows in self.rows():
+            factor = append_rows(factor, np.array(rows.reshape(-1, self.width), order="F"))
+        return np.triu(factor)
 
-    def _vectors(self, y: Array, u: Array) -> Array:
-        """Return one row a block: states (x0's, then each input's), inputs, outputs, each channel's samples together."""
-        count, n = len(y) // self.block, self.n
-        states = np.empty((1 + self.n_u, count, n, n))
-        pushes = np.zeros((1 + self.n_u, count, n, n))
-        channels = np.concatenate([u, y], axis=1).T.reshape(-1, count, self.block)
-        pushes[1:] = (channels[: self.n_u] @ self._reach).reshape(self.n_u, count, n, n)
-        state = self._states
-        for k in range(count):
-            states[:, k] = state
-            state = self._step @ state + pushes[:, k]
-        self._states = state
+    def squares(self, solution: Array) -> Array:
+        """Return the sum (p, p) of r(k) r(k)^T over all samples taken, r being what [x0, B, D] leaves of y."""
+        total = np.zeros((self.p, self.p))
+        for rows in self.rows():
+            r = rows[:, :, -1] - rows[:, :, :-1] @ solution
+            total += r.T @ r
+        return total
+
+    def _vectors(self, joint: Array) -> Array:
+        """Return one row a block: coordinates (x0's, then each input's), then the samples [u, y]."""
+        count = len(joint) // self.block
+        samples = joint.reshape(count, self.block, -1)
+        pushes = np.zeros((count, *self._states.shape))
+        pushes[:, 1:] = samples[:, :, : self.n_u].swapaxes(1, 2) @ self._reach
+        states = self._recursion.states(pushes, self._states)
+        self._states = states[-1]
         vectors = np.empty((count, self._length), order="F")
-        held = (1 + self.n_u) * n * n
-        vectors[:, :held] = states.reshape(1 + self.n_u, count, n * n).transpose(1, 0, 2).reshape(count, held)
-        vectors[:, held:] = channels.transpose(1, 0, 2).reshape(count, -1)
+        vectors[:, : self._held] = states[:-1].reshape(count, self._held)
+        vectors[:, self._held :] = samples.reshape(count, -1)
         return vectors
 
-    def _map(self, vectors: Array, samples: int) -> None:
-        """Append the rows that belong to block vectors (count, length), the first `samples` of them."""
+    def _rows(self, vectors: Array) -> Array:
+        """Return the rows (samples, p, width) that belong to block vectors (count, length)."""
         n, p, count = self.n, self.p, len(vectors)
-        held = (1 + self.n_u) * n * n
-        channels = vectors[:, held:].reshape(count, self.n_u + p, self.block)
-        rows = np.zeros((samples, p, self.width), order="F")
+        states = (vectors[:, : self._held].reshape(count, 1 + self.n_u, -1) @ self._basis).reshape(count, 1 + self.n_u, n, n)
+        samples = vectors[:, self._held :].reshape(count, self.block, -1)
+        rows = np.zeros((count * self.block, p, self.width))
         for number in range(1 + self.n_u):
-            states = vectors[:, number * n * n : (number + 1) * n * n].reshape(count, n, n)
-            response = (self._free @ states).reshape(count * self.block, p, n)
+            response = (self._free @ states[:, number]).reshape(count * self.block, p, n)
             if number:
-                response += (channels[:, number - 1] @ self._forced).reshape(count * self.block, p, n)
-            rows[:, :, number * n : (number + 1) * n] = response[:samples]
+                response += (samples[:, :, number - 1] @ self._forced).reshape(count * self.block, p, n)
+            rows[:, :, number * n : (number + 1) * n] = response
         start = n + self.n_u * n
-        series = channels.transpose(0, 2, 1).reshape(count * self.block, -1)[:samples]
+        series = samples.reshape(count * self.block, -1)
         for output in range(p):
             rows[:, output, start + output * self.n_u : start + (output + 1) * self.n_u] = series[:, : self.n_u]
         rows[:, :, -1] = series[:, self.n_u :]
-        self._factor = append_rows(self._factor, rows.reshape(samples * p, self.width, order="F"))
+        return rows
 
 
 def _full_batches(data: Pieces, size: int) -> Pieces:
@@ -197,7 +208,7 @@ def by_output_error(experiments: Sequence[Pieces], A: Array, C: Array, n_u: int)
     An experiment is an iterable of pieces y (T, p), u (T, n_u) of float64. InvalidData where the powers of A overflow.
     """
     n, p = len(A), len(C)
-    factors = []
+    regressions, factors = [], []
     for data in experiments:
         regression = _Regression(A, C, n_u)
         with np.errstate(over="ignore", invalid="ignore"):
@@ -206,14 +217,16 @@ def by_output_error(experiments: Sequence[Pieces], A: Array, C: Array, n_u: int)
             factor = regression.factor()
         if not np.all(np.isfinite(factor)):
             raise InvalidData("the model is so unstable that its simulation overflows: take B and D by MOESP's regression (by_moesp)")
+        regressions.append(regression)
         factors.append(factor)
     # Rows below an experiment's x0 are what it tells of B and D alone.
     shared = np.concatenate([factor[n:, n:] for factor in factors])
     solution, condition = _least_squares(shared[:, :-1], shared[:, -1])
-    states = []
-    for factor in factors:
+    states, squares = [], np.zeros((p, p))
+    for regression, factor in zip(regressions, factors, strict=True):
         start, own = _least_squares(factor[:n, :n], factor[:n, -1] - factor[:n, n:-1] @ solution)
         states.append(start)
+        squares += regression.squares(np.concatenate([start, solution]))
         condition = max(condition, own) if n else condition
-    B = solution[: n_u * n].reshape(n_u, n).T
-    return InputMatrices(np.ascontiguousarray(B), solution[n_u * n :].reshape(p, n_u).copy(), tuple(states), condition)
+    B = np.ascontiguousarray(solution[: n_u * n].reshape(n_u, n).T)
+    return InputMatrices(B, solution[n_u * n :].reshape(p, n_u).copy(), tuple(states), condition, squares)

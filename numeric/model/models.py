@@ -7,7 +7,7 @@ observability_matrix    O_s, the rows C, CA, ..., CA^(s-1)
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import accumulate, repeat
@@ -18,11 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..data.validation import signal
+from ..drawing import plot_zeros_and_poles
 
 FORMAT = "faultspace-model/1"
 BLOCK = 64  # samples simulated by one matrix product
 PIECE = 1 << 14  # samples simulated before the next are read
+WIDEST = 4  # columns of a matrix that a line of the sheet has room for
 
 
 def observability_matrix(A: Array, C: Array, rows: int) -> Array:
@@ -43,13 +47,15 @@ def _matrix(values: ArrayLike, name: str) -> Array:
     return matrix
 
 
-@dataclass(frozen=True, eq=False, init=False)
-class StateSpaceModel:
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class StateSpaceModel(Shown):
     """This is a linear model in floats: x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k).
 
     A (n, n), B (n, n_u), C (p, n) and D (p, n_u) are anything that numpy reads as a matrix, in the units of the data, and are copied to
-    read-only float64. n may be 0: the arrays then have the shapes (0, 0), (0, n_u), (p, 0) and (p, n_u). Raises InvalidData where shapes do
-    not fit or entries are not finite.
+    read-only float64. n may be 0: the arrays then have the shapes (0, 0), (0, n_u), (p, 0) and (p, n_u). Look at `poles` and `is_stable`
+    first: they, `markov` and the gain do not depend on the basis of the state, which another estimate may choose otherwise; the entries of
+    the matrices do. Raises InvalidData where shapes do not fit or entries are not finite, and ImportError in `plot()` and `to_control()`
+    where the package that they need is not installed.
 
     >>> from faultspace.numeric import StateSpaceModel
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
@@ -99,6 +105,28 @@ class StateSpaceModel:
         """Say whether every pole lies strictly inside the unit circle."""
         return bool(np.all(np.abs(self.poles) < 1))
 
+    @property
+    def title(self) -> str:
+        """Return what the model is, on one short line."""
+        stability = "stable" if self.is_stable else "NOT stable"
+        return f"state-space model of order {self.n}, {counted(self.n_u, 'input')}, {counted(self.p, 'output')}, {stability}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the poles and the matrices by rows; of a matrix too wide for a line its shape alone."""
+        yield "poles", ", ".join(f"{pole:.4g}" if pole.imag else f"{pole.real:.4g}" for pole in self.poles) or "none"
+        yield "moduli of the poles", ", ".join(f"{abs(pole):.4g}" for pole in self.poles) or "none"
+        for name in "ABCD":
+            matrix = getattr(self, name)
+            if not matrix.size or matrix.shape[1] > WIDEST:
+                yield f"{name}", f"{matrix.shape[0]} x {matrix.shape[1]}"
+                continue
+            yield from ((name if not i else "", "".join(f"{entry:>10.3g}" for entry in row)) for i, row in enumerate(matrix))
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the poles and the unit circle into the matplotlib axes `ax`, new ones where None are given, and return them. Raises
+        ImportError without matplotlib."""
+        return plot_zeros_and_poles(self.poles, ax=ax)
+
     def markov(self, count: int) -> Array:
         """Return D, CB, CAB, ..., as an array (count, p, n_u), count >= 0."""
         values = np.empty((max(count, 0), self.p, self.n_u))
@@ -108,6 +136,7 @@ class StateSpaceModel:
             state = self.A @ state if k > 0 else state
         return values
 
+    @one_thread()
     def simulate(self, u: ArrayLike, x0: ArrayLike | None = None) -> Array:
         """Return y (N, p) from u (N, n_u) and the state x0 (n,) at the first sample, zero unless given. An unstable model may overflow to
         inf."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..data.plain import plain
 from ..drawing import plot_singular_values
 from .models import StateSpaceModel
@@ -68,7 +68,7 @@ class MoespModel(Shown):
     >>> from faultspace.numeric import StateSpaceModel, pi_moesp
     >>> u = np.random.default_rng(1).standard_normal((400, 1))
     >>> pi_moesp(StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]).simulate(u), u, block_rows=5)
-    <MoespModel: model of order 1, 1 inputs, 1 outputs, stable>
+    <MoespModel: model of order 1, 1 input, 1 output, stable>
     """
 
     model: StateSpaceModel
@@ -118,7 +118,7 @@ class MoespModel(Shown):
     def title(self) -> str:
         """Return what the model is, on one short line."""
         stability = "stable" if self.model.is_stable else "NOT stable"
-        return f"model of order {self.order}, {self.model.n_u} inputs, {self.model.p} outputs, {stability}"
+        return f"model of order {self.order}, {counted(self.model.n_u, 'input')}, {counted(self.model.p, 'output')}, {stability}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield what there is to say of it, as pairs of a name and a value."""

@@ -1,8 +1,8 @@
-"""Orders 0, 1, 2, .. tried on one record, with the evidence for each.
+"""Try orders 0, 1, 2, .. on one record, with the evidence for each.
 
 The first part of every experiment makes models that are then tried on the part held back; the windows of both parts together, which share
-`lags` samples at the cut, are those of the whole record, on which the criteria are computed. Orders are tried until PATIENCE in a row have
-not bettered the second of them: a lightly damped resonance takes two states, two of them four.
+`lags` samples at the cut, are those of the whole record, on which the choice rests. Orders are tried until some in a row have not bettered
+the criterion by which one is chosen; the models of the first part start from those of the whole.
 
 order_tried     the evidence, and the model of the best order
 """
@@ -16,52 +16,48 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.errors import InvalidData
 from .arx import Arx, fitted_arx
-from .arx_windows import ArxWindows, arx_windows, merge_windows
+from .arx_windows import ArxWindows, about_zero, arx_windows, joined_windows, merge_windows
 from .compression import Pieces
 from .order_evidence import OrderEvidence, OrderRow, weighed
-from .reduced_model import ReducedModel, reduced, reduced_from
+from .reduced_model import ReducedModel, described, judged, reduction_problems, weight_inflation
+from .reduction_search import LAST, Found, minima
 from .reduction_starts import hankel_factors
 from .residuals import residual
+from .weighted_reduction import descend
 
 KEPT_BACK = 3  # one part in so many is held back
 MOST_HELD = 1 << 15  # samples of an experiment that are held back at most: they stand in memory
-PATIENCE = 4
 
 
-def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int) -> tuple[OrderEvidence, ReducedModel]:
-    """The evidence over orders and the model of the best, from experiments of these lengths. InvalidData as `arx_reduction`."""
+def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int, offset: bool) -> tuple[OrderEvidence, ReducedModel]:
+    """Return the evidence over orders and the model of the best, from experiments of these lengths. InvalidData as `arx_reduction`."""
     cuts = [max(length - length // KEPT_BACK, length - MOST_HELD) for length in lengths]
-    training = merge_windows([arx_windows(_part(source, 0, cut), lags) for source, cut in zip(sources, cuts, strict=True)])
+    first = [arx_windows(_part(source, 0, cut), lags) for source, cut in zip(sources, cuts, strict=True)]
     rest = [arx_windows(_part(source, max(cut - lags, 0), None), lags) for source, cut in zip(sources, cuts, strict=True)]
-    whole = merge_windows([training, *rest])
+    both = [joined_windows(*parts) for parts in zip(first, rest, strict=True)]
+    training, whole = (merge_windows(parts if offset else [about_zero(part) for part in parts]) for parts in (first, both))
     held = [_joined(_part(source, cut, None)) for source, cut in zip(sources, cuts, strict=True)]
-    arx = fitted_arx(whole)
-    gaps = _gaps(arx, max(lags, 1))
-    rows: list[OrderRow] = []
-    models: list[ReducedModel] = []
-    best, since = np.inf, 0
-    for n in range(whole.lags * whole.p + 1):
-        try:
-            found = reduced_from(whole, arx if arx.order * whole.p >= n else fitted_arx(whole, -(-n // whole.p)), n)
-        except InvalidData:
-            if not rows:
-                raise
-            break
-        parameters = n * (whole.p + whole.n_u) + whole.p * whole.n_u
-        one_step, free_run = _fits(training, held, n)
+    arx = fitted_arx(whole, min(lags, 1))
+    problem, coarse = reduction_problems(whole, arx)
+    a_state = whole.p + whole.n_u
+    inflation = weight_inflation(arx)
+    found = minima(whole, arx, problem, coarse, 2.0 * a_state * inflation)
+    if not found:
+        raise InvalidData("no start for any order: the data show no dynamics that a model could be begun from")
+    fits, gaps = _fits(training, whole, held, found), _gaps(arx, max(lags, 1))
+    rows = []
+    for n, (one, (one_step, free_run)) in enumerate(zip(found, fits, strict=True)):
         gap = float(gaps[n - 1]) if 0 < n <= len(gaps) else float("nan")
-        row = OrderRow(n, found.cost, parameters, float(found.cost + parameters * np.log(whole.rows)), 0.0, one_step, free_run, gap)
-        rows.append(row)
-        models.append(found)
-        best, since = (row.akaike, 0) if row.akaike < best else (best, since + 1)
-        if since == PATIENCE:
-            break
+        rows.append(OrderRow(n, one.cost / inflation, n * a_state + whole.p * whole.n_u, 0.0, one_step, free_run, gap))
     evidence = weighed(rows)
-    return evidence, models[evidence.best]
+    best = evidence.best
+    ended = Found(*descend(problem, found[best].matrix, best, *LAST))
+    # Orders too low may look like an unstable plant: only the choice is judged.
+    return evidence, judged(described(whole, arx, problem, ended, best), whole)
 
 
 def _part(source: Pieces, first: int, last: int | None) -> Iterator[tuple[Array, Array]]:
-    """Samples first .. last - 1 of an experiment."""
+    """Yield samples first .. last - 1 of an experiment."""
     at = 0
     for y, u in source:
         chosen = slice(max(first - at, 0), None if last is None else max(last - at, 0))
@@ -81,15 +77,35 @@ def _gaps(arx: Arx, rows: int) -> Array:
     return ratios
 
 
-def _fits(training: ArxWindows, held: Sequence[tuple[Array, Array]], n: int) -> tuple[float, float]:
-    """One-step and free-run fit, on the samples held back, of the model of the first part; NaN where it is too short."""
+def _fits(
+    training: ArxWindows, whole: ArxWindows, held: Sequence[tuple[Array, Array]], found: Sequence[Found]
+) -> list[tuple[float, float]]:
+    """Return for each order the one-step and free-run fit, on the samples held back, of the model of the first part; NaN where it is too
+    short."""
+    none = [(float("nan"), float("nan"))] * len(found)
     try:
-        found = reduced(training, n)
-        free = [residual(y, u, found.model).r for y, u in held]
+        arx = fitted_arx(training, min(training.lags, 1))
     except InvalidData:
-        return float("nan"), float("nan")
-    scale = training.scales[0]
-    h, power = found.arx.order, sum(float(np.sum((y[found.arx.order :] / scale) ** 2)) for y, _ in held)
+        return none
+    _, problem = reduction_problems(training, arx)
+    scales = zip(whole.scales, training.scales, strict=True)
+    y, u = (of_whole / of_part for of_whole, of_part in scales)
+    fits = []
+    for n, one in enumerate(found):
+        moved = one.matrix * np.concatenate([np.ones(n), y])[:, None] / np.concatenate([np.ones(n), u])
+        model = described(training, arx, problem, Found(*descend(problem, moved, n, *LAST)), n)
+        try:
+            fits.append(_fit(model, training, held))
+        except InvalidData:
+            fits.append(none[n])
+    return fits
+
+
+def _fit(found: ReducedModel, training: ArxWindows, held: Sequence[tuple[Array, Array]]) -> tuple[float, float]:
+    scale, h = training.scales[0], found.arx.order
+    about = [(y - mean, u) for (y, u), mean in zip(held, found.offsets, strict=True)]
+    free = [residual(y, u, found.model).r for y, u in about]
+    power = sum(float(np.sum((y[h:] / scale) ** 2)) for y, _ in about)
     errors = [sum(r[h - i : len(r) - i] @ found.arx.outputs[i].T for i in range(h + 1)) for r in free]
     sizes = [np.sqrt(sum(float(np.sum((part / scale) ** 2)) for part in parts) / power) for parts in (errors, [r[h:] for r in free])]
     return float(1 - sizes[0]), float(1 - sizes[1])

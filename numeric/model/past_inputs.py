@@ -35,10 +35,11 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..data.validation import constant_channels, experiment, positive
 from ..model.compression import EPS, Compression, Pieces, compress, compress_chunks, merge
 from ..model.input_matrices import by_moesp, by_output_error, growth
-from ..model.models import Simulator, StateSpaceModel
+from ..model.models import StateSpaceModel
 from ..model.moesp_model import Gap, MoespModel, OrderUndecided
 
 CLEAN = 3.0
@@ -257,20 +258,6 @@ def _stability(A: Array) -> tuple[str, ...]:
     return (f"the identified A is not stable: its largest eigenvalue has modulus {radius:.6g}; it is reported as it was found",)
 
 
-def _residual_covariance(experiments: Sequence[Pieces], model: StateSpaceModel, states: tuple[Array, ...]) -> Array:
-    total, samples = np.zeros((model.p, model.p)), 0
-    for data, x0 in zip(experiments, states, strict=True):
-        simulator = Simulator(model, x0)
-        for y, u in data:
-            r = y - simulator.respond(u)
-            total += r.T @ r
-            samples += len(r)
-    # Parameters an output: B and x0 are shared by the p outputs.
-    fitted = model.n_u + (model.n * model.n_u + model.n * len(states)) / model.p
-    result: Array = total / max(samples - fitted, 1.0)
-    return result
-
-
 def complete(found: Range, compression: Compression, experiments: Sequence[Pieces] | None) -> MoespModel:
     """Complete the record with B, D, x0 and the rest, by output error where there are data and A allows it, else by MOESP's regression."""
     A, scale = found.A, found.scale[:, np.newaxis]
@@ -283,7 +270,10 @@ def complete(found: Range, compression: Compression, experiments: Sequence[Piece
         inputs = by_output_error(scaled, A, found.C, compression.n_u)
         D = inputs.D * scale
         model = StateSpaceModel(A, inputs.B, C, D)
-        covariance = _residual_covariance(experiments, model, inputs.initial_states)
+        # Parameters an output: B and x0 are shared by the p outputs.
+        fitted = model.n_u + (model.n * model.n_u + model.n * len(experiments)) / model.p
+        assert inputs.squares is not None
+        covariance = inputs.squares * scale * found.scale / max(compression.samples - fitted, 1.0)
     else:
         if experiments is not None:
             warnings += (
@@ -300,6 +290,7 @@ def complete(found: Range, compression: Compression, experiments: Sequence[Piece
     )
 
 
+@one_thread()
 def pi_moesp(
     y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
     u: ArrayLike | None = None,
@@ -332,6 +323,7 @@ def pi_moesp(
     return _modelled([source], _compressed(y, u, source, block_rows, past_rows, route), order)
 
 
+@one_thread()
 def pi_moesp_experiments(
     experiments: Sequence[tuple[ArrayLike, ArrayLike]],
     *,
@@ -378,6 +370,7 @@ def _modelled(sources: Sequence[Pieces], compression: Compression, order: int | 
     return complete(_range_of(compression, order), compression, sources)
 
 
+@one_thread()
 def pi_moesp_from_compression(compression: Compression, *, order: int | None = None) -> MoespModel:
     """Return the model from a compression alone, with B and D by MOESP's own regression [V93]; no initial state and no residual
     covariance."""

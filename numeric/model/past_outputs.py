@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...base.threads import one_thread
 from ..data.validation import enough_samples, experiment, pieces, two_dimensional
 from ..model.compression import EPS, Compression, scaled_condition, window_rows, windows
 from ..model.moesp_model import MoespModel
@@ -19,6 +20,7 @@ from ..model.past_inputs import check_compression, complete, system_range
 from ..model.sequential_qr import SequentialQR
 
 
+@one_thread()
 def po_moesp(y: ArrayLike, u: ArrayLike, *, order: int | None = None, block_rows: int, past_rows: int | None = None) -> MoespModel:
     """Identify the model of one experiment by past inputs and outputs, PO-MOESP [VV07].
 

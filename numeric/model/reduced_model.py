@@ -7,52 +7,55 @@ by the same share to first order [KR97]. So the information is divided by both t
 
 ReducedModel        the result
 reduced             the model of order n from windows
-reduction_problem   the ARX model and what is minimised, at given angles
+described, judged   a minimum in the units of the data with its uncertainty, and what must be said of it
+reduction_problem   the ARX model and what is minimised, at given angles; reduction_problems: at angles enough, and for the search
+weight_inflation    by how much the estimated weight makes information and costs too large
 enough_angles       how many angles the sums over them need
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.stats import chi2
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown
+from ..data.plain import plain
 from .arx import Arx, adjoint, fitted_arx, input_spectrum
 from .arx_windows import ArxWindows
 from .compression import EPS
-from .invariants import state_space
+from .invariants import half_transfers, state_space, system_matrix
 from .models import StateSpaceModel
 from .order_evidence import OrderEvidence
-from .reduction_starts import one_state_less, starts
+from .reduction_search import Found, minimum
 from .uncertainty import Uncertainty, uncertainty_of
-from .weighted_reduction import Reduction, circle, descend, ladder, spectral_radius
+from .weighted_reduction import Reduction, circle, spectral_radius
 
 # Angles: 32 to 256 give the same errors (`python benchmarks/at_the_bound.py --calibrate angles`), poles near the circle ask for more.
 COARSE, FINE = 64, 4096  # least and most angles
 SAME_SUM = 1e-2  # relative change of the sums that twice the angles may make
-# The search: one or three starts kept give the same errors (`--calibrate starts`); budgets only bound its time, the last one its end.
-KEPT = 2  # starts that are followed up the ladder
-NEAREST = 2  # starts of the least cost under the true weight that are followed without the ladder
-RUNGS, TRUE, LAST = (15, 1e-3), (25, 1e-4), (60, 1e-7)  # most steps, and relative gain of a step below which a descent ends
-DISTINCT = 1e-2  # relative difference of costs from which two starts are thought to lie in different valleys
 UNBELIEVABLE = 1e-6  # probability of a misfit that is not put down to chance
 AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called unstable where data or misfit say so too
 
 
-@dataclass(frozen=True, eq=False)
-class ReducedModel:
+@dataclass(frozen=True, eq=False, repr=False)
+class ReducedModel(Shown):
     """The model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
 
     `model` has A of the shape (n, n), B (n, n_u), C (p, n) and D (p, n_u). `innovation_covariance` (p, p) is that of the one-step errors
     of the ARX model, `arx`, whose `disturbance(angles)` is the spectrum (M, p, p) of faults and noise together. `uncertainty` has the
     standard deviations of Markov parameters, transfer function and poles. `cost` is the weighted sum of squares that the reduction left,
-    which is the likelihood ratio of the ARX plant against this one. `initial_states` has one of the shape (n,) an experiment, by least
-    squares, and none where the data are not there any more. `orders` is the evidence where the order was left open, and `notes` say what
-    a user must know. Raises nothing.
+    which is the likelihood ratio of the ARX plant against this one. `offsets` has what the outputs are at rest with u = 0, of the shape
+    (p,), for each experiment: sensors' zeros, the operating point and the means of the faults, which nothing in the data tells apart.
+    `initial_states` has one of the shape (n,) an experiment, by least squares, and none where the data are not there any more. `orders`
+    is the evidence where the order was left open, and `notes` say what a user must know. Look at `notes` first, then at `orders` where
+    the order was left open, then at the poles with their deviations. Raises ImportError in `plot()` and `to_control()` where the package
+    that they need is not installed.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction
@@ -68,6 +71,7 @@ class ReducedModel:
     uncertainty: Uncertainty
     arx: Arx
     cost: float
+    offsets: tuple[Array, ...] = ()
     initial_states: tuple[Array, ...] = ()
     orders: OrderEvidence | None = None
     notes: tuple[str, ...] = ()
@@ -78,29 +82,89 @@ class ReducedModel:
         return self.model.n
 
     @property
+    def offset(self) -> Array | None:
+        """Outputs (p,) of the first experiment at rest with u = 0."""
+        return self.offsets[0] if self.offsets else None
+
+    @property
     def x0(self) -> Array | None:
         """State (n,) at the first sample of the first experiment."""
         return self.initial_states[0] if self.initial_states else None
 
+    def to_control(self) -> Any:
+        """Return the model as control.StateSpace. Raises ImportError without python-control."""
+        return self.model.to_control()
+
+    def to_scipy(self) -> Any:
+        """Return the model as scipy.signal.dlti."""
+        return self.model.to_scipy()
+
+    @property
+    def title(self) -> str:
+        """Return what the model is, on one short line."""
+        return f"ARX model reduced to {self.model.title.removeprefix('state-space model of ')}"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the notes, what the model rests on, its poles and Markov parameters with deviations, and the evidence for the order."""
+        yield from (("note", note) for note in self.notes)
+        yield "ARX model", f"{self.arx.order} lags, {self.arx.rows} windows of the data"
+        yield "misfit against the ARX model", f"{self.cost:.4g}"
+        yield "deviation of the innovations", ", ".join(f"{size:.4g}" for size in np.sqrt(np.diag(self.innovation_covariance)))
+        yield from self.uncertainty.sheet()
+        if self.orders is not None:
+            yield self.orders.title, ""
+            yield from self.orders.sheet()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: that of the model, how sure it is, and what it rests on; null stands for what there is not."""
+        arx = {"lags": self.arx.order, "windows": self.arx.rows, "A": plain(self.arx.outputs), "B": plain(self.arx.inputs)}
+        uncertainty = {name: value for name, value in self.uncertainty.to_json().items() if name != "model"}
+        return self.model.to_json() | {
+            "order": self.order,
+            "cost": plain(self.cost),
+            "innovation_covariance": plain(self.innovation_covariance),
+            "initial_states": [plain(state) for state in self.initial_states],
+            "arx": arx,
+            "uncertainty": uncertainty,
+            "orders": None if self.orders is None else self.orders.to_json(),
+            "notes": list(self.notes),
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the poles with the regions that hold them with probability 0.95, as `uncertainty.plot` does, into the matplotlib axes `ax`,
+        new ones where None are given, and return them. Raises ImportError without matplotlib."""
+        return self.uncertainty.plot(ax)
+
 
 def reduced(windows: ArxWindows, n: int) -> ReducedModel:
     """Return the model of order n >= 0 from the windows alone, without initial states. Raises InvalidData as `arx_reduction` does."""
-    return reduced_from(windows, fitted_arx(windows, -(-n // windows.p)), n)
+    arx = fitted_arx(windows, -(-n // windows.p))
+    problem, coarse = reduction_problems(windows, arx)
+    return judged(described(windows, arx, problem, minimum(windows, arx, problem, coarse, n), n), windows)
 
 
-def reduced_from(windows: ArxWindows, arx: Arx, n: int) -> ReducedModel:
-    """Do the same with the ARX model (in channels of unit size) made beforehand."""
-    problem = reduction_problem(windows, arx, circle(enough_angles(windows, arx)))
-    matrix, cost = _minimum(windows, arx, problem, n)
+def described(windows: ArxWindows, arx: Arx, problem: Reduction, found: Found, n: int) -> ReducedModel:
+    """Return a minimum, which is in channels of unit deviation, in the units of the data and with its uncertainty."""
     y, u = windows.scales
     rows, columns = np.concatenate([np.ones(n), y]), np.concatenate([np.ones(n), 1 / u])
-    p, freedom = windows.p, arx.freedom
-    too_large = (1 + p * arx.order / freedom) * freedom / max(freedom - p - 1, 1)
-    scaled = uncertainty_of(state_space(matrix, n), problem.information(matrix, n) / too_large**2)
-    model = state_space(matrix * rows[:, None] * columns, n)
+    scaled = uncertainty_of(state_space(found.matrix, n), problem.information(found.matrix, n) / weight_inflation(arx))
+    model = state_space(found.matrix * rows[:, None] * columns, n)
     uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
     inner = arx.scaled(y, u)
-    return ReducedModel(model, inner.covariance, uncertainty, inner, cost, notes=_notes(model, inner, windows, cost))
+    return ReducedModel(model, inner.covariance, uncertainty, inner, found.cost, _offsets(model, inner, windows))
+
+
+def weight_inflation(arx: Arx) -> float:
+    """Return what information and costs under an estimated weight are to be divided by: see the head of the module."""
+    p, freedom = len(arx.covariance), arx.freedom
+    return float(((1 + p * arx.order / freedom) * freedom / max(freedom - p - 1, 1)) ** 2)
+
+
+def reduction_problems(windows: ArxWindows, arx: Arx) -> tuple[Reduction, Reduction]:
+    """Return what is minimised, at angles enough, and the same at COARSE angles for the search."""
+    count = enough_angles(windows, arx)
+    problem = reduction_problem(windows, arx, circle(count))
+    return problem, problem if count == COARSE else reduction_problem(windows, arx, circle(COARSE))
 
 
 def reduction_problem(windows: ArxWindows, arx: Arx, angles: Array) -> Reduction:
@@ -122,43 +186,31 @@ def enough_angles(windows: ArxWindows, arx: Arx) -> int:
         count, before = 2 * count, sums
 
 
-def _minimum(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> tuple[Array, float]:
-    """Return T of the least cost found, and that cost. The search uses few angles, and only its end is the problem itself."""
-    coarse = problem if len(problem.angles) == COARSE else reduction_problem(windows, arx, circle(COARSE))
-    rungs = list(ladder(coarse, arx.disturbance(coarse.angles)))
-    begun = list(starts(windows, arx, rungs[0], n))
-    found = _climbed(rungs, begun, n, KEPT)
-    # What a flat weight cannot tell apart the true one can, from the start or from one state more.
-    longer = _climbed(rungs, starts(windows, arx, rungs[0], n + 1), n + 1, 1) if n else []
-    near = begun + [less for start, _ in longer for less in one_state_less(start, n + 1, coarse)]
-    near.sort(key=lambda start: coarse.cost(start, n))
-    found += [descend(coarse, start, n, *TRUE) for start in near[:NEAREST]]
-    if not found:
-        raise InvalidData(f"no start for order {n}: the data show no dynamics that a model of this order could be begun from")
-    return descend(problem, min(found, key=lambda one: one[1])[0], n, *LAST)
+def _offsets(model: StateSpaceModel, arx: Arx, windows: ArxWindows) -> tuple[Array, ...]:
+    """Return for each experiment what its outputs are at rest with u = 0, from the means of its windows.
+
+    The constant of the ARX model is A(q) of the mean outputs less B(q) of the mean inputs, lag by lag, which is right whatever state the
+    experiment began in. At rest the outputs are A(1)^-1 of it, about the mean input, from which the model's own gain leads to u = 0.
+    """
+    rest = np.zeros(1)
+    gains = (arx.plant(rest)[0].real, half_transfers(system_matrix(model), model.n, rest)[0][0].real)
+    found = []
+    for mean in windows.means:
+        outputs, inputs = ([mean[columns(lag)] for lag in range(arx.order + 1)] for columns in (windows.outputs, windows.inputs))
+        constant = np.einsum("iab,ib->a", arx.outputs, outputs) - np.einsum("iab,ib->a", arx.inputs, inputs)
+        at_mean = np.linalg.lstsq(arx.outputs.sum(axis=0), constant, rcond=None)[0]
+        found.append(np.asarray(at_mean + (gains[0] - gains[1]) @ inputs[0], dtype=np.float64))
+    return tuple(found)
 
 
-def _climbed(rungs: Sequence[Reduction], begun: Iterable[Array], n: int, kept: int) -> list[tuple[Array, float]]:
-    """Return the ends of the ladder from the `kept` best distinct starts, the least cost first."""
-    distinct: list[tuple[Array, float]] = []
-    for matrix, cost in sorted((descend(rungs[0], start, n, *RUNGS) for start in begun), key=lambda one: one[1]):
-        if all(cost - other > DISTINCT * cost for _, other in distinct):
-            distinct.append((matrix, cost))
-    ends = []
-    for matrix, _ in distinct[:kept]:
-        for rung in rungs[1:-1]:
-            matrix, _ = descend(rung, matrix, n, *RUNGS)
-        ends.append(descend(rungs[-1], matrix, n, *TRUE))
-    return sorted(ends, key=lambda one: one[1])
-
-
-def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -> tuple[str, ...]:
-    """Return notes on what the cost and the poles show. Raises InvalidData for a plant that seems to be unstable.
+def judged(found: ReducedModel, windows: ArxWindows) -> ReducedModel:
+    """Return the model with notes on what its cost and poles show. Raises InvalidData for a plant that seems to be unstable.
 
     At the true plant the cost is part of the likelihood ratio of all ARX parameters, chi-squared with as many degrees of freedom; at its
     minimum it is less. Roots of A(q) outside the unit circle alone tell little: of many roots some lie there by chance. They count where
     the outputs grow or the misfit is large.
     """
+    model, arx, cost = found.model, found.arx, found.cost
     parameters = windows.p * windows.regressors(arx.order)
     radius, misfit = spectral_radius(model.A), float(chi2.sf(cost, parameters)) < UNBELIEVABLE
     on_circle, most = radius > 1 - EPS**0.25, np.log(AMPLIFICATION)
@@ -169,8 +221,9 @@ def _notes(model: StateSpaceModel, arx: Arx, windows: ArxWindows, cost: float) -
             f"{arx.radius():.6g}, the outputs grow by about exp({windows.growth:.3g}), and the misfit is {cost:.4g} where {parameters} is "
             "usual; the plant may be unstable (pi_moesp takes such), or the order too low"
         )
+    note = ""
     if misfit:
-        return (f"order {model.n} leaves a misfit of {cost:.4g} where at most about {parameters} is usual: the order may be too low",)
-    if on_circle:
-        return (f"a pole has modulus {radius:.6g}: the plant may be unstable, or integrate, which is not fitted here",)
-    return ()
+        note = f"order {model.n} leaves a misfit of {cost:.4g} where at most about {parameters} is usual: the order may be too low"
+    elif on_circle:
+        note = f"a pole has modulus {radius:.6g}: the plant may be unstable, or integrate, which is not fitted here"
+    return replace(found, notes=(*found.notes, note)) if note else found

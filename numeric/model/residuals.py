@@ -28,7 +28,8 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..data.plain import plain
 from ..data.records import SampleStore, stored
 from ..data.validation import experiment
@@ -56,7 +57,7 @@ class ResidualSignal(Shown):
     >>> from faultspace.numeric import StateSpaceModel, residual
     >>> found = residual(np.ones((4, 1)), np.zeros((4, 1)), StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]), x0=[0.0])
     >>> found, found.r.ravel().tolist()
-    (<ResidualSignal: residual of 4 samples, 1 outputs>, [1.0, 1.0, 1.0, 1.0])
+    (<ResidualSignal: residual of 4 samples, 1 output>, [1.0, 1.0, 1.0, 1.0])
     """
 
     store: SampleStore
@@ -76,7 +77,7 @@ class ResidualSignal(Shown):
     @property
     def title(self) -> str:
         """Return what the residual is, on one short line."""
-        return f"residual of {len(self.store)} samples, {self.store.width} outputs"
+        return f"residual of {counted(len(self.store), 'sample')}, {counted(self.store.width, 'output')}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield what there is to say of it, as pairs of a name and a value."""
@@ -113,6 +114,7 @@ class HasModel(Protocol):
         """Return the model that was identified, or another result that has it; None where there is none."""
 
 
+@one_thread()
 def residual(
     y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
     u: ArrayLike | None,

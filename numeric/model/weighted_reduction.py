@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from .arx import adjoint
-from .invariants import half_transfers, off_gauge
+from .invariants import half_transfers, off_gauge, transfer
 
 ComplexArray = NDArray[np.complex128]
 
@@ -64,16 +64,16 @@ class Reduction:
 
     def cost(self, matrix: Array, n: int) -> float:
         """Return the sum at T = `matrix`."""
-        return self._cost(self.plant - half_transfers(matrix, n, self.angles)[0])
+        return self._cost(self.plant - transfer(matrix, n, self.angles))
 
     def _cost(self, error: ComplexArray) -> float:
         return float(self._share * np.sum((self.weight @ error @ self.spectrum * error.conj()).real))
 
     def normal_equations(self, matrix: Array, n: int) -> tuple[Array, Array, float]:
         """Return half the Hessian (K, K) of the linearised sum, half its falling gradient (K,), and the sum, at T = `matrix`."""
-        transfer, left, right = half_transfers(matrix, n, self.angles)
+        response, left, right = half_transfers(matrix, n, self.angles)
         weighted, driven = adjoint(left) @ self.weight, self.spectrum @ adjoint(right)
-        error = self.plant - transfer
+        error = self.plant - response
         slope = np.sum((weighted @ error @ driven).real, axis=0)
         return self._share * _kronecker_sum(weighted @ left, right @ driven), self._share * slope.ravel(), self._cost(error)
 

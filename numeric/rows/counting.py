@@ -20,8 +20,9 @@ no theory gives them; those that decide whether rows are laws, SUFFICES, FAILS (
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -29,26 +30,31 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import Shown, counted
+from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
+from ..data.plain import plain
 from ..data.validation import constant_channels, positive, signals
-from .joint import ROUNDING, JointMoments, joint_moments
-from .laws import EXTRA, FAILS, SUFFICES, Laws, bootstrapped, tested
+from .joint import ROUNDING, JointMoments
+from .laws import EXTRA, FAILS, SUFFICES, Evidence, Laws, bootstrapped, longer_are_laws, tested
 
 # Nats (22 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
-FAINTEST = 5.0
-# Factor of power to which a stated noise level is taken at its word.
-KNOWN_TO = 2.0
+FAINTEST = 2.0
+# Factor of power to which a stated noise level is taken at its word, and beyond which it is taken for a fault although it may be wrong by
+# two, which is four in power.
+KNOWN_TO, KNOWN_FAR = 2.0, 8.0
 # Singular values of the scaled outputs below which a channel is a combination of others.
 DEPENDENT = 1e-10
 
 
-@dataclass(frozen=True, eq=False)
-class FaultCount:
+@dataclass(frozen=True, eq=False, repr=False)
+class FaultCount(Shown):
     """The number of faults that `count_faults` finds, with what it rests on [W91].
 
     `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why. `tests`: what was asked of k rows, by
     falling k; empty where there was no noise. `noise_power`, of shape (p,): what the rows leave of each output, in its own units, squared;
-    None where no rows are laws. Raises nothing itself.
+    None where no rows are laws. Look at `n_v` first, and where it is None at `reason`, which says what would settle it. Raises nothing
+    itself.
 
     >>> from faultspace.numeric import FaultCount
     >>> FaultCount(None, (2, 3), "2 or 3: a fainter fault would look the same", ()).decided
@@ -66,7 +72,34 @@ class FaultCount:
         """Whether there is one answer."""
         return self.n_v is not None
 
+    @property
+    def title(self) -> str:
+        """Return the answer, on one short line."""
+        if self.n_v is not None:
+            return f"number of faults n_v: {self.n_v}"
+        return f"number of faults n_v: undecided, of {', '.join(map(str, self.possible))}"
 
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the reason, what was asked of so many rows, and the deviation of the noise that the rows leave."""
+        yield "why", self.reason
+        for laws in self.tests:
+            one, several = {True: ("is a law", "are laws"), False: ("is no law", "are no laws"), None: ("in doubt",) * 2}[laws.holds]
+            yield counted(laws.count, "row"), f"{one if laws.count == 1 else several}, probability {laws.probability:.2g}"
+        if self.noise_power is not None:
+            yield "deviation of the noise, by output", ", ".join(f"{size:.4g}" for size in np.sqrt(self.noise_power))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: the answer, its reason and every test made; null stands for what there is not."""
+        return {
+            "n_v": self.n_v,
+            "possible": list(self.possible),
+            "reason": self.reason,
+            "tests": [laws.to_json() for laws in self.tests],
+            "noise_power": plain(self.noise_power),
+        }
+
+
+@one_thread()
 def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLike | None = None, draws: int = 0) -> FaultCount:
     """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
 
@@ -87,18 +120,21 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
     outputs, inputs = signals(y, u)
     p, n = outputs.shape[1], positive(order, "order")
     _measured(outputs)
-    data = joint_moments(outputs, inputs, n + EXTRA)
+    evidence = Evidence(outputs, inputs, n)
+    data = evidence.data
     known = None if noise_level is None else _known(noise_level, p) / data.scale[:p]
-    one = tested(data, 1, n, None if known is None else known**2 / np.exp(np.mean(np.log(known**2))))
-    if np.exp(one.level) < ROUNDING:
+    shares = None if known is None else known**2 / np.exp(np.mean(np.log(known**2)))
+    if not _exciting(data):
+        reason = f"the inputs excite no more than {n + EXTRA} samples in a row: what they do and what faults do cannot be told apart"
+        return FaultCount(None, tuple(range(p + 1)), reason, ())
+    if _least_power(data, 0) < ROUNDING:
         return _by_ranks(outputs, inputs)
-    shares = None if known is None else one.shares
     tests: dict[int, Laws] = {}
 
     def laws(count: int) -> Laws:
         if count not in tests:
-            quick = one if count == 1 else tested(data, count, n, shares)
-            tests[count] = bootstrapped(outputs, inputs, data, quick, draws) if draws else quick
+            quick = tested(evidence, count, shares)
+            tests[count] = bootstrapped(evidence, quick, draws) if draws else quick
         return tests[count]
 
     # Invariant: `some` rows may be laws, `more` are not. Where more of them are laws, a doubt about fewer does not matter.
@@ -107,23 +143,44 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
         k = (some + more) // 2
         if k == 1:
             break
-        some, more = (some, k) if _holds(laws(k), data, known) is False else (k, more)
+        some, more = (some, k) if _holds(laws(k), known) is False else (k, more)
     if not some:
-        return _last(p, laws, tests, data, known)
-    if _holds(tests[some], data, known) is None:
-        return _undecided(p, some, tests[some], tests)
-    return _answer(p - some, tests[some], tests, data)
+        answer = _last(p, laws, tests, data, known)
+    elif _holds(tests[some], known) is None:
+        answer = _undecided(p, some, tests[some], tests)
+    else:
+        answer = _answer(p - some, tests[some], tests, data)
+    # Of too low an order fewer rows than there are may be laws, and would count as more faults.
+    refused = 0 if answer.n_v is None else p + 1 - answer.n_v
+    if not 2 <= refused <= p:
+        return answer
+    if n + EXTRA >= evidence.longest:
+        reason = f"the record is too short for rows of {EXTRA} degrees more, which would tell whether the order is too low"
+    elif longer_are_laws(evidence, refused, shares):
+        reason = f"{refused} rows of {EXTRA} degrees more have about the shape of noise: the order may be too low"
+    else:
+        return answer
+    return FaultCount(None, tuple(range(p + 2 - refused)), reason, answer.tests)
 
 
 def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: JointMoments, known: Array | None) -> FaultCount:
     """Answer where no two rows are laws: p - 1, p, or either."""
     one = laws(1)
     if known is not None:
-        loud = _loudness(one.longer.level, one.longer.spectrum, data, known)
-        if loud > KNOWN_TO:
+        longest = one.fit if one.longest is None else one.longest
+        loud = _loudness(longest.level, longest.spectrum, known)
+        if loud > KNOWN_FAR:
             reason = f"not even one row comes down to the noise level: its remainder has {loud:.3g} times that power"
             return FaultCount(p, (p,), reason, _walk(tests))
-    found = _holds(one, data, known)
+        if loud > KNOWN_TO:
+            reason = (
+                f"{p - 1} or {p}: one row leaves {loud:.3g} times the power of the stated noise, too much for laws, too little for a fault"
+            )
+            return FaultCount(None, (p - 1, p), reason, _walk(tests))
+        if loud < 1 / KNOWN_TO:
+            # The level is too high to be one, and settles nothing.
+            known = None
+    found = _holds(one, known)
     if found is None:
         return _undecided(p, 1, one, tests)
     if not found:
@@ -144,14 +201,12 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
 def _answer(n_v: int, found: Laws, tests: dict[int, Laws], data: JointMoments) -> FaultCount:
     """Return the count that follows where `found` are the most rows that are laws."""
     p = data.p
-    reason = (
-        f"{found.count} row{'s' if found.count > 1 else ''} of outputs and inputs leave noise alone (probability {found.probability:.2g})"
-    )
+    verb = "leaves" if found.count == 1 else "leave"
+    reason = f"{counted(found.count, 'row')} of outputs and inputs {verb} noise alone (probability {found.probability:.2g})"
     more = tests.get(found.count + 1)
     if more is not None:
         reason += f", {more.count} do not ({more.probability:.1g})"
-    spread = float(found.fit.spectrum @ data.moments.weights)
-    power = np.exp(found.level) * spread * found.shares * data.scale[:p] ** 2
+    power = np.exp(found.level) * found.fit.spectrum.mean() * found.shares * data.scale[:p] ** 2
     return FaultCount(n_v, (n_v,), reason, _walk(tests), np.asarray(power))
 
 
@@ -170,16 +225,16 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
     return FaultCount(None, possible, reason, _walk(tests))
 
 
-def _holds(laws: Laws, data: JointMoments, known: Array | None) -> bool | None:
+def _holds(laws: Laws, known: Array | None) -> bool | None:
     """Return whether they are laws; where the noise level is known, laws leave no more than it."""
-    if known is not None and _loudness(laws.level, laws.fit.spectrum, data, known) > KNOWN_TO:
+    if known is not None and _loudness(laws.level, laws.fit.spectrum, known) > KNOWN_FAR:
         return False
     return laws.holds
 
 
-def _loudness(level: float, spectrum: Array, data: JointMoments, known: Array) -> float:
+def _loudness(level: float, spectrum: Array, known: Array) -> float:
     """Return the ratio of the noise power that rows leave to the known one, whose deviations (p,) are in units of the moments."""
-    return float(np.exp(level - np.mean(np.log(known**2))) * (spectrum @ data.moments.weights))
+    return float(np.exp(level - np.mean(np.log(known**2))) * spectrum.mean())
 
 
 def _known(noise_level: ArrayLike, p: int) -> Array:
@@ -191,6 +246,18 @@ def _known(noise_level: ArrayLike, p: int) -> Array:
     if not (np.all(np.isfinite(level)) and np.all(level > 0)):
         raise InvalidData(f"noise_level: got {noise_level!r}; needed one positive standard deviation, or {p} of them, in units of y")
     return level
+
+
+def _exciting(data: JointMoments) -> bool:
+    """Return whether the windows of the inputs have full rank: else a row of inputs alone is a law, whatever the outputs do."""
+    return data.n_u == 0 or _least_power(data, data.p) >= ROUNDING
+
+
+def _least_power(data: JointMoments, first: int) -> float:
+    """Return the least power of a combination, of unit norm, of the windows of the channels from `first` on."""
+    power = data.moments.moments.sum(axis=0).real
+    chosen = np.arange(len(power)) % data.moments.channels >= first
+    return float(scipy.linalg.eigvalsh(power[np.ix_(chosen, chosen)], subset_by_index=(0, 0))[0])
 
 
 def _by_ranks(y: Array, u: Array) -> FaultCount:

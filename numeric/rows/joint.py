@@ -31,7 +31,7 @@ from ...base.errors import InvalidData
 from ..count.windows import channel_sizes
 from ..data.validation import signals
 from ..space.basis import KernelBasis, kernel_basis, refined_basis
-from ..space.tapered_moments import CrossMoments, tapered_moments
+from ..space.tapered_moments import BANDS, CrossMoments, tapered_moments
 
 # Turns of colour and rows: the level moves by less than a thousandth of a nat afterwards.
 ROUNDS = 5
@@ -71,8 +71,8 @@ class JointMoments:
         return [row / self.scale for row in rows]
 
 
-def joint_moments(y: ArrayLike, u: ArrayLike, degree: int) -> JointMoments:
-    """Return the moments of y (N, p) and u (N, n_u) for rows up to this degree.
+def joint_moments(y: ArrayLike, u: ArrayLike, degree: int, bands: int = BANDS) -> JointMoments:
+    """Return the moments of y (N, p) and u (N, n_u) for rows up to this degree, in so many bands or fewer.
 
     Raises InvalidData for data that are no signals, for lengths that differ, and where N is less than 2 (p + n_u) (degree + 1) + degree.
 
@@ -80,10 +80,10 @@ def joint_moments(y: ArrayLike, u: ArrayLike, degree: int) -> JointMoments:
     >>> joint_moments(np.sin(t), np.cos(3 * t), 2).p
     1
     """
-    return joint_moments_experiments([(y, u)], degree)
+    return joint_moments_experiments([(y, u)], degree, bands)
 
 
-def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]], degree: int) -> JointMoments:
+def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]], degree: int, bands: int = BANDS) -> JointMoments:
     """Return the moments of several experiments (y, u) of one system, each from its own initial state, weighted by their lengths.
 
     Raises InvalidData as `joint_moments`, for experiments with other numbers of channels, and for experiments so short that their spectra
@@ -97,7 +97,7 @@ def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]]
     lengths = np.array([len(y) for y, _ in records], dtype=float)
     sizes = np.array([_deviations(np.hstack(record)) for record in records])
     scale = np.sqrt(lengths @ sizes**2 / lengths.sum())
-    parts = [tapered_moments(np.hstack(record) / scale, degree) for record in records]
+    parts = [tapered_moments(np.hstack(record) / scale, degree, bands) for record in records]
     if len({len(part.angles) for part in parts}) != 1:
         short = [len(y) for y, _ in records]
         raise InvalidData(f"experiments: got lengths {short}, whose spectra have different numbers of bands; leave the short ones out")

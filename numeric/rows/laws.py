@@ -1,66 +1,134 @@
-"""Test whether k kernel rows of total degree n are laws that outputs and inputs obey up to noise, by two likelihood ratios.
+"""Test whether k kernel rows of total degree n are laws that outputs and inputs obey up to noise, by likelihood ratios.
 
     sphericity   k >= 2: the remainder has one colour and the shape that noise of the channels gives it (`remainder.py`)
-    flatness     rows of total degree n + EXTRA explain no more than noise does (`degree.py`)
+    flatness     rows of total degree n + EXTRA, a single one of degree n + LONG too, explain no more than noise does (`degree.py`)
 
 Both are true of k <= p - n_v rows. Of more rows the faults are left in the remainder: its shape is theirs, and longer rows still gain. The
 noise shares of the channels are estimated in turns with the rows; of a single row they are not identifiable and stay as stated.
 
-    Laws         k rows with their level, shares, both ratios with their probabilities, and `holds`: True, False, or None in between
-    tested       the test; with draws > 0 the misfit of both ratios is measured by the parametric bootstrap
+Several rows begin from a model of the system (`model_rows.py`). All p rows together say that no fault acts: y less what the model makes
+of u and of the initial state is noise. Of them the model's residual is asked itself and not the rows, whose whitening would divide by
+a determinant that changes within a band.
 
-The constants have two origins. SHAPE_MISFIT, and MISFITS of `degree.py`, are means of the ratios where the rows are laws, which
-`benchmarks/counting_at_the_bound.py calibrate` measures again on fresh seeds. The others were set by hand: SUFFICES is a level of one in
-a hundred; FAILS lies far below it, for rows that are no laws were seen far below; FAR was settled after looking at the benchmark's records;
-EXTRA, TURNS and HOPELESS are compromises between time and power. How often the answers are then right, `count` of that benchmark measures.
+    Laws         k rows with their level, shares, both ratios with their probabilities, and `holds`: True, False, or None in between
+    Evidence     what a record says to rows: the moments, those for long single rows, and the model with its residual where there is one
+    tested       the test; with draws > 0 the misfit of the ratios is measured by the parametric bootstrap
+
+The constants have two origins. SHAPE_MISFIT, FLAT_MISFIT and SINGLE_MISFITS are means of the ratios where the rows are laws, and FAR lies
+between those of laws and of others: `benchmarks/counting_at_the_bound.py calibrate` measures all of them on fresh seeds, by the command and
+with the result that stands beside each. SUFFICES is a level of one in a hundred; FAILS lies far below it, for rows that are no laws were
+seen far below; EXTRA, LONG and TURNS are compromises between time and power.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
+import scipy.stats
 
 from ...base.arrays import Array
-from ..space.basis import KernelBasis
+from ...base.errors import InvalidData
+from ..data.plain import plain
+from ..model.asymptotic_likelihood import arx_reduction
+from ..model.models import StateSpaceModel
+from ..model.reduced_model import ReducedModel
+from ..model.residuals import residual
+from ..space.basis import KernelBasis, colour_of
+from ..space.tapered_moments import tapered_moments
 from .bootstrap import redrawn
-from .degree import MISFITS, excess, freedom, likelihood_ratio
 from .joint import JointMoments, course, even_split, fitted, joint_moments, padded, refitted
-from .remainder import Sphericity, noise_shares, remainder, sphericity
+from .model_rows import in_units_of, model_rows
+from .remainder import Remainder, Sphericity, noise_shares, remainder, sphericity, whitened
 
 # Degrees beyond the order by which flatness is seen: one more could still be explained by a single root of the colour of a fault.
 EXTRA = 3
-# Turns of noise shares and rows.
+# And of a single row, which flatness alone judges: the remainder of a fault that is smooth over frequency gains slowly.
+LONG = 10
+# Turns of noise shares and rows, among the rows that a model admits and among all.
 TURNS = 4
 # Mean of the ratio of sphericity over what it should have, where the rows are laws.
 SHAPE_MISFIT = 1.3
-# Ratios that many times their expectation are no law whatever the misfit, and are worth neither another start nor a bootstrap.
-HOPELESS = 15.0
+# Mean of the ratio of flatness over its degrees of freedom: of several rows, and of one for EXTRA and for LONG.
+FLAT_MISFIT, SINGLE_MISFITS = 3.2, (3.2, 2.5)
+# Ratios that many times beyond these are worth neither another start nor a bootstrap.
+HOPELESS = 2.0
 # Probabilities from which rows are laws, and below which a single row is none. Rows that are no laws are far below.
 SUFFICES, FAILS = 0.01, 1e-12
-# Several rows are refuted by a sphericity beyond what a descent that ended elsewhere leaves of laws: up to 4 times the expected one was
-# seen on the benchmark's records, and 14 times or more where there are no laws.
-FAR = 8.0
+# Several rows are refuted by a sphericity, or by a gain of longer rows, so many times what is expected: beyond what a descent that ended
+# elsewhere leaves of laws.
+FAR, FAR_LONGER = 8.0, 25.0
 SEED = 20251122
 
 
 @dataclass(frozen=True, eq=False)
-class Laws:
-    """These are k = `count` rows: `fit` has the total degree n and `longer` n + EXTRA; `gain` is what `longer` gains, in nats.
+class Evidence:
+    """What y (N, p) and u (N, n_u) say to rows of total degree `order` and more."""
 
-    The noise `shares` (p,) have the mean logarithm zero and are in the units of the moments. `probability` is that of ratios as large if
-    the rows are laws: of one row that of its only ratio, of several twice the smaller one of the two.
+    y: Array
+    u: Array
+    order: int
+
+    @cached_property
+    def data(self) -> JointMoments:
+        """The moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
+        return joint_moments(self.y, self.u, self.order + max(1, min(EXTRA, self.longest - self.order)))
+
+    @property
+    def longest(self) -> int:
+        """The highest degree for which there are twice as many windows as a window has entries."""
+        channels = int(self.y.shape[1] + self.u.shape[1])
+        return (len(self.y) - 2 * channels) // (2 * channels + 1)
+
+    @cached_property
+    def single(self) -> JointMoments:
+        """The moments for a single row, of degree order + LONG or as much of it as the record is long for."""
+        return joint_moments(self.y, self.u, self.order + max(1, min(LONG, self.longest - self.order)))
+
+    @cached_property
+    def reduction(self) -> ReducedModel | None:
+        """A model of this order, or None where the record gives none."""
+        try:
+            return arx_reduction(self.y, self.u, order=self.order)
+        except InvalidData:
+            return None
+
+    @cached_property
+    def model(self) -> StateSpaceModel | None:
+        """The same in units of the moments."""
+        return None if self.reduction is None else in_units_of(self.reduction.model, self.data)
+
+    @cached_property
+    def unexplained(self) -> JointMoments | None:
+        """The moments of what the model leaves of y, with the initial state fitted."""
+        if self.reduction is None:
+            return None
+        r = residual(self.y, self.u, self.reduction.model).r / self.data.scale[: self.data.p]
+        return JointMoments(tapered_moments(r - r.mean(axis=0), 0), self.data.scale[: self.data.p], self.data.p)
+
+
+@dataclass(frozen=True, eq=False)
+class Laws:
+    """These are k = `count` rows: `fit` has the total degree n, and `gain` is what rows of degree n + EXTRA gain, in nats.
+
+    The noise `shares` (p,) have the mean logarithm zero and are in the units of the moments. `flatness` is the probability of such a gain,
+    if the rows are laws; `probability` is that of ratios as large: of one row that of its flatness, of several twice the smaller one of
+    the two. `ratios` are those of flatness over their degrees of freedom, before any misfit: none where the shape is hopeless, two of a
+    single row. `longest` is the fit of a single row of the highest degree that was tried.
     """
 
     count: int
     fit: KernelBasis
-    longer: KernelBasis
     shares: Array
     sphericity: Sphericity | None
     gain: float
+    flatness: float
     probability: float
-    shape_misfit: float
-    misfit: float
+    ratios: tuple[float, ...] = ()
+    longest: KernelBasis | None = None
 
     @property
     def level(self) -> float:
@@ -69,50 +137,105 @@ class Laws:
 
     @property
     def holds(self) -> bool | None:
-        """Return whether they are laws; None where it is a near thing, or where they have the shape of laws but longer rows gain.
-
-        The latter is an order that is too low, or a descent that ended elsewhere: no ground for another fault.
-        """
+        """Return whether they are laws; None where it is a near thing."""
         if self.probability >= SUFFICES:
             return True
         if self.sphericity is None:
             return False if self.probability <= FAILS else None
-        return False if self.sphericity.nats > FAR * self.sphericity.expected else None
+        return False if self.farness > 1.0 else None
+
+    @property
+    def farness(self) -> float:
+        """Return how far a ratio of several rows is beyond its expectation, in units of FAR and FAR_LONGER: above one they are no laws."""
+        shape = 0.0 if self.sphericity is None else self.sphericity.nats / (FAR * self.sphericity.expected)
+        return max([shape] + [ratio / FAR_LONGER for ratio in self.ratios])
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict of the numbers that the answer rests on; the ratio of sphericity is null of a single row."""
+        shape = None if self.sphericity is None else {"nats": plain(self.sphericity.nats), "expected": plain(self.sphericity.expected)}
+        return {
+            "rows": self.count,
+            "holds": self.holds,
+            "probability": plain(self.probability),
+            "level": plain(self.level),
+            "gain": plain(self.gain),
+            "sphericity": shape,
+            "shares": plain(self.shares),
+        }
 
 
-def tested(data: JointMoments, count: int, order: int, shares: Array | None = None) -> Laws:
-    """Test `count` rows on moments of degree order + EXTRA; `shares` are those of the channels where they are known."""
-    known = np.ones(data.p) if shares is None else shares
-    degrees = even_split(order, count)
-    short = fitted(data, even_split(order // 2 + 1, count), shares=known, rounds=3).rows
-    fit = fitted(data, degrees, [padded(short, degrees), padded(short, degrees, below=True)], shares=known, rounds=3)
-    if count == 1 or shares is not None:
-        return _with_probabilities(data, fit, known, MISFITS[-1], SHAPE_MISFIT)
-    laws = _with_probabilities(data, *_with_shares(data, fit, known), MISFITS[-1], SHAPE_MISFIT)
-    if laws.holds or _hopeless(data, laws):
-        return laws
-    # A descent from rows that were fitted to equal shares may have ended elsewhere; longer rows are nearer to the noise.
-    for shares in (laws.shares, noise_shares(remainder(data, laws.longer), laws.shares)):
-        fit = course(data, count, order, shares=shares, rounds=3)[-1]
-        again = _with_probabilities(data, *_with_shares(data, fit, shares), MISFITS[-1], SHAPE_MISFIT)
-        laws = max(laws, again, key=lambda each: each.probability)
-        if laws.holds:
+@dataclass(frozen=True)
+class Misfits:
+    """By these the ratios of sphericity and of flatness are divided."""
+
+    shape: float = SHAPE_MISFIT
+    flat: float = FLAT_MISFIT
+    single: tuple[float, ...] = SINGLE_MISFITS
+
+
+def tested(evidence: Evidence, count: int, shares: Array | None = None) -> Laws:
+    """Test `count` rows; `shares` (p,) are those of the channels where they are known."""
+    if count == 1:
+        return _single(evidence, np.ones(evidence.data.p) if shares is None else shares)
+    if count == evidence.data.p and evidence.unexplained is not None:
+        return _all(evidence, evidence.unexplained, shares, Misfits())
+    best: Laws | None = None
+    for fit, found in _descents(evidence, count, shares):
+        laws = _several(evidence, fit, found, Misfits())
+        best = laws if best is None else max(best, laws, key=lambda each: (each.probability, -each.farness))
+        if best.holds or _hopeless(best):
             break
-    return laws
+    assert best is not None
+    return best
 
 
-def _hopeless(data: JointMoments, laws: Laws) -> bool:
+def _all(evidence: Evidence, unexplained: JointMoments, known: Array | None, misfits: Misfits) -> Laws:
+    """Return all p rows, those of the model, by the residual that it leaves, of which one of so many signals has the stated level."""
+    moments, data, p = unexplained.moments, evidence.data, unexplained.p
+    gains = np.broadcast_to(np.eye(p, dtype=complex), (len(moments.angles), p, p))
+    rest = Remainder(moments.moments / moments.weights[:, None, None], gains, moments.weights, moments.samples)
+    shares = noise_shares(rest, np.ones(p)) if known is None else known
+    shape = sphericity(rest, shares, misfits.shape)
+    power = np.einsum("bii->b", whitened(rest, shares)).real / p
+    colour = colour_of(power, moments.angles, moments.weights)
+    level = float(np.log(np.sum(power / colour * moments.weights)))
+    assert evidence.model is not None
+    fit = replace(model_rows(data, evidence.model, even_split(evidence.order, p), shares), level=level, spectrum=colour)
+    return Laws(p, fit, shares, shape, 0.0, 1.0, shape.level)
+
+
+def _descents(evidence: Evidence, count: int, known: Array | None) -> Iterator[tuple[KernelBasis, Array]]:
+    """Yield rows with their shares: from the model, from lower degrees, and step by step from degree zero, until one holds."""
+    data, degrees = evidence.data, even_split(evidence.order, count)
+    shares = np.ones(data.p) if known is None else known
+    if evidence.model is not None:
+        fit = model_rows(data, evidence.model, degrees, shares)
+        if known is None:
+            for _ in range(TURNS - 1):
+                shares = noise_shares(remainder(data, fit), shares)
+                fit = model_rows(data, evidence.model, degrees, shares)
+        fit = refitted(data, degrees, fit.rows, shares=shares, rounds=2)
+        fit, shares = _with_shares(data, fit, shares, known is not None)
+        yield fit, shares
+    equal = np.ones(data.p) if known is None else known
+    short = fitted(data, even_split(evidence.order // 2 + 1, count), shares=equal, rounds=3).rows
+    fit = fitted(data, degrees, [padded(short, degrees), padded(short, degrees, below=True)], shares=equal, rounds=3)
+    fit, shares = _with_shares(data, fit, equal, known is not None)
+    yield fit, shares
+    fit = course(data, count, evidence.order, shares=shares, rounds=3)[-1]
+    yield _with_shares(data, fit, shares, known is not None)
+
+
+def _hopeless(laws: Laws) -> bool:
     """Return whether a ratio is far beyond what any misfit makes of laws."""
-    flat = likelihood_ratio(data, laws.fit, laws.longer) <= HOPELESS * freedom(data, laws.fit, laws.longer)
-    round_enough = laws.sphericity is None or laws.sphericity.nats <= HOPELESS * laws.sphericity.expected
-    return not (flat and round_enough)
+    return laws.farness > HOPELESS
 
 
-def _with_shares(data: JointMoments, fit: KernelBasis, shares: Array) -> tuple[KernelBasis, Array]:
-    """Estimate rows and shares in turns, as long as the remainder becomes more spherical."""
+def _with_shares(data: JointMoments, fit: KernelBasis, shares: Array, known: bool) -> tuple[KernelBasis, Array]:
+    """Estimate rows and shares in turns, as long as the remainder becomes more spherical; shares that are known stay."""
     degrees = [len(row) - 1 for row in fit.rows]
     best = sphericity(remainder(data, fit), shares).nats
-    for _ in range(TURNS):
+    for _ in range(0 if known else TURNS):
         found = noise_shares(remainder(data, fit), shares)
         trial = refitted(data, degrees, fit.rows, shares=found, rounds=2)
         nats = sphericity(remainder(data, trial), found).nats
@@ -122,29 +245,71 @@ def _with_shares(data: JointMoments, fit: KernelBasis, shares: Array) -> tuple[K
     return fit, shares
 
 
-def bootstrapped(y: Array, u: Array, data: JointMoments, laws: Laws, draws: int) -> Laws:
+def _several(evidence: Evidence, fit: KernelBasis, shares: Array, misfits: Misfits) -> Laws:
+    """Return several rows with both ratios. Where their shape is hopeless, longer rows are not asked."""
+    data, count = evidence.data, len(fit.rows)
+    shape = sphericity(remainder(data, fit), shares, misfits.shape)
+    if shape.nats > HOPELESS * FAR * shape.expected:
+        return Laws(count, fit, shares, shape, 0.0, 1.0, min(1.0, 2 * shape.level))
+    extra = data.degree - evidence.order
+    longer = refitted(data, even_split(evidence.order + extra, count), fit.rows, shares=shares, rounds=2)
+    gain = fit.level - longer.level
+    ratio = data.samples * count * max(gain, 0.0)
+    freedom = extra * data.moments.channels
+    flat = float(scipy.stats.chi2.sf(ratio / misfits.flat, freedom))
+    return Laws(count, fit, shares, shape, gain, flat, min(1.0, 2 * min(flat, shape.level)), (ratio / freedom,))
+
+
+def _single(evidence: Evidence, shares: Array, misfits: Misfits = Misfits(), start: KernelBasis | None = None) -> Laws:
+    """Return a single row, refitted from `start` where there is one, with its ratio for EXTRA and for LONG more degrees."""
+    data, order = evidence.single, evidence.order
+    if start is None:
+        short = fitted(data, (order // 2 + 1,), shares=shares, rounds=3).rows
+        starts = [padded(short, (order,)), padded(short, (order,), below=True)]
+        if evidence.model is not None:
+            starts.append(list(model_rows(data, evidence.model, (order,), shares).rows))
+        fit = fitted(data, (order,), starts, shares=shares, rounds=3)
+    else:
+        fit = refitted(data, (order,), start.rows, shares=shares, rounds=3)
+    longest, probability, gains, ratios = fit, 1.0, list[float](), list[float]()
+    steps = [EXTRA, data.degree - order] if data.degree > order + EXTRA else [data.degree - order]
+    for degrees, misfit in zip(steps, misfits.single, strict=False):
+        longest = refitted(data, (order + degrees,), longest.rows, shares=shares, rounds=3)
+        gains.append(max(fit.level - longest.level, 0.0))
+        freedom = degrees * data.moments.channels
+        ratios.append(data.samples * gains[-1] / freedom)
+        probability = min(probability, len(steps) * float(scipy.stats.chi2.sf(ratios[-1] * freedom / misfit, freedom)))
+    return Laws(1, fit, shares, None, gains[0], probability, probability, tuple(ratios), longest)
+
+
+def bootstrapped(evidence: Evidence, laws: Laws, draws: int) -> Laws:
     """Return the laws with probabilities by the misfit of so many records made from the rows, or as they are where they are hopeless."""
-    if _hopeless(data, laws):
+    if _hopeless(laws):
         return laws
-    gains, shapes = [], []
-    for record in redrawn(y, u, data, laws.fit, laws.shares, draws, SEED):
-        again = joint_moments(record, u, data.degree)
-        fit = refitted(again, [len(row) - 1 for row in laws.fit.rows], laws.fit.rows, shares=laws.shares, rounds=3)
-        one = _with_probabilities(again, fit, laws.shares, 1.0, 1.0)
-        gains.append(likelihood_ratio(again, one.fit, one.longer) / freedom(again, one.fit, one.longer))
-        shapes.append(one.sphericity.nats / one.sphericity.expected if one.sphericity else 1.0)
-    return _with_probabilities(data, laws.fit, laws.shares, max(float(np.mean(gains)), 1.0), max(float(np.mean(shapes)), 1.0))
+    found = []
+    for record in redrawn(evidence.y, evidence.u, evidence.data, laws.fit, laws.shares, draws, SEED):
+        one = _again(replace(evidence, y=record), laws, Misfits(1.0, 1.0, (1.0, 1.0)))
+        found.append(([one.sphericity.nats / one.sphericity.expected] if one.sphericity else []) + list(one.ratios))
+    means = tuple(np.maximum(np.mean(found, axis=0), 1.0).tolist())
+    return _again(evidence, laws, Misfits(single=means) if laws.count == 1 else Misfits(*means))
 
 
-def _with_probabilities(data: JointMoments, fit: KernelBasis, shares: Array, misfit: float, shape_misfit: float) -> Laws:
-    """Return the laws of a fit with these shares, with both ratios and their probabilities."""
-    count = len(fit.rows)
-    total = sum(map(len, fit.rows)) - count
-    degrees = even_split(total + EXTRA, count)
-    longer = refitted(data, degrees, fit.rows, shares=shares, rounds=3)
-    flat = excess(data, fit, longer, (misfit,))
-    if count == 1:
-        return Laws(count, fit, longer, shares, None, fit.level - longer.level, flat, shape_misfit, misfit)
-    shape = sphericity(remainder(data, fit), shares, shape_misfit)
-    probability = min(1.0, 2 * min(flat, shape.level))
-    return Laws(count, fit, longer, shares, shape, fit.level - longer.level, probability, shape_misfit, misfit)
+def _again(evidence: Evidence, laws: Laws, misfits: Misfits) -> Laws:
+    """Return laws tested on such evidence, from the rows that they had, with these misfits."""
+    if laws.count == 1:
+        return _single(evidence, laws.shares, misfits, laws.fit)
+    if laws.count == evidence.data.p and evidence.unexplained is not None:
+        return _all(evidence, evidence.unexplained, laws.shares, misfits)
+    degrees = [len(row) - 1 for row in laws.fit.rows]
+    return _several(evidence, refitted(evidence.data, degrees, laws.fit.rows, shares=laws.shares, rounds=3), laws.shares, misfits)
+
+
+def longer_are_laws(evidence: Evidence, count: int, known: Array | None) -> bool:
+    """Return whether `count` >= 2 rows of degree order + EXTRA have about the shape of noise: then the order is too low for fewer."""
+    higher = replace(evidence, order=evidence.order + EXTRA)
+    if count == evidence.data.p and higher.unexplained is not None:
+        shape = _all(higher, higher.unexplained, known, Misfits()).sphericity
+    else:
+        fit, shares = next(_descents(higher, count, known))
+        shape = sphericity(remainder(higher.data, fit), shares)
+    return shape is not None and shape.nats <= FAR * shape.expected

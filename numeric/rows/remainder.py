@@ -33,6 +33,8 @@ ComplexArray = NDArray[np.complex128]
 
 # Bands of the test: wide enough for the matrices to be estimated, narrow beside what the colour of a fault changes over.
 TEST_BANDS = 16
+# Complex samples of a band of the test for each row: with fewer the shape is hardly estimated.
+SAMPLES = 4
 SWEEPS = 40
 # A channel's noise beside that of the loudest: below it the likelihood of few bands would call a channel exact.
 LEAST_SHARE = 1e-4
@@ -86,8 +88,9 @@ def noise_shares(rest: Remainder, start: Array) -> Array:
 
 
 def _groups(rest: Remainder) -> list[NDArray[np.int_]]:
-    """Return the bands of the moments that each band of the test joins."""
-    return np.array_split(np.arange(len(rest.weights)), min(TEST_BANDS, len(rest.weights)))
+    """Return the bands of the moments that each band of the test joins: enough for SAMPLES samples a row."""
+    most = int(rest.samples / (2 * SAMPLES * rest.powers.shape[1]))
+    return np.array_split(np.arange(len(rest.weights)), max(1, min(TEST_BANDS, len(rest.weights), most)))
 
 
 def whitened(rest: Remainder, shares: Array) -> ComplexArray:

@@ -20,10 +20,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
+from ...base.progress import Progress, silent
 from ...base.sheets import Shown
+from ...base.threads import one_thread
 from ..count.arguments import not_zero
 from ..data.plain import plain
-from ..data.records import OnProgress, SampleStore, Stored, silent, stored
+from ..data.records import SampleStore, Stored, stored
 from ..data.validation import signal
 from ..drawing import plot_stored_signal
 from .smoother import Solution, Stretch, simulated, smoothed
@@ -69,6 +71,7 @@ class Reconstruction(Solution, Shown):
         return self.store.read(0, len(self.store))
 
     @cached_property
+    @one_thread()
     def _simulated(self) -> tuple[Array, Array]:
         return simulated(*self.pair, self.x0, self.v)
 
@@ -129,6 +132,7 @@ class Reconstruction(Solution, Shown):
         return 1.0 - float(np.sum(self.left / units**2)) / whole if whole else 0.0
 
 
+@one_thread()
 def reconstruct_fault(
     r: ArrayLike | SampleStore | Stored,
     A: ArrayLike,
@@ -138,7 +142,7 @@ def reconstruct_fault(
     *,
     x0: ArrayLike | None = None,
     within: tuple[int, int] | None = None,
-    on_progress: OnProgress | None = None,
+    on_progress: Progress | None = None,
 ) -> Reconstruction:
     """Reconstruct the signal v of the faults F, G whose simulated residual equals r, by the smoother of [HP98], [MZ10].
 
@@ -178,7 +182,7 @@ def reconstruct_fault(
 
 
 def _joined(
-    begin: Stretch, solve: Callable[[int, int], Stretch], r: SampleStore, margin: int, within: tuple[int, int], on_progress: OnProgress
+    begin: Stretch, solve: Callable[[int, int], Stretch], r: SampleStore, margin: int, within: tuple[int, int], on_progress: Progress
 ) -> Reconstruction:
     """Join the middles of the pieces that `solve` gives, one after the other."""
     N = len(r)

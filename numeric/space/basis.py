@@ -219,6 +219,8 @@ def _rounding(problem: _Problem, colour: Array, h: Array) -> float:
 def _derivatives(problem: _Problem, colour: Array, h: Array) -> tuple[Array, Array, Array]:
     """Return half the gradient of the cost, half its second derivatives, and the part of these that the scores' variance is made of."""
     X, Y, E, W = _parts(problem, h)
+    if len(problem.degrees) == 1:
+        return _derivatives_of_one(problem, colour, X[:, :, 0], Y[:, :, 0], E[:, 0, 0].real, W[:, 0, 0].real)
     bleach = 1 / colour[:, None, None]
     XW, YW = (X * bleach) @ W, Y @ W
     M = W @ (E * bleach) @ W
@@ -236,6 +238,29 @@ def _derivatives(problem: _Problem, colour: Array, h: Array) -> tuple[Array, Arr
     width = spread.shape[1]
     second = spread @ second.reshape(width, width) @ spread.T
     return gradient, (second + second.T) / 2, spread @ scores.reshape(width, width) @ spread.T
+
+
+def _derivatives_of_one(
+    problem: _Problem, colour: Array, X: ComplexArray, Y: ComplexArray, E: Array, W: Array
+) -> tuple[Array, Array, Array]:
+    """Return the same of a single row, whose W and E are numbers: sums over bands are products of matrices, with no band held by itself."""
+    weight = W / colour
+    left = (Y.T * (W**2 * E / colour / 2) - X.T * weight) * W
+    crossed = _real_product(left, Y.conj())
+    scores = np.tensordot(weight, problem.data.real, axes=1) + crossed + crossed.T
+    power = W**2 * E / colour
+    change = Y.T * power - X.T * weight
+    mixed = _real_product(Y.T * W, change.T)
+    second = scores + _real_product(Y.T * (power * W), Y.conj()) - np.tensordot(power, problem.gains.real, axes=1) + mixed + mixed.T
+    spread = problem.spread[:, 0]
+    gradient = -spread @ change.sum(axis=1).real
+    second = spread @ second @ spread.T
+    return gradient, (second + second.T) / 2, spread @ scores @ spread.T
+
+
+def _real_product(A: ComplexArray, B: ComplexArray) -> Array:
+    """Return the real part of A B."""
+    return np.asarray(A.real @ B.real - A.imag @ B.imag)
 
 
 def _free(problem: _Problem, h: Array) -> Array:
@@ -299,6 +324,11 @@ def _covariance(problem: _Problem, colour: Array, h: Array, power: float, sample
     second, scores = free.T @ second @ free, free.T @ scores @ free
     inverse = np.asarray(scipy.linalg.pinvh(second))
     return np.asarray(free @ inverse @ scores @ inverse @ free.T) * power / samples
+
+
+def colour_of(spectrum: Array, angles: Array, weights: Array, order: int = NOISE_ORDER) -> Array:
+    """Return the spectrum (bands,), of mean logarithm zero, of the autoregression that fits a spectrum (bands,) best."""
+    return _colour(_autoregression(spectrum, angles, weights, order), angles, weights)
 
 
 def _autoregression(spectrum: Array, angles: Array, weights: Array, order: int) -> Array:

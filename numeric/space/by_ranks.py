@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
+from ...base.threads import one_thread
 from ..count.arguments import Arguments, arguments
 from ..count.windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
 from ..data.records import Stored, in_memory
@@ -45,6 +46,7 @@ __all__ = [
 ]
 
 
+@one_thread()
 def fault_space(
     r: ArrayLike | Stored, A: ArrayLike, C: ArrayLike, *, n_v: int | None = None, block_rows: int | None = None
 ) -> FaultSpaceEstimate:

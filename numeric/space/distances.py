@@ -21,6 +21,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 
 # Columns of unit length with a singular value below this are taken for dependent.
 DEPENDENT = 1e-12
@@ -70,6 +71,7 @@ def containment_distance(U: object, V: object) -> float:
     return compare_subspaces(U, V).first_in_second
 
 
+@one_thread()
 def subspace_distance(U: object, V: object) -> float:
     """Return the two-sided distance of span U (d, k) and span V (d, l): the sine of the largest angle either way.
 

@@ -29,8 +29,8 @@ DRAWS = 4000
 _SEED = 20250519
 
 
-@dataclass(frozen=True, eq=False)
-class SpaceUncertainty:
+@dataclass(frozen=True, eq=False, repr=False)
+class SpaceUncertainty(Shown):
     """How far a fault space may be off, as a linear map of standard normal numbers, which is honest while errors are small [MN89].
 
     `root` has the shape (q, n + p, n_z): to first order the orthonormal basis (n + p, n_z) of the space is off its span by the sum of
@@ -44,6 +44,20 @@ class SpaceUncertainty:
     """
 
     root: Array
+
+    @property
+    def title(self) -> str:
+        """Return what it is about, on one short line."""
+        return f"a fault space is within {self.angle():.2g} rad of the true one with probability 0.95"
+
+    def sheet(self) -> Iterator[tuple[str, str]]:
+        """Yield the angle and the distance that the error stays below, each with its probability."""
+        yield "angle, probability 0.95", f"{self.angle():.4g} rad"
+        yield "distance, probability 0.5", f"{self.distance():.4g}, of 1 at most"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a JSON-ready dict: the linear map `root`, and the angle and the distance that `summary` tells."""
+        return {"root": plain(self.root), "angle": self.angle(), "distance": self.distance()}
 
     def angle(self, confidence: float = 0.95) -> float:
         """Return the radians that the largest principal angle to the true space stays below with this probability."""

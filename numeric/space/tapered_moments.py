@@ -64,8 +64,11 @@ class CrossMoments:
         return WindowMoments(self.moments.real * count, self.weights * count, self.angles, self.channels, self.degree, count)
 
 
-def tapered_moments(r: Array, degree: int) -> CrossMoments:
-    """Return the moments of r (N, p). Raises InvalidData where the windows are fewer than twice their own size."""
+def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
+    """Return the moments of r (N, p) in `most` bands, or fewer where the record is short.
+
+    Raises InvalidData where the windows are fewer than twice their own size.
+    """
     N, p = r.shape
     windows, size = N - degree, p * (degree + 1)
     if windows < 2 * size:
@@ -73,7 +76,7 @@ def tapered_moments(r: Array, degree: int) -> CrossMoments:
             f"r has {N} samples of {p} channels: kernel rows of degree {degree} need at least {2 * size + degree}; "
             "record more, or take a model of lower order"
         )
-    bands = max(4, min(BANDS, windows // 8))
+    bands = max(4, min(most, windows // 8))
     length = min(windows, SEGMENT)
     pieces = 1 + int(np.ceil((windows - length) / (length * (1 - EDGES / 2))))
     starts = np.linspace(0, windows - length, pieces).astype(int).tolist()

@@ -20,6 +20,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..model.models import StateSpaceModel, observability_matrix
 from ..model.past_inputs import pi_moesp
 from ..model.residuals import residual
@@ -89,21 +90,25 @@ class Case:
         return len(self.zeros)
 
 
+@one_thread()
 def published_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
     """Estimate a case as published: s = 5, the noise that is called 1 %, true matrices, the residual from a random initial state."""
     return _with_true_model(index, seed, samples, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
 
 
+@one_thread()
 def corrected_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
     """Estimate a case with a window beyond the lag, noise of 1 %, true matrices, both estimators."""
     return _with_true_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD))
 
 
+@one_thread()
 def identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
     """Estimate a case as published, with the identified model; a refusal of the identification is recorded, not raised."""
     return _with_identified_model(index, seed, samples, PUBLISHED_WINDOW, NOISE_LEVEL, (PAPER,))
 
 
+@one_thread()
 def corrected_identified_case(index: int, seed: np.random.SeedSequence, samples: int) -> Case:
     """Estimate a case as corrected, with the identified model and both estimators."""
     return _with_identified_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD))

@@ -20,7 +20,7 @@ import scipy.signal
 
 from ...base.arrays import Array
 from ..data.validation import positive
-from ..model.models import StateSpaceModel
+from ..model.models import StateSpaceModel, observability_matrix
 from .systems import N_U, N_X, P, StudySystem
 
 SAMPLES = 1001
@@ -60,8 +60,10 @@ def study_run(system: StudySystem, seed: np.random.SeedSequence | int, *, level:
     plain = system.model
     whole = StateSpaceModel(plain.A, np.hstack([plain.B, system.F]), plain.C, np.hstack([plain.D, system.G]))
     clean = response(whole, np.hstack([u, v]), x0)
-    noise = level * clean.std(axis=0, ddof=1) * coloured_noise(samples, P, rng)
-    decibels = float(np.mean(20 * np.log10(clean.std(axis=0) / noise.std(axis=0)))) if level > 0 else float("inf")
+    by_channel = np.ascontiguousarray(clean.T)  # sums over its rows are faster
+    noise = level * by_channel.std(axis=1, ddof=1) * coloured_noise(samples, P, rng)
+    ratios = by_channel.std(axis=1) / np.ascontiguousarray(noise.T).std(axis=1) if level > 0 else np.array([np.inf])
+    decibels = float(np.mean(20 * np.log10(ratios)))
     return StudyRun(u, clean + noise, v, decibels)
 
 
@@ -71,16 +73,19 @@ def response(model: StateSpaceModel, u: Array, x0: Array) -> Array:
     With a(q) the characteristic polynomial of A, a(q) y is a finite sum of past inputs, and of x0 in the first n samples. The
     recursion by a costs nothing to set up; it loses digits where many poles crowd, so large models use `StateSpaceModel.simulate`.
     """
-    n, samples = model.n, len(u)
+    n, p, samples = model.n, model.p, len(u)
     characteristic = np.poly(np.linalg.eigvals(model.A)).real
-    free = StateSpaceModel(model.A, x0[:, None], model.C, np.zeros((model.p, 1))).markov(n + 1)[1:, :, 0]
-    forced = model.markov(n + 1)
-    driven = np.zeros((samples, model.p))
+    # C A^l [B x0], l = 0..n-1, and below them D: the Markov parameters and the free response.
+    effects = (observability_matrix(model.A, model.C, n) @ np.column_stack([model.B, x0])).reshape(n, p, -1)
+    forced = np.concatenate([model.D[np.newaxis], effects[:, :, :-1]])
+    lags = np.subtract.outer(np.arange(n + 1), np.arange(n + 1))
+    times_characteristic = np.where(lags >= 0, characteristic[np.abs(lags)], 0.0)
+    numerator = np.tensordot(times_characteristic, forced, 1)
+    lagged = np.zeros((samples, n + 1, model.n_u))
     for lag in range(min(n + 1, samples)):
-        numerator = np.tensordot(characteristic[: lag + 1], forced[lag::-1], 1)
-        driven[lag:] += u[: samples - lag] @ numerator.T
-        if lag < n:
-            driven[lag] += characteristic[: lag + 1] @ free[lag::-1]
+        lagged[lag:, lag] = u[: samples - lag]
+    driven = lagged.reshape(samples, -1) @ numerator.swapaxes(1, 2).reshape(-1, p)
+    driven[:n] += (times_characteristic[:n, :n] @ effects[:, :, -1])[:samples]
     return np.asarray(scipy.signal.lfilter([1.0], characteristic, driven, axis=0), dtype=np.float64)
 
 

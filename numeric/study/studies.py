@@ -37,13 +37,14 @@ from typing import Any
 import numpy as np
 
 from ...base.errors import InvalidData, shorten
+from ...base.progress import Progress, silent
 from ...base.sheets import Shown
 from ..data.validation import positive
 from .cases import LIKELIHOOD, PAPER, corrected_case, corrected_identified_case, identified_case, published_case
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
 from .runs import SAMPLES
-from .workers import Progress, in_order
+from .workers import in_order
 
 SEED = 1907
 
@@ -132,9 +133,9 @@ def monte_carlo(
     `plan` is one of PUBLISHED, IDENTIFIED, CORRECTED and CORRECTED_IDENTIFIED, or its name in `STUDIES`: "published", "identified",
     "corrected", "corrected-identified". `systems` random systems are drawn, a quarter for each number of zeros from 0 to 3, with records of
     `samples` samples each; equal seeds give equal cases. `jobs` processes share the work (None: all cores, as far as they are worth their
-    start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `on_progress` is called with (done,
-    total, seconds left) as cases come in. The Study has `cases`, whose errors are fractions of the metric's maximum, `summary()`, `plot()`
-    and `to_json()`.
+    start), or the Dask cluster whose scheduler is at the address `cluster`; the results are the same. `on_progress` is called with (name
+    of the plan, done, total) as cases come in. The Study has `cases`, whose errors are fractions of the metric's maximum, `summary()`,
+    `plot()` and `to_json()`.
     Source: [G25] section V; [YL16] for the distances.
 
     Raises InvalidData for an unknown plan, for numbers out of range and for a cluster that cannot be used.
@@ -155,7 +156,7 @@ def monte_carlo(
         raise InvalidData(f"seed: got {seed}; a whole number from 0 on is needed")
     start = time.perf_counter()
     tasks = [(index, child, samples) for index, child in enumerate(np.random.SeedSequence(seed).spawn(systems))]
-    cases = in_order(plan.case, tasks, worth=plan.worth, jobs=jobs, cluster=cluster, progress=on_progress)
+    cases = in_order(plan.case, tasks, worth=plan.worth, jobs=jobs, cluster=cluster, stage=plan.name, progress=on_progress or silent)
     return Study(plan, seed, samples, tuple(cases), time.perf_counter() - start)
 
 

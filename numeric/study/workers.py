@@ -1,7 +1,6 @@
-"""This runs one task after another, over the cores of this machine or over a Dask cluster, with the time that remains.
+"""This runs one task after another, over the cores of this machine or over a Dask cluster, and tells how many are done.
 
     in_order      the results of the tasks, in their order, whoever worked on them
-    Progress      called with (done, total, seconds left) as results come in
     worth         number of tasks that are worth the start of a process: fewer run in this one
 
 The cluster is Dask's, through joblib; `distributed` is needed for it alone. Its workers must have this package installed, in the same
@@ -10,7 +9,6 @@ version.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from typing import Any, TypeVar
@@ -18,9 +16,9 @@ from typing import Any, TypeVar
 import joblib
 
 from ...base.errors import InvalidData
+from ...base.progress import Progress, silent
 from ..data.validation import positive
 
-Progress = Callable[[int, int, float], None]
 Result = TypeVar("Result")
 
 # Seconds until a scheduler answers, and until it has a worker.
@@ -34,7 +32,8 @@ def in_order(
     worth: int,
     jobs: int | None = None,
     cluster: str | None = None,
-    progress: Progress | None = None,
+    stage: str = "tasks",
+    progress: Progress = silent,
 ) -> list[Result]:
     """Call function(*task) for every task and return the results in order; `jobs` processes (None: all cores), or the workers of the Dask
     scheduler at the address `cluster`.
@@ -45,14 +44,12 @@ def in_order(
         raise InvalidData(f"jobs: got {jobs} together with a cluster, which decides for itself; leave one of them out")
     workers = joblib.cpu_count() if jobs is None else positive(jobs, "jobs")
     place = _processes(min(workers, -(-len(tasks) // worth))) if cluster is None else _cluster(cluster)
-    start = time.perf_counter()
     results = []
+    progress(stage, 0, len(tasks))
     with place as parallel:
         for result in parallel(joblib.delayed(function)(*task) for task in tasks):
             results.append(result)
-            if progress is not None:
-                done, total = len(results), len(tasks)
-                progress(done, total, (time.perf_counter() - start) * (total - done) / done)
+            progress(stage, len(results), len(tasks))
     return results
 
 

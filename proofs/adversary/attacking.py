@@ -14,8 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from ...base.progress import Progress
 from ..evidence.attacks import Attacked
-from ..evidence.corpus import Progress
 from .catalogue import WITHOUT, attacks_on, catalogue
 from .results import AttackRecord, checked_again, run_attacks
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 from fractions import Fraction
 from functools import cache
@@ -26,6 +26,7 @@ from typing import Any
 
 from joblib import Parallel, delayed
 
+from ...base.progress import Progress
 from ..evidence.attacks import Aim, Attack, Attacked, Trial
 from ..trust.structure_certificates import Certificate, sha256
 from .catalogue import attacks_on, catalogue, statement_of
@@ -40,7 +41,6 @@ SWEPT = "every case of a box"
 SWEEP = 8  # a sweep may take so many times as long as an attack
 
 AttackRecord = dict[str, Any]
-Progress = Callable[[str, int, int], None]
 
 
 def run_attacks(

@@ -10,7 +10,7 @@ from ...exact.pairs.canonical_form import behavior_name, fault_class, with_feedb
 from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.alternatives import AlternativeEvidence, PairEvidence, comparison_certificate
+from ..evidence.alternatives import AlternativeEvidence, PairEvidence, comparison_certificate, ranked
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -60,11 +60,11 @@ def popov_rows(bench: Workbench) -> Outcome:
 
 
 def _fault_class(system: ResidualSystem) -> object:
-    return fault_class(kernel_representation(system))
+    return fault_class(ranked(system).kernel)
 
 
 def _name(system: ResidualSystem) -> object:
-    return behavior_name(kernel_representation(system))
+    return behavior_name(ranked(system).kernel)
 
 
 def _show_alternative(record: AlternativeEvidence) -> Iterator[Certificate]:

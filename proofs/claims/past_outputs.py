@@ -19,6 +19,7 @@ def coloured_fault(bench: Workbench) -> Outcome:
         return experiment_of(system, [[["1", "0"]]], [[["0", "1"]], [["0", "1"]]])
 
     return smallest_limit(
+        bench,
         [drive],
         lambda e: e.controllable and e.observable and e.equal and not e.past_outputs_within,
         "u white, v(k) = f(k) + f(k-1) of its own white f",

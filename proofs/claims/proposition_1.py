@@ -54,7 +54,7 @@ LEADS = [["0", "1"], ["0", "2"], ["0", "0", "1"]]
 
 def white_a_c(bench: Workbench) -> Outcome:
     """With u white and one-sided, (A, B) controllable and (A, C) observable, the limit is claimed to have the range of O_s."""
-    return smallest_limit(drives([WHITE], LEADS), lambda e: _regular(e) and not e.equal, "v leads u by one or two samples")
+    return smallest_limit(bench, drives([WHITE], LEADS), lambda e: _regular(e) and not e.equal, "v leads u by one or two samples")
 
 
 def white_a_c_seen(bench: Workbench) -> Outcome:
@@ -73,7 +73,7 @@ def white_b_d(bench: Workbench) -> Outcome:
         system, found = e.experiment.system, e.state_inputs
         return _regular(e) and e.equal and found is not None and found[0] != system.B and found[1] != system.D
 
-    return smallest_limit(drives([WHITE], LEADS), fails, "v leads u by one or two samples, the limit having the range of O_s")
+    return smallest_limit(bench, drives([WHITE], LEADS), fails, "v leads u by one or two samples, the limit having the range of O_s")
 
 
 def white_b_d_fails(bench: Workbench) -> Outcome:
@@ -90,7 +90,7 @@ def white_b_d_seen(bench: Workbench) -> Outcome:
 def coloured_a_c(bench: Workbench) -> Outcome:
     """With u coloured and one-sided, (A, B) controllable and (A, C) observable, the limit is claimed to lie in the range of O_s."""
     return smallest_limit(
-        drives([MOVING_AVERAGE], [["0", "0", "1"]]), lambda e: _regular(e) and not e.within, "u = e(k) + e(k-1)/2, v(k) = u(k+2)"
+        bench, drives([MOVING_AVERAGE], [["0", "0", "1"]]), lambda e: _regular(e) and not e.within, "u = e(k) + e(k-1)/2, v(k) = u(k+2)"
     )
 
 
@@ -103,7 +103,7 @@ def autoregressive_longer(bench: Workbench) -> Outcome:
     """With u autoregressive of order s + 1 and v leading it, the limit is claimed to lie there too."""
     den = ["1", "-1/2", "1/4", "-1/8"]
     inputs = drives([(["1"], den)], [["0", "1"], ["0", "0", "1"]])
-    return smallest_limit(inputs, lambda e: _observed(e) and not e.within, "u of order 3, s = 2")
+    return smallest_limit(bench, inputs, lambda e: _observed(e) and not e.within, "u of order 3, s = 2")
 
 
 def lead_one(bench: Workbench) -> Outcome:
@@ -114,7 +114,7 @@ def lead_one(bench: Workbench) -> Outcome:
 def lead_one_with_feedthrough(bench: Workbench) -> Outcome:
     """The same is claimed with G other than 0."""
     return smallest_limit(
-        drives([MOVING_AVERAGE], [["0", "1"]]), lambda e: _observed(e) and not e.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
+        bench, drives([MOVING_AVERAGE], [["0", "1"]]), lambda e: _observed(e) and not e.within, "u = e(k) + e(k-1)/2, v(k) = u(k+1)"
     )
 
 
@@ -188,10 +188,10 @@ def parametric(bench: Workbench) -> Outcome:
     return Outcome(Verdict.IDENTITY, words)
 
 
-def smallest_limit(inputs: Sequence[Drive], fails: Callable[[LimitEvidence], bool], scope: str) -> Outcome:
+def smallest_limit(bench: Workbench, inputs: Sequence[Drive], fails: Callable[[LimitEvidence], bool], scope: str) -> Outcome:
     """The outcome is REFUTED by the first of the small experiments that fails, as the checker has accepted it."""
     for experiment in experiments_in_order(inputs):
-        evidence = examine_experiment("search", experiment)
+        evidence = bench.examined_experiment(experiment)
         if fails(evidence):
             return counterexample(show_words(evidence), f"{BOX}, {scope}", show(evidence))
     return Outcome(Verdict.ERROR, "no counterexample among the small experiments")

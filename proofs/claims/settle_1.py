@@ -18,6 +18,7 @@ def biased(bench: Workbench) -> Outcome:
     """There is such a fault with A and C right, as the limit has the range of O_s, and B or D wrong by either regression."""
     return witnessed(
         smallest_limit(
+            bench,
             [partial(following, gain="1")],
             lambda e: _regular(e) and e.equal and not e.output_error_right and not e.inputs_right,
             "v(k) = u(k-1), u white",
@@ -47,7 +48,7 @@ def for_every_system(bench: Workbench) -> Outcome:
 
 def a_c_wrong(bench: Workbench) -> Outcome:
     """A and C are claimed to come out wrong, the limit having rank n + 1; but a zero of the fault at 0 can cancel the delay."""
-    return smallest_limit([partial(following, gain="1")], lambda e: _regular(e) and e.equal, "v(k) = u(k-1), u white")
+    return smallest_limit(bench, [partial(following, gain="1")], lambda e: _regular(e) and e.equal, "v(k) = u(k-1), u white")
 
 
 def not_both(bench: Workbench) -> Outcome:

@@ -13,7 +13,7 @@ import numpy as np
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
-from ..evidence.alternatives import AlternativeEvidence, comparison_certificate
+from ..evidence.alternatives import AlternativeEvidence, comparison_certificate, ranked
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -52,7 +52,7 @@ def almost_every(bench: Workbench) -> Outcome:
 def criterion(bench: Workbench) -> Outcome:
     """For s >= lag + 1 the pair is equivalent iff its normal rank is that of the system, which is m where that is left-invertible."""
     records = [e for e in bench.alternatives if e.in_space]
-    failing = [e for e in records if e.equal != (e.alternative_normal_rank == kernel_representation(e.system).normal_rank)]
+    failing = [e for e in records if e.equal != (e.alternative_normal_rank == ranked(e.system).normal_rank)]
     return certify_records(records, failing, words, show)
 
 

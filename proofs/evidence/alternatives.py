@@ -6,6 +6,7 @@ compared_pairs            all pairs over GF(2) at small dimensions, shift regist
 alternatives              every (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
 examine_pair, examine_alternative    the evidence on one of each
 comparison_certificate    the certificate of equality or of the first difference, whichever is so
+ranked, fault_space_basis    what is asked of one system of a pair alone, kept because a system stands in many of them
 """
 
 from __future__ import annotations
@@ -13,11 +14,13 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from typing import Any
 
 from joblib import Parallel, delayed
 
+from ...base.progress import Progress
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.algebra.matrices import Matrix, beside, rank, solve_left, stacked
 from ...exact.structure.behavior import compare
@@ -26,7 +29,6 @@ from ...exact.structure.kernel_rows import KernelRepresentation, kernel_represen
 from ...exact.system.systems import ResidualSystem
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
-from .corpus import Progress
 from .exhaustive import all_systems, orbits
 from .families import adversarial, random_systems, shift_registers
 
@@ -61,6 +63,40 @@ class AlternativeEvidence:
     accepted: int
 
 
+@dataclass(frozen=True)
+class Ranked:
+    """A system by its kernel representation, with what the accepted certificate of its window ranks states."""
+
+    kernel: KernelRepresentation
+    left_minimal_indices: tuple[int, ...]
+    normal_rank: int
+
+    @property
+    def lag(self) -> int:
+        """The lag is the largest of the left minimal indices."""
+        return max(self.left_minimal_indices, default=0)
+
+
+@lru_cache(maxsize=1 << 10)
+def ranked(system: ResidualSystem) -> Ranked:
+    """Return the kernel representation of a system, its window ranks certified."""
+    kernel = kernel_representation(system)
+    certificate = make.window_ranks(kernel)
+    accept(certificate)
+    statement = certificate["statement"]
+    return Ranked(kernel, tuple(statement["left_minimal_indices"]), statement["normal_rank"])
+
+
+@lru_cache(maxsize=1 << 10)
+def fault_space_basis(system: ResidualSystem) -> Matrix:
+    """Return the rows of a basis of the fault space, as an accepted certificate states them."""
+    kernel = ranked(system).kernel
+    certificate = make.fault_space(kernel, fault_space(kernel))
+    accept(certificate)
+    basis = certificate["statement"]["basis"]
+    return Matrix.of(basis, system.field, shape=(len(basis), system.n + system.p))
+
+
 def comparison_certificate(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
     """The certificate of equality, or of the difference on the shortest window, whichever is so."""
     found = compare(first, second)
@@ -74,40 +110,34 @@ def comparison_certificate(first: KernelRepresentation, second: KernelRepresenta
 
 def examine_pair(origin: str, first: ResidualSystem, second: ResidualSystem, weight: int = 1) -> PairEvidence:
     """Return the evidence on two systems: equality or the first difference, and their lags, each certified."""
-    kernels = kernel_representation(first), kernel_representation(second)
-    verdict = comparison_certificate(*kernels)
-    certificates = [verdict, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
-    window: int | None = verdict["statement"].get("window")
+    one, other = ranked(first), ranked(second)
+    certificates = [comparison_certificate(one.kernel, other.kernel)]
+    window: int | None = certificates[0]["statement"].get("window")
     if window is not None:
-        certificates.append(make.window_equality(*kernels, window - 1))
+        certificates.append(make.window_equality(one.kernel, other.kernel, window - 1))
     for certificate in certificates:
         accept(certificate)
-    etas = [certificate["statement"]["left_minimal_indices"] for certificate in certificates[1:3]]
-    ranks = [certificate["statement"]["normal_rank"] for certificate in certificates[1:3]]
-    lags = (max(etas[0], default=0), max(etas[1], default=0))
-    return PairEvidence(origin, first, second, weight, window, lags, (ranks[0], ranks[1]), len(certificates))
+    lags, ranks = (one.lag, other.lag), (one.normal_rank, other.normal_rank)
+    return PairEvidence(origin, first, second, weight, window, lags, ranks, len(certificates) + 2)
 
 
 def examine_alternative(origin: str, system: ResidualSystem, alternative: ResidualSystem, weight: int = 1) -> AlternativeEvidence:
     """Return the evidence on other fault matrices: whether they make the same outputs, and whether they lie in the fault space."""
-    kernels = kernel_representation(system), kernel_representation(alternative)
-    space = make.fault_space(kernels[0], fault_space(kernels[0]))
-    certificates = [comparison_certificate(*kernels), space, make.window_ranks(kernels[0]), make.window_ranks(kernels[1])]
-    for certificate in certificates:
-        accept(certificate)
-    basis = Matrix.of(space["statement"]["basis"], system.field, shape=(len(space["statement"]["basis"]), system.n + system.p))
+    one, other, basis = ranked(system), ranked(alternative), fault_space_basis(system)
+    comparison = comparison_certificate(one.kernel, other.kernel)
+    accept(comparison)
     columns = stacked(alternative.F, alternative.G)
     return AlternativeEvidence(
         origin=origin,
         system=system,
         alternative=alternative,
         weight=weight,
-        equal=certificates[0]["kind"] == "behaviour-equality",
+        equal=comparison["kind"] == "behaviour-equality",
         in_space=rank(stacked(basis, columns.transposed())) == basis.nrows,
-        alternative_normal_rank=certificates[3]["statement"]["normal_rank"],
+        alternative_normal_rank=other.normal_rank,
         full_column_rank=rank(columns) == alternative.m,
-        left_invertible=certificates[2]["statement"]["normal_rank"] == system.m,
-        accepted=len(certificates),
+        left_invertible=one.normal_rank == system.m,
+        accepted=4,  # the comparison, the fault space, and the window ranks of both
     )
 
 

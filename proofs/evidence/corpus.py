@@ -11,12 +11,13 @@ A claim reads evidence only, so that whatever it concludes rests on statements t
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
 
 from joblib import Parallel, delayed
 
+from ...base.progress import Progress
 from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.fault_columns import FaultSpace, fault_space
@@ -27,8 +28,6 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import accept
 from .exhaustive import orbits
 from .families import adversarial, paper_example, random_systems
-
-Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, repr=False)

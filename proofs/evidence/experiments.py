@@ -22,6 +22,7 @@ from typing import Any
 
 from joblib import Parallel, delayed
 
+from ...base.progress import Progress
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.algebra.stability import is_stable, rational_characteristic_polynomial
@@ -31,7 +32,6 @@ from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..trust import limit_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept
-from .corpus import Progress
 from .seasonal_inputs import in_order, seasonal
 
 Rows = list[list[str]]

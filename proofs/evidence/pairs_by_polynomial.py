@@ -16,19 +16,19 @@ from itertools import product
 
 from joblib import Parallel, delayed
 
+from ...base.progress import Progress
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.algebra.polynomials import monic, multiply, written
 from ...exact.pairs.assignment import assign_zeros
 from ...exact.pairs.polynomial import Exceptional, exceptional, polynomial_at
 from ...exact.pairs.witnesses import BadPair, bad_pair, good_columns
-from ...exact.structure.fault_columns import fault_space, with_pair
+from ...exact.structure.fault_columns import with_pair
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import accept
-from .alternatives import comparison_certificate
-from .corpus import Progress
+from .alternatives import comparison_certificate, fault_space_basis, ranked
 from .exhaustive import orbits
 from .families import adversarial, random_systems
 
@@ -77,19 +77,13 @@ def examine_by_polynomial(origin: str, purpose: str, system: ResidualSystem, P: 
     pencil = pencil_of(system)
     field = system.field
     pair = with_pair(pencil.space, P)
-    kernels = pencil.kernel, kernel_representation(pair)
+    own, other = ranked(system), ranked(pair)
+    fault_space_basis(system)  # certified too, for the pair is made of it
     found = polynomial_at(pencil, P)
-    certificates = [
-        comparison_certificate(*kernels),
-        make.window_ranks(kernels[0]),
-        make.window_ranks(kernels[1]),
-        make.finite_zeros(pair),
-        make.infinite_zeros(pair),
-        make.fault_space(pencil.kernel, fault_space(pencil.kernel)),
-    ]
+    certificates = [comparison_certificate(own.kernel, other.kernel), make.finite_zeros(pair), make.infinite_zeros(pair)]
     for certificate in certificates:
         accept(certificate)
-    says = [certificate["statement"] for certificate in certificates]
+    _, finite, infinite = (certificate["statement"] for certificate in certificates)
 
     return PairByPolynomial(
         origin=origin,
@@ -101,13 +95,13 @@ def examine_by_polynomial(origin: str, purpose: str, system: ResidualSystem, P: 
         wanted=None if wanted is None else _hashable(written(monic(wanted), field)),  # type: ignore[arg-type]
         full_column_rank=rank(P) == P.ncols,
         observable=pencil.observable,
-        normal_rank=says[1]["normal_rank"],
-        zeta=system.n - sum(says[1]["left_minimal_indices"]),
-        pair_normal_rank=says[2]["normal_rank"],
-        zero_polynomial=_hashable(says[3]["invariant_zero_polynomial"]),
-        infinite_zeros=sum(says[4]["infinite_zero_orders"]),
+        normal_rank=own.normal_rank,
+        zeta=system.n - sum(own.left_minimal_indices),
+        pair_normal_rank=other.normal_rank,
+        zero_polynomial=_hashable(finite["invariant_zero_polynomial"]),
+        infinite_zeros=sum(infinite["infinite_zero_orders"]),
         equal=certificates[0]["kind"] == "behaviour-equality",
-        accepted=len(certificates),
+        accepted=len(certificates) + 3,
     )
 
 

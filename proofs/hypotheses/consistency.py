@@ -151,7 +151,7 @@ def _examined(batch: Sequence[Experiment]) -> list[Driven]:
 
 def _smallest(hypotheses: Mapping[str, Callable[[Driven], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Driven]:
     kept = [test for name, test in hypotheses.items() if name not in dropped]
-    searched = bench.records("small experiments", lambda: [driven(examine_experiment("search", e)) for e in small_experiments()])
+    searched = bench.records("small experiments", lambda: [driven(bench.examined_experiment(e)) for e in small_experiments()])
 
     def counterexamples(poor: bool) -> Iterator[Driven]:
         for subject in searched:

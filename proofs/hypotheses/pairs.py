@@ -19,7 +19,7 @@ from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..evidence.alternatives import PairEvidence, comparison_certificate, examine_pair
+from ..evidence.alternatives import PairEvidence, comparison_certificate, examine_pair, ranked
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -149,7 +149,7 @@ def _same_model(pair: Compared) -> bool:
 
 def columns_in_space(first: ResidualSystem, second: ResidualSystem) -> bool:
     """Return whether the columns [F'; G'] of the second solve problem (11) of the first."""
-    basis = fault_space(kernel_representation(first)).basis
+    basis = fault_space(ranked(first).kernel).basis
     return rank(stacked(basis, stacked(second.F, second.G).transposed())) == basis.nrows
 
 

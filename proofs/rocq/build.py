@@ -33,7 +33,7 @@ import shutil
 import stat
 import subprocess
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from functools import cache
@@ -44,9 +44,9 @@ from typing import IO
 from filelock import FileLock
 from platformdirs import user_cache_path
 
+from ...base.progress import Progress, silent
 from .sources import needs, sources
 
-Progress = Callable[[str, int, int], None]
 INSTALL = "install Rocq with MathComp, on Debian or Ubuntu: apt install coq libcoq-mathcomp-algebra libcoq-mathcomp-zify"
 OPTIONS = ("-q", "-Q", ".", "faultspace", "-w", "-all")
 FILE_SECONDS = 600
@@ -129,7 +129,7 @@ def content_hash(texts: dict[str, str]) -> str:
     return digest.hexdigest()[:20]
 
 
-def compiled_theory(progress: Progress = lambda name, done, total: None, *, texts: dict[str, str] | None = None) -> Path:
+def compiled_theory(progress: Progress = silent, *, texts: dict[str, str] | None = None) -> Path:
     """Returns the folder that holds the sources and the compiled files. Raises NoRocq, BrokenTheory.
 
     `texts`: other sources than ours, file name -> text. `progress(words, done, total)` is called before each file.
@@ -254,7 +254,7 @@ def compiled_again(texts: Mapping[str, str]) -> dict[str, bytes]:
         folder = Path(scratch)
         for name, text in texts.items():
             (folder / name).write_text(text, "utf-8")
-        _compile_all(folder, texts, lambda name, done, total: None)
+        _compile_all(folder, texts, silent)
         return {name: (folder / name).with_suffix(".vo").read_bytes() for name in texts}
 
 

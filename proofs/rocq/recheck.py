@@ -13,7 +13,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from .build import NotProved, Progress, compiled_theory, forget
+from ...base.progress import Progress, silent
+from .build import NotProved, compiled_theory, forget
 
 SECONDS = 1800
 # What coqchk lists that a theory rests on; each must be nothing.
@@ -25,7 +26,7 @@ HEADINGS = (
 )
 
 
-def recheck(progress: Progress = lambda name, done, total: None) -> str:
+def recheck(progress: Progress = silent) -> str:
     """Returns what was done, in words. Raises NoRocq, BrokenTheory, NotProved."""
     forget()
     theory = compiled_theory(progress)

@@ -29,8 +29,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from ...base.progress import Progress, silent
 from ..trust import checker
-from .build import CLOSED, BrokenTheory, NotProved, Progress, compile_file, compiled_theory, kept_theory
+from .build import CLOSED, BrokenTheory, NotProved, compile_file, compiled_theory, kept_theory
 from .export import HEAD, MODULES, Terms, exported, written
 from .listed import NotCovered
 from .sources import needs, sources
@@ -50,9 +51,7 @@ ACCEPTED = Recomputed("accepted", "the kernel has proved the statement by comput
 REJECTED = Recomputed("rejected", "the check computes to false")
 
 
-def recomputed(
-    certificates: Sequence[Any], progress: Progress = lambda stage, done, total: None, *, seconds: float = SECONDS
-) -> list[Recomputed]:
+def recomputed(certificates: Sequence[Any], progress: Progress = silent, *, seconds: float = SECONDS) -> list[Recomputed]:
     """Returns one answer for each certificate. Rocq is asked about what the checker verifies, and about nothing else: the rest is rejected
     here. Undecided is what takes longer than `seconds`, or too much memory. Raises NoRocq, BrokenTheory (of the theory itself)."""
     compiled = theory(progress)
@@ -74,7 +73,7 @@ def recomputed(
     return [results[i] for i in range(len(certificates))]
 
 
-def theory(progress: Progress = lambda stage, done, total: None) -> Path:
+def theory(progress: Progress = silent) -> Path:
     """Returns the folder with the compiled files that the checks need. Raises NoRocq, BrokenTheory."""
     if (whole := kept_theory()) is not None:
         return whole

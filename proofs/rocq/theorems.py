@@ -21,19 +21,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .build import (
-    CLOSED,
-    DIGESTS,
-    BrokenTheory,
-    NoRocq,
-    NotProved,
-    Poisoned,
-    Progress,
-    compile_file,
-    compiled_again,
-    compiled_theory,
-    found,
-)
+from ...base.progress import Progress, silent
+from .build import CLOSED, DIGESTS, BrokenTheory, NoRocq, NotProved, Poisoned, compile_file, compiled_again, compiled_theory, found
 from .locks import held
 from .sources import sources
 from .statements import VOCABULARY, Headline, read
@@ -53,7 +42,7 @@ class Theorems:
     locks: Mapping[str, str] = field(default_factory=dict)
 
 
-def check(names: Iterable[str], progress: Progress = lambda name, done, total: None) -> Theorems:
+def check(names: Iterable[str], progress: Progress = silent) -> Theorems:
     """Returns the statements of these headlines. Raises NotProved, NoRocq, BrokenTheory, Poisoned."""
     wanted, texts = sorted(set(names)), sources()
     locks = held(texts)
@@ -64,7 +53,7 @@ def check(names: Iterable[str], progress: Progress = lambda name, done, total: N
     return Theorems(compiler.version, statements, {name: locks.theorems[name].sha256 for name in wanted})
 
 
-def asked(wanted: list[str], texts: Mapping[str, str], theory: Path, progress: Progress = lambda name, done, total: None) -> dict[str, str]:
+def asked(wanted: list[str], texts: Mapping[str, str], theory: Path, progress: Progress = silent) -> dict[str, str]:
     """Returns name -> statement, as Rocq prints it with the compiled theory of these sources. Raises NotProved, BrokenTheory, Poisoned."""
     statements = read(texts)
     missing = [name for name in wanted if name not in statements.headlines]

@@ -45,7 +45,7 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from contextvars import ContextVar
 from functools import cache, partial, reduce
-from itertools import accumulate, repeat
+from itertools import accumulate, chain, repeat
 from math import comb, gcd, lcm
 from operator import add, mul
 from typing import Any, NamedTuple, NoReturn
@@ -113,22 +113,26 @@ def charge(work: int, room: int = 0) -> Meter:
 def rational(value: Json, where: str, integral: bool = False) -> tuple[int, int]:
     """Return (numerator, denominator) of a RATIONAL or, integral, of an INTEGER; reduced."""
     match = NUMBER.fullmatch(value) if type(value) is str else None
-    expect(type(value) is int or (match and not (integral and match[2])), f"{where}: expected {'an integer' if integral else 'a rational'}")
+    if type(value) is not int and (match is None or (integral and match[2])):
+        expect(False, f"{where}: expected {'an integer' if integral else 'a rational'}")
     charge(2000 + (len(match[0]) ** 2 >> 6 if match else value.bit_length() ** 2 >> 8))
     top, bottom = (int(match[1]), int(match[2] or 1)) if match else (value, 1)
-    expect(max(top.bit_length(), bottom.bit_length()) <= MAX_BITS, f"{where}: more than {MAX_BITS} bits")
+    if max(top.bit_length(), bottom.bit_length()) > MAX_BITS:
+        expect(False, f"{where}: more than {MAX_BITS} bits")
     return top // (common := gcd(top, bottom)), bottom // common
 
 
 def index(value: Json, where: str, largest: int = MAX_DIMENSION * MAX_WINDOW) -> int:
     """Return an INDEX up to the largest."""
-    expect(type(value) is int and 0 <= value <= largest, f"{where}: expected an integer in 0..{largest}")
+    if type(value) is not int or not 0 <= value <= largest:
+        expect(False, f"{where}: expected an integer in 0..{largest}")
     return int(value)
 
 
 def items(value: Json, where: str, most: int = MAX_WINDOW, least: int = 0) -> list[Json]:
     """Return a list with least..most items."""
-    expect(type(value) is list and least <= len(value) <= most, f"{where}: expected a list of {least} to {most} items")
+    if type(value) is not list or not least <= len(value) <= most:
+        expect(False, f"{where}: expected a list of {least} to {most} items")
     return list(value)
 
 
@@ -220,7 +224,7 @@ class Mat:
         if field.prime:
             rows = [[x % field.prime for x in row] for row in rows]
         self.field, self.rows, self.nc, self.den = field, rows, nc, den
-        self.bits = max([x.bit_length() for row in rows for x in row], default=0)
+        self.bits = max(map(int.bit_length, chain.from_iterable(rows)), default=0)
         size = room(len(rows), nc, self.bits) + den.bit_length() // 7
         self.meter = charge(3000 + len(rows) * (1000 + 120 * nc), size)
         self.size = size
@@ -233,10 +237,13 @@ class Mat:
     def __matmul__(self, other: Mat) -> Mat:
         nr, nc, bits = len(self.rows), other.nc, self.bits + other.bits + self.nc.bit_length()
         charge((self.den.bit_length() * other.den.bit_length() >> 10) + (nr + nc) * (500 + self.nc * 150))
-        left = [sum(map(int.bit_length, column)) for column in zip(*self.rows, strict=True)] or [0] * self.nc
-        right = [sum(map(int.bit_length, row)) for row in other.rows]
-        charge(nr * (1000 + nc * (400 + self.nc * 60)) + (nc * sum(left) + nr * sum(right) >> 5) + (sum(map(mul, left, right)) >> 10))
-        charge(0, room(nr, nc, bits))
+        if self.bits + other.bits < 64:  # numbers of a word: a bound for all of them is near enough
+            long = 3 * nr * nc * self.nc
+        else:
+            left = [sum(map(int.bit_length, column)) for column in zip(*self.rows, strict=True)] or [0] * self.nc
+            right = [sum(map(int.bit_length, row)) for row in other.rows]
+            long = (nc * sum(left) + nr * sum(right) >> 5) + (sum(map(mul, left, right)) >> 10)
+        charge(nr * (1000 + nc * (400 + self.nc * 60)) + long, room(nr, nc, bits))
         columns = list(zip(*other.rows, strict=True)) if other.rows else [()] * nc
         return Mat(self.field, [[sum(map(mul, row, c)) for c in columns] for row in self.rows], nc, self.den * other.den)
 
@@ -334,8 +341,9 @@ class Field:
         charge(400 * count, 40 * count)
         parts = [part for line in grid for part in line]
         bits, cells = max([part.bits for part in parts], default=0), sum([len(part.rows) * part.nc for part in parts])
-        den = common_denominator(part.den for part in parts)
-        size, dens = den.bit_length(), {part.den for part in parts}
+        dens = {part.den for part in parts}
+        den = common_denominator(dens)
+        size = den.bit_length()
         height = sum([len(line[0].rows) for line in grid if line])
         charge(len(dens) * (size**2 >> 8) + cells * (200 + (size + bits >> 4) + (size * bits >> 11)), len(dens) * (80 + size // 7))
         charge(1500 * height, room(height, nc * self.degree, size + bits))
@@ -362,8 +370,10 @@ class Field:
     def matrix(self, value: Json, nr: int, nc: int, where: str, integral: bool = False) -> Mat:
         """Return a MATRIX of that shape; with no entries, [] or the right number of empty rows."""
         charge(1000 + nr * (500 + 600 * nc), 100 * nr * (nc + 1))
-        rows = items([[]] * nr if value == [] and nc == 0 else value, where, nr, nr)
-        grid = [[self.entry(x, f"{where}[{i}]", integral) for x in items(row, f"{where}[{i}]", nc, nc)] for i, row in enumerate(rows)]
+        rows, grid = items([[]] * nr if value == [] and nc == 0 else value, where, nr, nr), list[list[Mat]]()
+        for i, row in enumerate(rows):
+            line = f"{where}[{i}]"
+            grid.append([self.entry(x, line, integral) for x in items(row, line, nc, nc)])
         return self.assembled(grid, nc) if nc else self.scalar(nr, 0)
 
     def columns(self, value: Json, size: int, where: str, most: int = MAX_WINDOW, least: int = 0) -> list[Mat]:

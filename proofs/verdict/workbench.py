@@ -15,10 +15,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
+from ...base.progress import Progress
+from ...exact.limits.experiments import Experiment
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import AlternativeEvidence, PairEvidence, alternatives, compared_pairs
-from ..evidence.corpus import Evidence, Progress, corpus, describe, examine
-from ..evidence.experiments import LimitEvidence, certified_limits
+from ..evidence.corpus import Evidence, corpus, describe, examine
+from ..evidence.experiments import LimitEvidence, certified_limits, examine_experiment
 from ..evidence.pairs_by_polynomial import PairByPolynomial, pairs_by_polynomial
 from ..evidence.search import Box, Facts, Flags, Known, chunks, smallest
 from ..trust.structure_certificates import Certificate, accept
@@ -79,6 +81,12 @@ class Workbench:
             self._examined[system] = examine("search", system)
         return self._examined[system]
 
+    def examined_experiment(self, experiment: Experiment) -> LimitEvidence:
+        """Return the evidence on an experiment that a search came upon, made the first time."""
+        if experiment not in self._examined_experiments:
+            self._examined_experiments[experiment] = examine_experiment("search", experiment)
+        return self._examined_experiments[experiment]
+
     @cached_property
     def _made(self) -> dict[str, list[Any]]:
         return {}
@@ -89,6 +97,10 @@ class Workbench:
 
     @cached_property
     def _examined(self) -> dict[ResidualSystem, Evidence]:
+        return {}
+
+    @cached_property
+    def _examined_experiments(self) -> dict[Experiment, LimitEvidence]:
         return {}
 
     @property

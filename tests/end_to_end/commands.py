@@ -25,7 +25,7 @@ from unittest import mock
 
 import jsonschema
 
-from faultspace.cli import progress
+from faultspace.base import progress
 from faultspace.cli.command_line import main
 
 ROOT = Path(__file__).resolve().parents[2]

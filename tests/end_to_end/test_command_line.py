@@ -29,6 +29,7 @@ from faultspace.packaged_examples import DESCRIPTIONS, EXPERIMENTS
 from faultspace.proofs.trust import structure_certificates as certificates
 from tests.end_to_end.commands import EXAMPLES, ROOT, Run, call, command, environment, example, validator
 from tests.oracle.strategies import system_pairs, systems
+from tests.thorough import examples
 
 SCALAR = '{"A": [[x]], "F": [[1]], "C": [[1]], "G": [[0]]}'
 PAPER = {
@@ -197,7 +198,7 @@ def test_integers_of_any_permitted_length_are_read(tmp_path: Path) -> None:
     assert call("inspect", name).code == 0
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(system=systems())
 def test_what_inspect_reads_and_prints_agrees_with_the_schemas(tmp_path: Path, system: Any) -> None:
     validator("system").validate(system)
@@ -242,7 +243,7 @@ def test_the_table_shows_a_word_that_separates() -> None:
     assert "N(q) = [ q,  -2 ]" in run.out
 
 
-@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=examples(40), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(pair=system_pairs(field="Q"))
 def test_the_word_is_one_of_its_system_and_violates_the_row(tmp_path: Path, pair: tuple[Any, Any]) -> None:
     names = [saved(tmp_path, f"{i}.json", system) for i, system in enumerate(pair)]
@@ -437,3 +438,32 @@ def test_measured_data_for_a_system_are_told_where_to_go(tmp_path: Path) -> None
 def test_a_piped_table_has_no_trailing_blanks() -> None:
     lines = call("audit", "--peers").out.splitlines()
     assert len(lines) > 5 and [one for one in lines if one != one.rstrip()] == []
+
+
+@pytest.mark.parametrize("name", ["verify", "check", "inspect", "compare", "limit", "identify", "monte-carlo", "audit", "examples"])
+def test_the_help_shows_arguments_as_they_are_typed(name: str) -> None:
+    said = call(name, "--help").out
+    usage = said.splitlines()[0]
+    assert not set(usage) & set("{}<>") and "[[" not in usage and "list[str]" not in said and "<str>" not in said
+    if name in ("inspect", "compare"):
+        assert usage.split("[OPTIONS] ")[1] == {"inspect": "SYSTEM...", "compare": "SYSTEM SYSTEM"}[name]
+        assert "  SYSTEM" in said.split("Arguments:")[1]
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("monte-carlo --out x --systems 0", "--systems: got '0', expected a whole number from 1 on, try 100"),
+        ("monte-carlo --out x --seed -1", "--seed: got '-1', expected a whole number from 0 on, try 1907"),
+        ("verify --jobs 1.5", "--jobs: got '1.5', expected a whole number from 1 on, try 2"),
+        ("verify --effort none", "--effort: got 'none', expected one of 'quick', 'full'"),
+        ("audit --timeout nan", "--timeout: got 'nan', expected a number from 0.1 on, try 60"),
+        ("audit --memory inf", "--memory: got 'inf', expected a number from 0.5 on, try 4"),
+        ("identify x --inputs u --outputs y --out x --dt 0", "--dt: got '0', expected a positive number, try 0.1"),
+        ("identify x --inputs u --outputs y", "--out: got none, expected the option"),
+        ("inspect", "SYSTEM...: got none, expected the argument"),
+    ],
+)
+def test_an_option_is_refused_as_all_input_is(line: str, words: str) -> None:
+    run = call(*line.split())
+    assert (run.code, run.out) == (2, "") and run.err.startswith(f"faultspace: {words} (see: faultspace {line.split()[0]} --help)")

@@ -109,7 +109,7 @@ def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path
 
 
 @needs_matplotlib
-def test_the_plots_are_pictures(csv_file: Path, tmp_path: Path) -> None:
+def test_the_plots_are_pictures(csv_file: Path, tmp_path: Path, rendered: None) -> None:
     run = identified(csv_file, tmp_path / "out", "--json")
     assert set(PICTURES) <= set(run.json["files"])  # noisy data: the levels are pictured too
     for name in PICTURES:

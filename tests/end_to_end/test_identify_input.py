@@ -267,8 +267,8 @@ def test_a_failure_in_writing_leaves_no_half_answer(csv_file: Path, tmp_path: Pa
     [
         (("--order", "500"), "order = 500"),
         (("--faults", "9"), "9 for 3 outputs"),
-        (("--order", "0"), "'--order'"),
-        (("--block-rows", "1"), "'--block-rows'"),
+        (("--order", "0"), "--order: got '0', expected a whole number from 1 on, try 3"),
+        (("--block-rows", "1"), "--block-rows: got '1', expected a whole number from 2 on, try 20"),
     ],
 )
 def test_bad_numbers(options: tuple[str, str], part: str, csv_file: Path, tmp_path: Path) -> None:
@@ -378,3 +378,21 @@ def test_parquet_with_two_columns_of_one_name(tmp_path: Path) -> None:
     refused(identified(tmp_path / "t.parquet", tmp_path / "out", channels=("--inputs", "u", "--outputs", "y")), "two columns named 'y'")
     (tmp_path / "no.parquet").write_bytes(b"u,y\n1,2\n")
     refused(identified(tmp_path / "no.parquet", tmp_path / "out", channels=("--inputs", "u", "--outputs", "y")), "Parquet")
+
+
+@pytest.mark.parametrize(("place", "separator"), [(3, ","), (70, ","), (70, ";"), (70, " ")])
+def test_a_quotation_mark_without_its_partner_is_refused(place: int, separator: str, tmp_path: Path) -> None:
+    lines = [separator.join(("u", "y")), *(separator.join((str(k % 7), str(k % 5))) for k in range(100))]
+    lines[place - 1] = separator.join(("1", '"2'))
+    path = tmp_path / "record.csv"
+    path.write_text("\n".join(lines) + "\n", "utf-8")
+    with pytest.raises(InvalidInput, match=f"line {place} has a quotation mark without its partner.*take the mark away, or close it"):
+        read_record(str(path), inputs=["u"], outputs=["y"])
+    path.write_text(path.read_text("utf-8").replace('"2', '"2"'), "utf-8")
+    assert len(read_record(str(path), inputs=["u"], outputs=["y"])) == 100
+
+
+def test_a_quotation_mark_within_a_name_is_a_letter(tmp_path: Path) -> None:
+    path = tmp_path / "record.csv"
+    path.write_text('u,level (5")\n' + "".join(f"{k % 7},{k % 5}\n" for k in range(50)), "utf-8")
+    assert read_record(str(path), inputs=["u"], outputs=['level (5")']).outputs == ('level (5")',)

@@ -31,6 +31,7 @@ from faultspace.numeric.signal.residual_sizes import PART, loudest, residual_siz
 from faultspace.numeric.signal.smoother import smoothed
 from tests.end_to_end.commands import ROOT, environment
 from tests.end_to_end.identify_runs import CHANNELS
+from tests.thorough import THOROUGH
 
 Array = NDArray[np.float64]
 
@@ -191,7 +192,7 @@ def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> flo
 def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
     if format == "parquet" and importlib.util.find_spec("pyarrow") is None:
         pytest.skip("pyarrow is not installed")
-    peaks, sizes = [], (40_000, 800_000)
+    peaks, sizes = [], (40_000, 800_000 if THOROUGH else 400_000)
     for samples in sizes:
         path = tmp_path / f"d{samples}.{format}"
         record = made.faulty_record(samples)

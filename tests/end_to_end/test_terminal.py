@@ -19,7 +19,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from faultspace.cli import consoles, failures, progress
+from faultspace.base import messages, progress
+from faultspace.cli import consoles
 from faultspace.cli.command_line import main
 from tests.end_to_end.commands import ROOT, call, environment
 
@@ -71,7 +72,7 @@ def test_on_a_terminal_one_line_moves_and_is_gone_in_the_end(monkeypatch: pytest
     with progress.working("starting") as tell:
         tell("counting [faults] of a system whose name is much too long for the line", 7, 83)
         time.sleep(0.6)
-        failures.say("a remark")
+        messages.say("a remark")
     printed = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", stream.getvalue())
     frames = [frame for frame in re.split(r"[\r\n]", printed) if "7 of 83" in frame]
     assert frames and all(len(frame) <= 60 and "counting [faults]" in frame for frame in frames)
@@ -90,7 +91,7 @@ def test_a_terminal_that_cannot_go_back_gets_plain_lines(monkeypatch: pytest.Mon
 
 def test_the_time_that_is_left_is_that_of_the_stage(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([0.0, 0.0, 10.0, 100.0, 100.0, 101.0]).__next__
-    monkeypatch.setattr("faultspace.cli.progress.time.monotonic", clock)
+    monkeypatch.setattr("faultspace.base.progress.time.monotonic", clock)
     remaining: list[float | None] = []
     tell = progress.evenly(lambda stage, done=0, total=0, left=None, /: remaining.append(left))
     for call_of in (("reading", 0, 40), ("reading", 10, 40), ("counting", 5, 10), ("counting", 6, 10)):

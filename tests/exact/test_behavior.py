@@ -23,6 +23,7 @@ from tests.oracle.families import FIELDS, system
 from tests.oracle.strategies import SEEDS, system_pairs, systems
 from tests.oracle.structured import fed_back, similar
 from tests.oracle.systems import parse_system, write_system
+from tests.thorough import examples
 
 Json = Any
 SEEN = system("Q", [[0]], [[1]], [[1], [0]], [[0], [1]], n=1, p=2, m=1)
@@ -47,13 +48,13 @@ def with_superfluous_faults(rng: Random, given: ResidualSystem) -> ResidualSyste
 
 
 @pytest.mark.parametrize("field", list(FIELDS.values()), ids=list(FIELDS))
-@settings(max_examples=15)
+@settings(max_examples=examples(15))
 @given(data=st.data())
 def test_drawn_pairs(field: Json, data: st.DataObject) -> None:
     checks.check_comparison(*data.draw(system_pairs(field=field)))
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(systems(), SEEDS)
 def test_equal_by_construction(given: Json, seed: int) -> None:
     rng = Random(seed)
@@ -75,7 +76,7 @@ def included_on(inner: ResidualSystem, outer: KernelRepresentation, window: int)
     return found is None or found.window > window
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(systems(), st.data())
 def test_fewer_faults_are_contained(given: Json, data: st.DataObject) -> None:
     exact = checks.read(given)
@@ -88,7 +89,7 @@ def test_fewer_faults_are_contained(given: Json, data: st.DataObject) -> None:
         assert included_on(exact, inner, s) == (inner.rank(s) == outer.rank(s))
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(systems(), systems())
 def test_unrelated_systems_of_any_dimensions(first: Json, second: Json) -> None:
     """Most of them have different n and m; those that cannot be compared are refused."""
@@ -99,7 +100,7 @@ def test_unrelated_systems_of_any_dimensions(first: Json, second: Json) -> None:
             compare(kernel_representation(checks.read(first)), kernel_representation(checks.read(second)))
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(systems(field="Q"), SEEDS)
 def test_a_perturbed_entry(given: Json, seed: int) -> None:
     """One entry of one matrix moved by 1/7: equal or not, the oracle knows."""
@@ -137,7 +138,7 @@ def test_the_difference_may_come_late(n: int) -> None:
     checks.check_separation(second, first, found.second_not_in_first)
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(systems(), SEEDS)
 def test_pairs_of_the_fault_space(given: Json, seed: int) -> None:
     """B(A, Fhat P, C, Ghat P) is within B for every P, and is B iff the normal ranks are equal."""

@@ -21,19 +21,20 @@ from tests.exact.checks import read
 from tests.exact.test_broken_on_purpose import Broken, spoil
 from tests.oracle.families import FIELDS, adversarial
 from tests.oracle.strategies import SEEDS, system_pairs, systems
+from tests.thorough import examples
 
 Json = Any
 Q, THREE = adversarial("Q"), adversarial({"prime": 3})
 
 
-@settings(max_examples=400)
+@settings(max_examples=examples(400))
 @given(system_pairs())
 def test_pairs_of_systems(pair: tuple[Json, Json]) -> None:
     pair_checks.check_names(*pair)
 
 
 @pytest.mark.parametrize("field", list(FIELDS.values()), ids=list(FIELDS))
-@settings(max_examples=25)
+@settings(max_examples=examples(25))
 @given(data=st.data())
 def test_feedback(field: Json, data: st.DataObject) -> None:
     pair_checks.check_feedback(data.draw(systems(field=field)), data.draw(SEEDS))

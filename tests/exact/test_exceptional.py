@@ -30,10 +30,11 @@ from tests.exact.checks import random_matrix, read
 from tests.exact.test_broken_on_purpose import Broken, spoil
 from tests.oracle.families import CUBIC, FIELDS, SQRT2, adversarial, delay_line, paper_example
 from tests.oracle.strategies import SEEDS, systems
+from tests.thorough import examples
 
 Json = Any
 Q, TWO, THREE = adversarial("Q"), adversarial({"prime": 2}), adversarial({"prime": 3})
-SOME = settings(max_examples=60)
+SOME = settings(max_examples=examples(60))
 
 
 def chains(*lengths: int) -> Json:
@@ -52,7 +53,7 @@ def chains(*lengths: int) -> Json:
 
 
 @pytest.mark.parametrize("field", list(FIELDS.values()), ids=list(FIELDS))
-@settings(max_examples=25)
+@settings(max_examples=examples(25))
 @given(data=st.data())
 def test_against_all_minors(field: Json, data: st.DataObject) -> None:
     pair_checks.check_polynomial(data.draw(systems(field=field)), data.draw(SEEDS))

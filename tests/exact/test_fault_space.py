@@ -25,9 +25,10 @@ from faultspace.exact.system.systems import ResidualSystem, read_system
 from tests.exact import checks
 from tests.oracle.families import FIELDS, adversarial, paper_example, shift_register
 from tests.oracle.strategies import SEEDS, systems
+from tests.thorough import examples
 
 Json = Any
-SOME = settings(max_examples=50)
+SOME = settings(max_examples=examples(50))
 SEEN = ResidualSystem.of([[0]], [[1]], [[1], [0]], [[0], [1]])
 
 
@@ -43,13 +44,13 @@ def closed_form(system: ResidualSystem) -> Matrix:
 
 
 @pytest.mark.parametrize("field", list(FIELDS.values()), ids=list(FIELDS))
-@settings(max_examples=20)
+@settings(max_examples=examples(20))
 @given(data=st.data())
 def test_every_window(field: Json, data: st.DataObject) -> None:
     checks.check_fault_spaces(data.draw(systems(field=field)))
 
 
-@settings(max_examples=100)
+@settings(max_examples=examples(100))
 @given(systems())
 def test_the_closed_form(given: Json) -> None:
     found = analyze(checks.read(given))

@@ -23,18 +23,19 @@ from faultspace.exact.system.windows import observability_matrix, window_matrix
 from tests.exact import checks
 from tests.oracle.families import FIELDS, delay_line, shift_register
 from tests.oracle.strategies import SEEDS, systems
+from tests.thorough import examples
 
 Json = Any
 
 
 @pytest.mark.parametrize("field", list(FIELDS.values()), ids=list(FIELDS))
-@settings(max_examples=20)
+@settings(max_examples=examples(20))
 @given(data=st.data())
 def test_delays_inverses_and_words(field: Json, data: st.DataObject) -> None:
     checks.check_inversion(data.draw(systems(field=field)), data.draw(SEEDS))
 
 
-@settings(max_examples=80)
+@settings(max_examples=examples(80))
 @given(systems())
 def test_when_there_is_a_delay(given: Json) -> None:
     """Known state: r = m, and the delay is the largest infinite order. Unknown: r = m and n_f = n - rank O_n."""
@@ -52,7 +53,7 @@ def test_when_there_is_a_delay(given: Json) -> None:
         assert found.delay_unknown_state >= found.delay_known_state
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(systems())
 def test_the_largest_output_nulling_subspace(given: Json) -> None:
     """The states from which zero output is possible: ker of [O_s T_s] projected to the state, s = n or more."""

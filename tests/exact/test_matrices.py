@@ -41,10 +41,11 @@ from faultspace.exact.structure.relations import integer_relations, relations_ov
 from faultspace.exact.system.systems import ResidualSystem
 from tests.oracle.families import FIELDS
 from tests.oracle.strategies import SEEDS
+from tests.thorough import examples
 
 Json = Any
 OVER_EACH_FIELD = pytest.mark.parametrize("field", [field_from_json(f) for f in FIELDS.values()], ids=list(FIELDS))
-SOME = settings(max_examples=30)
+SOME = settings(max_examples=examples(30))
 
 
 @cache

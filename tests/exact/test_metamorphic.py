@@ -21,9 +21,10 @@ from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
 from tests.oracle.families import paper_example
 from tests.oracle.strategies import SEEDS, systems
+from tests.thorough import examples
 
 Json = Any
-SOME = settings(max_examples=50)
+SOME = settings(max_examples=examples(50))
 MULTIPLES = ((1000, 1), (1, 7), (-3, 2))
 
 

@@ -24,6 +24,7 @@ from hypothesis import example, given, settings
 from faultspace.base.errors import InvalidInput
 from faultspace.exact import read_system
 from tests.oracle.strategies import SEEDS, systems
+from tests.thorough import examples
 
 Json = Any
 SCHEMA = json.loads(resources.files("faultspace.exact").joinpath("schemas", "system.schema.json").read_text("utf-8"))
@@ -86,7 +87,7 @@ def check(document: Json) -> None:
     assert not agrees or said is None or BESIDE.search(said), (said, document)
 
 
-@settings(max_examples=400)
+@settings(max_examples=examples(400))
 @given(systems(), SEEDS)
 @example({**ONE, **INPUTS, "B": [[]], "D": [[]]}, 0)
 @example({"A": [[]], "F": [[]], "C": [[]], "G": [[]], "n": 0, "m": 0, "p": 0, **INPUTS, "B": [], "D": []}, 0)

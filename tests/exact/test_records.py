@@ -39,6 +39,7 @@ from faultspace.exact.system.systems import FaultySystem, ResidualSystem, System
 from tests.exact import checks
 from tests.oracle.families import CUBIC, FIELDS, SQRT2
 from tests.oracle.strategies import systems
+from tests.thorough import examples
 
 Json = Any
 SQRT_TWO = NumberField((Fraction(-2), Fraction(0), Fraction(1)))
@@ -218,7 +219,7 @@ def test_equality_sees_every_entry_the_shape_and_the_field(over: str) -> None:
     assert system.A.__eq__("A") is NotImplemented and system.__eq__(0) is NotImplemented
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(systems())
 def test_written_and_read_again(given: Json) -> None:
     system = checks.read(given)

@@ -23,9 +23,10 @@ from tests.oracle.behaviours import excitation, residual_hankel
 from tests.oracle.linear import Matrix as SlowMatrix
 from tests.oracle.strategies import SEEDS, systems
 from tests.oracle.systems import parse_system, trajectory
+from tests.thorough import examples
 
 Json = Any
-SOME = settings(max_examples=50)
+SOME = settings(max_examples=examples(50))
 SEEN = ResidualSystem.of([[0]], [[1]], [[1], [0]], [[0], [1]])
 
 
@@ -71,7 +72,7 @@ def test_the_factorisation(given: Json, seed: int) -> None:
         assert hankel(found.residuals, s) == window_matrix(exact, s) @ excitation_matrix(found, s)
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(systems(), SEEDS)
 def test_data_say_what_the_model_says(given: Json, seed: int) -> None:
     """Where [X; V_s] has full row rank: rank R_s = rank [O_s T_s], and problem (11) from data is the one of the model."""
@@ -86,7 +87,7 @@ def test_data_say_what_the_model_says(given: Json, seed: int) -> None:
         assert data_fault_space(found.residuals, exact.A, exact.C, s) == fault_space(kernel, s).basis
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(systems(), SEEDS)
 def test_a_persistently_exciting_fault_excites_everything(given: Json, seed: int) -> None:
     """(A, F) controllable and v persistently exciting of order n + s: [X; V_s] has full row rank [WRMM05]."""

@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from sympy import ZZ
 from sympy.polys.rings import ring as polynomial_ring
 
+from faultspace.base.errors import InvalidInput
 from faultspace.exact.parametric.case_tree import Branch, NonlinearCondition, Polynomial, UnitProduct, evaluate, explore, factors
 from faultspace.exact.parametric.generic_ranks import GenericRanks, generic_window_ranks
 from faultspace.exact.parametric.identities import FlintWindow, IdentityFailure, SecondRoute, verify_cases, verify_identities
@@ -187,18 +188,18 @@ def test_one_state_one_output_one_fault_by_hand() -> None:
 
 @pytest.mark.parametrize("dimensions", [(-1, 1, 1), (1, 10, 1), (1, 1, True), (1.0, 1, 1)])
 def test_bad_dimensions_are_refused(dimensions: tuple[int, int, int]) -> None:
-    with pytest.raises(ValueError, match="integer from 0 to 9"):
+    with pytest.raises(InvalidInput, match=r": got .*, expected an integer from 0 to 9"):
         stratify(*dimensions)
 
 
 def test_bad_windows_and_values_are_refused() -> None:
-    with pytest.raises(ValueError, match="windows"):
+    with pytest.raises(InvalidInput, match="windows"):
         stratify(1, 1, 1, 0)
-    with pytest.raises(ValueError, match="4 parameter values"):
+    with pytest.raises(ValueError, match="values: got 1, expected 4"):
         strata_of(1, 1, 1).locate((Fraction(1),))
     with pytest.raises(ValueError, match="needs windows up to 4"):
         gap_claim(stratify(1, 1, 1, 3))
-    with pytest.raises(ValueError, match="positive number of samples"):
+    with pytest.raises(ValueError, match="window: got 0, expected an integer >= 1"):
         generic_window_ranks(1, 1, 1, [0])
 
 

@@ -24,6 +24,7 @@ from faultspace.exact.system.systems import ResidualSystem
 from tests.exact import checks
 from tests.oracle.families import SQRT2
 from tests.oracle.strategies import SEEDS, systems
+from tests.thorough import examples
 
 Json = Any
 FIRST = int(sympy.prevprime(2**30))
@@ -91,7 +92,7 @@ def test_the_order_of_the_primes() -> None:
     assert list(primes_below(20)) == [19, 17, 13, 11, 7, 5, 3, 2] and list(primes_below(1)) == []
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(systems(field="Q", largest=2), SEEDS)
 def test_entries_mixed_with_the_first_prime(given: Json, seed: int) -> None:
     """Every entry is taken times, over or plus the first prime, at random."""
@@ -104,7 +105,7 @@ def test_entries_mixed_with_the_first_prime(given: Json, seed: int) -> None:
     checks.check_report({**given, **{k: [[spoiled(x) for x in row] for row in given[k]] for k in "AFCG"}})
 
 
-@settings(max_examples=25)
+@settings(max_examples=examples(25))
 @given(systems(field=SQRT2, largest=2), SEEDS)
 def test_number_field_entries_that_vanish_modulo_the_root(given: Json, seed: int) -> None:
     """The entries are multiplied by (a - root), which is no rational multiple of a prime and yet 0 in the image."""

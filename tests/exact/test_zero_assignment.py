@@ -21,6 +21,7 @@ from tests.exact.test_broken_on_purpose import Broken, spoil
 from tests.exact.test_exceptional import chains
 from tests.oracle.families import CUBIC, FIELDS, adversarial, paper_example
 from tests.oracle.strategies import SEEDS, systems
+from tests.thorough import examples
 
 Json = Any
 Q = adversarial("Q")
@@ -32,13 +33,13 @@ def test_named_systems(field: Json) -> None:
         pair_checks.check_assignment(system, number)
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(systems(), SEEDS)
 def test_any_system(given: Json, seed: int) -> None:
     pair_checks.check_assignment(given, seed)
 
 
-@settings(max_examples=20)
+@settings(max_examples=examples(20))
 @given(st.lists(st.integers(0, 2), min_size=1, max_size=3).map(sorted), SEEDS)
 def test_several_faults_of_several_degrees(lengths: list[int], seed: int) -> None:
     pair_checks.check_assignment(chains(*lengths), seed)

@@ -20,6 +20,7 @@ from tests.exact.checks import read
 from tests.exact.test_broken_on_purpose import Broken, spoil
 from tests.oracle.families import CUBIC, FIELDS, adversarial, delay_line, paper_example
 from tests.oracle.strategies import systems
+from tests.thorough import examples
 
 Json = Any
 Q = adversarial("Q")
@@ -36,7 +37,7 @@ def test_named_systems(field: Json) -> None:
         pair_checks.check_zero_feedthrough(without_feedthrough(system))
 
 
-@settings(max_examples=80)
+@settings(max_examples=examples(80))
 @given(systems())
 def test_any_system(given: Json) -> None:
     pair_checks.check_zero_feedthrough(without_feedthrough(given))

@@ -6,6 +6,7 @@ imports         every name that a source imports, relative ones resolved, litera
 file_graph      module -> the modules it imports
 place           the folder a module lies in, or its file where it lies at the top of its room
 place_graph     place -> the places that its modules import
+inside          the same within one folder: its folders, and the files at its top
 counted         a graph of files without LEFT, arrows for type checkers alone that the order of the folders does not count
 circle          modules or places that import each other in a circle; empty where there are none
 
@@ -109,6 +110,19 @@ def place_graph(files: Mapping[str, set[str]]) -> Graph:
     for name, imported in files.items():
         here = place(name)
         found.setdefault(here, set()).update(place(one) for one in imported if place(one) != here)
+    return found
+
+
+def inside(folder: str, files: Mapping[str, set[str]]) -> Graph:
+    """The folders of a package, and the files at its top, with those of them that each imports; the package's own name is left out."""
+
+    def part(name: str) -> str:
+        return name.removeprefix(f"{folder}.").partition(".")[0] if name.startswith(f"{folder}.") else ""
+
+    found: Graph = {}
+    for name, imported in files.items():
+        if here := part(name):
+            found.setdefault(here, set()).update({part(one) for one in imported} - {"", here})
     return found
 
 

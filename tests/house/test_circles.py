@@ -3,7 +3,7 @@
 import pytest
 
 from . import drawing
-from .import_graph import ROOT, Graph, Module, circle, counted, file_graph, house, place, place_graph
+from .import_graph import ROOT, Graph, Module, circle, counted, file_graph, house, inside, place, place_graph
 
 
 def files(*more: Module) -> Graph:
@@ -56,6 +56,15 @@ def test_an_arrow_back_between_folders_is_noticed(name: str, source: str, folder
     graph = files(Module(f"faultspace.{name}", source))
     assert circle(graph) == []
     assert folders & set(circle(place_graph(counted(graph))))
+
+
+def test_the_folders_of_the_audit_import_each_other_one_way() -> None:
+    audit = "faultspace.numeric.audit"
+    graph = inside(audit, counted(files()))
+    assert graph["checks"] >= {"vectors", "records"} and graph["records"] == set()
+    assert circle(graph) == []
+    back = Module(f"{audit}.vectors.made_up", "from ..checks.faults import with_input")
+    assert {"vectors", "checks"} <= set(circle(inside(audit, counted(files(back)))))
 
 
 def test_a_place_is_a_folder_or_a_file_at_the_top_of_a_room() -> None:

@@ -1,20 +1,26 @@
 """The public names: there, loaded when asked for, told in words with an example that runs, and not hidden by a module of their name.
 
 PUBLIC      room -> its public names
+RECORDS     the classes that the rooms export or that their functions return, but for values, by which records are made, and for errors
 """
 
 from __future__ import annotations
 
+import dataclasses
 import doctest
 import importlib
 import inspect
 import re
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import UnionType
+from typing import Any, get_args, get_type_hints
 
 import pytest
+
+from faultspace.base.sheets import Shown
 
 ROOMS = ("faultspace", "faultspace.exact", "faultspace.numeric", "faultspace.proofs")
 PUBLIC = {room: tuple(name for name in importlib.import_module(room).__all__ if f"{room}.{name}" not in ROOMS) for room in ROOMS}
@@ -30,6 +36,14 @@ WITHOUT_SOURCE = {
     "faultspace.numeric": {"Record", "read_record", "record_from", "StateSpaceModel"},
     "faultspace.proofs": {"certify", "check", "Checked", "CheckedFile", "check_file", "Verdict"},
 }
+# What goes into a question: numbers, fields, matrices and functions, not answers about something.
+VALUES = {"Rationals", "PrimeField", "NumberField", "Matrix", "RowEchelon", "Filter", "Spectra", "FaultSpectra"}
+# A command's answer with a page of Markdown for a summary; every other record says it by its sheet.
+WITHOUT_SHEET = {"Identification"}
+PICTURED = {
+    *("FaultDimension", "FaultDirection", "FaultSpaceEstimate", "FaultsAgainstHealthy", "Identification", "MoespModel", "OrderEvidence"),
+    *("Reconstruction", "ReducedModel", "Report", "ResidualSignal", "StateSpaceModel", "Study", "Uncertainty"),
+}
 HEAVY = ("numpy", "scipy", "sympy", "flint", "mpmath", "pandas", "matplotlib")
 
 
@@ -37,6 +51,74 @@ def loaded_after(statement: str) -> set[str]:
     """Return the heavy packages that a fresh interpreter has loaded after the statement."""
     source = f"import sys; {statement}; print(*(name for name in {HEAVY!r} if name in sys.modules))"
     return set(subprocess.run([sys.executable, "-c", source], capture_output=True, text=True, check=True).stdout.split())
+
+
+def classes() -> Iterator[type[Any]]:
+    """Yield the classes that are exported, and those that exported functions return."""
+    for room, name in CALLED:
+        found = getattr(importlib.import_module(room), name)
+        if inspect.isclass(found):
+            yield found
+        else:
+            returned = get_type_hints(found)["return"]
+            yield from (get_args(returned) if isinstance(returned, UnionType) else (returned,))
+
+
+RECORDS = {
+    found.__name__: found
+    for found in classes()
+    if found.__module__.startswith("faultspace.")
+    and found.__name__ not in VALUES
+    and (dataclasses.is_dataclass(found) or issubclass(found, Shown))
+}
+
+
+def missing(record: type[Any]) -> list[str]:
+    """Return what a person, a notebook or a program would miss of a record."""
+    asked = ["summary", "to_json", "_repr_html_", *(["plot"] if record.__name__ in PICTURED else [])]
+    lacks = [name for name in asked if not callable(getattr(record, name, None))]
+    if record.__name__ not in WITHOUT_SHEET and not issubclass(record, Shown):
+        lacks.append("the sheet that its summary is made of")
+    if hasattr(record.__repr__, "__wrapped__"):  # as a repr is that dataclasses make
+        lacks.append("a repr shorter than all its fields")
+    return lacks
+
+
+@pytest.mark.parametrize("name", sorted(RECORDS))
+def test_a_record_is_read_by_people_notebooks_and_programs(name: str) -> None:
+    assert missing(RECORDS[name]) == []
+
+
+def test_the_records_are_found_and_what_one_lacks_is_noticed() -> None:
+    assert len(RECORDS) >= 40 and set(RECORDS) >= PICTURED | {"Record", "FaultCount", "Structure", "Checked", "BadPair", "NoBadPair"}
+
+    @dataclasses.dataclass(frozen=True)
+    class Study:
+        cases: tuple[int, ...]
+
+    assert missing(Study) == [
+        *("summary", "to_json", "_repr_html_", "plot"),
+        *("the sheet that its summary is made of", "a repr shorter than all its fields"),
+    ]
+
+
+def unreadable(function: Callable[..., object]) -> list[str]:
+    """Return what keeps a person from reading a signature: a default whose text is an address, and types longer than their argument's
+    line, which is as wide as the house's lines less the four places before it."""
+    shown = [str(argument) for argument in inspect.signature(function).parameters.values()]
+    return [text for text in shown if " at 0x" in text or len(text) > 136]
+
+
+@pytest.mark.parametrize(("room", "name"), CALLED)
+def test_a_signature_can_be_read(room: str, name: str) -> None:
+    documented = getattr(importlib.import_module(room), name)
+    assert unreadable(documented) == []
+
+
+def test_an_unreadable_signature_is_noticed() -> None:
+    def deaf(on_progress: Callable[[str], None] = lambda name: None) -> None: ...
+
+    assert len(unreadable(deaf)) == 1
 
 
 def lacking(docstring: str, *, from_literature: bool) -> list[str]:
@@ -61,7 +143,7 @@ def test_the_rooms_are_there_after_the_import_of_the_front_door() -> None:
         assert loaded_after(f"import faultspace; assert {room!r} in repr({room})") == set()
     front = importlib.import_module("faultspace")
     assert {"exact", "numeric", "proofs", "errors", "__version__"} <= set(dir(front))
-    assert set(dir(front.errors)) == {"InvalidInput", "InvalidData", "in_file", "quote_path", "shorten"}
+    assert set(dir(front.errors)) == {"InvalidInput", "InvalidData", "Malformed", "Rejected", "Unprovable"}
 
 
 def test_import_is_fast() -> None:

@@ -8,7 +8,15 @@ import pytest
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.model.arx import Arx, fitted_arx, input_spectrum, polynomial
-from faultspace.numeric.model.arx_windows import ArxWindows, arx_windows, longest_lag, merge_windows, past_input_compression
+from faultspace.numeric.model.arx_windows import (
+    ArxWindows,
+    about_zero,
+    arx_windows,
+    joined_windows,
+    longest_lag,
+    merge_windows,
+    past_input_compression,
+)
 from faultspace.numeric.model.compression import compress
 from faultspace.numeric.model.weighted_reduction import circle
 
@@ -18,11 +26,11 @@ LAGS = 4
 
 
 def rows(y: Array, u: Array, lags: int, order: int) -> Array:
-    """Regressors of an ARX model of this order on the windows of `lags` + 1 samples: the slow way."""
+    """Return the regressors of an ARX model of this order, its constant last, on the windows of `lags` + 1 samples: the slow way."""
     columns = [u[lags:]]
     for lag in range(1, order + 1):
         columns += [y[lags - lag : len(y) - lag], u[lags - lag : len(u) - lag]]
-    return np.hstack(columns)
+    return np.hstack([*columns, np.ones((len(y) - lags, 1))])
 
 
 def whole() -> ArxWindows:
@@ -42,13 +50,13 @@ def test_the_model_is_the_regression_of_its_order() -> None:
     windows = whole()
     found = fitted_arx(windows)
     y, u = windows.scales
-    assert np.allclose(y, np.sqrt(np.mean(Y[LAGS:] ** 2, axis=0))) and np.allclose(u, np.sqrt(np.mean(U[LAGS:] ** 2, axis=0)))
+    assert np.allclose(y, np.std(Y[LAGS:], axis=0, ddof=1)) and np.allclose(u, np.std(U[LAGS:], axis=0, ddof=1))
     model = found.scaled(y, u)
     solution = np.linalg.lstsq(rows(Y, U, LAGS, model.order), Y[LAGS:], rcond=None)[0].T
     blocks = [model.inputs[0]] + [part for i in range(1, model.order + 1) for part in (-model.outputs[i], model.inputs[i])]
-    assert np.allclose(np.hstack(blocks), solution, rtol=1e-7, atol=1e-9 * np.abs(solution).max())
+    assert np.allclose(np.hstack(blocks), solution[:, :-1], rtol=1e-7, atol=1e-9 * np.abs(solution[:, :-1]).max())
     left = Y[LAGS:] - rows(Y, U, LAGS, model.order) @ solution.T
-    assert np.allclose(model.covariance, left.T @ left / (len(left) - windows.regressors(model.order)), rtol=1e-5)
+    assert np.allclose(model.covariance, left.T @ left / (len(left) - 1 - windows.regressors(model.order)), rtol=1e-5)
 
 
 def test_pieces_are_the_whole() -> None:
@@ -57,18 +65,46 @@ def test_pieces_are_the_whole() -> None:
     assert np.allclose(pieces.factor, whole().factor, rtol=1e-9, atol=1e-9 * np.abs(whole().factor).max())
 
 
-def test_experiments_are_the_sum_of_their_windows_and_overlapping_parts_the_whole() -> None:
+def test_experiments_are_the_sum_of_their_windows_about_their_own_means() -> None:
     parts = [arx_windows([(Y[a:b], U[a:b])], LAGS) for a, b in ((0, 30), (30, 60))]
     merged = merge_windows(parts)
-    assert merged.rows == 2 * (30 - LAGS) and merged.samples == 60
+    assert merged.rows == 2 * (30 - LAGS - 1) and merged.samples == 60 and len(merged.means) == 2
     assert np.allclose(merged.factor.T @ merged.factor, sum(part.factor.T @ part.factor for part in parts), rtol=1e-9)
-    overlapping = merge_windows([parts[0], arx_windows([(Y[30 - LAGS :], U[30 - LAGS :])], LAGS)])
-    assert overlapping.rows == whole().rows
-    assert np.allclose(overlapping.factor, whole().factor, rtol=1e-9, atol=1e-9 * np.abs(whole().factor).max())
+    moved = merge_windows([parts[0], arx_windows([(Y[30:] + np.array([5.0, 7e4]), U[30:] - 0.1)], LAGS)])
+    assert np.allclose(moved.factor, merged.factor, rtol=1e-9, atol=1e-9 * np.abs(merged.factor).max())
+
+
+@pytest.mark.parametrize("cut", [3, 30, 59])
+def test_overlapping_parts_of_one_experiment_are_the_whole(cut: int) -> None:
+    far = Y + np.array([50.0, -3e5])
+    first, second = arx_windows([(far[:cut], U[:cut])], LAGS), arx_windows([(far[max(cut - LAGS, 0) :], U[max(cut - LAGS, 0) :])], LAGS)
+    joined, once = joined_windows(first, second), arx_windows([(far, U)], LAGS)
+    assert (joined.rows, joined.samples) == (once.rows, once.samples) == (60 - LAGS - 1, 60)
+    assert np.allclose(joined.factor, once.factor, rtol=1e-9, atol=1e-9 * np.abs(once.factor).max())
+    assert np.allclose(joined.means[0], once.means[0])
+
+
+def test_windows_about_zero_have_no_constant() -> None:
+    far = Y + np.array([50.0, -3e5])
+    windows = about_zero(arx_windows([(far, U + 1)], LAGS))
+    regressors = np.hstack([rows(far, U + 1, LAGS, LAGS)[:, :-1], far[LAGS:]])
+    assert windows.rows == 60 - LAGS and not np.any(windows.means[0])
+    assert np.allclose(windows.factor.T @ windows.factor, regressors.T @ regressors, rtol=1e-9)
+
+
+@pytest.mark.parametrize("far", [1e2, 1e6, 1e9])
+def test_an_operating_point_leaves_the_distances_as_they_are(far: float) -> None:
+    """Their error is the rounding of the numbers that are given, times what sums over windows add to it."""
+    deviations = Y.std(axis=0)
+    moved = arx_windows([(Y + far * deviations, U + far * U.std())], LAGS)
+    sizes = np.linalg.norm(whole().factor, axis=0)
+    assert np.max(np.abs(moved.factor - whole().factor) / sizes) < 20 * np.finfo(float).eps * far
+    constant = arx_windows([(np.hstack([Y, np.full((60, 1), far / 3)]), U)], LAGS)
+    assert not np.any(constant.factor[:, constant.outputs(0)[2]])
 
 
 def test_the_factor_of_pi_moesp_is_in_it() -> None:
-    windows = whole()
+    windows = about_zero(whole())
     y, u = windows.scales
     direct = compress(Y / y, U / u, block_rows=2, past_rows=3, route="qr")
     found = past_input_compression(windows, 2, 3)
@@ -119,6 +155,11 @@ def test_what_cannot_be_used_is_refused() -> None:
         merge_windows([])
     with pytest.raises(InvalidData, match="lags"):
         merge_windows([whole(), arx_windows([(Y, U)], 3)])
+    for far in (0.0, 1e4):
+        with pytest.raises(InvalidData, match="span fewer than all of 5 directions"):
+            fitted_arx(arx_windows([(Y, np.full_like(U, far / 3))], LAGS))
+        with pytest.raises(InvalidData, match="span 5 of 10 directions"):
+            fitted_arx(arx_windows([(Y, far + np.hstack([U, 2 * U]) / 1e-3)], LAGS))
     with pytest.raises(InvalidData, match="span 2 of 5 directions"):
         fitted_arx(arx_windows([(Y, np.sin(np.arange(60.0))[:, None])], LAGS))
     with pytest.raises(InvalidData, match="other units"):

@@ -22,23 +22,28 @@ def fault(seed: int) -> Array:
     return np.asarray(scipy.signal.lfilter([1.0], [1.0, -0.9], np.random.default_rng(seed).standard_normal((N, 2)), axis=0))
 
 
-def row(order: int, criterion: float, parameters: int = 0) -> OrderRow:
-    return OrderRow(order, criterion, parameters, criterion, 0.0, 0.5, 0.5, 2.0)
+def row(order: int, cost: float) -> OrderRow:
+    return OrderRow(order, cost, 3 * order, 0.0, 0.5, 0.5, 2.0)
 
 
-def test_the_range_is_the_shortest_that_holds_the_odds() -> None:
-    clear = weighed([row(0, 100.0), row(1, 10.0), row(2, 30.0)])
+def test_the_choice_is_akaikes_and_the_range_what_is_not_refused_below_it() -> None:
+    clear = weighed([row(0, 100.0), row(1, 20.0), row(2, 15.0)])
     assert (clear.best, clear.least, clear.most, clear.decided) == (1, 1, 1, True)
-    open_ = weighed([row(0, 100.0), row(1, 10.0), row(2, 12.0), row(3, 13.0), row(4, 40.0)])
-    assert (open_.best, open_.least, open_.most, open_.decided) == (1, 1, 3, False)
-    # Odds 1 : e^-1 : e^-1.5 : ..
-    shares = np.array([one.odds for one in open_.rows])
-    assert shares.sum() == pytest.approx(1) and shares[2] / shares[1] == pytest.approx(np.exp(-1))
-    # By the other criterion, costs 20, 10, 5 and parameters 0, 4, 6: the second wins there by one.
-    split = weighed([row(0, 20.0), OrderRow(1, 10.0, 4, 12.0, 0.0, 0.5, 0.5, 2.0), OrderRow(2, 5.0, 6, 22.0, 0.0, 0.5, 0.5, 2.0)])
-    assert (split.best, split.least, split.most, split.decided) == (2, 1, 2, False)
+    # Three parameters a state: 7 is worth a state, and chance does as much in .072 of records, in each of the two orders above.
+    open_ = weighed([row(0, 100.0), row(1, 20.0), row(2, 13.0), row(3, 8.0)])
+    assert (open_.best, open_.least, open_.most, open_.decided) == (2, 1, 2, False)
+    assert [one.chance for one in open_.rows[2:]] == [1.0, 1.0] and open_.rows[1].chance == pytest.approx(2 * 0.0719, abs=2e-3)
+    assert weighed([row(0, 100.0), row(1, 11.4), row(2, 0.0)]).least == 2 and weighed([row(0, 100.0), row(1, 11.3), row(2, 0.0)]).least == 1
     alone = weighed([row(0, 5.0)])
     assert alone.decided and alone.best == 0
+
+
+def test_an_order_is_refused_by_chance_as_seldom_as_is_said() -> None:
+    """Chi-squared gains of two states that are not there; the deviation of the share is .0016."""
+    rng = np.random.default_rng(0)
+    gains = rng.chisquare(3, (4000, 2))
+    refused = [weighed([row(0, one + two), row(1, two), row(2, 0.0)]).least > 0 for one, two in gains]
+    assert 0.004 < np.mean(refused) < 0.015
 
 
 @pytest.mark.parametrize(("plant", "noise"), [(PLANT, 0.3), (PLANT, 0.0), (STATIC, 1.0)])
@@ -49,10 +54,11 @@ def test_the_order_is_found(plant: StateSpaceModel, noise: float) -> None:
     assert found.orders.least == plant.n <= found.orders.most <= plant.n + (2 if noise else 0)
     rows = {one.order: one for one in found.orders.rows}
     below, right = rows.get(plant.n - 1), rows[plant.n]
+    assert right.chance >= 0.01 and (below is None or below.chance < 0.01)
     if below is not None:
         assert right.one_step > below.one_step and right.free_run > below.free_run and right.cost < below.cost
         assert right.gap > rows[plant.n + 1].gap
-    assert len(str(found.orders).splitlines()) == 1 + len(found.orders.rows)
+    assert len(found.orders.summary().splitlines()) == 2 + len(found.orders.rows)
 
 
 def test_data_that_tell_nothing_of_a_weak_state_leave_the_order_open_or_lower() -> None:
@@ -68,10 +74,10 @@ def test_data_that_tell_nothing_of_a_weak_state_leave_the_order_open_or_lower() 
 
 
 def test_fits_on_held_back_samples_are_those_of_the_part_before() -> None:
-    """Without a fault the free run is exact, with a white one its error is the one-step error."""
+    """Without a fault the free run is exact about any operating point, with a white one its error is the one-step error."""
     u = np.random.default_rng(1).standard_normal((N, 1))
     clean = PLANT.simulate(u)
-    exact = arx_reduction(clean, u).orders
+    exact = arx_reduction(clean + np.array([1e3, -70.0]), u + 30).orders
     assert exact is not None and exact.rows[3].free_run > 1 - 1e-6 and exact.rows[3].one_step > 1 - 1e-6
     noisy = arx_reduction(clean + 0.5 * np.random.default_rng(3).standard_normal(clean.shape), u).orders
     assert noisy is not None

@@ -24,6 +24,7 @@ from faultspace.numeric.model.compression import Blocks, Compression, compress
 from faultspace.numeric.rounding.conditioning import ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
 from tests.numeric import high_precision as precise
 from tests.numeric.exact_cases import ExactCase, exact_case
+from tests.thorough import examples
 
 CASES = [  # n, n_u, p: corners first
     (1, 1, 1),
@@ -129,7 +130,7 @@ def test_smooth_inputs(smoothing: int, method: Any) -> None:
         assert errors["gram"][0] > 100 * errors["qr"][0] and errors["gram"][1] > 10 * errors["qr"][1]
 
 
-@settings(max_examples=40, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])
+@settings(max_examples=examples(40), deadline=None, derandomize=True, suppress_health_check=[HealthCheck.filter_too_much])
 @given(
     seed=st.integers(0, 10**6),
     n=st.integers(1, 4),

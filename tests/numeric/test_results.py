@@ -19,11 +19,16 @@ from numpy.typing import NDArray
 
 from faultspace import example_data, monte_carlo, numeric
 from faultspace.base.errors import InvalidData, InvalidInput
-from faultspace.base.sheets import Shown
+from faultspace.base.sheets import Shown, counted
+from faultspace.numeric import drawing
 from faultspace.numeric.model.models import StateSpaceModel
 
 Array = NDArray[np.float64]
-RESULTS = ("model", "residual", "dimension", "space", "signal", "study")
+RESULTS = (
+    *("model", "residual", "dimension", "space", "signal", "study", "record", "matrices"),
+    *("reduced", "uncertainty", "orders", "count", "open count", "healthy", "against", "direction"),
+)
+DRAWN = (*(name for name in RESULTS if name not in ("record", "count", "open count", "healthy")), "whole")
 needs_matplotlib = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is None, reason="matplotlib is not installed")
 
 
@@ -39,7 +44,28 @@ def chain() -> dict[str, Any]:
     dimension = numeric.fault_dimension(rest, u=u)
     study = monte_carlo("published", systems=8, samples=200, jobs=1)
     steps = {"model": model, "residual": rest, "dimension": dimension, "space": space, "signal": signal}
-    return {"y": y, "u": u, **steps, "whole": whole, "study": study}
+    reduced = numeric.arx_reduction(y[:400], u[:400])
+    near = {
+        "record": whole.record,
+        "matrices": model.model,
+        "reduced": reduced,
+        "uncertainty": reduced.uncertainty,
+        "orders": reduced.orders,
+    }
+    draw = np.random.default_rng(1)
+    noise = draw.standard_normal((1600, 3))
+    noise[800:, 1] += 4 * draw.standard_normal(800)
+    healthy = numeric.healthy_reference(noise[:800])
+    against = numeric.fault_dimension_against_healthy(noise[800:], healthy)
+    direction = numeric.fault_direction_against_healthy(noise[800:], healthy)
+    pushed = draw.standard_normal((800, 1))
+    one = np.hstack([pushed + noise[:800, :1], pushed - noise[:800, :1], noise[:800, :1]]) + 0.01 * draw.standard_normal((800, 3))
+    counts = {
+        "count": numeric.count_faults(one, pushed, order=1),
+        "open count": numeric.count_faults(noise[:800, :2], pushed, order=1),
+    }
+    more = {"healthy": healthy, "against": against, "direction": direction, **counts, **near}
+    return {"y": y, "u": u, **steps, **more, "whole": whole, "study": study}
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -49,18 +75,96 @@ def test_a_result_is_read_by_people_programs_and_notebooks(name: str, chain: dic
     assert found.summary().splitlines()[0] == found.title and len(found.summary().splitlines()) > 2
     assert repr(found) == f"<{type(found).__name__}: {found.title}>" and len(repr(found)) < 120
     assert found.title.split()[0] in found._repr_html_()
+    assert max(map(len, found.summary().splitlines())) <= 80
     record = json.loads(json.dumps(chain[name].to_json(), allow_nan=False))
     assert record and all(isinstance(key, str) for key in record)
 
 
 @needs_matplotlib
-@pytest.mark.parametrize("name", ["model", "residual", "dimension", "space", "signal", "study", "whole"])
+@pytest.mark.parametrize("name", DRAWN)
 def test_a_result_draws_itself_into_the_axes_given(name: str, chain: dict[str, Any]) -> None:
     from matplotlib.figure import Figure
 
     ax: Any = Figure(layout="constrained").add_subplot()
     assert chain[name].plot(ax) is ax
     assert ax.lines or ax.collections
+
+
+def test_floats_come_back_from_json_bit_for_bit(chain: dict[str, Any]) -> None:
+    reduced, record, against = (json.loads(json.dumps(chain[name].to_json())) for name in ("reduced", "record", "against"))
+    found = chain["reduced"]
+    assert np.array_equal(numeric.StateSpaceModel.from_json(reduced).A, found.model.A)
+    assert np.array_equal(reduced["uncertainty"]["root"], found.uncertainty.root)
+    deviations = np.array(reduced["uncertainty"]["pole_deviations"])
+    assert np.array_equal(deviations[:, 0] + 1j * deviations[:, 1], found.uncertainty.poles())
+    assert [row["chance"] for row in reduced["orders"]["rows"]] == [row.chance for row in found.orders.rows]
+    assert record["deviation"] == chain["record"].channels.deviation.tolist()
+    assert np.array_equal(against["roots"], chain["against"].roots) and against["n_v"] == 1
+
+
+@needs_matplotlib
+def test_the_region_of_a_pole_holds_it_as_often_as_stated() -> None:
+    from matplotlib.figure import Figure
+    from matplotlib.path import Path as Outline
+
+    draw = np.random.default_rng(4)
+    poles, roots = np.array([0.5 + 0.3j, 0.5 - 0.3j, -0.4]), np.array([[0.02, 0.01j], [0.02, -0.01j], [0.05, 0.02]])
+    ax: Any = Figure(layout="constrained").add_subplot()
+    drawing.plot_uncertain_poles(poles, roots, ax=ax)
+    by_size = [line.get_xydata() for line in ax.lines[-3:]]
+    errors = draw.standard_normal((4000, 2)) @ roots.T
+    inside = [
+        Outline(edge).contains_points(np.stack([z.real, z.imag], 1)).mean()
+        for edge, z in zip(by_size[:2], (poles + errors).T, strict=False)
+    ]
+    inside.append(float(np.mean(np.abs(errors[:, 2]) <= np.ptp(by_size[2][:, 0]) / 2)))
+    assert np.allclose(inside, 0.95, atol=0.015)
+    assert ax.get_legend().get_texts()[1].get_text() == "95 % region"
+    small: Any = Figure(layout="constrained").add_subplot()
+    drawing.plot_uncertain_poles(poles, roots / 1000, ax=small)
+    assert small.get_legend().get_texts()[1].get_text() == "95 % region, drawn 1000 times larger"
+    assert np.allclose(small.lines[-1].get_xydata(), by_size[2])
+    multiple: Any = Figure(layout="constrained").add_subplot()
+    drawing.plot_uncertain_poles(poles, np.full((3, 2), np.nan + 0j), ax=multiple)
+    assert multiple.get_legend().get_texts()[1].get_text() == "3 poles without: multiple"
+
+
+@needs_matplotlib
+def test_the_picture_of_the_orders_shows_what_is_open_and_what_is_taken(chain: dict[str, Any]) -> None:
+    from matplotlib.figure import Figure
+
+    ax: Any = Figure(layout="constrained").add_subplot()
+    orders = chain["orders"]
+    orders.plot(ax)
+    akaike = np.array([row.akaike for row in orders.rows])
+    assert np.allclose(ax.lines[0].get_ydata(), akaike - akaike.min()) and ax.lines[1].get_xdata().tolist() == [orders.best]
+    assert f"left open: {orders.least}" in ax.get_legend().get_texts()[-1].get_text()
+
+
+def test_a_count_says_what_was_asked_and_what_it_answered(chain: dict[str, Any]) -> None:
+    decided, left_open = chain["count"], chain["open count"]
+    assert (decided.n_v, left_open.n_v) == (1, None) and left_open.title.endswith("undecided, of 1, 2")
+    assert "    2 rows                              are laws, probability" in decided.summary()
+    assert "    1 row                               is a law, probability" in left_open.summary()
+    assert [test["rows"] for test in decided.to_json()["tests"]] == [3, 2] and decided.to_json()["noise_power"] is not None
+
+
+def test_what_is_counted_has_its_number() -> None:
+    assert [counted(1, "sample"), counted(2, "sample"), counted(0, "sample"), counted(2, "basis", "bases")] == [
+        *("1 sample", "2 samples", "0 samples", "2 bases"),
+    ]
+
+
+def test_a_long_value_goes_on_below_itself() -> None:
+    class Long(Shown):
+        title = "a title"
+
+        def sheet(self) -> list[tuple[str, str]]:
+            return [("why", "word " * 30 + "w" * 60), ("heading", ""), ("", "short")]
+
+    lines = Long().summary().splitlines()
+    assert lines[0] == "a title" and lines[-2:] == ["  heading", " " * 40 + "short"] and lines[1].startswith("    why  ")
+    assert all(line.startswith(" " * 40) and len(line) <= 80 for line in lines[2:5]) and lines[-3].strip() == "w" * 60
 
 
 def test_a_study_tells_of_every_group_and_which_are_vacuous(chain: dict[str, Any]) -> None:

@@ -4,6 +4,7 @@ and records made to mislead.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from random import Random
 from typing import Any
@@ -250,13 +251,14 @@ def test_two_hundred_samples() -> None:
 
 def test_the_bootstrap_finds_the_misfit() -> None:
     y, u = joint_record(plant(21, 3, 1), 21, 500, 40)
-    data = joint_moments(y, u, 3 + laws.EXTRA)
-    quick = laws.tested(data, 2, 3)
-    careful = laws.bootstrapped(y, u, data, quick, 4)
+    evidence = laws.Evidence(y, u, 3)
+    quick = laws.tested(evidence, 2)
+    careful = laws.bootstrapped(evidence, quick, 4)
     assert quick.holds and careful.holds
-    assert 1.0 <= careful.misfit < 6.0 and 1.0 <= careful.shape_misfit < 3.0
-    many = laws.tested(data, 3, 3)
-    assert many.holds is False and laws.bootstrapped(y, u, data, many, 4) is many
+    assert quick.sphericity is not None and careful.sphericity is not None
+    assert careful.flatness != quick.flatness and careful.sphericity.level != quick.sphericity.level
+    many = laws.tested(evidence, 3)
+    assert many.holds is False and laws.bootstrapped(evidence, many, 4) is many
 
 
 @pytest.mark.parametrize("zeros", [(), (0.5,), (0.3, -0.6)])
@@ -321,3 +323,13 @@ def test_the_law_of_the_degree() -> None:
         small += chosen.probabilities[2] < 0.01
         assert chosen.probabilities[1] < 1e-3
     assert small <= 2
+
+
+def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None:
+    """Levels of a course that gained nothing from degree 1 to 2, and much from 2 to 3; a step of one degree alone said that 1 suffices."""
+    y, u = joint_record(plant(26, 3, 1), 26, 500, 40)
+    data = joint_moments(y, u, 4)
+    fit = fitted(data, (1,))
+    steps = [replace(fit, rows=(np.ones((d + 1, 4)),), level=level) for d, level in enumerate((0.0, -4.0, -3.9, -9.0, -9.005))]
+    found = least_degree(data, steps, 0, 3)
+    assert found.degree == 3 and found.decided

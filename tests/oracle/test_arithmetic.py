@@ -11,6 +11,8 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.thorough import examples
+
 from . import polynomials
 from .families import FIELDS, SQRT2, Q, adversarial
 from .fields import NotAField, is_irreducible, is_prime, parse_field
@@ -20,7 +22,7 @@ from .structured import random_element
 from .systems import parse_system, trajectory, write_system
 from .windows import window_matrix
 
-FEW = settings(max_examples=60, deadline=None)
+FEW = settings(max_examples=examples(60), deadline=None)
 SEEDS = st.integers(0, 2**32)
 REDUCIBLE: Any = {"minimal_polynomial": ["-1", "0", "1"]}
 
@@ -190,7 +192,7 @@ def test_matrices_keep_their_shape() -> None:
         matrix(parse_field("Q"), 1, 2, [[Fraction(1)]])
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(SEEDS)
 def test_sympy_finds_the_same_echelon_forms(seed: int) -> None:
     a = random_matrix(Random(seed), "Q")

@@ -11,6 +11,8 @@ import sympy
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from tests.thorough import examples
+
 from . import behaviours, first_difference, inspect_slowly, polynomials, same_report
 from .families import CUBIC, FIELDS, Q, adversarial, delay_line, paper_example, shift_register, system
 from .fault_space import annihilated_columns, fault_space, fault_space_limit
@@ -43,7 +45,7 @@ from .structured import Structure, fed_back, random_system, similar
 from .systems import System, parse_system, trajectory
 from .windows import gap, observability, window_matrix, window_rank
 
-FEW = settings(max_examples=60, deadline=None)
+FEW = settings(max_examples=examples(60), deadline=None)
 
 
 def report(json: Any, *keys: str) -> tuple[Any, ...]:

@@ -11,6 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.thorough import examples
+
 from . import first_difference, limits, premise_holds, truth
 from .families import SQRT2, Q, adversarial, paper_example, shift_register, system
 from .fields import Element, Field, PrimeField
@@ -21,7 +23,7 @@ from .strategies import planted_systems, system_pairs, systems
 from .structured import Structure
 from .systems import parse_system, write_system
 
-FEW = settings(max_examples=40, deadline=None)
+FEW = settings(max_examples=examples(40), deadline=None)
 RATIONALS = st.fractions(-2, 2, max_denominator=6)
 NAMED = adversarial(Q)
 PAPER = paper_example()

@@ -1,6 +1,6 @@
 """No file makes the checker hang, fill the memory or trace back: an answer or a refusal within 5 seconds and 400 MB.
 
-FAULTSPACE_FLOODS=all   tries every file of `floods`; without it one in forty, and the WORST, those that have cost most
+FAULTSPACE_FLOODS=all   tries every file of `floods`; without it one in `every(40)`, and the WORST, those that have cost most
 
 Seconds are of the processor, measured in a process of its own for each file; on a machine that does many other things a second of it does
 less, so that the test asks for no more than twice the time.
@@ -23,6 +23,7 @@ from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.trust import checker
 from tests.proofs.examples import NORMAL, RANKS, K, S, spoiled
 from tests.proofs.floods import floods
+from tests.thorough import every
 
 resource = pytest.importorskip("resource")
 
@@ -62,11 +63,11 @@ def cost(file: Path) -> Cost:
 
 @pytest.mark.timeout(3000)
 def test_floods_are_answered_or_refused_in_time(tmp_path: Path) -> None:
-    every = 1 if os.environ.get("FAULTSPACE_FLOODS") == "all" else 40
+    step = 1 if os.environ.get("FAULTSPACE_FLOODS") == "all" else every(40)
     file, tried, codes, kinds = tmp_path / "flood.json", 0, set[int](), set[str]()
     for i, (name, content) in enumerate(floods()):
         kinds |= {one.decode() for one in re.findall(rb'"kind":"([a-z-]+)"', content)}
-        if i % every == 0 or name in WORST:
+        if i % step == 0 or name in WORST:
             file.write_bytes(content)
             found = cost(file)
             assert "Traceback" not in found.said and found.said.startswith(str(file)), name

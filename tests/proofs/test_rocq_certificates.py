@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator
 from importlib import resources
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from faultspace.proofs.trust import checker
 from tests.end_to_end.commands import call
 from tests.proofs.examples import RANKS, ROOTED, K, S, certificates, spoiled, written
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems
+from tests.thorough import every
 
 needs_rocq = pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
 KEPT = resources.files("faultspace.proofs").joinpath("certificates").iterdir()
@@ -54,7 +56,8 @@ def test_the_kernel_proves_every_shipped_certificate_of_a_covered_kind() -> None
 
 @needs_rocq
 def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
-    about = small_ones()
+    every_one = sorted(small_ones(), key=lambda c: c["kind"])
+    about = [c for _, of_kind in groupby(every_one, key=lambda c: c["kind"]) for c in [*of_kind][:: every()]]
     assert {c["kind"] for c in about} == {*COVERED}
     assert recomputed(about) == [ACCEPTED] * len(about)
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from rich.progress import track
 
 from faultspace.numeric.audit.adapter import FUNCTIONS, offered
-from faultspace.numeric.audit.catalogue import all_checks
+from faultspace.numeric.audit.checks.catalogue import all_checks
 from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
 from tests.numeric.audit.mutants import MUTANTS, Mutant

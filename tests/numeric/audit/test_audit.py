@@ -13,7 +13,7 @@ import pytest
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import adapter, reference
 from faultspace.numeric.audit.adapter import FUNCTIONS, load
-from faultspace.numeric.audit.catalogue import all_checks
+from faultspace.numeric.audit.checks.catalogue import all_checks
 from faultspace.numeric.audit.records import CheckResult, Demand, Measurement, message
 from faultspace.numeric.audit.running import ExpectedFailure, audit, parametrize_with_checks
 

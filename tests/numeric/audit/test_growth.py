@@ -9,7 +9,7 @@ import time
 import numpy as np
 import pytest
 
-from faultspace.numeric.audit.growth_checks import BOUND, MEMORY_FLOOR, TIME_FLOOR, exponent, footprint, timed
+from faultspace.numeric.audit.checks.growth import BOUND, MEMORY_FLOOR, TIME_FLOOR, exponent, footprint, timed
 
 
 def _spin(seconds: float) -> None:

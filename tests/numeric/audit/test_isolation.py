@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.audit.isolation import Isolated
 from faultspace.numeric.audit.outcome import Audit
 from faultspace.numeric.audit.running import audit, parametrize_with_checks
+from faultspace.numeric.audit.subjects.isolation import Isolated
 
 REFERENCE = "faultspace.numeric.audit.reference"
 ONE, TWO = "fault-dimension[one-fault]", "fault-dimension[two-faults]"

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from faultspace.numeric.audit.adapter import ZeroStructure
-from faultspace.numeric.audit.catalogue import all_checks
+from faultspace.numeric.audit.checks.catalogue import all_checks
 from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
-from faultspace.numeric.audit.vectors import shipped
+from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from tests.numeric.audit.mutants import MUTANTS, Mutant
 
 

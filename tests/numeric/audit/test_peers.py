@@ -14,7 +14,7 @@ from faultspace.numeric.audit.adapter import load, offered
 from faultspace.numeric.audit.peers import FAULT_ID, HERE, OCTAVE, PEERS, peer
 from faultspace.numeric.audit.records import CheckResult, Status
 from faultspace.numeric.audit.running import audit
-from faultspace.numeric.audit.subprocess_adapter import Exec
+from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 
 PACKAGES = ("sippy_unipi", "nfoursid", "ctrlsys", "control", "slycot")
 OFFERED = {

@@ -12,14 +12,14 @@ import pytest
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import peers
-from faultspace.numeric.audit.catalogue import all_checks
+from faultspace.numeric.audit.checks.catalogue import all_checks
 from faultspace.numeric.audit.peers import PEERS, Peer
 from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
-from faultspace.numeric.audit.scoreboard import main, merged, tallies
-from faultspace.numeric.audit.scoreboard_pages import findings, table, write_pages
-from faultspace.numeric.audit.scoreboard_records import Audited, Board
-from faultspace.numeric.audit.vectors import shipped
+from faultspace.numeric.audit.scoreboard.boards import main, merged, tallies
+from faultspace.numeric.audit.scoreboard.pages import findings, table, write_pages
+from faultspace.numeric.audit.scoreboard.records import Audited, Board
+from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from tests.numeric.audit.mutants import MUTANTS
 
 ROOM = Path(__file__).resolve().parents[3] / "numeric" / "audit"

@@ -14,7 +14,7 @@ import pytest
 from faultspace.base.errors import InvalidData
 from faultspace.base.processes import Limits
 from faultspace.numeric.audit.running import audit
-from faultspace.numeric.audit.subprocess_adapter import Exec
+from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 from tests.end_to_end.commands import call, command
 
 EXAMPLES = files("faultspace.numeric.audit").joinpath("examples")

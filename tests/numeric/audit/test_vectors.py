@@ -17,16 +17,16 @@ from faultspace.exact.algebra.matrices import rank, stacked
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import data_fault_space, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.numeric.audit.exact_comparison import markov, polynomial_from_the_top
-from faultspace.numeric.audit.excitation_checks import unexciting_inputs
-from faultspace.numeric.audit.fault_vectors import VIEWS, in_channel_units
-from faultspace.numeric.audit.making_fault_vectors import singular_values
-from faultspace.numeric.audit.making_vectors import documents, main
-from faultspace.numeric.audit.vectors import KINDS, floats, fractions, matrix, scaled, shipped, signs
+from faultspace.numeric.audit.checks.excitation import unexciting_inputs
+from faultspace.numeric.audit.making.all_vectors import documents, main
+from faultspace.numeric.audit.making.fault_records import singular_values
+from faultspace.numeric.audit.vectors.exact_comparison import markov, polynomial_from_the_top
+from faultspace.numeric.audit.vectors.fault_vectors import VIEWS, in_channel_units
+from faultspace.numeric.audit.vectors.shipped_vectors import KINDS, floats, fractions, matrix, scaled, shipped, signs
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.space.by_ranks import noise_free_fault_space
 
-DATA = files("faultspace.numeric.audit").joinpath("data")
+DATA = files("faultspace.numeric.audit.vectors").joinpath("data")
 
 
 def _read(name: str) -> Any:
@@ -62,7 +62,7 @@ def test_shipped_files_are_what_the_tool_makes(kind: str, made: dict[str, Any]) 
 
 
 def test_the_tool_writes_them(tmp_path: Path, made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("faultspace.numeric.audit.making_vectors.documents", lambda: made)
+    monkeypatch.setattr("faultspace.numeric.audit.making.all_vectors.documents", lambda: made)
     assert main(["--out", str(tmp_path / "new")]) == 0
     assert {path.name for path in (tmp_path / "new").iterdir()} == {f"{kind}.json" for kind in KINDS}
     assert json.loads((tmp_path / "new" / "faults.json").read_text("utf-8")) == made["faults.json"]

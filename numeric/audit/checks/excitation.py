@@ -1,0 +1,94 @@
+"""These checks use signals that do not excite: what the data cannot tell must not be told.
+
+    checks          ranks of windows are what they are; n_v is free; a fault space, a model must be refused
+    sine_samples    cos(k a), cos a = 3/5: rational and without a period
+
+A fault that is constant, a sine or in proportion to another shows fewer independent faults than there are: problem (11) then has solutions
+that are none of the system's. An input that is constant or one sine determines no system of order two: other B, D and initial states give
+the same outputs. Both are shown exactly in the tests.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.system.systems import ResidualSystem
+
+from ..records import Check, Demand, Function, Measurement, Severity
+from ..vectors.fault_vectors import UnexcitingVector
+from ..vectors.rationals import floats, matrix
+from ..vectors.shipped_vectors import IdentificationVector, shipped
+from .faults import as_number, ranks_off
+
+
+def checks() -> Iterator[Check]:
+    """This yields all checks of the module."""
+    for vector in shipped("unexciting"):
+        yield _ranks(vector)
+        yield _count(vector)
+        yield _space(vector)
+    model = next(one for one in shipped("identification") if (one.order, one.B.ncols) == (2, 1))
+    for name, u in unexciting_inputs(model.u.nrows).items():
+        yield _model(name, model, u)
+
+
+def sine_samples(count: int) -> list[Fraction]:
+    """The samples are cos(k a) for k = 0 .. count - 1."""
+    c, s, result = Fraction(1), Fraction(0), []
+    for _ in range(count):
+        result.append(c)
+        c, s = c * 3 / 5 - s * 4 / 5, c * 4 / 5 + s * 3 / 5
+    return result
+
+
+def unexciting_inputs(samples: int) -> dict[str, Matrix]:
+    """Return two inputs of one channel: a constant and a sine, exciting of order one and two."""
+    return {"constant": matrix([[Fraction(3, 2)]] * samples, 1), "sine": matrix([[x] for x in sine_samples(samples)], 1)}
+
+
+def response(model: IdentificationVector, u: Matrix) -> Matrix:
+    """Return the exact outputs from the vector's initial state under another input."""
+    return simulate(ResidualSystem(model.A, model.B, model.C, model.D), model.x0, u).residuals
+
+
+def _ranks(vector: UnexcitingVector) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        yield from ranks_off(function(floats(vector.r), len(vector.ranks)), vector.ranks)
+
+    effect = "wrong ranks of windows where a fault does not excite: it is taken for one that does"
+    return Check("window-ranks-unexciting", "window_ranks", vector.slug, "window-ranks", effect, Severity.SILENT, measure)
+
+
+def _count(vector: UnexcitingVector) -> Check:
+    """Free: the data show fewer than there are."""
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        yield Measurement("n_v, as many as the data show", abs(as_number(function(floats(vector.r))) - vector.visible), 0.0)
+
+    effect = "faults that do not excite are counted, or not: the data cannot tell"
+    slug = "fault-dimension-unexciting"
+    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SOMETIMES, measure, Demand.FREE)
+
+
+def _space(vector: UnexcitingVector) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        system = vector.system
+        function(floats(vector.r), floats(system.A), floats(system.C), system.m, system.n + 1)
+        return iter(())
+
+    effect = "fault matrices from a fault signal that fits many others"
+    slug = "refuses-unexciting-fault"
+    return Check(slug, "fault_space", vector.slug, "problem-11", effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+
+
+def _model(name: str, model: IdentificationVector, u: Matrix) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        function(floats(response(model, u)), floats(u), model.order, model.block_rows)
+        return iter(())
+
+    effect = "one of many models that fit, without a word"
+    slug = "refuses-unexciting-input"
+    return Check(slug, "identify", f"{model.slug}-{name}", None, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)

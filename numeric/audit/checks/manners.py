@@ -1,0 +1,72 @@
+"""Equal questions get equal answers, and the caller's arrays come back as they were.
+
+checks      deterministic, inputs-untouched: for every function, on one vector each
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import astuple, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from ..records import Check, Function, Measurement, Severity
+from ..vectors.shipped_vectors import floats, shipped
+from .faults import with_input
+
+
+def checks() -> Iterator[Check]:
+    """This yields all checks of the module."""
+    for function, vector, arguments in _questions():
+        yield _deterministic(function, vector, arguments)
+        yield _untouched(function, vector, arguments)
+
+
+def _questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
+    """Each is (function, vector, arguments)."""
+    model, fault, system = (shipped(kind)[0] for kind in ("identification", "faults", "structure"))
+    r, A, F, C, G = (floats(M) for M in (fault.r, fault.system.A, fault.system.F, fault.system.C, fault.system.G))
+    y, u = (floats(M) for M in with_input(fault.r, fault.system, fault.view.scale))
+    yield "identify", model.slug, (floats(model.y), floats(model.u), model.order, model.block_rows)
+    yield "residual", fault.slug, (y, u, A, F, C, G)
+    yield "window_ranks", fault.slug, (r, 3)
+    yield "fault_dimension", fault.slug, (r,)
+    yield "fault_space", fault.slug, (r, A, C, fault.n_v, len(A) + 1)
+    yield "reconstruct", fault.slug, (r, A, F, C, G, floats(fault.x0).ravel())
+    yield "structure", system.slug, tuple(floats(M) for M in (system.system.A, system.system.F, system.system.C, system.system.G))
+
+
+def _copies(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    return tuple(one.copy() if isinstance(one, np.ndarray) else one for one in arguments)
+
+
+def _deterministic(name: str, vector: str, arguments: tuple[Any, ...]) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        first, second = (_flat(function(*_copies(arguments))) for _ in range(2))
+        differ = first.shape != second.shape or not np.array_equal(first, second, equal_nan=True)
+        yield Measurement("two calls differ", float(differ), 0.0)
+
+    return Check("deterministic", name, vector, None, "no result can be reproduced", Severity.NUISANCE, measure)
+
+
+def _untouched(name: str, vector: str, arguments: tuple[Any, ...]) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        given = _copies(arguments)
+        function(*given)
+        changed = sum(not np.array_equal(one, other) for one, other in zip(given, arguments, strict=True))
+        yield Measurement("arguments changed", float(changed), 0.0)
+
+    effect = "the caller's data are altered: whatever is computed next is wrong"
+    return Check("inputs-untouched", name, vector, None, effect, Severity.SOMETIMES, measure)
+
+
+def _flat(answer: Any) -> Any:
+    """The array has all numbers of an answer."""
+    if is_dataclass(answer) and not isinstance(answer, type):
+        answer = astuple(answer)
+    if isinstance(answer, dict):
+        answer = list(answer.values())
+    if isinstance(answer, (list, tuple)):
+        return np.concatenate([np.zeros(0, complex), *(_flat(part) for part in answer)])
+    return np.asarray(answer, dtype=complex).ravel()

@@ -1,0 +1,167 @@
+"""This is what must be refused: data and arguments for which every answer is wrong. To refuse is to raise or to return nothing.
+
+checks      NaN, infinity, short data, unequal lengths, an order that cannot be, a window at the lag, shapes that do not fit, faults
+            that no residual tells apart; where a right answer is possible all the same, it may be given instead
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from faultspace.exact.structure.signals import simulate
+from faultspace.exact.system.systems import ResidualSystem
+
+from ....base.arrays import Array
+from ..records import Check, Demand, Function, Measurement, Refused, Severity
+from ..vectors.fault_vectors import FaultVector
+from ..vectors.rationals import floats, matrix
+from ..vectors.shipped_vectors import IdentificationVector, shipped
+from .faults import as_number, space_off
+
+MISSING = "a missing sample goes into the estimate unnoticed"
+
+
+def checks() -> Iterator[Check]:
+    """This yields all checks of the module."""
+    yield from _of_identify(next(v for v in shipped("identification") if v.C.nrows > 1 and v.B.ncols > 1))
+    yield from _of_faults(next(v for v in shipped("faults") if v.slug == "two-faults"))
+    for vector in shipped("faults"):
+        yield from _below_the_lag(vector)
+
+
+def _refuses(
+    slug: str, function: str, vector: str, effect: str, arguments: Callable[[], tuple[Any, ...]], claim: str | None = None
+) -> Check:
+    def measure(called: Function) -> Iterator[Measurement]:
+        called(*arguments())
+        return iter(())
+
+    return Check(slug, function, vector, claim, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+
+
+def _with(array: Array, value: float) -> Array:
+    array[len(array) // 2, 0] = value
+    return array
+
+
+def _of_identify(vector: IdentificationVector) -> Iterator[Check]:
+    n, s, slug = vector.order, vector.block_rows, vector.slug
+
+    def y() -> Array:
+        return floats(vector.y)
+
+    def u() -> Array:
+        return floats(vector.u)
+
+    yield _refuses("refuses-nan-output", "identify", slug, MISSING, lambda: (_with(y(), np.nan), u(), n, s))
+    yield _refuses("refuses-nan-input", "identify", slug, MISSING, lambda: (y(), _with(u(), np.nan), n, s))
+    yield _refuses("refuses-infinity", "identify", slug, MISSING, lambda: (_with(y(), np.inf), u(), n, s))
+    # Fewer equations than unknowns: any of them is one of many models. The unknowns: a canonical form of A and C, B, D and x(0).
+    few = (n * vector.C.nrows + (n + vector.C.nrows) * vector.B.ncols + n - 1) // vector.C.nrows
+    effect = "a model from fewer equations than unknowns"
+    yield _refuses("refuses-short-data", "identify", slug, effect, lambda: (y()[:few], u()[:few], n, s))
+    yield _refuses("refuses-unequal-lengths", "identify", slug, "inputs paired with the wrong outputs", lambda: (y(), u()[:-5], n, s))
+    effect = "states that the window cannot carry: made-up poles"
+    impossible = vector.C.nrows * (s - 1) + 1
+    yield _refuses("refuses-impossible-order", "identify", slug, effect, lambda: (y(), u(), impossible, s), "sharp-windows")
+    yield _refuses("refuses-silent-input", "identify", slug, "a model without a cause", lambda: (y(), 0 * u(), n, s))
+    yield _window_at_the_lag()
+
+
+def _window_at_the_lag() -> Check:
+    """Two outputs that see the same: O_(s-1) has rank 2 < n = 3 at s = 3, although p (s - 1) = 4 >= n."""
+    system = ResidualSystem.of(
+        [["1/2", "1/4", "0"], ["-1/4", "1/2", "1/3"], ["0", "0", "1/5"]],
+        [["1"], ["1/2"], ["1"]],
+        [["1", "0", "0"], ["2", "0", "0"]],
+        [["0"], ["0"]],
+    )
+    vector: FaultVector = shipped("faults")[0]
+    u = matrix(vector.v.transposed().to_json()[:1], vector.v.nrows).transposed()
+    y = simulate(system, matrix([[1], [2], [3]], 1), u).residuals
+    effect = "A is not determined by so short a window: made-up poles"
+    at_the_lag = floats(y), floats(u), 3, 3
+    return _refuses("refuses-window-at-the-lag", "identify", "same-output-twice", effect, lambda: at_the_lag, "sharp-windows")
+
+
+def _of_faults(vector: FaultVector) -> Iterator[Check]:
+    system, slug, s = vector.system, vector.slug, vector.system.n + 1
+
+    def r() -> Array:
+        return floats(vector.r)
+
+    def nan() -> Array:
+        return _with(r(), np.nan)
+
+    def infinite() -> Array:
+        return _with(r(), np.inf)
+
+    A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
+    x0, n_v = np.zeros(len(A)), vector.n_v
+    others: dict[str, tuple[Any, ...]] = {
+        "window_ranks": (3,),
+        "fault_dimension": (),
+        "fault_space": (A, C, n_v, s),
+        "reconstruct": (A, F, C, G, x0),
+    }
+    for function, rest in others.items():
+        yield _refuses("refuses-nan-residual", function, slug, MISSING, partial(_before, nan, rest))
+        yield _refuses("refuses-infinite-residual", function, slug, MISSING, partial(_before, infinite, rest))
+    short = "ranks of matrices with fewer columns than rows say nothing of the system"
+    yield _refuses("refuses-short-residual", "window_ranks", slug, "ranks of windows longer than the record", lambda: (r()[:5], 8))
+    yield _refuses("refuses-short-residual", "fault_dimension", slug, short, lambda: (r()[:7],), "settle-2")
+    yield _refuses("refuses-short-residual", "fault_space", slug, short, lambda: (r()[:7], A, C, n_v, s), "sharp-windows")
+    wrong = "matrices of another system are taken for those of the residual"
+    yield _refuses("refuses-shapes", "fault_space", slug, wrong, lambda: (r(), A, C[:-1], n_v, s))
+    yield _refuses("refuses-shapes", "reconstruct", slug, wrong, lambda: (r(), A, F, C[:-1], G[:-1], x0))
+    yield _refuses("refuses-shapes", "residual", slug, wrong, lambda: (r(), r()[:, : system.m], A, F, C[:-1], G[:-1]))
+    yield _refuses("refuses-shapes", "structure", slug, wrong, lambda: (A, F[:-1], C, G))
+    many = "more faults than outputs cannot be told apart"
+    yield _refuses("refuses-too-many-faults", "fault_space", slug, many, lambda: (r(), A, C, system.p + 1, s), "proposition-3")
+    twice = "one of many fault signals that fit, without a word"
+    F2, G2 = F[:, [0, 0]], G[:, [0, 0]]
+    yield _refuses("refuses-same-fault-twice", "reconstruct", slug, twice, lambda: (r(), A, F2, C, G2, x0), "trajectory-recovered")
+    none = "answers about no system"
+    yield _refuses("refuses-nan-model", "residual", slug, none, lambda: (r(), r()[:, : system.m], A * np.nan, F, C, G))
+    yield _refuses("refuses-nan-model", "fault_space", slug, none, lambda: (r(), A * np.nan, C, n_v, s))
+    yield _refuses("refuses-nan-model", "reconstruct", slug, none, lambda: (r(), A * np.nan, F, C, G, x0))
+    yield _refuses("refuses-nan-model", "structure", slug, none, lambda: (A * np.nan, F, C, G))
+    u = floats(vector.v)
+    yield _refuses("refuses-nan-output", "residual", slug, MISSING, lambda: (nan(), u, A, F, C, G))
+    yield _refuses("refuses-nan-input", "residual", slug, MISSING, lambda: (r(), _with(u.copy(), np.nan), A, F, C, G))
+    unequal = "inputs paired with the wrong outputs"
+    yield _refuses("refuses-unequal-lengths", "residual", slug, unequal, lambda: (r(), u[:-5], A, F, C, G))
+
+
+def _before(record: Callable[[], Array], rest: tuple[Any, ...]) -> tuple[Any, ...]:
+    return record(), *rest
+
+
+def _right_or_refused(
+    slug: str, function: str, vector: FaultVector, effect: str, claim: str, compare: Callable[[Function], Iterator[Measurement]]
+) -> Check:
+    def measure(called: Function) -> Iterator[Measurement]:
+        try:
+            yield from compare(called)
+        except Refused:
+            yield Measurement("refused, as it may be", 0.0, 0.0)
+
+    return Check(slug, function, vector.slug, claim, effect, Severity.SILENT, measure)
+
+
+def _below_the_lag(vector: FaultVector) -> Iterator[Check]:
+    """What a window no longer than the lag shows is not the answer: it may be refused, or be found in some other way."""
+    effect = "wrong columns are accepted: fault matrices of no such system"
+    compare = partial(space_off, vector, block_rows=vector.lag)
+    yield _right_or_refused("fault-space-at-the-lag", "fault_space", vector, effect, "sharp-windows", compare)
+    few = (vector.system.p + 1) * (vector.lag + 1) - 2  # one sample less, and R_(lag + 1) has fewer columns than rows
+
+    def count(called: Function) -> Iterator[Measurement]:
+        yield Measurement("n_v", abs(as_number(called(floats(vector.r)[:few])) - vector.n_v), 0.0)
+
+    effect = "the gap of windows below the lag is taken for the number of faults"
+    yield _right_or_refused("fault-dimension-below-the-lag", "fault_dimension", vector, effect, "sharp-windows", count)

@@ -1,0 +1,262 @@
+"""How the vectors of faults are computed: data, ranks and spaces by the exact branch, singular values enclosed, bounds from conditioning.
+
+fault_vectors        zeros at infinity and outside the unit circle, uncontrollable (A, F), the longest lag, bad units, nearly equal
+                     faults, G = 0; each in all views
+unexciting_vectors   a constant, a sine, two faults in proportion
+noisy_vectors        white noise far below the least singular value
+singular_values      certified
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import ceil, sqrt
+from random import Random
+
+import numpy as np
+from flint import arb, arb_mat, ctx, fmpq
+
+from faultspace.exact.algebra.matrices import Matrix, left_null_space, rank
+from faultspace.exact.structure.record import analyze
+from faultspace.exact.structure.signals import excitation_matrix, hankel, simulate
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.exact.system.windows import window_matrix
+
+from ...model.models import StateSpaceModel
+from ...model.residuals import residual
+from ...rounding.residual_conditioning import fault_signal_error, fitted_state_error
+from ...signal.reconstruction import reconstruct_fault
+from ...space.by_ranks import noise_free_fault_space
+from ..checks.excitation import unexciting_inputs
+from ..checks.faults import LONG_WINDOW, with_input
+from ..vectors.fault_vectors import AS_GIVEN, HALF, VIEWS, FaultVector, FaultView, UnexcitingVector, channel_units, in_channel_units
+from ..vectors.rationals import floats, fractions, matrix, scaled
+from ..vectors.recipe_vectors import NoisyVector
+from .drawing import drawn, stable, upward
+
+TELLING = 1e-2  # of the signal: a bound above it asks for nothing
+CLEAR = 10.0  # how far above the noise's norm the least singular value must be, both certified
+
+
+def fault_systems() -> list[tuple[str, ResidualSystem]]:
+    """Return left-invertible systems with m < p, all stable."""
+    rng = Random("faults")
+
+    def plain(n: int, m: int, p: int) -> ResidualSystem:
+        return ResidualSystem(stable(rng, n), drawn(rng, n, m, 3), drawn(rng, p, n, 5), drawn(rng, p, m, 7))
+
+    two = plain(3, 2, 3)
+    three = plain(3, 1, 3)
+    without = three.with_faults(three.F, Matrix.zero(three.field, 3, 1))
+    units = matrix([[1, 0, 0], [0, Fraction(1, 10**4), 0], [0, 0, 10**3]], 3)
+    worse = matrix([[1, 0, 0], [0, Fraction(1, 10**8), 0], [0, 0, 10**8]], 3)
+    return [
+        ("one-fault", three),
+        ("two-faults", two),
+        ("delayed", without),
+        ("bad-units", ResidualSystem(two.A, two.F, units @ two.C, units @ two.G)),
+        ("longest-lag", plain(4, 1, 2)),
+        ("worst-units", ResidualSystem(three.A, three.F, worse @ three.C, worse @ three.G)),
+        ("nearly-one-fault", three.with_faults(*_nearly_twice(three))),
+        (
+            "zero-outside",  # r = [1; 2] times the output of a single channel with the zero 3/2, beside one that sees the second state
+            ResidualSystem.of(
+                [["1/2", "1", "0"], ["0", "1/3", "0"], ["0", "0", "1/4"]],
+                [["1"], ["-7/6"], ["0"]],
+                [["1", "0", "1"], ["2", "0", "0"]],
+                [["0"], ["0"]],
+            ),
+        ),
+        (
+            "uncontrollable",  # the third state moves by itself
+            ResidualSystem.of(
+                [["1/2", "1/5", "1/3"], ["-1/4", "1/3", "1/7"], ["0", "0", "9/10"]],
+                [["1"], ["2/3"], ["0"]],
+                [["1", "2/5", "1/3"], ["-1/3", "1", "1"]],
+                [["1/7"], ["1"]],
+            ),
+        ),
+    ]
+
+
+def _nearly_twice(system: ResidualSystem) -> tuple[Matrix, Matrix]:
+    """Return F and G with a second column a millionth away from the first."""
+    rng = Random("nearly")
+    F, G = (matrix([[row[0], row[0] + Fraction(rng.randint(1, 9), 10**7)] for row in fractions(one)], 2) for one in (system.F, system.G))
+    return F, G
+
+
+def fault_vectors() -> list[FaultVector]:
+    """The module says what these vectors are."""
+    return [_faults(slug, system) for slug, system in fault_systems()]
+
+
+def _faults(slug: str, system: ResidualSystem) -> FaultVector:
+    rng = Random(slug)
+    x0, v = drawn(rng, system.n, 1, 1), drawn(rng, 2 * HALF, system.m, 3)
+    whole = _seen(slug, AS_GIVEN, system, x0, v, None)
+    views = {view.slug: _seen(slug, view, view.system(system), *view.record(system, x0, v), whole) for view in VIEWS}
+    return FaultVector(**{name: getattr(whole, name) for name in FaultVector.__dataclass_fields__ if name != "views"}, views=views)
+
+
+def _seen(slug: str, view: FaultView, system: ResidualSystem, x0: Matrix, v: Matrix, whole: FaultVector | None) -> FaultVector:
+    """The vector in that view; ranks and singular values are those of `whole` where all samples are there."""
+    n, windows = system.n, system.n + 2
+    known = analyze(system)
+    lag, delay = known.kernel.lag, known.delay_known_state
+    trajectory = simulate(system, x0, v)
+    longest = max(windows, LONG_WINDOW)
+    if rank(excitation_matrix(trajectory, longest)) < n + system.m * longest:
+        raise ArithmeticError(f"{slug}, {view.slug}: the record does not excite the system")
+    if delay is None:
+        raise ArithmeticError(f"{slug}: not left-invertible")
+    r = trajectory.residuals
+    if whole is not None and v.nrows == whole.v.nrows:
+        same = in_channel_units(whole.r).columns(view.outputs(system.p))
+        if in_channel_units(r) != same:
+            raise ArithmeticError(f"{slug}, {view.slug}: not the same record in other units")
+        ranks, gaps = whole.ranks, whole.gaps
+    else:
+        ranks = tuple(rank(hankel(r, s)) for s in range(1, windows + 1))
+        gaps = tuple(singular_values(hankel(in_channel_units(r), s)) for s in range(1, windows + 1))
+    basis = known.fault_space.basis.transposed()
+    bounds = {"residual": _residual_bound(r, system, view.scale), "signal": _signal_bound(r, system, x0)}
+    space = {s: _space_bound(r, system, s) for s in {lag + 1, n + 1, LONG_WINDOW}}
+    return FaultVector(slug, view, system, x0, v, ranks, gaps, system.m, basis, lag, v.nrows - delay, bounds, space)
+
+
+def _space_bound(r: Matrix, system: ResidualSystem, block_rows: int) -> float:
+    found = noise_free_fault_space(floats(r), floats(system.A), floats(system.C), n_v=system.m, block_rows=block_rows)
+    if not found.meaningful or found.error_bound is None:
+        raise ArithmeticError(f"no bound for the fault space from {block_rows} block rows: {found.reason}")
+    return upward(found.error_bound)
+
+
+def _residual_bound(r: Matrix, system: ResidualSystem, size: Fraction) -> float:
+    """For y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `checks.faults.with_input`), in channel units:
+    what is computed for an output has its unit as a factor, whoever computes it.
+    """
+    units = channel_units(r)
+    y, u = with_input(r, system, size)
+    y = scaled(y, [1 / unit for unit in units])
+    C, G = (scaled(M.transposed(), [1 / unit for unit in units]).transposed() for M in (system.C, system.G))
+    model = StateSpaceModel(*(floats(M) for M in (system.A, system.F, C, G)))
+    return upward(fitted_state_error(floats(y), floats(u), model, residual(floats(y), floats(u), model).r))
+
+
+def _signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix) -> float | None:
+    """Return None where a zero on or outside the unit circle lets errors of the last samples grow backwards into the record, and where
+    rounding may make so much of the signal that nothing is asked.
+    """
+    A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
+    start = floats(x0).ravel()
+    found = reconstruct_fault(floats(r), A, F, C, G, x0=start)
+    if found.zeros.size and float(np.max(np.abs(found.zeros))) >= 1:
+        return None
+    bound = fault_signal_error(floats(r), A, F, C, G, found, x0=start)
+    return upward(bound) if bound < TELLING * float(np.linalg.norm(found.v)) else None
+
+
+def singular_values(H: Matrix) -> tuple[float, float]:
+    """Return (below the least nonzero, above the largest) singular value of H, certified: root enclosures of the exact polynomial of H
+    H'.
+    """
+    polynomial = (H @ H.transposed()).flint.charpoly()
+    enclosures = [root.real for root, _ in polynomial.numer().complex_roots() if not root.contains(0)]
+    lowest, highest = min(float(one.lower()) for one in enclosures), max(float(one.upper()) for one in enclosures)
+    # One rounding of the root and of writing three digits: a thousandth away on the safe side.
+    return float(f"{sqrt(lowest) * 0.999:.4e}"), float(f"{sqrt(highest) * 1.001:.4e}")
+
+
+# -- what does not excite ---------------------------------------------------------------------------------------------------------------
+
+
+def unexciting_vectors() -> list[UnexcitingVector]:
+    """The module says what these vectors are."""
+    systems = dict(fault_systems())
+    rng = Random("unexciting")
+    one, two, N = systems["one-fault"], systems["two-faults"], 2 * HALF
+    signals = unexciting_inputs(N)
+    single = fractions(drawn(rng, N, 1, 3))
+    together = matrix([[x, 2 * x] for (x,) in single], 2)
+    cases = [
+        ("constant-fault", one, signals["constant"], 0),
+        ("sine-fault", one, signals["sine"], 0),
+        ("faults-in-proportion", two, together, 1),
+    ]
+    return [_unexciting(*case) for case in cases]
+
+
+def _unexciting(slug: str, system: ResidualSystem, v: Matrix, visible: int) -> UnexcitingVector:
+    windows = system.n + 5
+    x0 = drawn(Random(slug), system.n, 1, 1)
+    r = simulate(system, x0, v).residuals
+    ranks = tuple(rank(hankel(r, s)) for s in range(1, windows + 1))
+    if {ranks[-1] - ranks[-2], ranks[-2] - ranks[-3]} != {visible}:
+        raise ArithmeticError(f"{slug}: the ranks {ranks} do not show {visible}")
+    gaps = tuple(singular_values(hankel(in_channel_units(r), s)) for s in range(1, windows + 1))
+    return UnexcitingVector(slug, system, x0, v, ranks, gaps, visible)
+
+
+# -- noise ------------------------------------------------------------------------------------------------------------------------------
+
+
+def noisy_vectors() -> list[NoisyVector]:
+    """Return faults a thousand times the noise, whose deviation is one."""
+    systems = dict(fault_systems())
+    return [_noisy(f"{slug}-in-noise", systems[slug]) for slug in ("one-fault", "delayed", "longest-lag", "two-faults")]
+
+
+def _noisy(slug: str, small: ResidualSystem) -> NoisyVector:
+    system = small.with_faults(*(matrix([[x * 10**4 for x in row] for row in fractions(M)], small.m) for M in (small.F, small.G)))
+    windows = system.n + 2
+    blank = NoisyVector(slug, system, Fraction(1), 1200, 20250521, (), ())
+    known = analyze(system).kernel
+    ranks = tuple(known.rank(s) for s in range(1, windows + 1))
+    gaps = tuple((low, _noise_norm(blank, s)) for s, low in enumerate(_enclosed_from_below(blank, ranks), start=1))
+    if min(low / high for low, high in gaps) < CLEAR:
+        raise ArithmeticError(f"{slug}: {gaps} leave the noise too near")
+    return NoisyVector(slug, system, blank.noise, blank.samples, blank.seed, ranks, gaps)
+
+
+def _noise_norm(vector: NoisyVector, s: int) -> float:
+    """Above the spectral norm of the noise's Hankel matrix: its Frobenius norm, for every entry is +-noise."""
+    entries = vector.system.p * s * (vector.samples - s + 1)
+    return ceil(float(vector.noise) * sqrt(entries) * 1.001 * 1e3) / 1e3
+
+
+def _enclosed_from_below(vector: NoisyVector, ranks: Sequence[int]) -> list[float]:
+    """Return bounds from below on the least nonzero singular value of the exact R_s, s = 1, 2, ..., in balls.
+
+    The eigenvalues of P = R_s R_s' + t N' N, the rows of N the left null space of [O_s T_s], are those of R_s R_s' that are not zero and
+    those of t N N': the least of them all is below, |P^-8|^(-1/8) below that, and that P has an inverse shows the rank of R_s.
+    """
+    with ctx.workprec(400):
+        r = _simulated(vector)
+        result = []
+        for s, due in enumerate(ranks, start=1):
+            columns = vector.samples - s + 1
+            H = arb_mat([[r[k + i][j] for k in range(columns)] for i in range(s) for j in range(vector.system.p)])
+            product = H * H.transpose()
+            null = left_null_space(window_matrix(vector.system, s))
+            if null.nrows != vector.system.p * s - due:
+                raise ArithmeticError(f"{vector.slug}: [O_{s} T_{s}] has another rank than {due}")
+            if null.nrows:
+                rows = _enclosed(null)
+                product += rows.transpose() * rows * product.trace()
+            squares = (arb(x) ** 2 for row in (product.inv() ** 8).tolist() for x in row)
+            highest = float(sum(squares, arb(0)).root(16).upper())  # ZeroDivisionError where the inverse is not seen to exist
+            result.append(float(f"{0.999 / sqrt(highest):.4e}"))
+    return result
+
+
+def _simulated(vector: NoisyVector) -> list[list[arb]]:
+    """Return r without noise, enclosed. The states are exact: balls would grow with |A|, however stable A is."""
+    v = matrix([[int(one) for one in row] for row in vector.drawn()[0]], vector.system.m)
+    exact = simulate(vector.system, Matrix.zero(vector.system.field, vector.system.n, 1), v).residuals
+    return [[arb(x) for x in row] for row in exact.elements()]
+
+
+def _enclosed(given: Matrix) -> arb_mat:
+    return arb_mat([[arb(fmpq(x.numerator, x.denominator)) for x in row] for row in fractions(given)])

@@ -1,0 +1,135 @@
+"""This is a program that is asked by lines and answers by lines, under a limit of time and a limit of memory.
+
+Program     starts it with the first question; `ask` sends one line and gives the next one back; `close` ends it and all that it started
+
+What the program does wrong raises Broken with the words for it: hangs, ends, takes too much memory, talks out of turn. It is killed
+then, and started again with the next question.
+"""
+
+from __future__ import annotations
+
+import os
+import selectors
+import shlex
+import subprocess
+import tempfile
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from signal import Signals
+
+import psutil
+
+from ....base.errors import InvalidData
+from ....base.processes import Limits, family, kill_session, resident, session
+from ..records import Broken
+
+LONGEST_ANSWER = 64 << 20
+GLANCE = 0.05  # seconds between two looks at the memory: what grows by gigabytes a second is seen in time
+
+
+class Program:
+    """It runs `command`, from the first question on, in `environment` (None: the caller's). Raises InvalidData where it does not start."""
+
+    def __init__(self, command: Sequence[str], limits: Limits, environment: Mapping[str, str] | None = None) -> None:
+        self.command = shlex.join(command)
+        self.limits = limits
+        self._arguments = list(command)
+        self._environment = environment
+        self._process: subprocess.Popen[bytes] | None = None
+        self._pending = b""
+        self._family: set[psutil.Process] = set()
+
+    def ask(self, line: bytes, seconds: float | None = None) -> bytes:
+        """The line that answers `line` within so many seconds (None: the limit); neither ends with a line feed. Raises Broken."""
+        if self._process is None or self._process.poll() is not None:
+            self.close()
+            self._start()
+        try:
+            return self._exchange(line + b"\n", self.limits.seconds if seconds is None else seconds)
+        except BaseException:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Ends the program and what it started; it may be asked again, and is then started anew."""
+        process, self._process, self._pending = self._process, None, b""
+        if process is None:
+            return
+        # Those in other sessions too: as seen at the last glances, whatever their parents did meanwhile.
+        started, self._family = self._family | set(family(process.pid)), set()
+        kill_session(process.pid)
+        for one in started:
+            with suppress(psutil.Error):
+                one.kill()
+        process.wait()
+        for stream in (process.stdin, process.stdout, self._errors):
+            if stream is not None:
+                with suppress(OSError):
+                    stream.close()
+
+    def _start(self) -> None:
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115
+        try:
+            self._process = session(
+                self._arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, env=self._environment
+            )
+        except OSError as error:
+            self._errors.close()
+            raise InvalidData(f"the program {self.command} cannot be started: {error.strerror or error}") from None
+        for stream in (self._process.stdin, self._process.stdout):
+            assert stream is not None
+            os.set_blocking(stream.fileno(), False)
+
+    def _exchange(self, line: bytes, seconds: float) -> bytes:
+        """Writes and reads at once, so that neither side waits for the other with a full pipe."""
+        process = self._process
+        assert process is not None and process.stdin is not None and process.stdout is not None
+        deadline = time.monotonic() + seconds
+        with selectors.DefaultSelector() as selector:
+            selector.register(process.stdout, selectors.EVENT_READ)
+            if self._pending or selector.select(0):
+                raise Broken("printed a line that nobody asked for, after its last answer")
+            selector.register(process.stdin, selectors.EVENT_WRITE)
+            while b"\n" not in self._pending:
+                if time.monotonic() > deadline:
+                    raise Broken(f"no answer within {seconds:g} s")
+                ready = selector.select(min(GLANCE, max(deadline - time.monotonic(), 0)))
+                if not ready:
+                    self._glance(process)
+                for key, _ in ready:
+                    if key.fileobj is process.stdin:
+                        try:
+                            line = line[os.write(process.stdin.fileno(), line) :]
+                        except BrokenPipeError:
+                            line = b""
+                        if not line:
+                            selector.unregister(process.stdin)
+                    else:
+                        chunk = os.read(process.stdout.fileno(), 1 << 16)
+                        if not chunk:
+                            raise Broken(f"ended without an answer{self._last_words(process)}")
+                        self._pending += chunk
+                if len(self._pending) > LONGEST_ANSWER:
+                    raise Broken(f"printed more than {LONGEST_ANSWER} bytes without an end of line")
+        answer, _, self._pending = self._pending.partition(b"\n")
+        return answer
+
+    def _glance(self, process: subprocess.Popen[bytes]) -> None:
+        """Raises Broken for too much memory or too much on standard error."""
+        self._family |= set(family(process.pid))
+        if (held := resident(one for one in self._family if one.is_running())) > self.limits.memory:
+            raise Broken(f"held {held / 2**30:.1f} GiB of memory, {self.limits.memory / 2**30:.2g} GiB are allowed")
+        if os.fstat(self._errors.fileno()).st_size > LONGEST_ANSWER:
+            raise Broken(f"wrote more than {LONGEST_ANSWER} bytes to standard error")
+
+    def _last_words(self, process: subprocess.Popen[bytes]) -> str:
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(1.0)
+        self._errors.seek(max(self._errors.seek(0, os.SEEK_END) - 300, 0))
+        words = " ".join(self._errors.read().decode(errors="replace").split())
+        how = ""
+        if process.returncode is not None and process.returncode < 0:
+            known = {one.value: one.name for one in Signals}
+            how = f" ({known.get(-process.returncode, f'signal {-process.returncode}')})"
+        return how + (f"; it said: {words}" if words else "")

@@ -1,0 +1,51 @@
+"""These are rational matrices as the vectors hold them, and the one way in which they become floats.
+
+matrix      from strings, integers or Fractions
+fractions   the entries
+floats      each entry correctly rounded (to nearest, ties to even): the stated rounding
+scaled      columns in other units
+signs       +-1 by a linear congruential generator that any language can run
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from faultspace.exact.algebra.matrices import Matrix
+
+from ....base.arrays import Array
+
+ROUNDING = "each rational to the nearest IEEE binary64, ties to even, once"
+
+
+def matrix(rows: Sequence[Sequence[Any]], width: int) -> Matrix:
+    """Return a matrix over Q, from strings, integers or Fractions; `width` for matrices without rows."""
+    return Matrix.of([[str(entry) for entry in row] for row in rows], shape=(len(rows), width))
+
+
+def fractions(given: Matrix) -> list[list[Fraction]]:
+    """These are the entries as Fractions."""
+    return [[Fraction(int(x.p), int(x.q)) for x in row] for row in given.elements()]
+
+
+def floats(given: Matrix) -> Array:
+    """Return each entry correctly rounded; a new array at every call."""
+    return np.array([[float(x) for x in row] for row in fractions(given)], dtype=np.float64).reshape(given.shape)
+
+
+def scaled(given: Matrix, factors: Sequence[Fraction]) -> Matrix:
+    """Column j is multiplied by factors[j]."""
+    return matrix([[x * f for x, f in zip(row, factors, strict=True)] for row in fractions(given)], given.ncols)
+
+
+def signs(seed: int, count: int) -> Array:
+    """Return +-1 by bit 63 of the linear congruential generator x := 6364136223846793005 x + 1442695040888963407 mod 2^64 from `seed`."""
+    state, result = seed, np.empty(count)
+    for k in range(count):
+        state = (6364136223846793005 * state + 1442695040888963407) % 2**64
+        result[k] = 1.0 if state >> 63 else -1.0
+    return result

@@ -1,0 +1,167 @@
+"""BLAS has one thread in what the package computes: results are the same bytes wherever it runs, and others get theirs back."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from threading import Event, Thread
+from typing import Any
+
+import numpy as np
+import pytest
+import scipy.linalg  # noqa: F401  # its BLAS is another than numpy's
+from threadpoolctl import ThreadpoolController, threadpool_limits
+
+from faultspace.base.threads import one_thread
+from faultspace.numeric import StateSpaceModel, count_faults, pi_moesp
+from faultspace.numeric.study.workers import in_order
+
+NUMERIC: Any = importlib.import_module("faultspace.numeric")
+# They read and hold data, and multiply no matrices.
+WITHOUT_BLAS = {"read_record", "record_from"}
+ANSWERS = """
+import hashlib, json, sys
+from dataclasses import asdict
+import numpy as np
+import faultspace as fs
+from faultspace.numeric.study.cases import identified_case
+from faultspace.numeric.study.runs import study_run
+from faultspace.numeric.study.systems import study_system
+from faultspace.numeric.study.workers import in_order
+
+run = study_run(study_system(2, np.random.SeedSequence(5)), 7, level=0.01, samples=500)
+answers = [fs.identify(run.y, run.u, order=5).to_json()]
+tasks = [(index, seed, 1001) for index, seed in enumerate(np.random.SeedSequence(1).spawn(4))]
+answers += [[asdict(case) for case in in_order(identified_case, tasks, worth=2, jobs=jobs)] for jobs in map(int, sys.argv[1:])]
+print(*(hashlib.sha256(json.dumps(answer).encode()).hexdigest() for answer in answers))
+"""
+
+
+def threads() -> list[int]:
+    """Return how many threads each BLAS has."""
+    return [library["num_threads"] for library in ThreadpoolController().select(user_api="blas").info()]
+
+
+@contextmanager
+def two_threads() -> Iterator[None]:
+    """Every BLAS has two threads, as it has where nobody says otherwise."""
+    libraries = ThreadpoolController().select(user_api="blas")
+    if not libraries.lib_controllers or max(os.cpu_count() or 1, 1) < 2:
+        pytest.skip("no BLAS that can have two threads")
+    with libraries.limit(limits=2):
+        assert set(threads()) == {2}
+        yield
+
+
+def with_threads(number: int, *jobs: int) -> list[str]:
+    """Return the digests of an identification and of the study's cases, for each number of processes, under this many threads."""
+    names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+    environment = os.environ | dict.fromkeys(names, str(number))
+    command = [sys.executable, "-c", ANSWERS, *map(str, jobs)]
+    return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.split()
+
+
+def test_answers_are_the_same_bytes_whatever_the_threads_and_the_jobs() -> None:
+    identified, cases = with_threads(1, 1)
+    assert with_threads(2, 1, 2) == [identified, cases, cases]
+
+
+def test_there_is_one_thread_within_and_what_was_there_before_comes_back() -> None:
+    with two_threads():
+        with one_thread():
+            assert set(threads()) == {1}
+            with one_thread():
+                assert set(threads()) == {1}
+            assert set(threads()) == {1}
+        assert set(threads()) == {2}
+
+
+def test_the_threads_come_back_where_an_error_is_raised() -> None:
+    with two_threads():
+        with pytest.raises(ValueError), ExitStack() as entered:
+            entered.enter_context(one_thread())
+            raise ValueError
+        assert set(threads()) == {2}
+
+
+def test_who_leaves_first_takes_the_thread_from_nobody() -> None:
+    inside, leave = Event(), Event()
+
+    def first() -> None:
+        with one_thread():
+            inside.set()
+            leave.wait(10)
+
+    with two_threads():
+        other = Thread(target=first)
+        other.start()
+        assert inside.wait(10)
+        with one_thread():
+            leave.set()
+            other.join()
+            assert set(threads()) == {1}
+        assert set(threads()) == {2}
+
+
+def test_the_limit_of_another_thread_is_no_hindrance() -> None:
+    inside, leave = Event(), Event()
+
+    def other() -> None:
+        with threadpool_limits(2):
+            inside.set()
+            leave.wait(10)
+
+    holder = Thread(target=other)
+    holder.start()
+    assert inside.wait(10)
+    before = threads()
+    with one_thread():
+        assert set(threads()) == {1}
+    assert threads() == before
+    leave.set()
+    holder.join()
+
+
+def test_a_call_computes_with_one_thread() -> None:
+    seen: list[set[int]] = []
+
+    def pieces() -> Iterator[tuple[Any, Any]]:
+        seen.append(set(threads()))
+        u = np.random.default_rng(1).standard_normal((300, 1))
+        yield StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]).simulate(u), u
+
+    class Source:
+        def __iter__(self) -> Iterator[tuple[Any, Any]]:
+            return pieces()
+
+    with two_threads():
+        pi_moesp(Source(), block_rows=5)
+        assert set(threads()) == {2}
+    assert seen and all(one == {1} for one in seen)
+
+
+@pytest.mark.parametrize("name", sorted(set(NUMERIC.__all__) - WITHOUT_BLAS))
+def test_every_public_function_holds_the_threads(name: str) -> None:
+    function: Callable[..., Any] = getattr(NUMERIC, name)
+    if inspect.isfunction(function):
+        assert "one_thread" in inspect.getsource(inspect.unwrap(function)).partition("def ")[0]
+
+
+def test_a_function_keeps_its_name_and_arguments() -> None:
+    assert count_faults.__name__ == "count_faults"
+    assert list(inspect.signature(count_faults).parameters)[:3] == ["y", "u", "order"]
+
+
+def test_work_is_handed_out_with_one_thread() -> None:
+    with two_threads():
+        assert in_order(_threads_of_a_task, [()], worth=1, jobs=1) == [[1]]
+
+
+@one_thread()
+def _threads_of_a_task() -> list[int]:
+    return sorted(set(threads()))
