@@ -1,6 +1,8 @@
 """This measures how near fault spaces come to the Cramer-Rao bound, how often the number of zeros is right, and how honest the angles are.
 
-    python benchmarks/space_at_the_bound.py [--systems 100] [--seed 1] [--cells study random] [--samples 1001 10000] [--jobs 1]
+    python benchmarks/space_at_the_bound.py [--systems 100] [--seed 1] [--cells study random] [--samples 1001 10000] [--limit SECONDS]
+        [--jobs 1]
+    python benchmarks/space_at_the_bound.py --calibrate [the same]
 
 `identified_fault_space` with n_v and the order of the model given, on the systems of `space_at_the_bound_cells.py`. Error: the two-sided
 distance (`distances.py`) to the true space, the states of the model mapped to the true ones by least squares, over the median that the
@@ -10,7 +12,11 @@ found counts, decided or not. A row a cell and N:
     zeta        right/undecided/wrong with the A, C of `arx_reduction`; an abstention is neither right nor wrong
     error       in % of its maximum, and error / bound: median with its 95 % bootstrap interval, and the 90 % quantile
     true A, C   the same error / bound where A and C are the true ones: what the rows alone contribute
-    angle holds share of the largest principal angles, in the basis of the estimate, below the stated 95 % angle, where zeta is right
+    angle holds share of the largest principal angles, in the basis of the estimate, below the stated 95 % angle, where zeta is right;
+                "small": of those where the stated angle is below LINEAR
+
+`--calibrate` prints what UNDERSTATED of `numeric/rows/space.py` is set by: quantiles of the tangent of the angle over that of the stated
+one, the model's part not widened, where that is below SMALL.
 
 Brackets of rates are Wilson's 95 % intervals. Seconds are CPU seconds of the space alone; hold BLAS to one thread.
 """
@@ -19,8 +25,9 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from unittest.mock import patch
 
 import joblib
 import numpy as np
@@ -39,21 +46,25 @@ from faultspace.numeric import (
     identified_fault_space,
 )
 from faultspace.numeric.model.models import observability_matrix
+from faultspace.numeric.rows import space as rows_space
 from faultspace.numeric.space.distances import principal_angles, two_sided_error
 from faultspace.numeric.space.result import orthonormal
 
 Array = NDArray[np.float64]
 
+SMALL = 0.3  # radians below which a stated angle that is not widened may be linear
+LINEAR = 0.5  # radians below which the answer may be, widened
+
 
 @dataclass(frozen=True)
 class Found:
-    """A fault space beside the true one: `verdict` on the number of zeros, distance (0 to 1), CPU seconds; `held` says whether the largest
-    angle lies below the stated one, None where zeta is wrong."""
+    """A fault space beside the true one: `verdict` on the number of zeros, distance (0 to 1), CPU seconds; the largest angle and the
+    stated one, None where zeta is wrong."""
 
     verdict: str
     error: float
     seconds: float
-    held: bool | None
+    angles: tuple[float, float] | None
 
 
 @dataclass(frozen=True)
@@ -77,10 +88,10 @@ def judged(trial: Trial, model: StateSpaceModel, found: FaultSpaceEstimate, seco
     """Return the found space beside the truth."""
     verdict = "undecided" if found.zeta is None else "right" if found.zeta == trial.zeta else "wrong"
     error = two_sided_error(trial.Z, mapped(found.basis, model, trial.model))
-    held = None
+    angles = None
     if found.n_z == trial.Z.shape[1] and found.uncertainty is not None:
-        held = bool(principal_angles(mapped(trial.Z, trial.model, model), found.basis)[-1] <= found.uncertainty.angle())
-    return Found(verdict, error, seconds, held)
+        angles = float(principal_angles(mapped(trial.Z, trial.model, model), found.basis)[-1]), found.uncertainty.angle()
+    return Found(verdict, error, seconds, angles)
 
 
 def compared(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
@@ -109,7 +120,21 @@ def rate(count: int, total: int) -> str:
     return f"{100 * count / total:.0f} [{100 * interval.low:.0f},{100 * interval.high:.0f}]"
 
 
-HEADS = ("cell", "N", "systems", "zeta", "right %", "wrong %", "error %", "error / bound", "true A, C", "angle holds %", "true A, C", "s")
+HEADS = (
+    "cell",
+    "N",
+    "systems",
+    "zeta",
+    "right %",
+    "wrong %",
+    "error %",
+    "error / bound",
+    "true A, C",
+    "angle holds %",
+    "small",
+    "true A, C",
+    "s",
+)
 
 
 def line(name: str, samples: int, outcomes: list[Outcome]) -> str:
@@ -118,9 +143,9 @@ def line(name: str, samples: int, outcomes: list[Outcome]) -> str:
     verdicts = [sum(outcome.identified.verdict == verdict for outcome in outcomes) for verdict in ("right", "undecided", "wrong")]
     errors = np.array([outcome.identified.error for outcome in outcomes])
     bounds = np.array([outcome.bound for outcome in outcomes])
-    held = [
-        [found.held for found in kind if found.held is not None] for kind in zip(*((o.identified, o.true) for o in outcomes), strict=True)
-    ]
+    identified = [outcome.identified.angles for outcome in outcomes if outcome.identified.angles]
+    true = [outcome.true.angles for outcome in outcomes if outcome.true.angles]
+    held = identified, [pair for pair in identified if pair[1] < LINEAR], true
     columns = [
         "/".join(map(str, verdicts)),
         rate(verdicts[0], len(outcomes)),
@@ -128,25 +153,59 @@ def line(name: str, samples: int, outcomes: list[Outcome]) -> str:
         summary(100 * errors, rng),
         summary(errors / bounds, rng),
         summary(np.array([outcome.true.error for outcome in outcomes]) / bounds, rng),
-        *(rate(sum(kind), len(kind)) for kind in held),
+        *(rate(sum(angle <= stated for angle, stated in kind), len(kind)) for kind in held),
         f"{np.nanmean([outcome.identified.seconds for outcome in outcomes]):.2f}",
     ]
     return f"| {name} | {samples} | {len(outcomes)} | {' | '.join(columns)} |"
 
 
+def not_widened(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
+    """Return the same with the model's part of the angle as it is."""
+    with patch.object(rows_space, "UNDERSTATED", 1.0):
+        return compared(cell, seed, number, samples)
+
+
+def made(
+    run: joblib.Parallel, options: argparse.Namespace, samples: int, trial: Callable[[Cell, int, int, int], Outcome]
+) -> Iterator[tuple[Cell, list[Outcome]]]:
+    """Yield what was found in each cell, as far as the time goes, which the cells and lengths share."""
+    cells = [cell for cell in CELLS if cell.kind in options.cells]
+    share = options.limit / len(cells) / len(options.samples)
+    for cell in cells:
+        end, outcomes = time.monotonic() + share, list[Outcome]()
+        for first in range(0, options.systems, options.jobs):
+            if time.monotonic() > end:
+                break
+            numbers = range(first, min(first + options.jobs, options.systems))
+            outcomes += run(joblib.delayed(trial)(cell, options.seed, number, samples) for number in numbers)
+        yield cell, outcomes
+
+
 def tables(options: argparse.Namespace) -> Iterator[str]:
     """Yield the lines of the table."""
-    run = joblib.Parallel(n_jobs=options.jobs)
     yield f"| {' | '.join(HEADS)} |\n|{'---|' * len(HEADS)}"
-    for samples in options.samples:
-        for kind in options.cells:
-            together: dict[bool, list[Outcome]] = {}
-            for cell in (cell for cell in CELLS if cell.kind == kind):
-                outcomes = list(run(joblib.delayed(compared)(cell, options.seed, number, samples) for number in range(options.systems)))
-                together.setdefault(cell.coloured, []).extend(outcomes)
-                yield line(cell.name, samples, outcomes)
-            for coloured, outcomes in together.items():
-                yield line(f"{kind}, all, {'coloured' if coloured else 'white'}", samples, outcomes)
+    with joblib.Parallel(n_jobs=options.jobs) as run:
+        for samples in options.samples:
+            together: dict[str, list[Outcome]] = {}
+            for cell, outcomes in made(run, options, samples, compared):
+                together.setdefault(f"{cell.kind}, all, {'coloured' if cell.coloured else 'white'}", []).extend(outcomes)
+                if outcomes:
+                    yield line(cell.name, samples, outcomes)
+            for name, outcomes in together.items():
+                if outcomes:
+                    yield line(name, samples, outcomes)
+
+
+def calibration(options: argparse.Namespace) -> Iterator[str]:
+    """Yield the quantiles that UNDERSTATED is set by, for each number of samples."""
+    with joblib.Parallel(n_jobs=options.jobs) as run:
+        for samples in options.samples:
+            pairs = [
+                o.identified.angles for _, outcomes in made(run, options, samples, not_widened) for o in outcomes if o.identified.angles
+            ]
+            ratios = np.array([np.tan(angle) / np.tan(stated) for angle, stated in pairs if stated < SMALL])
+            quantiles = ", ".join(f"{100 * q:g} %: {np.quantile(ratios, q):.2f}" for q in (0.5, 0.9, 0.95))
+            yield f"N = {samples}: {quantiles} of {len(ratios)} angles below {SMALL} of {len(pairs)}"
 
 
 def main() -> None:
@@ -156,10 +215,12 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--samples", type=int, nargs="+", default=[1001, 10000])
     parser.add_argument("--cells", nargs="+", default=["study", "random"], choices=["study", "random"])
+    parser.add_argument("--limit", type=float, default=float("inf"), help="seconds for all")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--calibrate", action="store_true", help="what UNDERSTATED is set by")
     options = parser.parse_args()
-    print(f"median [95 % interval of the median] 90 % quantile; seed {options.seed}\n")
-    for text in tables(options):
+    print(f"seed {options.seed}" if options.calibrate else f"median [95 % interval of the median] 90 % quantile; seed {options.seed}\n")
+    for text in calibration(options) if options.calibrate else tables(options):
         print(text, flush=True)
 
 

@@ -95,15 +95,18 @@ def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, mo
     if degree is None:
         reason = f"degree {most} leaves what higher degrees explain (probability {probabilities[most]:.1g}): the order is too low"
         return LeastDegree(most, levels, probabilities, 0.0, False, reason)
-    # By steps of one degree the same must come out: noise of another colour than assumed gains by many degrees at once.
-    steps = (d for d in range(least, top) if excess(data, fits[d], fits[d + 1], misfits) >= ENOUGH)
+    # By small steps the same must come out: noise of another colour than assumed gains by many degrees at once. Steps of one degree and of
+    # two, for a descent that has stuck makes the one step nothing and the next one twice as large.
+    steps = (
+        d for d in range(least, top) if all(excess(data, fits[d], fits[D], misfits) >= ENOUGH for D in range(d + 1, min(d + 2, top) + 1))
+    )
     settled = next(steps, top) >= degree
     below = 0.0 if degree == least else float(probabilities[degree - 1])
     reason = f"degree {degree} suffices (probability {probabilities[degree]:.2g})"
     if degree == least:
         reason += ", the least that (A, C) allow"
     elif not settled:
-        reason += f", but a lower one is not improved by the next alone (probability of degree {degree - 1} {below:.1g})"
+        reason += f", but a lower one is not improved by the next two (probability of degree {degree - 1} {below:.1g})"
     else:
         reason += f", degree {degree - 1} {'does not' if below <= TOO_LOW else 'may'} ({below:.1g})"
     margin = _margin(below, float(probabilities[degree])) if settled else 0.0

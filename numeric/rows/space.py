@@ -38,6 +38,12 @@ from .joint import JointMoments, course, even_split, fitted, joint_moments, padd
 # Total degrees beyond the order by which it is tested.
 BEYOND = 1
 SEED = 20251123
+# What multiplies the model's part of the angle. A and C of weak states are known less well than the curvature of the likelihood at their
+# estimates says: estimates whose curvature is large by chance are preferred, and lines in A and C leave a curved valley of the likelihood
+# after a fraction of a deviation. `python benchmarks/space_at_the_bound.py --calibrate` repeats the measurement: the 95 % quantile of the
+# tangent of the angle over that of the stated one, not widened, where that is below 0.3. It was 3.2 (seeds 700 and 900, 216 records of 1001
+# samples, the number of zeros told).
+UNDERSTATED = 3.2
 
 
 @one_thread()
@@ -74,9 +80,11 @@ def identified_fault_space(
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
 
-    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The covariance of A and C is carried to the space to first order
-    [MN89] and added to that of the rows; both take the number of zeros as right. The basis is in the states of the model and the units of
-    y, and the states are matched with the true ones by least squares of the observability matrices. Raises InvalidData as
+    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The covariance of A and C is carried to the space to first order [MN89], widened
+    by what `benchmarks/space_at_the_bound.py --calibrate` measures, and added to that of the rows; both take the number of zeros as right.
+    The angle does not yet hold in 95 % of short records (benchmarks/README.md has the counts), and above half a radian it says no more than
+    that the space is not known. The basis is in the states of the model and the
+    units of y; the states are matched with the true ones by least squares of the observability matrices. Raises InvalidData as
     `fault_space_by_rows` does.
 
     >>> import numpy as np
@@ -85,7 +93,7 @@ def identified_fault_space(
     >>> u, v, w = rng.standard_normal((3, 500, 2)) * np.array([[[1.0]], [[1.0]], [[0.01]]])
     >>> y = StateSpaceModel([[0.5]], [[1.0, 2.0]], [[1.0], [1.0]], [[0.0, 1.0], [0.0, 0.0]]).simulate(np.hstack([u[:, :1], v[:, :1]])) + w
     >>> found = identified_fault_space(y, u[:, :1], arx_reduction(y, u[:, :1], order=1), n_v=1)
-    >>> found.n_z, bool(found.uncertainty.angle() < 0.05)
+    >>> found.n_z, bool(found.uncertainty.angle() < 0.2)
     (1, True)
     """
     outputs, inputs = signals(y, u)
@@ -147,7 +155,7 @@ def _estimate(
     doubt = "" if chosen.decided else "undecided: "
     reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; rows of total {chosen.reason}{words}"
     of_rows = space_uncertainty(rows_of_y, _selections(fit, units), misfit * fit.covariance, coordinates, columns).root
-    of_model = np.tensordot(_observed(model_root, coordinates).T, turned_by_model(rows_of_y, coordinates, columns), axes=1)
+    of_model = UNDERSTATED * np.tensordot(_observed(model_root, coordinates).T, turned_by_model(rows_of_y, coordinates, columns), axes=1)
     return FaultSpaceEstimate(
         orthonormal(coordinates.back(columns)),
         n_z,

@@ -4,6 +4,7 @@ and records made to mislead.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from random import Random
 from typing import Any
@@ -392,3 +393,13 @@ def test_the_law_of_the_degree() -> None:
         small += chosen.probabilities[2] < 0.01
         assert chosen.probabilities[1] < 1e-3
     assert small <= 2
+
+
+def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None:
+    """Levels of a course that gained nothing from degree 1 to 2, and much from 2 to 3; a step of one degree alone said that 1 suffices."""
+    y, u = joint_record(plant(26, 3, 1), 26, 500, 40)
+    data = joint_moments(y, u, 4)
+    fit = fitted(data, (1,))
+    steps = [replace(fit, rows=(np.ones((d + 1, 4)),), level=level) for d, level in enumerate((0.0, -4.0, -3.9, -9.0, -9.005))]
+    found = least_degree(data, steps, 0, 3)
+    assert found.degree == 3 and found.decided
