@@ -33,6 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.threads import one_thread
 from ..count.windows import ObservedCoordinates, observed_coordinates
 from ..data.validation import positive
 from ..model.invariants import half_transfers, off_gauge, system_matrix
@@ -67,6 +68,7 @@ class FaultSpectra:
     noise: Spectrum
 
 
+@one_thread()
 def fault_space_bound(model: StateSpaceModel, F: ArrayLike, G: ArrayLike, spectra: FaultSpectra, N: int) -> SpaceUncertainty:
     """Compute the least error of an unbiased estimate of the fault space from N samples [SN90].
 

@@ -5,7 +5,7 @@
 3  The model of order n nearest to G_h under W and the input's spectrum (`weighted_reduction`), from several starts, up a ladder of weights.
 
 PI-MOESP uses past inputs as instruments and says nothing about the colour of what disturbs. On simulated records of 1000 samples its median
-errors are 1.3 to 3.6 times the Cramer-Rao bound of a known disturbance spectrum, those that remain here 0.8 to 1.1 times; such estimates
+errors are 1.2 to 3.6 times the Cramer-Rao bound of a known disturbance spectrum, those that remain here 0.9 to 1.1 times; such estimates
 are efficient for long records [W89]. `python benchmarks/at_the_bound.py` measures it. Nothing is random: equal data give equal models.
 
 What must hold: u and the faults uncorrelated (open loop), a stable model, u that excites lags + 1 samples beside its mean. The colour of u
@@ -86,7 +86,8 @@ def arx_reduction_experiments(
 ) -> ReducedModel:
     """Estimate one model from several experiments (y, u) with the same channels and units [W89].
 
-    Each has a length, an initial state and an offset of its own: their operating points may differ.
+    Each has a length, an initial state and an offset of its own: their operating points may differ. Experiments no longer than the lags
+    have no part in the model; their offset and state are NaN, and a note tells how many there are.
 
     `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u); the other arguments and the result are those of
     `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
@@ -117,8 +118,19 @@ def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | 
     else:
         parts = [arx_windows(source, carried) for source in sources]
         found = reduced(merge_windows(parts if offset else [about_zero(part) for part in parts]), n)
-    states = (_initial_state(source, found.model, mean) for source, mean in zip(sources, found.offsets, strict=True))
-    return replace(found, initial_states=tuple(states), notes=found.notes + _feedback(sources, found, carried))
+    used = [length > carried for length in lengths]
+    unknown = np.full(found.model.p, np.nan)
+    offsets = tuple(mean if known else unknown for mean, known in zip(found.offsets, used, strict=True))
+    states = tuple(
+        _initial_state(source, found.model, mean) if known else np.full(found.order, np.nan)
+        for source, mean, known in zip(sources, offsets, used, strict=True)
+    )
+    notes = found.notes + _feedback(sources, found, carried)
+    if not all(used):
+        notes += (
+            f"{used.count(False)} of {len(used)} experiments are too short for a part in the model, which takes {carried + 1} samples",
+        )
+    return replace(found, offsets=offsets, initial_states=states, notes=notes)
 
 
 def _feedback(sources: Sequence[Pieces], found: ReducedModel, lags: int) -> tuple[str, ...]:

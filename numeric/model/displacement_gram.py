@@ -23,7 +23,7 @@ from ...base.arrays import Array
 from ..model.sequential_qr import triangular
 
 BLOCK, LAGS_IN_BLOCK = 128, 8  # samples of a block at least, and in lags: few of them need mending
-ENTRIES = 1 << 17  # entries of the samples transformed at once: they stay in the cache
+ENTRIES = 1 << 14  # entries of the samples transformed at once, so few that their memory is used again and not asked for anew
 
 
 class DisplacementGram:

@@ -36,7 +36,7 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int, of
     rest = [arx_windows(_part(source, max(cut - lags, 0), None), lags) for source, cut in zip(sources, cuts, strict=True)]
     both = [joined_windows(*parts) for parts in zip(first, rest, strict=True)]
     training, whole = (merge_windows(parts if offset else [about_zero(part) for part in parts]) for parts in (first, both))
-    held = [_joined(_part(source, cut, None)) for source, cut in zip(sources, cuts, strict=True)]
+    held = [_joined(_part(source, cut, None)) if part.windows else None for source, cut, part in zip(sources, cuts, first, strict=True)]
     arx = fitted_arx(whole, min(lags, 1))
     problem, coarse = reduction_problems(whole, arx)
     a_state = whole.p + whole.n_u
@@ -78,7 +78,7 @@ def _gaps(arx: Arx, rows: int) -> Array:
 
 
 def _fits(
-    training: ArxWindows, whole: ArxWindows, held: Sequence[tuple[Array, Array]], found: Sequence[Found]
+    training: ArxWindows, whole: ArxWindows, held: Sequence[tuple[Array, Array] | None], found: Sequence[Found]
 ) -> list[tuple[float, float]]:
     """Return for each order the one-step and free-run fit, on the samples held back, of the model of the first part; NaN where it is too
     short."""
@@ -101,9 +101,9 @@ def _fits(
     return fits
 
 
-def _fit(found: ReducedModel, training: ArxWindows, held: Sequence[tuple[Array, Array]]) -> tuple[float, float]:
+def _fit(found: ReducedModel, training: ArxWindows, held: Sequence[tuple[Array, Array] | None]) -> tuple[float, float]:
     scale, h = training.scales[0], found.arx.order
-    about = [(y - mean, u) for (y, u), mean in zip(held, found.offsets, strict=True)]
+    about = [(one[0] - mean, one[1]) for one, mean in zip(held, found.offsets, strict=True) if one is not None]
     free = [residual(y, u, found.model).r for y, u in about]
     power = sum(float(np.sum((y[h:] / scale) ** 2)) for y, _ in about)
     errors = [sum(r[h - i : len(r) - i] @ found.arx.outputs[i].T for i in range(h + 1)) for r in free]

@@ -5,6 +5,10 @@ and too large on average: by 1 + p h / f, since the errors of A at one angle hav
 f / (f - p - 1), the mean of an inverse Wishart matrix with f degrees of freedom. The same errors of the weight make the estimate vary more,
 by the same share to first order [KR97]. So the information is divided by both twice.
 
+A disturbance d that is not stationary, as faults may be, asks for no other covariance. Let u be stationary and independent of d. The slope
+of the sum at the true T is linear in u and in d, so that its variance, given d, is an integral over angles of the spectrum of u times
+the periodogram of d: the average spectrum of d alone counts, and that is what the ARX model fits.
+
 ReducedModel        the result
 reduced             the model of order n from windows
 described, judged   a minimum in the units of the data with its uncertainty, and what must be said of it

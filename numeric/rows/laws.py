@@ -14,10 +14,12 @@ a determinant that changes within a band.
     Evidence     what a record says to rows: the moments, those for long single rows, and the model with its residual where there is one
     tested       the test; with draws > 0 the misfit of the ratios is measured by the parametric bootstrap
 
-The constants have two origins. SHAPE_MISFIT, FLAT_MISFIT and SINGLE_MISFITS are means of the ratios where the rows are laws, and FAR lies
-between those of laws and of others: `benchmarks/counting_at_the_bound.py calibrate` measures all of them on fresh seeds, by the command and
-with the result that stands beside each. SUFFICES is a level of one in a hundred; FAILS lies far below it, for rows that are no laws were
-seen far below; EXTRA, LONG and TURNS are compromises between time and power.
+What the constants rest on. `benchmarks/counting_at_the_bound.py laws --trials 60 --seed 82000` (N = 1001) gives, where rows are laws, means
+of 1.14 (sphericity), 2.66 (flatness of several rows), 2.13 and 2.79 (of one, for EXTRA and LONG), and for one row more than there are laws
+at least 2.1 times FAR or FAR_LONGER, where laws reach .2 of it. SHAPE_MISFIT, FLAT_MISFIT and SINGLE_MISFITS are set near these means, from
+earlier seeds, FAR and FAR_LONGER between. SUFFICES is a level of one in a hundred; FAILS lies far below it; EXTRA, LONG, HOPELESS and TURNS
+are compromises between time and power. That the misfits of flatness grow as the root of the number of bands (`Evidence.narrow`) was seen on
+few records of 30000 and 100000 samples alone.
 """
 
 from __future__ import annotations
@@ -38,7 +40,7 @@ from ..model.models import StateSpaceModel
 from ..model.reduced_model import ReducedModel
 from ..model.residuals import residual
 from ..space.basis import KernelBasis, colour_of
-from ..space.tapered_moments import tapered_moments
+from ..space.tapered_moments import BANDS, tapered_moments
 from .bootstrap import redrawn
 from .joint import JointMoments, course, even_split, fitted, joint_moments, padded, refitted
 from .model_rows import in_units_of, model_rows
@@ -48,6 +50,8 @@ from .remainder import Remainder, Sphericity, noise_shares, remainder, sphericit
 EXTRA = 3
 # And of a single row, which flatness alone judges: the remainder of a fault that is smooth over frequency gains slowly.
 LONG = 10
+# Samples up to which the usual number of bands does.
+SHORT = 2000
 # Turns of noise shares and rows, among the rows that a model admits and among all.
 TURNS = 4
 # Mean of the ratio of sphericity over what it should have, where the rows are laws.
@@ -75,7 +79,17 @@ class Evidence:
     @cached_property
     def data(self) -> JointMoments:
         """The moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
-        return joint_moments(self.y, self.u, self.order + max(1, min(EXTRA, self.longest - self.order)))
+        return joint_moments(self.y, self.u, self.order + max(1, min(EXTRA, self.longest - self.order)), self.bands)
+
+    @property
+    def bands(self) -> int:
+        """So many bands that what changes within one stays below the noise of the record: its power falls with the square of the width."""
+        return int(BANDS * max(1.0, len(self.y) / SHORT) ** 0.5)
+
+    @property
+    def narrow(self) -> float:
+        """How much larger the misfits of flatness are for narrower bands, which let narrower roots in."""
+        return float((len(self.data.moments.angles) / BANDS) ** 0.5) if self.bands > BANDS else 1.0
 
     @property
     def longest(self) -> int:
@@ -86,7 +100,7 @@ class Evidence:
     @cached_property
     def single(self) -> JointMoments:
         """The moments for a single row, of degree order + LONG or as much of it as the record is long for."""
-        return joint_moments(self.y, self.u, self.order + max(1, min(LONG, self.longest - self.order)))
+        return joint_moments(self.y, self.u, self.order + max(1, min(LONG, self.longest - self.order)), self.bands)
 
     @cached_property
     def reduction(self) -> ReducedModel | None:
@@ -116,8 +130,8 @@ class Laws:
 
     The noise `shares` (p,) have the mean logarithm zero and are in the units of the moments. `flatness` is the probability of such a gain,
     if the rows are laws; `probability` is that of ratios as large: of one row that of its flatness, of several twice the smaller one of
-    the two. `ratios` are those of flatness over their degrees of freedom, before any misfit: none where the shape is hopeless, two of a
-    single row. `longest` is the fit of a single row of the highest degree that was tried.
+    the two. `ratios` are those of flatness over their degrees of freedom, before any misfit but that of narrow bands: none where the shape
+    is hopeless, two of a single row. `longest` is the fit of a single row of the highest degree that was tried.
     """
 
     count: int
@@ -256,6 +270,7 @@ def _several(evidence: Evidence, fit: KernelBasis, shares: Array, misfits: Misfi
     gain = fit.level - longer.level
     ratio = data.samples * count * max(gain, 0.0)
     freedom = extra * data.moments.channels
+    ratio /= evidence.narrow
     flat = float(scipy.stats.chi2.sf(ratio / misfits.flat, freedom))
     return Laws(count, fit, shares, shape, gain, flat, min(1.0, 2 * min(flat, shape.level)), (ratio / freedom,))
 
@@ -277,7 +292,7 @@ def _single(evidence: Evidence, shares: Array, misfits: Misfits = Misfits(), sta
         longest = refitted(data, (order + degrees,), longest.rows, shares=shares, rounds=3)
         gains.append(max(fit.level - longest.level, 0.0))
         freedom = degrees * data.moments.channels
-        ratios.append(data.samples * gains[-1] / freedom)
+        ratios.append(data.samples * gains[-1] / (freedom * evidence.narrow))
         probability = min(probability, len(steps) * float(scipy.stats.chi2.sf(ratios[-1] * freedom / misfit, freedom)))
     return Laws(1, fit, shares, None, gains[0], probability, probability, tuple(ratios), longest)
 

@@ -68,6 +68,7 @@ def fault_space_by_rows(
     return _space(outputs, inputs, A, C, np.zeros((A.size + C.size, 0)), n_v, noise_level, draws)
 
 
+@one_thread()
 def identified_fault_space(
     y: ArrayLike, u: ArrayLike, model: ReducedModel, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
 ) -> FaultSpaceEstimate:

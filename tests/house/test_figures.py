@@ -70,7 +70,7 @@ def test_sizes_and_twins() -> None:
 
 def test_what_a_name_needs() -> None:
     (errors,) = figures.needs(["errors"])
-    assert errors.home == "faultspace.base.errors" and errors.packages == () and 2 <= errors.modules <= 5
+    assert errors.home == "faultspace.errors" and errors.packages == () and 2 <= errors.modules <= 5
 
 
 def test_the_page_has_a_place_for_them() -> None:

@@ -395,6 +395,17 @@ def test_experiments_about_operating_points_of_their_own() -> None:
     assert error(found, PLANT) < 1e-9 and np.allclose(found.offsets, offsets, rtol=1e-7, atol=1e-6)
 
 
+@pytest.mark.parametrize("order", [3, None])
+def test_an_experiment_shorter_than_a_window_has_no_part_in_the_model_and_it_is_told(order: int | None) -> None:
+    y = PLANT.simulate(U) + 0.1 * coloured(0.5, N, 2) + np.array([3.0, 4.0])
+    alone, both = arx_reduction(y, U, order=order), arx_reduction_experiments([(y, U), (y[:5], U[:5])], order=order)
+    assert np.allclose(both.model.markov(20), alone.model.markov(20)) and np.allclose(both.offsets[0], [3.0, 4.0], atol=0.1)
+    assert np.all(np.isnan(both.offsets[1])) and both.initial_states[1].shape == (both.order,) and np.all(np.isnan(both.initial_states[1]))
+    assert both.notes[-1].startswith("1 of 2 experiments are too short") and not any("too short" in note for note in alone.notes)
+    if both.orders is not None:
+        assert np.isfinite(both.orders.rows[3].free_run)
+
+
 def test_where_zero_is_known_the_mean_excites() -> None:
     """One input far from zero: with zero known the gain is known as well as the mean; a constant fault is then taken for gain."""
     u = U + 20

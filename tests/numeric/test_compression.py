@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.model.compression import HARMLESS, Compression, compress, compress_chunks, merge
+from faultspace.numeric.model.sequential_qr import TOGETHER
 
 Array = NDArray[np.float64]
 
@@ -58,6 +59,15 @@ def test_the_factor_is_that_of_the_hankel_matrix(route: str, n_u: int, p: int, s
     assert difference(found.factor, written_out(y, u, s, q)) < 1e-13
     assert (found.route, found.samples, found.columns) == (route, 400, 400 - s - q + 1)
     assert (found.block_rows, found.past_rows, found.n_u, found.p, found.inputs) == (s, q, n_u, p, (s + q) * n_u)
+
+
+@pytest.mark.parametrize("windows", range(1, 3 * TOGETHER + 2))
+def test_windows_that_fill_no_group_are_counted(windows: int) -> None:
+    y, u = record(windows + 4, 2, 3)
+    found = compress_chunks(cut(y, u, [windows // 2 + 1]), block_rows=2, past_rows=3)
+    wanted = written_out(y, u, 2, 3)
+    assert found.route == "qr" and found.columns == windows
+    assert np.allclose(found.factor.T @ found.factor, wanted.T @ wanted, rtol=0, atol=1e-12 * np.sum(wanted**2))
 
 
 def test_the_blocks_are_those_of_the_lower_factor() -> None:

@@ -243,6 +243,76 @@ def test_a_wrong_order_does_not_make_a_wrong_count(order: int, answers: set[int 
     assert count_faults(y, u, order=order).n_v in answers
 
 
+@pytest.mark.parametrize("order", [pytest.param(3, marks=pytest.mark.slow), 4])
+def test_too_low_an_order_is_seen(order: int) -> None:
+    """Two of three rows are laws of a lower degree already, which alone would count as two faults."""
+    y, u = joint_record(plant(42, 4, 1, 5), 42, 1000, 40)
+    assert count_faults(y, u, order=order).n_v is None
+    assert count_faults(y, u, order=5).n_v == 1
+
+
+@pytest.mark.slow
+def test_a_stated_noise_level_that_is_wrong_by_two_makes_no_fault() -> None:
+    y, u = joint_record(plant(42, 3, 2), 42, 1000, 20)
+    level = 0.1 * y.std(axis=0)
+    answers = [count_faults(y, u, order=3, noise_level=factor * level).n_v for factor in (0.5, 1.0, 2.0)]
+    assert answers[1] == 2 and {answers[0], answers[2]} <= {2, None}
+
+
+def test_no_fault_under_unequal_noise() -> None:
+    """Rows of which the determinant changes within a band: their whitening was wrong there, and the count 1 or undecided."""
+    system = plant(12, 4, 1)
+    silent = Planted(system.A, 0 * system.F, system.C, 0 * system.G, system.Z, ())
+    y, u = joint_record(silent, 12, 1000, None)
+    assert count_faults(y + coloured(12, y, 30) * [1.0, 0.1, 0.3, 0.5], u, order=3).n_v == 0
+
+
+def test_a_closed_loop() -> None:
+    system = plant(43, 3, 1)
+    rng = np.random.default_rng(43)
+    B, x = rng.standard_normal(3), np.zeros(3)
+    y, u = np.zeros((1000, 3)), np.zeros((1000, 1))
+    noise = coloured(43, rng.standard_normal((1000, 3)), 40)
+    for k in range(1000):
+        v = rng.standard_normal(1)
+        y[k] = system.C @ x + system.G @ v + noise[k]
+        u[k] = 0.3 * rng.standard_normal() - 0.2 * y[k, 0]
+        x = system.A @ x + system.F @ v + B * u[k]
+    assert count_faults(y, u, order=3).n_v == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shape", ["sine", "ones", "ramp"])
+def test_a_fault_that_excites_little_is_not_counted_wrongly(shape: str) -> None:
+    """A sine obeys a law of its own, and so do a constant and a ramp: what is left may look like a system of higher order without fault."""
+    t = np.arange(1000.0)
+    v = {"sine": np.sin(0.3 * t), "ones": np.ones(1000), "ramp": t / 100}[shape][:, None]
+    system = plant(41, 3, 1)
+    rng = np.random.default_rng(41)
+    u = rng.standard_normal((1000, 1))
+    driven = Planted(
+        system.A, np.hstack([system.F, rng.standard_normal((3, 1))]), system.C, np.hstack([system.G, np.ones((3, 1))]), None, ()
+    )
+    y = simulate(driven, rng.standard_normal(3), np.hstack([v, u]))
+    found = count_faults(y + coloured(41, y, 40), u, order=3)
+    assert found.n_v in (1, None) and (found.decided or len(found.possible) > 1), found.reason
+
+
+def test_inputs_that_do_not_excite_leave_the_count_open() -> None:
+    y, _ = joint_record(plant(44, 3, 1), 44, 400, 40)
+    for u in (np.zeros((400, 1)), np.ones((400, 1)), np.sin(0.7 * np.arange(400.0))[:, None]):
+        found = count_faults(y, u, order=3)
+        assert found.n_v is None and "excite" in found.reason
+
+
+@pytest.mark.slow
+def test_records_of_less_than_two_hundred_samples() -> None:
+    y, u = joint_record(plant(20, 3, 1), 20, 80, 40)
+    assert count_faults(y, u, order=3).n_v in (1, None)
+    y, u = joint_record(plant(20, 3, 2), 20, 70, 40)
+    assert count_faults(y, u, order=3).n_v in (2, None)
+
+
 def test_two_hundred_samples() -> None:
     y, u = joint_record(plant(20, 3, 1), 20, 200, 40)
     assert count_faults(y, u, order=3).n_v in (1, None)

@@ -16,6 +16,7 @@ from faultspace.numeric.model.invariants import (
     pole_jacobian,
     state_space,
     system_matrix,
+    transfer,
     transfer_jacobian,
 )
 from faultspace.numeric.model.models import StateSpaceModel
@@ -143,3 +144,10 @@ def test_what_is_not_determined_has_a_huge_deviation() -> None:
     count = system_matrix(plant).size
     assert np.all(uncertainty_of(plant, np.zeros((count, count))).markov(3) > 1e100)
     assert np.all(uncertainty_of(plant, np.eye(count)).markov(3) < 10)
+
+
+@pytest.mark.parametrize("n", [0, 1, 4])
+def test_the_transfer_function_alone_is_that_of_the_half_transfers(n: int) -> None:
+    matrix = 0.3 * np.random.default_rng(n).standard_normal((n + 3, n + 2))
+    angles = np.linspace(0.01, 3.1, 40)
+    assert np.allclose(transfer(matrix, n, angles), half_transfers(matrix, n, angles)[0], rtol=1e-12, atol=1e-13)
