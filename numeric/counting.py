@@ -30,7 +30,7 @@ from .data.records import OnProgress
 from .findings import Findings
 from .rows.counting import count_faults
 from .rows.joint import affordable
-from .rows.laws import EXTRA
+from .rows.laws import LONG
 from .signal.residual_sizes import loudest
 
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
@@ -101,7 +101,7 @@ def _by_laws(answer: Findings, on_progress: OnProgress) -> Findings:
     record, model, ranks = answer.record, answer.model, answer.dimension
     assert model is not None
     order = max(model.order, 1)
-    if not affordable(record.p + record.n_u, order + EXTRA):
+    if not affordable(record.p + record.n_u, order + LONG):
         note = f"{record.p} outputs at order {model.order} are too many for the laws of outputs and inputs: the residual alone is counted"
         return replace(answer, notes=(*answer.notes, note))
     on_progress("counting the laws of outputs and inputs", 0, 0)

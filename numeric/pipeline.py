@@ -154,7 +154,8 @@ def _findings(
     answer = replace(answer, n_v_given=n_v is not None, healthy=healthy, noise_level=noise_level, notes=notes + found.notes)
     if found.model is None:
         return replace(answer, notes=(*answer.notes, f"the order is undecided: {found.refusal}"))
-    rest = _residual(record, found.model, len(part), on_progress)
+    with np.errstate(over="ignore", invalid="ignore"):  # outliers beyond all numbers are told by what they leave
+        rest = _residual(record, found.model, len(part), on_progress)
     sizes = residual_sizes(rest.store, len(part))
     answer = replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes))
     if np.all(sizes.peak <= ROUNDING * largest(record)):

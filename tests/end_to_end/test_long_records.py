@@ -84,7 +84,7 @@ def test_model_and_residual_are_those_of_the_arrays(long_record: tuple[Array, Ar
     found = pi_moesp(data, block_rows=15)
     assert found.order == whole.order == 3
     assert all(np.array_equal(getattr(found, name), getattr(whole, name)) for name in ("A", "B", "C", "D", "x0", "singular_values"))
-    assert f"model, pass 1 {N}/{N}" in messages and f"model, pass 3 {N}/{N}" in messages
+    assert f"model, pass 1 {N}/{N}" in messages and f"model, pass 2 {N}/{N}" in messages
     rest, wanted = residual(record, None, found.model, x0=found.x0), residual(y, u, whole.model)
     assert np.array_equal(residual(y, u, found.model, x0=found.x0).r, rest.r)
     assert np.array_equal(residual(record, None, found.model).r, wanted.r)
