@@ -80,11 +80,11 @@ def identified_fault_space(
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
 
-    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The covariance of A and C is carried to the space to first order [MN89], widened
-    by what `benchmarks/space_at_the_bound.py --calibrate` measures, and added to that of the rows; both take the number of zeros as right.
-    The angle does not yet hold in 95 % of short records (benchmarks/README.md has the counts), and above half a radian it says no more than
-    that the space is not known. The basis is in the states of the model and the
-    units of y; the states are matched with the true ones by least squares of the observability matrices. Raises InvalidData as
+    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The covariance of A and C is carried to the space to first order
+    [MN89], widened by what `benchmarks/space_at_the_bound.py --calibrate` measures, and added to that of the rows; both take the number of
+    zeros as right. The angle does not yet hold in 95 % of short records (benchmarks/README.md has the counts), and above half a radian it
+    says no more than that the space is not known. The basis is in the states of the model and the units of y; the states are matched with
+    the true ones by least squares of the observability matrices. Raises InvalidData as
     `fault_space_by_rows` does.
 
     >>> import numpy as np
