@@ -16,7 +16,8 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData
-from .data.records import OnProgress, Record
+from ..base.progress import Progress
+from .data.records import Record
 from .findings import Findings
 from .model.reduced_model import ReducedModel
 from .rows.joint import affordable
@@ -37,7 +38,7 @@ FROM_IDENTIFIED = (
 )
 
 
-def with_space(answer: Findings, on_progress: OnProgress) -> Findings:
+def with_space(answer: Findings, on_progress: Progress) -> Findings:
     """Return the space of all fault columns, on the samples that faults were counted on."""
     model, rest, faults = answer.model, answer.residual, answer.n_v
     if not faults or model is None or rest is None:
@@ -77,7 +78,7 @@ def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
     return replace(space, reason=f"{space.reason}; n_v as given")
 
 
-def with_signal(answer: Findings, on_progress: OnProgress) -> Findings:
+def with_signal(answer: Findings, on_progress: Progress) -> Findings:
     """Return the signal of one choice of columns out of the space, over all samples, where there is ground for one."""
     model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
     if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:

@@ -19,6 +19,7 @@ import scipy  # its folders are loaded when they are first used
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
+from ..base.progress import Progress
 from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest
 from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
@@ -26,7 +27,6 @@ from .count.healthy_model import healthy_reference
 from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
-from .data.records import OnProgress
 from .findings import Findings
 from .rows.counting import count_faults
 from .rows.joint import affordable
@@ -41,7 +41,7 @@ TINY = float(np.finfo(np.float64).tiny)
 LIKE_NOISE = "faults that are noise of that colour in single outputs, or constant over the whole record, would not be seen"
 
 
-def with_count(answer: Findings, faults: int | None, on_progress: OnProgress) -> Findings:
+def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> Findings:
     """Count the faults, from the residual beside the inputs."""
     record, rest, sizes, notes = answer.record, answer.residual, answer.sizes, answer.notes
     assert rest is not None and sizes is not None
@@ -96,7 +96,7 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
     return replace(answer, dimension=found, n_v=found.n_v, reason=found.reason, counted_by=by)
 
 
-def _by_laws(answer: Findings, on_progress: OnProgress) -> Findings:
+def _by_laws(answer: Findings, on_progress: Progress) -> Findings:
     """Count by the laws of outputs and inputs on the samples held, for systems of the model's order or less."""
     record, model, ranks = answer.record, answer.model, answer.dimension
     assert model is not None
@@ -159,7 +159,7 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
     return replace(answer, mean=mean, notes=notes)
 
 
-def _against_healthy(answer: Findings, r: Array, on_progress: OnProgress) -> Findings:
+def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findings:
     """Count the faults in the residual r of `answer` against the samples stated to be without fault, of which the last HELD numbers are
     held, and beside the test of the mean."""
     record, rest, sizes, until = answer.record, answer.residual, answer.sizes, answer.healthy

@@ -19,8 +19,9 @@ import numpy as np
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData
+from ..base.progress import Progress
 from .count.exactness import SCREENED, obeys_exactly
-from .data.records import OnProgress, Passes, Record
+from .data.records import Passes, Record
 from .model.arx_windows import longest_lag
 from .model.asymptotic_likelihood import arx_reduction
 from .model.moesp_model import MoespModel, OrderUndecided
@@ -46,7 +47,7 @@ class Modelled:
     refusal: str = ""
 
 
-def modelled(record: Record, order: int | None, block_rows: int | None, on_progress: OnProgress) -> Modelled:
+def modelled(record: Record, order: int | None, block_rows: int | None, on_progress: Progress) -> Modelled:
     """Make the model of a record. Raises InvalidData where neither way can have one, with the reason of the first."""
     exact = obeys_exactly(*record.stretch(0, SCREENED), single=record.single)
     if not exact:
@@ -70,7 +71,7 @@ def _with_notes(found: Modelled, *notes: str) -> Modelled:
     return Modelled(found.model, found.singular_values, found.window, found.exact, found.way, (*notes, *found.notes), found.refusal)
 
 
-def _by_reduction(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: OnProgress) -> Modelled:
+def _by_reduction(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: Progress) -> Modelled:
     found = arx_reduction(Passes(record, STAGE, on_progress), order=order, lags=block_rows)
     # Powers of two near the deviations: they round nothing, and are the same in whatever pieces the record came.
     units = np.exp2(-np.round(np.log2(record.channels.deviation)))
@@ -84,7 +85,7 @@ def _by_reduction(record: Record, order: int | None, block_rows: int | None, exa
     return Modelled(found, values, lags, exact, way, notes)
 
 
-def _by_past_inputs(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: OnProgress) -> Modelled:
+def _by_past_inputs(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: Progress) -> Modelled:
     rows = block_rows if block_rows is not None else window_default(len(record), record.p, record.n_u, order)
     way = f"PI-MOESP with windows of {rows} samples"
     try:

@@ -33,10 +33,11 @@ from numpy.typing import ArrayLike
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
+from ..base.progress import Progress, silent
 from ..base.threads import one_thread
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
-from .data.records import OnProgress, Passes, Record, silent
+from .data.records import Passes, Record
 from .data.sources import Source, record_from
 from .data.validation import noise_deviations, whole
 from .findings import Findings
@@ -62,7 +63,7 @@ def identify(
     inputs: str | Sequence[str] | None = None,
     outputs: str | Sequence[str] | None = None,
     dt: float | None = None,
-    on_progress: OnProgress | None = None,
+    on_progress: Progress | None = None,
 ) -> Identification:
     """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
 
@@ -134,7 +135,7 @@ def _findings(
     healthy: int | None,
     noise_level: Array | None,
     remove_means: bool,
-    on_progress: OnProgress,
+    on_progress: Progress,
 ) -> Findings:
     """Go through the chain of the module's docstring."""
     part = record if healthy is None else record.beginning(healthy)
@@ -163,7 +164,7 @@ def _findings(
     return with_signal(with_space(with_count(answer, n_v, on_progress), on_progress), on_progress)
 
 
-def _residual(record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: OnProgress) -> ResidualSignal:
+def _residual(record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: Progress) -> ResidualSignal:
     """Take the residual from the state that goes with the model, where there is one and the model can be run from it over the whole record,
     of which it may have seen the first samples alone: no sample is then held. Its covariance is that of the samples `modelled`, with all
     parameters that were fitted taken off."""

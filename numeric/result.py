@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from ..base.errors import InvalidInput, quote_path
+from ..base.progress import silent
 from ..base.threads import one_thread
-from .data.records import silent
 from .findings import Findings
 
 

@@ -28,12 +28,9 @@ from numpy.typing import ArrayLike
 from ...base.arrays import Array
 from ...base.errors import InvalidInput
 from ...base.progress import Progress
-from ...base.progress import silent as silent
 from ...base.sheets import Shown, counted
 from .plain import plain
 from .validation import PIECE
-
-OnProgress = Progress
 
 IN_MEMORY = 1 << 24
 NUMBER = 8  # bytes
@@ -280,7 +277,7 @@ def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequ
 class Passes:
     """The object gives the pieces of a record any number of times; each reading is reported by its number, as `stage`, pass 1, 2, .."""
 
-    def __init__(self, record: Record, stage: str, on_progress: OnProgress) -> None:
+    def __init__(self, record: Record, stage: str, on_progress: Progress) -> None:
         self._record, self._stage, self._on_progress = record, stage, on_progress
         self._begun = 0
 

@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.errors import InvalidInput, quote_path
+from ...base.progress import Progress
 from ..count.mean_shift import POWER
 from ..data.plain import plain
-from ..data.records import OnProgress, SampleStore
+from ..data.records import SampleStore
 from ..model.invariants import half_transfers, system_matrix
 from ..model.moesp_model import MoespModel
 from ..model.reduced_model import ReducedModel
@@ -145,7 +146,7 @@ def _of_reduction(model: ReducedModel) -> dict[str, Any]:
 
 
 def write(
-    answer: Findings, out: Path, data: str, on_progress: OnProgress, *, worded: Callable[[str], str] = str
+    answer: Findings, out: Path, data: str, on_progress: Progress, *, worded: Callable[[str], str] = str
 ) -> tuple[list[str], list[str]]:
     """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `summary`.
 
@@ -170,7 +171,7 @@ def write(
     return written, remarks
 
 
-def _tables(answer: Findings, folder: Path, on_progress: OnProgress) -> None:
+def _tables(answer: Findings, folder: Path, on_progress: Progress) -> None:
     if answer.model is not None:
         model = answer.model.model.to_json()
         model |= {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
@@ -186,7 +187,7 @@ def _tables(answer: Findings, folder: Path, on_progress: OnProgress) -> None:
         _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, on_progress)
 
 
-def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, on_progress: OnProgress) -> None:
+def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, on_progress: Progress) -> None:
     """Write a line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back."""
     first, last = trusted
     with open(path, "w", encoding="utf-8", newline="\n") as stream:
