@@ -341,6 +341,7 @@ def monte_carlo(
     """Repeat the paper's Monte Carlo study.
 
     It is run as published, with its vacuous cases marked, and as corrected, each with the true and with an identified model.
+    DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
     """
     from . import studying
 

@@ -4,14 +4,14 @@ document   what studies.json and --json hold; its schema is schemas/monte_carlo.
 remarks    what a reader of the published figures should know, with this run's counts
 table      a study's groups for the terminal
 lines      the summary that a person reads, in Markdown
-write      studies.json, cases.csv, summary.md and a figure for each study into a folder, each whole or not at all
+NAMES      the files that `write` makes: studies.json, cases.csv, summary.md and a figure for each study
+write      these files into a folder, each whole or not at all, without touching a file of these names that no earlier run wrote
 """
 
 from __future__ import annotations
 
 import csv
 import json
-import os
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -22,11 +22,13 @@ from rich.table import Table
 
 from ..base.errors import InvalidInput, quote_path
 from ..base.messages import say
+from ..numeric.report.folders import refuse, replace
 from ..numeric.study.cases import LIKELIHOOD
 from ..numeric.study.groups import QUANTILES, Group, by_phase, by_zeros
-from ..numeric.study.studies import Study
+from ..numeric.study.studies import STUDIES, Study
 
 DOCUMENT, CASES, SUMMARY = "studies.json", "cases.csv", "summary.md"
+NAMES = (DOCUMENT, CASES, SUMMARY, *(f"figure-{name}.png" for name in STUDIES))
 FORMAT = "faultspace-monte-carlo/1"
 ROUNDING = 1e-13
 OTHER_QUANTILES = tuple(q for q in QUANTILES if q != 0.5)
@@ -117,7 +119,10 @@ def lines(studies: Sequence[Study]) -> Iterator[str]:
 
 
 def write(studies: Sequence[Study], out: Path) -> list[str]:
-    """Write the files into a folder in `out` first, then move them, and return their names. Raises InvalidInput where that fails."""
+    """Write the files into a folder in `out` first, then move them, and return their names. Files of NAMES that an earlier run wrote are
+    replaced, or removed where this run has none. Raises InvalidInput where that fails, and, before anything is written, where `out` has a
+    file of these names that no earlier run wrote, or that was changed since."""
+    refuse(out, NAMES)
     try:
         with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
             folder = Path(name)
@@ -125,12 +130,10 @@ def write(studies: Sequence[Study], out: Path) -> list[str]:
             _write_cases(studies, folder / CASES)
             (folder / SUMMARY).write_text("\n".join(lines(studies)) + "\n", encoding="utf-8")
             _draw(studies, folder)
-            names = sorted(path.name for path in folder.iterdir())
-            for each in names:
-                os.replace(folder / each, out / each)
+            written = replace(folder, out, NAMES)
     except OSError as error:
         raise InvalidInput(f"{quote_path(str(out))}: cannot be written into ({error.strerror or error})") from None
-    return names
+    return written
 
 
 def _cells(group: Group) -> list[str]:

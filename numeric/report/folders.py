@@ -6,7 +6,8 @@ replace      files of another folder take the places of ours, and those of ours 
 
 A file is ours where its name stands in the manifest and its content is what was written then: a file that has been edited since, or
 that was put in its place, is its owner's. The manifest names the old and the new contents while files are moved, and the new ones alone
-when that is done, so that a run that is interrupted leaves no file that the next one does not know.
+when that is done, so that a run that is interrupted leaves no file that the next one does not know. Files of other names, which another
+command wrote there, stay in it as they are.
 """
 
 from __future__ import annotations
@@ -32,8 +33,8 @@ def refuse(folder: Path, names: Sequence[str]) -> None:
     for name in names:
         if os.path.lexists(folder / name) and not _ours(folder / name, known.get(name, [])):
             raise InvalidInput(
-                f"{quote_path(str(folder))}: has {name}, which is not ours (its content is not what an earlier run noted in "
-                f"{MANIFEST}, as older versions did not): expected a folder without it; name a new folder, or move the file"
+                f"{quote_path(str(folder))}: has {name}, which no earlier run wrote, or which was changed since; it is left as it is: name "
+                "a new folder with --out, or move the file away"
             )
 
 
@@ -42,8 +43,9 @@ def replace(made: Path, folder: Path, names: Sequence[str]) -> list[str]:
     written. Raises InvalidInput, before anything is moved, where a file of these names is not ours."""
     refuse(folder, names)
     written = [name for name in names if (made / name).exists()]
-    before, after = _known(folder), {name: [_digest(made / name)] for name in written}
-    _note(folder, {name: before.get(name, []) + after.get(name, []) for name in before.keys() | after.keys()})
+    before, new = _known(folder), {name: [_digest(made / name)] for name in written}
+    after = {name: digests for name, digests in before.items() if name not in names} | new
+    _note(folder, {name: before.get(name, []) + new.get(name, []) for name in before.keys() | new.keys()})
     for name in written:
         os.replace(made / name, folder / name)
     for name in names:

@@ -265,7 +265,7 @@ def test_a_file_of_somebody_else_is_refused_and_stays(name: str, csv_file: Path,
     out = tmp_path / "out"
     out.mkdir()
     (out / name).write_text("mine", encoding="utf-8")
-    refused(identified(csv_file, out), name, "not ours", "new folder")
+    refused(identified(csv_file, out), name, "no earlier run wrote", "new folder")
     assert [path.name for path in out.iterdir()] == [name] and (out / name).read_text("utf-8") == "mine"
 
 
@@ -274,7 +274,7 @@ def test_a_file_edited_since_is_its_owners(csv_file: Path, tmp_path: Path) -> No
     assert all(identified(csv_file, out, "--order", "3").code == 0 for _ in range(2))
     before = {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
     (out / report.SUMMARY).write_text("my remarks", encoding="utf-8")
-    refused(identified(csv_file, out, "--order", "2"), report.SUMMARY, "not ours")
+    refused(identified(csv_file, out, "--order", "2"), report.SUMMARY, "no earlier run wrote")
     assert (out / report.SUMMARY).read_text("utf-8") == "my remarks"
     assert before == {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
 

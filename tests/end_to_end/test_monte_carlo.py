@@ -12,7 +12,8 @@ from typing import Any
 import jsonschema
 import pytest
 
-from faultspace.cli import study_report
+from faultspace.cli import study_report, studying
+from faultspace.numeric.report import folders
 from tests.end_to_end.commands import call
 
 NAMES = ["published", "identified", "corrected", "corrected-identified"]
@@ -40,7 +41,7 @@ def test_a_tiny_study_leaves_tables_cases_and_figures(tmp_path: Path, rendered: 
     names = {path.name for path in out.iterdir()}
     assert {"cases.csv", "studies.json", "summary.md"} <= names
     assert "95 % interval" in (out / "summary.md").read_text("utf-8")
-    assert not [name for name in names if name.startswith(".")]
+    assert not [name for name in names if name.startswith(".unfinished")]
     rows = list(csv.DictReader((out / "cases.csv").open(encoding="utf-8")))
     vacuous = ["True", "False", "False", "False"]
     assert [row["vacuous"] for row in rows] == vacuous * 2 + ["False"] * 16
@@ -92,6 +93,29 @@ def test_few_samples_are_a_refusal_in_the_table_and_no_traceback(tmp_path: Path)
     assert "estimates were refused, the first because: 30 samples are too few" in run.out
 
 
+@pytest.mark.usefixtures("without_figures")
+def test_what_somebody_else_put_there_is_refused_and_stays(tmp_path: Path) -> None:
+    """A second run replaces what the first wrote, and a file that was edited since stops the third."""
+    out = tmp_path / "study"
+    arguments = ("monte-carlo", "--systems", "2", "--samples", "30", "--jobs", "1", "--out", str(out))
+    assert [call(*arguments).code for _ in range(2)] == [0, 0]
+    (out / "cases.csv").write_text("mine", encoding="utf-8")
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+    run = call(*arguments)
+    assert run.code == 2 and run.out == "" and len(run.err.strip().splitlines()) == 1
+    assert "has cases.csv, which no earlier run wrote, or which was changed since; it is left as it is" in run.err
+    assert before == {path.name: path.read_bytes() for path in out.iterdir()}
+
+
+@pytest.mark.parametrize("name", ["cases.csv", "figure-identified.png"])
+def test_a_file_of_our_names_is_refused_before_anything_is_computed(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(studying, "monte_carlo", None)
+    (tmp_path / name).write_text("mine", encoding="utf-8")
+    run = call("monte-carlo", "--out", str(tmp_path))
+    assert run.code == 2 and f"has {name}, which no earlier run wrote" in run.err and len(run.err.strip().splitlines()) == 1
+    assert [path.name for path in tmp_path.iterdir()] == [name] and (tmp_path / name).read_text("utf-8") == "mine"
+
+
 def test_without_distributed_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     run = call("monte-carlo", "--systems", "2", "--dask", "tcp://127.0.0.1:8786", "--out", str(tmp_path / "out"))
@@ -108,3 +132,13 @@ def test_bad_arguments_are_one_line_and_leave_nothing(tmp_path: Path) -> None:
         assert run.code == 2
         assert run.out == "" and len(run.err.strip().splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_a_folder_of_two_commands_knows_the_files_of_both(tmp_path: Path) -> None:
+    made, out = tmp_path / "made", tmp_path / "out"
+    made.mkdir()
+    out.mkdir()
+    for name in ("model.json", "cases.csv"):
+        (made / name).write_text(name, encoding="utf-8")
+        assert folders.replace(made, out, [name]) == [name]
+    folders.refuse(out, ["model.json", "cases.csv"])
