@@ -170,7 +170,7 @@ def test_the_sample_time_goes_into_the_model_that_is_inspected(csv_file: Path, t
     validator("model", "faultspace.numeric").validate(content)
     # Exact zeros of floats that were estimated say nothing, so that nobody is sent to look for them.
     assert not any("inspect" in line for line in run.json["next"])
-    refused(identified(csv_file, tmp_path / "none", "--dt", "0"), "--dt", "got 0.0")
+    refused(identified(csv_file, tmp_path / "none", "--dt", "0"), "--dt", "got '0'")
     for wrong in (0, -0.5, True, None, "fast"):
         model.write_text(json.dumps(content | {"dt": wrong}), encoding="utf-8")
         refused(call("inspect", str(model), "--floats-exactly"), "dt")
