@@ -73,6 +73,14 @@ def test_where_the_basis_does_not_close_all_entries_are_taken(monkeypatch: pytes
     assert np.allclose(np.tensordot(coordinates, basis.matrices, axes=1), A @ A)
 
 
+@pytest.mark.parametrize("radius", [1.3, 40.0, 1e60])
+def test_powers_that_leave_all_numbers_are_no_overflow(radius: float) -> None:
+    """They are compared as far as they can be. A study of short records meets models so unstable, and squares of their powers overflow."""
+    with np.errstate(all="raise", under="ignore"):
+        basis = power_basis(radius * np.array([[1.0, 1.0], [0.0, -0.9]]))
+    assert len(basis.H) == 2
+
+
 @pytest.mark.parametrize("name", [name for name in MATRICES if name not in ("far from normal", "many states", "no states")])
 def test_output_error_and_what_it_leaves_are_least_squares_written_out(name: str) -> None:
     A = MATRICES[name]
