@@ -67,6 +67,11 @@ def identify(
 ) -> Identification:
     """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
 
+    Look at `found.notes` first, then at `found.model`: where it is None the order stayed open, and `found.singular_values` tell the
+    choices. Then at `found.n_v` and `found.reason`; None is an answer, too. Only then at `found.fault_space`, whose angle says how sure it
+    is, and last at `found.pair` and `found.signal`, which are one choice out of that space. `print(found.summary())` tells all of it in
+    this order.
+
     Source: [W89] for the model, [W91] for the laws, [G25] for the fault space; [V93] for the model of a record without noise.
 
     y (N, p) and u (N, n_u) are arrays or data frames, one row a sample, in any units. Without u, y holds both: a record, the path of a
@@ -77,9 +82,9 @@ def identify(
     the number of faults, each found from the data where it is not stated; `healthy` says how many samples, from the first on, are without
     fault; `noise_level`, one number or one an output, is the standard deviation of the sensors' noise in units of y, by which faults are
     told from noise where no samples are healthy; `remove_means` takes the means off, of the healthy samples where there are any. `dt` is
-    the time from sample to sample in seconds, which only the exports need. `on_progress(stage, done,
-    total)` hears how far it has come. Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can
-    be had; what cannot be told after that is a note of the Identification.
+    the time from sample to sample in seconds, which only the exports need. `on_progress(stage, done, total)` hears how far it has come.
+    Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can be had; what cannot be told after
+    that is a note of the Identification.
 
     >>> import numpy as np
     >>> from faultspace.numeric import identify
