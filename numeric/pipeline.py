@@ -34,6 +34,7 @@ from numpy.typing import ArrayLike
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress, silent
+from ..base.sheets import counted
 from ..base.threads import one_thread
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
@@ -102,9 +103,9 @@ def identify(
     dt = _seconds(dt)
     record = record_from(y, u, inputs=inputs, outputs=outputs, on_progress=on_progress)
     if n_v is not None and n_v > record.p:
-        raise InvalidData(f"n_v: got {n_v} for {record.p} outputs; at most as many can be told apart: state fewer")
+        raise InvalidData(f"n_v: got {n_v} for {counted(record.p, 'output')}; at most as many can be told apart: state fewer")
     if healthy is not None and healthy >= len(record):
-        raise InvalidData(f"healthy: got {healthy} for {len(record)} samples; some must follow: state fewer")
+        raise InvalidData(f"healthy: got {healthy} for {counted(len(record), 'sample')}; some must follow: state fewer")
     level = None if noise_level is None else noise_deviations(noise_level, record.p)
     found = _findings(record, order, block_rows, n_v, healthy, level, bool(remove_means), on_progress)
     return Identification(**vars(found) | {"dt": dt})
@@ -211,8 +212,8 @@ def _enough(record: Record, rows: int) -> None:
     if samples < height:
         advice = "there are fewer samples than channels: is the table transposed? It needs a row a sample"
     raise InvalidData(
-        f"got {samples} samples, which are too few: with {record.n_u} inputs and {record.p} outputs, windows of {rows} samples need at "
-        f"least {needed}; {advice}"
+        f"got {counted(samples, 'sample')}, too few: with {counted(record.n_u, 'input')} and {counted(record.p, 'output')}, windows of "
+        f"{rows} samples need at least {needed}; {advice}"
     )
 
 

@@ -26,7 +26,7 @@ import sympy
 from flint import Ordering, nmod_mpoly_ctx
 
 from ...base.errors import InvalidInput
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..algebra.fields import NumberField, PrimeField, Rationals
 from ..algebra.notation import several
 from ..system.systems import System
@@ -115,7 +115,9 @@ class BadEquations(Shown):
     @property
     def title(self) -> str:
         """This says how many equations there are in how many entries."""
-        return f"{len(self.equations)} equations of degree {self.degree} in {len(self.entries)} entries of P"
+        return (
+            f"{counted(len(self.equations), 'equation')} of degree {self.degree} in {counted(len(self.entries), 'entry', 'entries')} of P"
+        )
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """The pairs are the equations, by power of q."""

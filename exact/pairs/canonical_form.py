@@ -26,7 +26,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..algebra.fields import Field
 from ..algebra.matrices import Matrix, row_echelon, stacked
 from ..algebra.notation import named_matrix, polynomial, several
@@ -57,7 +57,7 @@ class BehaviorName(Shown):
     @property
     def title(self) -> str:
         """This says how many outputs and laws the behaviour has."""
-        return f"{len(self.rows)} laws of {self.p} outputs, of degrees {several(self.left_minimal_indices)}"
+        return f"{counted(len(self.rows), 'law')} of {counted(self.p, 'output')}, of degrees {several(self.left_minimal_indices)}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """The pairs are the rows N_j(q)."""

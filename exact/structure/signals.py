@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..algebra.matrices import Matrix, as_matrix, left_null_space, rank, stacked
 from ..algebra.notation import named_matrix
 from ..algebra.validation import natural
@@ -45,7 +45,15 @@ class Trajectory(Shown):
     @property
     def title(self) -> str:
         """This says how long the trajectory is, and how many states, faults and residuals it has."""
-        return f"{self.faults.nrows} steps, {self.states.ncols} states, {self.faults.ncols} faults, {self.residuals.ncols} residuals"
+        return ", ".join(
+            counted(number, noun)
+            for number, noun in (
+                (self.faults.nrows, "step"),
+                (self.states.ncols, "state"),
+                (self.faults.ncols, "fault"),
+                (self.residuals.ncols, "residual"),
+            )
+        )
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """The pairs are the three signals, a line a sample; of long ones the middle is left out."""

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress
+from ...base.sheets import counted
 from .files import named_once, read_record, split_names
 from .records import Record, RecordWriter
 from .validation import checked_pieces, two_dimensional
@@ -82,7 +83,8 @@ def _written(
             writer = RecordWriter(sum(widths))
         if widths != (y.shape[1], u.shape[1]):
             raise InvalidData(
-                f"a piece has {u.shape[1]} inputs and {y.shape[1]} outputs where the first has {widths[1]} and {widths[0]}: all need the "
+                f"a piece has {counted(u.shape[1], 'input')} and {counted(y.shape[1], 'output')} "
+                f"where the first has {widths[1]} and {widths[0]}: all need the "
                 "same"
             )
         writer.append(np.hstack([u, y]))

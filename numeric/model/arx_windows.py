@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from .compression import EPS, Compression, scaled_condition, window_rows
 from .sequential_qr import SequentialQR, triangular
 
@@ -134,7 +135,8 @@ def arx_windows(data: Iterable[tuple[Array, Array]], lags: int) -> ArxWindows:
             running = SequentialQR(_rows(p, n_u, lags), n_u + p + 1)
         elif (y.shape[1], u.shape[1]) != (p, n_u):
             raise InvalidData(
-                f"a piece has {u.shape[1]} inputs and {y.shape[1]} outputs where the first has {n_u} and {p}: all need the same"
+                f"a piece has {counted(u.shape[1], 'input')} and {counted(y.shape[1], 'output')} "
+                f"where the first has {n_u} and {p}: all need the same"
             )
         running.append(np.concatenate([u, y, np.ones((len(y), 1))], axis=1))
         samples += len(y)

@@ -29,6 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ...base.threads import one_thread
 from ..data.validation import checked_pieces, enough_samples, pieces, positive, two_dimensional
 from ..model.displacement_gram import DisplacementGram, factor_from_gram
@@ -110,7 +111,8 @@ class _Shape(NamedTuple):
 def _joint(y: Array, u: Array, first: tuple[int, int]) -> Array:
     if (u.shape[1], y.shape[1]) != first:
         raise InvalidData(
-            f"a piece has {u.shape[1]} inputs and {y.shape[1]} outputs where the first has {first[0]} and {first[1]}: all need the same"
+            f"a piece has {counted(u.shape[1], 'input')} and {counted(y.shape[1], 'output')} "
+            f"where the first has {first[0]} and {first[1]}: all need the same"
         )
     return np.concatenate([u, y], axis=1)
 

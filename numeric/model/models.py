@@ -143,7 +143,9 @@ class StateSpaceModel(Shown):
         inputs = signal(u, "u")
         if inputs.shape[1] != self.n_u:
             hint = "; it looks transposed: pass u.T" if inputs.shape[0] == self.n_u else ""
-            raise InvalidData(f"u has {inputs.shape[1]} columns, the model {self.n_u} inputs: one column an input is needed{hint}")
+            raise InvalidData(
+                f"u has {counted(inputs.shape[1], 'column')}, the model {counted(self.n_u, 'input')}: one column an input is needed{hint}"
+            )
         simulator = Simulator(self, x0)
         y = np.empty((len(inputs), self.p))
         for first in range(0, len(inputs), PIECE):

@@ -187,7 +187,8 @@ def _fits(y: tuple[int, ...], u: tuple[int, ...], model: StateSpaceModel) -> Non
     if y[1] != model.p or u[1] != model.n_u:
         turned = "; y looks transposed, pass y.T" if y[0] == model.p else ""
         raise InvalidData(
-            f"y has {y[1]} columns and u has {u[1]}, the model has {model.p} outputs and {model.n_u} inputs: "
+            f"y has {counted(y[1], 'column')} and u has {u[1]}, the model has "
+            f"{counted(model.p, 'output')} and {counted(model.n_u, 'input')}: "
             f"one column a channel is needed{turned}"
         )
 
@@ -197,7 +198,8 @@ def _check(y: tuple[int, ...], u: tuple[int, ...], model: StateSpaceModel) -> No
     _fits(y, u, model)
     if y[0] * model.p <= model.n:
         raise InvalidData(
-            f"{y[0]} samples of {model.p} outputs cannot fix {model.n} initial states: more than {model.n / model.p:g} samples are "
+            f"{counted(y[0], 'sample')} of {counted(model.p, 'output')} cannot fix "
+            f"{counted(model.n, 'initial state')}: more than {model.n / model.p:g} samples are "
             f"needed; give more samples, or x0"
         )
 

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import quote_path
+from ...base.sheets import counted
 from ..count.mean_shift import POWER
 from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
@@ -44,7 +45,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
     """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
-    yield f"{len(record)} samples, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
+    yield f"{counted(len(record), 'sample')}, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
     yield f"windows of {answer.block_rows} samples{', means removed' if answer.means_removed else ''}"
     yield ""
     yield "## Model"

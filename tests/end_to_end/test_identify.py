@@ -370,7 +370,7 @@ def test_healthy_samples_that_are_too_few_are_reported(tmp_path: Path, csv_file:
     assert any("not counted against samples 0 to 199: healthy has 200 samples" in note for note in answer["notes"])
     valid("identify", answer)
     # The model is from these samples alone: too few for one are refused.
-    refused(identified(csv_file, tmp_path / "none", "--healthy-until", "12"), "--healthy-until", "got 12 samples, which are too few")
+    refused(identified(csv_file, tmp_path / "none", "--healthy-until", "12"), "--healthy-until", "got 12 samples, too few")
     beyond = str(made.SAMPLES)
     refused(identified(csv_file, tmp_path / "none", "--healthy-until", beyond), "--healthy-until", f"got {beyond} for {beyond} samples")
     assert not (tmp_path / "none").exists()

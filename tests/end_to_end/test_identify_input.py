@@ -160,12 +160,12 @@ TABLES: dict[str, tuple[str, tuple[str, ...]]] = {
     ),
     "transposed": (
         "\n".join([",".join(["u", "y", *(f"t{k}" for k in range(60))]), ",".join("1" * 62)]),
-        ("got 1 samples", "fewer samples than channels", "transposed?"),
+        ("got 1 sample", "fewer samples than channels", "transposed?"),
     ),
     "quotes left open": ('u,y\n"1,2\n3,4\n', ("none of comma, semicolon, tab, blanks",)),
     "too few samples": (
         "u,y\n" + "".join(f"{(k * k) % 7},{k % 5}\n" for k in range(4)),
-        ("got 4 samples, which are too few", "need at least 9", "record more"),
+        ("got 4 samples, too few", "need at least 9", "record more"),
     ),
     "constant input": ("u,y\n" + "".join(f"1,{(k * k) % 11}\n" for k in range(400)), ("input 'u' is constant (1)", "leave it out")),
 }

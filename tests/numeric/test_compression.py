@@ -250,7 +250,7 @@ def test_bad_data_are_refused_with_a_way_out() -> None:
         compress(y, np.ones_like(u), block_rows=4, route="gram")
     with pytest.raises(InvalidData, match="is empty"):
         compress_chunks([], block_rows=4)
-    with pytest.raises(InvalidData, match="a piece has 1 inputs"):
+    with pytest.raises(InvalidData, match="a piece has 1 input "):
         compress_chunks([(y, u), (y, u[:, :1])], block_rows=4)
     with pytest.raises(InvalidData, match="too few"):
         compress_chunks([(y[:3], u[:3])], block_rows=4)
