@@ -140,9 +140,9 @@ def test_hankel_entries() -> None:
     assert hankel(signal, 0).shape == (0, 4) and hankel(signal, 3).shape == (6, 1)
 
 
-@pytest.mark.parametrize("s", [-1, 4])
-def test_windows_that_do_not_fit(s: int) -> None:
-    with pytest.raises(InvalidInput, match=rf"^window: got {s} with 3 samples, expected 0 <= window <= samples$"):
+@pytest.mark.parametrize(("s", "why"), [(-1, ", expected an integer >= 0"), (4, " with 3 samples, expected 0 <= window <= samples")])
+def test_windows_that_do_not_fit(s: int, why: str) -> None:
+    with pytest.raises(InvalidInput, match=f"^window: got {s}{why}$"):
         hankel(Matrix.of([[1], [2], [3]]), s)
 
 
