@@ -16,6 +16,7 @@ from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.space import by_likelihood as noisy_fault_space
 from faultspace.numeric.space.by_ranks import fault_space, fault_space_by_least_squares, fault_space_by_likelihood
 from faultspace.numeric.space.largest import largest_fault_space, observability_indices
+from tests.thorough import every
 
 
 def drawn(random: np.random.Generator, n: int, m: int, p: int, entries: int) -> ResidualSystem:
@@ -75,7 +76,7 @@ def test_indices_of_small_matrices_by_hand() -> None:
 @pytest.mark.parametrize("level", [1e-3, 0.1, 1.0, 10.0])
 @pytest.mark.parametrize("method", [fault_space, fault_space_by_likelihood, fault_space_by_least_squares])
 def test_no_estimate_exceeds_the_bound_whatever_the_noise(level: float, method: object) -> None:
-    for seed, (n, p, m) in product(range(2), ((3, 3, 1), (3, 3, 2), (4, 2, 1), (5, 4, 2))):
+    for seed, (n, p, m) in product(range(0, 2, every()), ((3, 3, 1), (3, 3, 2), (4, 2, 1), (5, 4, 2))):
         random = np.random.default_rng((seed, n, p, m))
         A = random.standard_normal((n, n))
         A *= 0.9 / np.abs(np.linalg.eigvals(A)).max()

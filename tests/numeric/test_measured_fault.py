@@ -118,6 +118,7 @@ def test_two_injected_faults_are_two() -> None:
     assert answer.n_v == 2, answer.reason
 
 
+@pytest.mark.slow
 def test_a_fault_on_the_states_is_counted_and_its_signal_read() -> None:
     y, u = record()
     half = len(y) // 2

@@ -36,7 +36,7 @@ from faultspace.numeric.study.workers import in_order
 
 run = study_run(study_system(2, np.random.SeedSequence(5)), 7, level=0.01, samples=500)
 answers = [fs.identify(run.y, run.u, order=5).to_json()]
-tasks = [(index, seed, 1001) for index, seed in enumerate(np.random.SeedSequence(1).spawn(4))]
+tasks = [(index, seed, 1001) for index, seed in enumerate(np.random.SeedSequence(1).spawn(2))]
 answers += [[asdict(case) for case in in_order(identified_case, tasks, worth=2, jobs=jobs)] for jobs in map(int, sys.argv[1:])]
 print(*(hashlib.sha256(json.dumps(answer).encode()).hexdigest() for answer in answers))
 """
