@@ -20,6 +20,7 @@ import scipy  # its folders are loaded when they are first used
 from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress
+from ..base.sheets import counted
 from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest
 from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
@@ -191,7 +192,30 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
     answer = replace(answer, counted_against=(start, until), against=against, visible=visible_white_faults(reference, against, POWER))
     if against.n_v is not None:
         answer = replace(answer, n_v=against.n_v, reason=against.reason, counted_by="healthy samples")
+        answer = _beside_laws(answer, healthy, on_progress)
     return _zero_or_not(answer)
+
+
+def _beside_laws(answer: Findings, healthy: Array, on_progress: OnProgress) -> Findings:
+    """Leave a number of faults counted against the residual of the healthy samples (K, p) undecided where outputs and inputs
+    do not obey the p - n_v laws that they should. Against healthy samples directions are counted at each frequency, so that faults in
+    separate bands count as one; laws hold at all frequencies at once. They are heeded where they find no fault among the healthy samples:
+    else it is the noise that has not the shape which they take for granted."""
+    n_v, p = answer.n_v, answer.record.p
+    if not n_v or n_v == p or not np.all(np.ptp(healthy, axis=0) > 0.0):
+        return answer
+    laws = _by_laws(replace(answer, noise_level=np.std(healthy, axis=0)), on_progress).count
+    if laws is None or all(each.holds is not False for each in laws.tests if each.count <= p - n_v):
+        return answer
+    first, last = answer.counted_against
+    silent = _by_laws(replace(answer, held=(first, last), noise_level=None), on_progress).count
+    if silent is None or silent.n_v != 0:
+        return answer
+    reason = (
+        f"{answer.reason}; but outputs and inputs do not obey {counted(p - n_v, 'law')} of so many states: more faults act, for in "
+        "separate bands they count as one against healthy samples, or the order is too low"
+    )
+    return replace(answer, n_v=None, possible=tuple(range(n_v, p + 1)), counted_by=None, reason=reason)
 
 
 def _zero_or_not(answer: Findings) -> Findings:

@@ -122,7 +122,7 @@ def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | 
     unknown = np.full(found.model.p, np.nan)
     offsets = tuple(mean if known else unknown for mean, known in zip(found.offsets, used, strict=True))
     states = tuple(
-        _initial_state(source, found.model, mean) if known else np.full(found.order, np.nan)
+        _initial_state(source, found, mean) if known else np.full(found.order, np.nan)
         for source, mean, known in zip(sources, offsets, used, strict=True)
     )
     notes = found.notes + _feedback(sources, found, carried)
@@ -161,12 +161,17 @@ def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tup
     return lengths, carried
 
 
-def _initial_state(source: Pieces, model: StateSpaceModel, offset: Array) -> Array:
-    """Estimate the initial state by least squares over the samples in which it can be seen."""
+def _initial_state(source: Pieces, found: ReducedModel, offset: Array) -> Array:
+    """Estimate the initial state by least squares over the samples in which it can be seen, each output in units of its disturbance."""
+    model = found.model
     radius = min(spectral_radius(model.A), 1.0)
     left = MOST_FREE if radius == 1 else model.n + (int(min(np.log(EPS) / np.log(radius), MOST_FREE)) if radius > 0 else 0) + 1
     y, u = _beginning(source, left)
-    return residual(y - offset, u, model).x0
+    y = y - offset
+    # Of least squares in units of y the loudest output alone would have a say; where there is no disturbance, rounding stands for it.
+    unit = np.maximum(np.sqrt(np.diag(found.arx.covariance)), EPS * np.abs(y).max(axis=0))
+    unit = np.where(unit > 0.0, unit, 1.0)
+    return residual(y / unit, u, StateSpaceModel(model.A, model.B, model.C / unit[:, None], model.D / unit[:, None])).x0
 
 
 def _beginning(source: Pieces, samples: int) -> tuple[Array, Array]:

@@ -9,7 +9,8 @@ k rows of total degree n are laws (`laws.py`), and the number of faults is p les
               like noise: the answer p - 1 rests on the assumption that no fault is fainter than FAINTEST beside the one before it; where
               the step from two rows to one is less, the answer is "p - 1 or p"
     known     a `noise_level` of the channels settles that: the remainder of laws has no more than that power, to a factor KNOWN_TO,
-              and where it is beyond KNOWN_FAR there is another fault
+              and where it is beyond KNOWN_FAR there is another fault. Rows that would be laws but for that contradict the level: either it
+              is stated too low, or faults look like noise, and the answer is undecided
 
 A fault in one output alone with the colour of the noise is noise by every statistic of such a record, and so are p faults that are white
 and of equal power in all outputs. n_v = p is answered only where the noise level is known. Without noise the ranks of `fault_dimension`
@@ -145,10 +146,9 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
 
     # Invariant: `some` rows may be laws, `more` are not. Where more of them are laws, a doubt about fewer does not matter.
     some, more = 0, p + 1
-    while more - some > 1:
-        k = (some + more) // 2
-        if k == 1:
-            break
+    # A single row is asked last, when two are none: flatness alone judges it.
+    while more - some > 1 and more > 2:
+        k = max((some + more) // 2, 2)
         some, more = (some, k) if _holds(laws(k), known) is False else (k, more)
     if not some:
         answer = _last(p, laws, tests, data, known)
@@ -156,6 +156,8 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
         answer = _undecided(p, some, tests[some], tests)
     else:
         answer = _answer(p - some, tests[some], tests, data)
+    if known is not None and answer.n_v is not None:
+        answer = _believed(answer, tests, known)
     # Of too low an order fewer rows than there are may be laws, and would count as more faults.
     refused = 0 if answer.n_v is None else p + 1 - answer.n_v
     if not 2 <= refused <= p:
@@ -205,6 +207,24 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
         )
         return FaultCount(None, (p - 1, p), reason, _walk(tests))
     return _answer(p - 1, one, tests, data)
+
+
+def _believed(answer: FaultCount, tests: dict[int, Laws], known: Array) -> FaultCount:
+    """Return the answer, undecided where only the stated level speaks against rows that are laws by all else that is asked of them."""
+    p, refuted = len(known), [laws for laws in tests.values() if laws.holds and _holds(laws, known) is False]
+    # Of a single row, what would decide without a level: that it stands far below two.
+    single = 1 in tests and 2 in tests and tests[2].level - tests[1].level >= FAINTEST
+    most = max((laws for laws in refuted if laws.count > 1 or single), key=lambda laws: laws.count, default=None)
+    if most is None:
+        return answer
+    loud = _loudness(most.level, most.fit.spectrum, known)
+    least = min((laws.count for laws in tests.values() if laws.holds is False), default=p + 1)
+    reason = (
+        f"{counted(most.count, 'row')} {'leaves' if most.count == 1 else 'leave'} what looks like noise (probability "
+        f"{most.probability:.2g}), but {loud:.3g} times the power of the stated one: the noise_level is too low by {loud**0.5:.3g}, or so "
+        "many more faults look like noise"
+    )
+    return FaultCount(None, tuple(range(p - least + 1, p + 1)), reason, answer.tests)
 
 
 def _answer(n_v: int, found: Laws, tests: dict[int, Laws], data: JointMoments) -> FaultCount:

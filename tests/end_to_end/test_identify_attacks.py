@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.signal import lfilter
+from scipy.signal import butter, lfilter, sosfilt
 
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidData
@@ -208,6 +208,20 @@ def test_an_output_without_noise_makes_no_faults_of_the_noise_of_others() -> Non
     assert identify(recorded(y, u, outputs=names, inputs=made.INPUTS), order=3).n_v is None
     y[START:, 2] += 20.0 * LEVELS[2] * np.random.default_rng(17).standard_normal(N - START)
     assert answered(y, u, outputs=names)[0].n_v in (1, None)
+
+
+@pytest.mark.parametrize("seed", range(2)[:: every()])
+def test_two_faults_in_separate_bands_are_not_counted_as_one(seed: int) -> None:
+    """Against healthy samples one direction stands out at each frequency."""
+    draw = np.random.default_rng((18, seed))
+    u = draw.standard_normal((N, 2))
+    bands = [butter(6, 0.3, output="sos"), butter(6, 0.7, "high", output="sos")]
+    v = np.stack([sosfilt(band, draw.standard_normal(N)) for band in bands], axis=1)
+    v[:START] = 0.0
+    F, G = np.array([[1.0, 0.0], [0.3, 1.0], [0.5, 0.2]]), np.array([[0.4, 0.0], [0.0, 0.3], [1.0, 0.5]])
+    driven = StateSpaceModel(made.A, np.hstack([made.B, F]), made.C, np.hstack([made.D, G]))
+    answer, _, words = answered(driven.simulate(np.hstack([u, v])) + noise(draw, N) / LEVELS * 0.1, u)
+    assert answer.n_v in (2, None) and answer.at_least >= 1, words
 
 
 # Where the records end, and what is stated wrongly

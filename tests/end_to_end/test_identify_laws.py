@@ -115,3 +115,11 @@ def test_a_noise_level_is_one_number_or_one_an_output(level: Any) -> None:
     y, u = _drawn(8, 200)
     with pytest.raises(InvalidData, match="noise_level: got"):
         identify(y, u, order=3, noise_level=level)
+
+
+def test_unequal_noise_and_other_units_make_no_spikes_of_the_initial_state() -> None:
+    """Fitted in units of y, the initial state leaves an error of the loudest output's noise in the others, far beyond their own."""
+    draw = np.random.default_rng(1)
+    u = draw.standard_normal((N, 2))
+    y = StateSpaceModel(made.A, made.B, made.C, made.D).simulate(u) + NOISE * draw.standard_normal((N, 3)) * [1.0, 0.01, 0.3]
+    assert identify(y, u, order=3).n_v == identify(y * [1e6, 1.0, 1e-6], u * [1e-3, 1e5], order=3).n_v == 0

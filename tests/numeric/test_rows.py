@@ -39,6 +39,11 @@ def joint_record(system: Planted, seed: int, samples: int, decibels: float | Non
     return (y if decibels is None else y + coloured(seed, y, decibels)), u
 
 
+def of_faults(system: Planted, m: int) -> Planted:
+    """Return the system itself with m > 0 faults, else with one that does nothing."""
+    return system if m else Planted(system.A, 0 * system.F, system.C, 0 * system.G, system.Z, ())
+
+
 def spans(rows: list[Any], angle: float) -> Any:
     """Return an orthonormal basis (p, k) of the row space of N_y at a point of the unit circle."""
     N = np.array([np.exp(1j * angle * np.arange(len(row))) @ row for row in rows])
@@ -250,6 +255,19 @@ def test_too_low_an_order_is_seen(order: int) -> None:
     y, u = joint_record(plant(42, 4, 1, 5), 42, 1000, 40)
     assert count_faults(y, u, order=order).n_v is None
     assert count_faults(y, u, order=5).n_v == 1
+
+
+@pytest.mark.parametrize(("p", "m"), [(2, 0), (2, 1), pytest.param(5, 3, marks=pytest.mark.slow)])
+def test_two_rows_are_asked_before_a_single_one(p: int, m: int) -> None:
+    """Where two rows are laws, a single one is too, whatever else: asked alone it makes p - 1 faults of fewer."""
+    y, u = joint_record(of_faults(plant(14, p, max(m, 1)), m), 14, 1000, 30)
+    assert count_faults(y, u, order=3).n_v == m
+
+
+def test_a_noise_level_stated_too_low_by_ten_makes_no_faults_of_the_noise() -> None:
+    y, u = joint_record(plant(42, 3, 1), 42, 1000, 20)
+    found = count_faults(y, u, order=3, noise_level=0.01 * y.std(axis=0))
+    assert found.n_v is None and 1 in found.possible and "the noise_level is too low by" in found.reason, found.reason
 
 
 @pytest.mark.slow
