@@ -196,7 +196,7 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
     return _zero_or_not(answer)
 
 
-def _beside_laws(answer: Findings, healthy: Array, on_progress: OnProgress) -> Findings:
+def _beside_laws(answer: Findings, healthy: Array, on_progress: Progress) -> Findings:
     """Leave a number of faults counted against the residual of the healthy samples (K, p) undecided where outputs and inputs
     do not obey the p - n_v laws that they should. Against healthy samples directions are counted at each frequency, so that faults in
     separate bands count as one; laws hold at all frequencies at once. They are heeded where they find no fault among the healthy samples:

@@ -33,7 +33,7 @@ from ..data.plain import plain
 from ..drawing import plot_criteria
 
 REFUSED = 0.01
-WIDTHS = (10, 8, 8, 8, 5)  # of the columns of the table
+WIDTHS = (9, 6, 8, 8, 5)  # of the columns of the table
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class OrderEvidence(Shown):
         yield "", " ".join(f"{name:>{width}}" for name, width in zip(columns, WIDTHS, strict=True))
         for row in self.rows:
             gap = f"{row.gap:.0e}" if row.gap >= 1000 else f"{row.gap:.1f}"
-            texts = (f"{row.akaike:.5g}", f"{row.chance:.2g}", f"{row.one_step:.4f}", f"{row.free_run:.4f}", gap)
+            texts = (f"{row.akaike:.4g}", _chance(row.chance), f"{row.one_step:.4f}", f"{row.free_run:.4f}", gap)
             values = ["-" if text == "nan" else text for text in texts]
             name = f"order {row.order}{', taken' if row.order == self.best else ''}"
             yield name, " ".join(f"{value:>{width}}" for value, width in zip(values, WIDTHS, strict=True))
@@ -117,6 +117,11 @@ class OrderEvidence(Shown):
         None are given, and return them. Raises ImportError without matplotlib."""
         curves = {"Akaike": [row.akaike for row in self.rows]}
         return plot_criteria([row.order for row in self.rows], curves, taken=self.best, open_range=(self.least, self.most), ax=ax)
+
+
+def _chance(chance: float) -> str:
+    """Return a probability in six characters at most."""
+    return f"{chance:.2g}" if chance >= 1e-3 or chance == 0 else f"{chance:.0e}"
 
 
 def weighed(rows: Sequence[OrderRow]) -> OrderEvidence:

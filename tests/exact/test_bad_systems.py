@@ -133,7 +133,7 @@ BAD_CALLS: dict[str, tuple[Callable[[], Any], str]] = {
     "a float": (lambda: Matrix.of([[1, 0.5]]), "matrix[0][1]: got 0.5, expected a rational string"),
     "floats have a door": (lambda: Matrix.of([[1.0]]), 'matrix[0][0]: got 1.0, expected a rational string such as "-3/4" (floats are not'),
     "a numpy array": (lambda: Matrix.of(np.eye(2), where="A"), "A: got array([[1., 0.], [0., 1.]]), expected a list of rows"),
-    "a numpy integer": (lambda: Matrix.of([[np.int64(1)]]), "matrix[0][0]: got np.int64(1), expected a rational string"),
+    "a numpy float": (lambda: Matrix.of([[np.float64(1)]]), "matrix[0][0]: got np.float64(1.0), expected a rational string"),
     "a sympy float": (lambda: Matrix.of(sympy.Matrix([[0.5]])), "matrix[0][0]: got 0.5"),
     "a symbol": (lambda: Matrix.of(sympy.Matrix([[sympy.Symbol("x")]])), "matrix[0][0]: got x, expected a rational string"),
     "a root over Q": (lambda: Matrix.of([[sympy.sqrt(2)]]), "matrix[0][0]: got sqrt(2), expected a rational string"),

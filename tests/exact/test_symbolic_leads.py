@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from faultspace.base.errors import InvalidInput
 from faultspace.exact.algebra.fields import QQ
 from faultspace.exact.algebra.matrices import Matrix, beside
 from faultspace.exact.algebra.stability import is_stable
@@ -90,15 +91,15 @@ def test_the_exact_limits_agree(dimensions: tuple[int, int, int, int, int]) -> N
 @pytest.mark.parametrize(
     ("dimensions", "message"),
     [
-        ((3, 1, 1, 1, 1), r"n must be an integer from 0 to 2 \(got 3\)"),
-        ((1, 0, 1, 1, 1), r"nu must be an integer from 1 to 2 \(got 0\)"),
-        ((1, 1, 1, 1, 3), r"J must be an integer from 0 to 2 \(got 3\)"),
-        ((1, 1, 1, True, 1), r"p must be an integer from 1 to 2 \(got True\)"),
+        ((3, 1, 1, 1, 1), "n: got 3, expected an integer from 0 to 2"),
+        ((1, 0, 1, 1, 1), "nu: got 0, expected an integer from 1 to 2"),
+        ((1, 1, 1, 1, 3), "J: got 3, expected an integer from 0 to 2"),
+        ((1, 1, 1, True, 1), "p: got True, expected an integer from 1 to 2"),
     ],
     ids=str,
 )
 def test_what_is_not_covered_is_told(dimensions: tuple[Any, ...], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
+    with pytest.raises(InvalidInput, match=message):
         lead_identities(*dimensions)
 
 
