@@ -364,7 +364,9 @@ def test_a_reader_that_goes_away_is_no_error() -> None:
 
 
 def test_an_interrupt_is_one_line() -> None:
-    source = "import sys; from faultspace.cli.command_line import main; print('ready', flush=True); sys.exit(main(['inspect', '-']))"
+    # A shell that starts the tests in the background may have told all its children to ignore interrupts.
+    heard = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    source = heard + "from faultspace.cli.command_line import main; print('ready', flush=True); sys.exit(main(['inspect', '-']))"
     streams = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     run = subprocess.Popen([sys.executable, "-c", source], **streams, cwd=ROOT, env=environment())  # type: ignore[call-overload]
     assert run.stdout.readline() == b"ready\n"

@@ -63,7 +63,7 @@ def chain() -> dict[str, Any]:
     one = np.hstack([pushed + noise[:800, :1], pushed - noise[:800, :1], noise[:800, :1]]) + 0.01 * draw.standard_normal((800, 3))
     counts = {
         "count": numeric.count_faults(one, pushed, order=1),
-        "open count": numeric.count_faults(noise[:800, :2], pushed, order=1),
+        "open count": numeric.count_faults(noise[:800, :1], pushed, order=1),
     }
     more = {"healthy": healthy, "against": against, "direction": direction, **counts, **near}
     return {"y": y, "u": u, **steps, **more, "whole": whole, "study": study}
@@ -144,7 +144,7 @@ def test_the_picture_of_the_orders_shows_what_is_open_and_what_is_taken(chain: d
 
 def test_a_count_says_what_was_asked_and_what_it_answered(chain: dict[str, Any]) -> None:
     decided, left_open = chain["count"], chain["open count"]
-    assert (decided.n_v, left_open.n_v) == (1, None) and left_open.title.endswith("undecided, of 1, 2")
+    assert (decided.n_v, left_open.n_v) == (1, None) and left_open.title.endswith("undecided, of 0, 1")
     assert "    2 rows                              are laws, probability" in decided.summary()
     assert "    1 row                               is a law, probability" in left_open.summary()
     assert [test["rows"] for test in decided.to_json()["tests"]] == [3, 2] and decided.to_json()["noise_power"] is not None
