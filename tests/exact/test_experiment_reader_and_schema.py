@@ -6,6 +6,7 @@ has the reader's words for it.
 BESIDE          what the reader says where the schema alone would accept
 ODD             values that are put in the place of others, beside those of systems
 experiment      a document that both accept, from a seed
+EXPERIMENTS     the reader and the schema, held together
 """
 
 from __future__ import annotations
@@ -13,24 +14,22 @@ from __future__ import annotations
 import copy
 import json
 import re
+from dataclasses import replace
 from importlib import resources
 from random import Random
 from typing import Any
 
-import jsonschema
 import pytest
 from hypothesis import given, settings
 
-from faultspace.base.errors import InvalidInput
 from faultspace.exact import read_experiment
 from tests.exact import test_reader_and_schema as of_systems
-from tests.exact.test_reader_and_schema import places
+from tests.exact.documents import Agreement
 from tests.oracle.strategies import SEEDS
 from tests.thorough import examples
 
 Json = Any
 SCHEMA = json.loads(resources.files("faultspace.exact").joinpath("schemas", "experiment.schema.json").read_text("utf-8"))
-VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 BESIDE = re.compile(
     of_systems.BESIDE.pattern + r"|got \d+ rows, expected"
     r"|got matrices with \d+ columns, expected"
@@ -53,6 +52,7 @@ ODD: tuple[Json, ...] = (
     *([[["1"]]] * 257, [[["0"]]] * 258, {"num": [[["1"]]], "den": ["1"] + ["0"] * 257}),
 )
 KEYS = (*"AFCGBDnmp", "nu", "field", "s", "past", "u_filter", "v_filter", "w_filter", "H")
+EXPERIMENTS = Agreement(read_experiment, SCHEMA, BESIDE, KEYS, ODD)
 
 
 def experiment(rng: Random) -> Json:
@@ -78,78 +78,48 @@ def experiment(rng: Random) -> Json:
     return document if rng.random() < 0.5 else {**document, "field": "Q"}
 
 
-def changed(document: Json, rng: Random) -> Json:
-    """The result differs from the document in one place: a value is removed, repeated, replaced, or there is one more."""
-    result = copy.deepcopy(document)
-    container, key = rng.choice(places(result))
-    kind = rng.randrange(4)
-    if kind == 0:
-        del container[key]
-    elif kind == 1 and isinstance(container, list):
-        container.insert(key, copy.deepcopy(container[key]))
-    elif kind == 2:
-        result[rng.choice(KEYS)] = copy.deepcopy(rng.choice(ODD))
-    else:
-        container[key] = copy.deepcopy(rng.choice(ODD))
-    return result
-
-
-def complaint(document: Json) -> str | None:
-    """The result is what the reader says against the document, None where it reads it."""
-    try:
-        read_experiment(document)
-    except InvalidInput as error:
-        return str(error)
-    return None
-
-
-def check(document: Json) -> None:
-    """What is read agrees with the schema; what is not read breaks it too, or a rule that its description tells besides."""
-    said = complaint(document)
-    agrees = VALIDATOR.is_valid(document)
-    assert agrees or said is not None, document
-    assert not agrees or said is None or BESIDE.search(said), (said, document)
-
-
 @settings(max_examples=examples(400))
 @given(SEEDS)
 def test_they_agree(seed: int) -> None:
     rng = Random(seed)
     document = experiment(rng)
-    assert complaint(document) is None
-    check(document)
+    assert EXPERIMENTS.complaint(document) is None
+    EXPERIMENTS.check(document)
     for _ in range(3):
-        document = changed(document, rng)
-        check(document)
+        document = EXPERIMENTS.changed(document, rng)
+        EXPERIMENTS.check(document)
 
 
 def test_the_changes_leave_and_make_all_cases() -> None:
     """Among changed documents are ones that both accept, that both refuse, and that the reader refuses by a rule besides the schema."""
     rng = Random(1)
-    seen = {(complaint(one) is None, VALIDATOR.is_valid(one)) for one in (changed(experiment(rng), rng) for _ in range(300))}
+    seen = {
+        (EXPERIMENTS.complaint(one) is None, EXPERIMENTS.accepts(one))
+        for one in (EXPERIMENTS.changed(experiment(rng), rng) for _ in range(300))
+    }
     assert seen == {(True, True), (False, False), (False, True)}
 
 
 @pytest.mark.parametrize("rule", ["additionalProperties", "required", "then"])
-def test_a_schema_without_a_rule_is_noticed(rule: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_schema_without_a_rule_is_noticed(rule: str) -> None:
     weaker = copy.deepcopy(SCHEMA)
     del weaker[rule]
-    weakened(weaker, monkeypatch)
+    tell_apart(weaker)
 
 
 @pytest.mark.parametrize(
     "part, rule", [("block_rows", "minimum"), ("matrices", "minItems"), ("matrices", "maxItems"), ("rational", "anyOf")]
 )
-def test_a_part_of_the_schema_without_a_rule_is_noticed(part: str, rule: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_part_of_the_schema_without_a_rule_is_noticed(part: str, rule: str) -> None:
     weaker = copy.deepcopy(SCHEMA)
     del weaker["$defs"][part][rule]
-    weakened(weaker, monkeypatch)
+    tell_apart(weaker)
 
 
-def weakened(schema: Json, monkeypatch: pytest.MonkeyPatch) -> None:
+def tell_apart(schema: Json) -> None:
     """Some of many changed documents tell the schema from what is read."""
-    monkeypatch.setitem(globals(), "VALIDATOR", jsonschema.Draft202012Validator(schema))
+    weakened = replace(EXPERIMENTS, schema=schema)
     rng = Random(2)
     with pytest.raises(AssertionError):
         for _ in range(2000):
-            check(changed(changed(experiment(rng), rng), rng))
+            weakened.check(weakened.changed(weakened.changed(experiment(rng), rng), rng))
