@@ -2,6 +2,7 @@
 
 StateSpaceModel         the matrices, checked and read-only, with simulation, Markov parameters and conversions
 Simulator               the response to inputs that come in pieces, many samples at a time by matrix products
+Identified              what the results of both methods of identification share
 observability_matrix    O_s, the rows C, CA, ..., CA^(s-1)
 """
 
@@ -242,3 +243,43 @@ def _toeplitz(markov: Array) -> Array:
         for row in range(lag, count):
             blocks[row, :, row - lag, :] = markov[lag]
     return blocks.reshape(count * p, count * n_u)
+
+
+class Identified:
+    """A result of identification shows the matrices of its `model`, and the first of its `initial_states`, as its own."""
+
+    model: StateSpaceModel
+    initial_states: tuple[Array, ...]
+
+    @property
+    def A(self) -> Array:
+        """Return the state matrix (n, n)."""
+        return self.model.A
+
+    @property
+    def B(self) -> Array:
+        """Return the input matrix (n, n_u)."""
+        return self.model.B
+
+    @property
+    def C(self) -> Array:
+        """Return the output matrix (p, n)."""
+        return self.model.C
+
+    @property
+    def D(self) -> Array:
+        """Return the direct feedthrough (p, n_u)."""
+        return self.model.D
+
+    @property
+    def x0(self) -> Array | None:
+        """Return the state (n,) at the first sample of the first experiment."""
+        return self.initial_states[0] if self.initial_states else None
+
+    def to_control(self) -> Any:
+        """Return the model as control.StateSpace. Raises ImportError without python-control."""
+        return self.model.to_control()
+
+    def to_scipy(self) -> Any:
+        """Return the model as scipy.signal.dlti."""
+        return self.model.to_scipy()

@@ -16,7 +16,7 @@ from ...base.errors import InvalidData
 from ...base.sheets import Shown, counted
 from ..data.plain import plain
 from ..drawing import plot_singular_values
-from .models import StateSpaceModel
+from .models import Identified, StateSpaceModel
 
 
 class OrderUndecided(InvalidData):
@@ -54,7 +54,7 @@ class Gap:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MoespModel(Shown):
+class MoespModel(Identified, Shown):
     """This is the model that PI-MOESP identified [V93], and how far to trust it.
 
     `model` holds A (n, n), B (n, n_u), C (p, n) and D (p, n_u), which stand here too. `singular_values` are all of step 2, falling, and
@@ -80,39 +80,6 @@ class MoespModel(Shown):
     condition_numbers: dict[str, float]
     route: str
     warnings: tuple[str, ...]
-
-    @property
-    def A(self) -> Array:
-        """Return the state matrix (n, n)."""
-        return self.model.A
-
-    @property
-    def B(self) -> Array:
-        """Return the input matrix (n, n_u)."""
-        return self.model.B
-
-    @property
-    def C(self) -> Array:
-        """Return the output matrix (p, n)."""
-        return self.model.C
-
-    @property
-    def D(self) -> Array:
-        """Return the direct feedthrough (p, n_u)."""
-        return self.model.D
-
-    @property
-    def x0(self) -> Array | None:
-        """Return the state (n,) at the first sample of the first experiment."""
-        return self.initial_states[0] if self.initial_states else None
-
-    def to_control(self) -> Any:
-        """Return the model as control.StateSpace. Raises ImportError without python-control."""
-        return self.model.to_control()
-
-    def to_scipy(self) -> Any:
-        """Return the model as scipy.signal.dlti."""
-        return self.model.to_scipy()
 
     @property
     def title(self) -> str:

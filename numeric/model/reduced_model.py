@@ -34,7 +34,7 @@ from .arx import Arx, adjoint, fitted_arx, input_spectrum
 from .arx_windows import ArxWindows
 from .compression import EPS
 from .invariants import half_transfers, state_space, system_matrix
-from .models import StateSpaceModel
+from .models import Identified, StateSpaceModel
 from .order_evidence import OrderEvidence
 from .reduction_search import Found, minimum
 from .uncertainty import Uncertainty, uncertainty_of
@@ -48,7 +48,7 @@ AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ReducedModel(Shown):
+class ReducedModel(Identified, Shown):
     """The model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
 
     `model` has A of the shape (n, n), B (n, n_u), C (p, n) and D (p, n_u). `innovation_covariance` (p, p) is that of the one-step errors
@@ -81,47 +81,14 @@ class ReducedModel(Shown):
     notes: tuple[str, ...] = ()
 
     @property
-    def A(self) -> Array:
-        """Return the state matrix (n, n)."""
-        return self.model.A
-
-    @property
-    def B(self) -> Array:
-        """Return the input matrix (n, n_u)."""
-        return self.model.B
-
-    @property
-    def C(self) -> Array:
-        """Return the output matrix (p, n)."""
-        return self.model.C
-
-    @property
-    def D(self) -> Array:
-        """Return the direct feedthrough (p, n_u)."""
-        return self.model.D
-
-    @property
     def order(self) -> int:
-        """n is the number of states."""
+        """Return the number n of states."""
         return self.model.n
 
     @property
     def offset(self) -> Array | None:
-        """Outputs (p,) of the first experiment at rest with u = 0."""
+        """Return the outputs (p,) of the first experiment at rest with u = 0."""
         return self.offsets[0] if self.offsets else None
-
-    @property
-    def x0(self) -> Array | None:
-        """State (n,) at the first sample of the first experiment."""
-        return self.initial_states[0] if self.initial_states else None
-
-    def to_control(self) -> Any:
-        """Return the model as control.StateSpace. Raises ImportError without python-control."""
-        return self.model.to_control()
-
-    def to_scipy(self) -> Any:
-        """Return the model as scipy.signal.dlti."""
-        return self.model.to_scipy()
 
     @property
     def title(self) -> str:
@@ -134,6 +101,8 @@ class ReducedModel(Shown):
         yield "ARX model", f"{self.arx.order} lags, {self.arx.rows} windows of the data"
         yield "misfit against the ARX model", f"{self.cost:.4g}"
         yield "deviation of the innovations", ", ".join(f"{size:.4g}" for size in np.sqrt(np.diag(self.innovation_covariance)))
+        if self.offset is not None:
+            yield "outputs at rest with u = 0", ", ".join(f"{level:.4g}" for level in self.offset)
         yield from self.uncertainty.sheet()
         if self.orders is not None:
             yield self.orders.title, ""
@@ -147,6 +116,7 @@ class ReducedModel(Shown):
             "order": self.order,
             "cost": plain(self.cost),
             "innovation_covariance": plain(self.innovation_covariance),
+            "offsets": [plain(offset) for offset in self.offsets],
             "initial_states": [plain(state) for state in self.initial_states],
             "arx": arx,
             "uncertainty": uncertainty,

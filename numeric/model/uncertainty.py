@@ -88,21 +88,24 @@ class Uncertainty(Shown):
 
     @one_thread()
     def markov(self, count: int) -> Array:
-        """Standard deviations (count, p, n_u) of D, CB, CAB, .."""
+        """Return the standard deviations (count, p, n_u) of D, CB, CAB, .."""
         spread = markov_jacobian(system_matrix(self.model), self.model.n, count) @ self.root
         return np.asarray(np.linalg.norm(spread, axis=1).reshape(count, self.model.p, self.model.n_u))
 
     @one_thread()
     def transfer(self, angles: ArrayLike) -> ComplexArray:
-        """Standard deviations (M, p, n_u) of G(exp(i angle)), angles in radians a sample."""
+        """Return the standard deviations (M, p, n_u) of G(exp(i angle)), angles in radians a sample."""
         points = np.atleast_1d(np.asarray(angles, dtype=np.float64))
         spread = transfer_jacobian(system_matrix(self.model), self.model.n, points) @ self.root
         return _parts(spread).reshape(len(points), self.model.p, self.model.n_u)
 
     @one_thread()
     def poles(self) -> ComplexArray:
-        """Standard deviations (n,) of the poles, to first order, which says little where they come near the distances between poles, in the
-        order of `model.poles`; a real pole has none across the real axis, a multiple one an infinite or huge one."""
+        """Return the standard deviations (n,) of the poles, in the order of `model.poles`.
+
+        They are of first order, which says little where they come near the distances between poles. A real pole has none across the real
+        axis, and a multiple one has an infinite or huge one.
+        """
         deviations = _parts(self._pole_roots())
         return np.where(np.isnan(deviations), np.inf, deviations)
 

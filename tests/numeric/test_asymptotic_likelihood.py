@@ -384,6 +384,7 @@ def test_without_noise_the_offset_is_exact_from_any_state(far: float) -> None:
     found = arx_reduction(PLANT.simulate(u, [5.0, 6.0, 7.0]) + offset, u, order=3)
     assert error(found, PLANT) < 1e-10 * (1 + far) and found.offset is not None and found.x0 is not None
     assert np.allclose(found.offset, offset, rtol=1e-9 * (1 + far))
+    assert found.to_json()["offsets"] == [found.offset.tolist()]
     assert np.allclose(found.model.simulate(u, found.x0) + found.offset, PLANT.simulate(u, [5.0, 6.0, 7.0]) + offset, rtol=1e-7)
 
 
