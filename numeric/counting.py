@@ -72,8 +72,8 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
         answer = replace(answer, n_v=None, counted_by=None, reason=reason)
     if faults is None:
         return answer
-    counted = answer.n_v if answer.n_v is not None else " or ".join(map(str, answer.possible)) or "undecided"
-    agreement = "as the data say" if faults == answer.n_v else f"the data say {counted}: {answer.reason}"
+    by_data = answer.n_v if answer.n_v is not None else " or ".join(map(str, answer.possible)) or "undecided"
+    agreement = "as the data say" if faults == answer.n_v else f"the data say {by_data}: {answer.reason}"
     return replace(answer, n_v=faults, possible=(faults,), reason=f"{faults} given; {agreement}", counted_by="given")
 
 

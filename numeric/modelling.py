@@ -5,7 +5,7 @@ Modelled        the model, what it was made of, and why in this way
 window_default  the block rows of PI-MOESP where none are given
 
 Which way. Without noise and fault both are exact; of PI-MOESP [V93] the audit asks it of every record that it ships, and it stays there.
-Under noise it is far from what the data hold, and the reduction [W89] is as good as they allow. Ranks tell the two kinds of record apart
+Under noise it is far from what the data hold, and the reduction [W89] comes near it. Ranks tell the two kinds of record apart
 (`count/exactness.py`). PI-MOESP also stands in where the windows of an ARX model cannot be had: too few samples, an input that does not
 excite them, an unstable plant. Where it finds no gap in its singular values, the reduction chooses the order, so that there is a model
 whenever there can be one.

@@ -2,8 +2,8 @@
 
 identify         the whole chain on a record: an Identification, with what remains possible where the data cannot tell
 
-1  The model (`modelling.py`): an ARX model of high order, reduced under its own weight, at the Cramer-Rao bound; the order given, or chosen
-with its evidence. PI-MOESP where the record has no noise, or where an ARX model cannot be had.
+1  The model (`modelling.py`): an ARX model of high order, reduced under its own weight, near the Cramer-Rao bound; the order is given, or
+chosen with its evidence. PI-MOESP where the record has no noise, or where an ARX model cannot be had.
 2  The residual of that model, its initial state fitted.
 3  The number of faults (`counting.py`): by the laws that outputs and inputs obey, for which no model is needed. Where the first samples are
 stated to be without fault, model and means are from these alone, the faults of the others are counted against what the residual shows

@@ -80,7 +80,7 @@ class ARXLimit(Shown):
 
     @property
     def lags(self) -> int:
-        """This is h."""
+        """The result is the number h of lags."""
         return len(self.outputs) - 1
 
     def markov(self, count: int) -> list[Matrix]:

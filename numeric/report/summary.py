@@ -244,8 +244,11 @@ def _space_lines(answer: Findings) -> Iterator[str]:
     yield f"dimension n_z = **{space.n_z}**{'' if space.decided else ' (undecided)'}: {space.reason}"
     if space.uncertainty is not None:
         angle = np.degrees(space.uncertainty.angle())
-        taken = "n_z" if isinstance(answer.model, ReducedModel) and space.method == "kernel rows" else "n_z, A and C"
-        yield f"angle to the true space: below {angle:.2g} degrees with probability 0.95, {taken} taken as right"
+        if isinstance(answer.model, ReducedModel) and space.method == "kernel rows":
+            taken = "n_z taken as right; to first order in the model's error, which in short records fails more often than that"
+        else:
+            taken = "n_z, A and C taken as right"
+        yield f"angle to the true space: below {angle:.2g} degrees with probability 0.95, {taken}"
     yield f"equations: {space.equations} independent ones for the {space.unknowns} entries of a fault column [f; g]"
     if space.zeta == 0:
         up_to = "a factor" if space.n_v == 1 else "a mixture of the faults"

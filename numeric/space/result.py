@@ -48,7 +48,7 @@ class SpaceUncertainty(Shown):
     @property
     def title(self) -> str:
         """Return what it is about, on one short line."""
-        return f"a fault space is within {self.angle():.2g} rad of the true one with probability 0.95"
+        return f"a fault space is within {self.angle():.2g} rad of the true one with probability 0.95, to first order"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield the angle and the distance that the error stays below, each with its probability."""
@@ -152,7 +152,10 @@ class FaultSpaceEstimate(Shown):
         if self.error_bound is not None:
             yield "sine of the angle to the true space", f"at most {self.error_bound:.2g}, from rounding"
         if self.uncertainty is not None:
-            yield "angle to the true space", f"below {np.degrees(self.uncertainty.angle()):.2g} degrees with probability 0.95"
+            yield (
+                "angle to the true space",
+                f"below {np.degrees(self.uncertainty.angle()):.2g} degrees with probability 0.95, to first order",
+            )
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict; basis, F and G are null where the estimate means nothing."""
