@@ -28,8 +28,8 @@ from .model.residuals import residual as residual
 from .model.uncertainty import Uncertainty as Uncertainty
 from .pipeline import identify as identify
 from .result import Identification as Identification
-from .rows.counting import FaultCount as FaultCount
-from .rows.counting import count_faults as count_faults
+from .rows.fault_count import FaultCount as FaultCount
+from .rows.fault_count import count_faults as count_faults
 from .rows.space import fault_space_by_rows as fault_space_by_rows
 from .rows.space import identified_fault_space as identified_fault_space
 from .signal.reconstruction import Reconstruction as Reconstruction

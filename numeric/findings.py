@@ -17,7 +17,7 @@ from .model.moesp_model import MoespModel
 from .model.order_evidence import OrderEvidence
 from .model.reduced_model import ReducedModel
 from .model.residuals import ResidualSignal
-from .rows.counting import FaultCount
+from .rows.fault_count import FaultCount
 from .signal.reconstruction import Reconstruction
 from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
