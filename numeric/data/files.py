@@ -4,6 +4,7 @@ read_record     the chosen channels of a file, as a Record
 split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate
 named_once      the refusal of a channel that is named more than once
 FORMATS         suffix -> format
+READERS         format -> the function that reads it, at the end of the file
 
 A channel is chosen by its column's name. For matrices (NPZ, NPY, MAT, and text without a line of names; in NPY and text the matrix is
 called `data`): NAME is all columns, NAME[:,j] or NAME[j] column j, NAME[:,i:j] several, NAME[i,:] row i, NAME[i,j] channel (i, j) of an
@@ -37,6 +38,7 @@ from numpy.typing import NDArray
 from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
+from ...base.sheets import counted
 from .records import Record, RecordWriter
 from .text_tables import TextTable
 from .validation import first_not_finite
@@ -115,8 +117,7 @@ def read_record(
             suffix = shorten(Path(path).suffix)
             raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
         try:
-            reader = {"text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat}[read_as]
-            found = reader(Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
+            found = READERS[read_as](Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
             labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
             u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
             y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
@@ -156,7 +157,7 @@ def _labels(selector: str, count: int) -> list[str]:
 
 
 def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
-    """Refuses what is no finite number; the rows begin with sample `first`."""
+    """Refuse what is no finite number; the rows begin with sample `first`."""
     if wrong := first_not_finite(rows):
         k, j = wrong
         what = "no number (NaN or empty)" if np.isnan(rows[k, j]) else "infinite"
@@ -320,7 +321,7 @@ def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read
 
 
 def _forget(values: Any) -> None:
-    """Gives the pages of a memory map back, which would else count as memory used as long as there is enough."""
+    """Give the pages of a memory map back, which would else count as memory used as long as there is enough."""
     while isinstance(values, np.ndarray):
         values = values.base
     if isinstance(values, mmap.mmap) and hasattr(mmap, "MADV_DONTNEED"):
@@ -398,7 +399,7 @@ def _signal(values: Any, name: str) -> NDArray[Any]:
     if array.shape[1] > len(array):
         rows, columns = array.shape
         advice = f"{name}[i,:] is row i" if "[" not in name else "write it transposed"
-        looks = f"{rows} samples of {columns} channels and looks transposed"
+        looks = f"{counted(rows, 'sample')} of {counted(columns, 'channel')} and looks transposed"
         raise InvalidInput(f"{shorten(name)} has {looks}, expected a row a sample: {advice}")
     return array
 
@@ -410,3 +411,8 @@ def _some(samples: int) -> None:
 
 def _first_line(error: Exception) -> str:
     return (str(error).strip().splitlines() or [type(error).__name__])[0]
+
+
+READERS: dict[str, Callable[[Path, Sequence[str], OnRead, ExitStack], _Opened]] = {
+    "text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat,
+}  # fmt: skip
