@@ -91,7 +91,7 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
         found = replace(found, n_v=None, reason=f"{found.reason}; but so many outputs are not explained to rounding: {AS_MANY}")
     independent = np.linalg.matrix_rank((y - y.mean(axis=0)) / np.maximum(y.std(axis=0), TINY), tol=DEPENDENT * np.sqrt(y.size))
     if found.n_v and found.n_v >= independent < record.p:
-        copies = f"but only {independent} of {record.p} outputs are no combinations of others, such as copies: leave these out"
+        copies = f"but the {record.p} outputs are combinations of {independent} of them, as copies are: leave the others out"
         found = replace(found, n_v=None, reason=f"{found.reason}; {copies}, for {AS_MANY}")
     by = None if found.n_v is None else "residual alone"
     return replace(answer, dimension=found, n_v=found.n_v, reason=found.reason, counted_by=by)

@@ -67,7 +67,7 @@ def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any =
         raise InvalidData("there is no condition on a fault column, so that there is nothing to draw")
     ax = _axes(ax)
     sigma, count = sigma / sigma[0], np.arange(1, len(sigma) + 1)
-    ax.semilogy(count[:equations], sigma[:equations], "o", color=BLUE, markersize=5, label=f"{equations} independent conditions")
+    ax.semilogy(count[:equations], sigma[:equations], "o", color=BLUE, markersize=5, label=f"{counted(equations, 'independent condition')}")
     style = {"color": BLUE, "markersize": 5, "fillstyle": "none"}
     ax.semilogy(count[equations:], sigma[equations:], "o", label=others, **style)
     ax.set(xlabel="number", ylabel="singular value over the largest", title="Conditions on a fault column, and the fault space")

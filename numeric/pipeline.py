@@ -66,7 +66,7 @@ def identify(
     dt: float | None = None,
     on_progress: Progress | None = None,
 ) -> Identification:
-    """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
+    """Identify the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
 
     Look at `found.notes` first, then at `found.model`: where it is None the order stayed open, and `found.singular_values` tell the
     choices. Then at `found.n_v` and `found.reason`; None is an answer, too. Only then at `found.fault_space`, whose angle says how sure it
@@ -202,7 +202,7 @@ def _nothing_left(answer: Findings) -> str:
 
 
 def _enough(record: Record, rows: int) -> None:
-    """Refuses a record with fewer windows than rows in its Hankel matrices."""
+    """Refuse a record with fewer windows than rows in its Hankel matrices."""
     samples, height = len(record), 2 * record.n_u + record.p
     needed = rows * (height + 2) - 1
     if samples >= needed:
@@ -218,7 +218,7 @@ def _enough(record: Record, rows: int) -> None:
 
 
 def _varying(record: Record) -> None:
-    """Refuses channels that never change: an input excites nothing, an output tells nothing."""
+    """Refuse channels that never change: an input excites nothing, an output tells nothing."""
     for kind, names, start in (("input", record.inputs, 0), ("output", record.outputs, record.n_u)):
         least, greatest = (values[start : start + len(names)] for values in (record.channels.least, record.channels.greatest))
         still = [name for name, low, high in zip(names, least, greatest, strict=True) if low == high]

@@ -39,6 +39,7 @@ import scipy  # its folders are loaded when they are first used
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
+from ...base.sheets import counted
 from .one_row import WindowMoments, kernel_row, window_moments
 
 ALARM = 1.0
@@ -100,8 +101,9 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
 
     if floor.drop > bound:
         return undecided(
-            f"no noise floor: the best law on all {p} outputs still improves by {floor.drop:.2f} nats over the last two degrees "
-            f"(at most {bound:.2f} allowed); there may be {p} faults, or an order that needs larger block_rows"
+            f"no noise floor: the best law on {'the one output' if p == 1 else f'all {p} outputs'} still "
+            f"improves by {floor.drop:.2f} nats over the last two degrees "
+            f"(at most {bound:.2f} allowed); there may be {counted(p, 'fault')}, or an order that needs larger block_rows"
         )
     # Invariant: `high` mixtures are at the floor, `low` are not (none at all, to begin with).
     high, low = p, 0
@@ -122,7 +124,8 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     step = f"from {high} mixed outputs to {low} the noise left by the best law rises by at least {rise:.2f} nats"
     if below.middle - floor.middle <= ALARM:
         return undecided(
-            f"on {low} mixed outputs the best law still improves by {below.drop:.2f} nats over the last two degrees (at most {bound:.2f} "
+            f"on {counted(low, 'mixed output')} the best law still improves by {below.drop:.2f} "
+            f"nats over the last two degrees (at most {bound:.2f} "
             f"allowed): an order that needs larger block_rows"
         )
     if rise < needed:
@@ -140,10 +143,14 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     alone = law_level(moments, (np.eye(p)[:, chosen],)).least - floor.middle
     if alone < SPARSE * rise:
         return undecided(
-            f"{step}, but {low} outputs as they are, unmixed, obey a law nearly as good ({alone:.2f} nats above the floor): noise that is "
+            f"{step}, but {counted(low, 'output')}, not mixed, {'obeys' if low == 1 else 'obey'} a law "
+            f"nearly as good ({alone:.2f} nats above the floor): noise that is "
             "louder, beside the faults, at other outputs looks like this"
         )
-    reason = f"{high} mixed outputs obey a common law up to the noise floor, {low} do not: {step} ({needed:g} needed)"
+    reason = (
+        f"{high} mixed outputs obey a common law up to the noise floor, {low} "
+        f"{'does' if low == 1 else 'do'} not: {step} ({needed:g} needed)"
+    )
     return KernelRowTest(low, _walk(levels), noise_power, reason)
 
 

@@ -28,7 +28,7 @@ from scipy.stats import chi2
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..data.plain import plain
 from .arx import Arx, adjoint, fitted_arx, input_spectrum
 from .arx_windows import ArxWindows
@@ -49,7 +49,7 @@ AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ReducedModel(Identified, Shown):
-    """The model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
+    """This is the model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
 
     `model` has A of the shape (n, n), B (n, n_u), C (p, n) and D (p, n_u). `innovation_covariance` (p, p) is that of the one-step errors
     of the ARX model, `arx`, whose `disturbance(angles)` is the spectrum (M, p, p) of faults and noise together. `uncertainty` has the
@@ -98,7 +98,7 @@ class ReducedModel(Identified, Shown):
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield the notes, what the model rests on, its poles and Markov parameters with deviations, and the evidence for the order."""
         yield from (("note", note) for note in self.notes)
-        yield "ARX model", f"{self.arx.order} lags, {self.arx.rows} windows of the data"
+        yield "ARX model", f"{counted(self.arx.order, 'lag')}, {counted(self.arx.rows, 'window')} of the data"
         yield "misfit against the ARX model", f"{self.cost:.4g}"
         yield "deviation of the innovations", ", ".join(f"{size:.4g}" for size in np.sqrt(np.diag(self.innovation_covariance)))
         if self.offset is not None:

@@ -56,7 +56,7 @@ DEPENDENT = 1e-10
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FaultCount(Shown):
-    """The number of faults that `count_faults` finds, with what it rests on [W91].
+    """This is the number of faults that `count_faults` finds, with what it rests on [W91].
 
     `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why. `tests`: what was asked of k rows, by
     falling k; empty where there was no noise. `noise_power`, of shape (p,): what the rows leave of each output, in its own units, squared;
@@ -76,7 +76,7 @@ class FaultCount(Shown):
 
     @property
     def decided(self) -> bool:
-        """Whether there is one answer."""
+        """This tells whether there is one answer."""
         return self.n_v is not None
 
     @property
@@ -192,7 +192,10 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     if found is None:
         return _undecided(p, 1, one, tests)
     if not found:
-        reason = f"{p} faults, or an order above the one given: no row of its degree leaves noise alone (probability {one.probability:.1g})"
+        reason = (
+            f"{counted(p, 'fault')}, or an order above the one given: no row of its degree "
+            f"leaves noise alone (probability {one.probability:.1g})"
+        )
         return FaultCount(None, (p,), reason, _walk(tests))
     if known is not None:
         return _answer(p - 1, one, tests, data)
@@ -250,7 +253,7 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
         )
     else:
         limits = f"accepted from {SUFFICES:g}; refused, of a single row below {FAILS:g}, of several far from the shape of noise"
-        reason = f"{k} rows may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
+        reason = f"{counted(k, 'row')} may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
     return FaultCount(None, possible, reason, _walk(tests))
 
 

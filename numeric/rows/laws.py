@@ -70,7 +70,7 @@ SEED = 20251122
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What y (N, p) and u (N, n_u) say to rows of total degree `order` and more."""
+    """This is what y (N, p) and u (N, n_u) say to rows of total degree `order` and more."""
 
     y: Array
     u: Array
@@ -78,33 +78,34 @@ class Evidence:
 
     @cached_property
     def data(self) -> JointMoments:
-        """The moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
+        """These are the moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
         return joint_moments(self.y, self.u, self.order + max(1, min(EXTRA, self.longest - self.order)), self.bands)
 
     @property
     def bands(self) -> int:
-        """So many bands that what changes within one stays below the noise of the record: its power falls with the square of the width."""
+        """There are so many bands that what changes within one stays below the noise of the record: its power falls with the square of
+        the width."""
         return int(BANDS * max(1.0, len(self.y) / SHORT) ** 0.5)
 
     @property
     def narrow(self) -> float:
-        """How much larger the misfits of flatness are for narrower bands, which let narrower roots in."""
+        """This says how much larger the misfits of flatness are for narrower bands, which let narrower roots in."""
         return float((len(self.data.moments.angles) / BANDS) ** 0.5) if self.bands > BANDS else 1.0
 
     @property
     def longest(self) -> int:
-        """The highest degree for which there are twice as many windows as a window has entries."""
+        """This is the highest degree for which there are twice as many windows as a window has entries."""
         channels = int(self.y.shape[1] + self.u.shape[1])
         return (len(self.y) - 2 * channels) // (2 * channels + 1)
 
     @cached_property
     def single(self) -> JointMoments:
-        """The moments for a single row, of degree order + LONG or as much of it as the record is long for."""
+        """These are the moments for a single row, of degree order + LONG or as much of it as the record is long for."""
         return joint_moments(self.y, self.u, self.order + max(1, min(LONG, self.longest - self.order)), self.bands)
 
     @cached_property
     def reduction(self) -> ReducedModel | None:
-        """A model of this order, or None where the record gives none."""
+        """This is a model of that order, or None where the record gives none."""
         try:
             return arx_reduction(self.y, self.u, order=self.order)
         except InvalidData:
@@ -112,12 +113,12 @@ class Evidence:
 
     @cached_property
     def model(self) -> StateSpaceModel | None:
-        """The same in units of the moments."""
+        """This is the model in units of the moments."""
         return None if self.reduction is None else in_units_of(self.reduction.model, self.data)
 
     @cached_property
     def unexplained(self) -> JointMoments | None:
-        """The moments of what the model leaves of y, with the initial state fitted."""
+        """These are the moments of what the model leaves of y, with the initial state fitted."""
         if self.reduction is None:
             return None
         r = residual(self.y, self.u, self.reduction.model).r / self.data.scale[: self.data.p]

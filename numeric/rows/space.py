@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ...base.threads import one_thread
 from ..count.arguments import shaped
 from ..count.windows import ObservedCoordinates, observed_coordinates
@@ -113,9 +114,14 @@ def _space(
     p, n = C.shape
     faults = positive(n_v, "n_v")
     if faults > p:
-        raise InvalidData(f"n_v: got {n_v} with {p} outputs; needed 1 <= n_v <= p (more faults than outputs cannot be told apart)")
+        raise InvalidData(
+            f"n_v: got {n_v} with {counted(p, 'output')}; needed 1 <= n_v <= p (more faults than outputs cannot be told apart)"
+        )
     if faults == p:
-        reason = f"{p} faults in {p} outputs leave no relation between the outputs: every column is a solution"
+        reason = (
+            f"{counted(p, 'fault')} in {counted(p, 'output')} {'leaves' if p == 1 else 'leave'} no "
+            f"relation between the outputs: every column is a solution"
+        )
         return everything(n, p, faults, n + 1, reason)
     coordinates = observed_coordinates(outputs, A, C, n + 1)
     rows, seen = p - faults, coordinates.observed
