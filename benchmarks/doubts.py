@@ -3,8 +3,8 @@
     OPENBLAS_NUM_THREADS=1 python benchmarks/doubts.py [--clean 500] [--planted 40] [--samples 1000] [--seed 1] [--markdown]
 
 Plants are random: two to five states, one or two inputs, one to three outputs, poles of modulus below 0.95. The inputs are white, coloured
-or binary, the noise is coloured and of unequal levels. Clean records are without a fault, with a fault of its own colour, or with one that sets
-in at the middle and is larger than the noise; none of these is a reason for a doubt. Each planted doubt changes one thing about a record
+or binary, the noise is coloured and of unequal levels. Clean records are without a fault, with a fault of its own colour, or with one that
+sets in at the middle and is larger than the noise; none of these is a reason for a doubt. Each planted doubt changes one thing about a record
 without fault; `size` says how much. Every number of the tables is a count of records, each with the 95 % interval of Clopper and Pearson in
 the first table. A delay is an estimate and no test: plants whose first answers are small beside the next have one to the data.
 """
@@ -147,7 +147,8 @@ def main() -> None:
     samples = arguments.samples
 
     def table(heads: tuple[str, ...], rows: list[tuple[object, ...]]) -> None:
-        row = "| {} |".format(" | ".join(["{}"] * len(heads))) if arguments.markdown else "  ".join(f"{{!s:>{max(len(h), 9)}}}" for h in heads)
+        plain = "  ".join(f"{{!s:>{max(len(head), 9)}}}" for head in heads)
+        row = "| {} |".format(" | ".join(["{}"] * len(heads))) if arguments.markdown else plain
         print(row.format(*heads))
         if arguments.markdown:
             print("|---" * len(heads) + "|")

@@ -52,8 +52,8 @@ def doubts(
     `means_removed` says that the channels are about their means already.
 
     Every test raises a doubt without reason in one clean record of a thousand at most, all channels together; what is no test is a plain
-    fact. Doubts are no refusals: the answer stays, and says less. `python benchmarks/doubts.py` measures both kinds of error. Source: [H76],
-    [LB78] for the test of a closed loop; [L99, ch. 16] for tests on what a model leaves. Raises InvalidData where `record` is none, or
+    fact. Doubts are no refusals: the answer stays, and says less. `python benchmarks/doubts.py` measures both kinds of error. Source:
+    [H76], [LB78] for the test of a closed loop; [L99, ch. 16] for tests on what a model leaves. Raises InvalidData where `record` is none, or
     where `residual` has other samples or channels.
 
     >>> import numpy as np
@@ -148,8 +148,8 @@ def _closed_loop(chance: float, record: Record) -> Doubt:
         "closed loop",
         record.inputs,
         "the inputs follow what disturbed the outputs before",
-        "where the loop has a delay the model is right and its standard errors are too small; where it has none D is wrong, and with it all "
-        "that follows; and a fault goes around with the inputs, so that the order may come out too high",
+        "where the loop has a delay the model is right and its standard errors are too small; where it has none D is wrong, and with it "
+        "all that follows; and a fault goes around with the inputs, so that the order may come out too high",
         "record in open loop, or with a reference that moves the inputs far more than the disturbances do; where nothing feeds back, look "
         "whether the outputs are recorded earlier than the inputs",
         chance,

@@ -119,10 +119,11 @@ def limit_doubts(samples: Array, names: Sequence[str], n_u: int) -> Iterator[Dou
         for end, values in (("greatest", samples[:, j]), ("least", -samples[:, j])):
             chance, share = limit_chance(values)
             if ends * chance < LEVEL:
+                level = values.max() if end == "greatest" else -values.max()
                 yield Doubt(
                     "limits",
                     (name,),
-                    f"{name} stays at its {end} value, {values.max() if end == 'greatest' else -values.max():g}, for {100 * share:.2g} % of "
+                    f"{name} stays at its {end} value, {level:g}, for {100 * share:.2g} % of "
                     "the samples, as what is clipped or at rest does",
                     "harmless where that is what acts on the plant, but a command that the actuator cannot follow makes the gain too small"
                     if j < n_u

@@ -16,9 +16,9 @@ and normal about zero, s' (sum_b s_b s_b')^-1 s over the number of blocks is a b
 record, as it does where a fault sets in, is in the denominator too.
 
 Outliers are held against the medians of |e| over WINDOW samples before and after them, the larger of both, so that a fault that comes or
-goes is none. The median of normal numbers is normal about its value, with the variance of order statistics, so that e beyond t medians has the
-probability 2 Phi(-t / sqrt(1 + t^2 v)), v its relative variance, and less with the larger of two; that of any among N p is at most N p
-times as large.
+goes is none. The median of normal numbers is normal about its value, with the variance of order statistics, so that e beyond t medians has
+the probability 2 Phi(-t / sqrt(1 + t^2 v)), v its relative variance, and less with the larger of two; that of any among N p is at most
+N p times as large.
 """
 
 from __future__ import annotations

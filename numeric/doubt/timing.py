@@ -5,8 +5,8 @@ mode_doubts     modes so slow that the record holds few of their time constants,
 delay_doubts    outputs that answer an input late
 held_doubts     inputs that change at every h-th sample alone
 
-A mode of modulus r dies out as r^k, with the time constant -1 / ln r in samples. A record of N samples holds N over that number of them; below
-LEAST_CONSTANTS the record is told to be short for the mode. The rule of thumb for sampling is ten samples to the time constant of the
+A mode of modulus r dies out as r^k, with the time constant -1 / ln r in samples. A record of N samples holds N over that number of them;
+below LEAST_CONSTANTS the record is told to be short for the mode. The rule of thumb for sampling is ten samples to the time constant of the
 fastest mode that matters [L99, ch. 13]; where all modes are slower than TOO_FAST samples, sampling is called fast.
 
 A delay is told where Markov parameters k = 0 .. d - 1 of one output to one input, d >= 2, are none of them seen, and are all surely smaller
@@ -42,7 +42,7 @@ def clock_doubts(clock: Clock | None, stated: float | None) -> Iterator[Doubt]:
     """Yield what is odd about the time column, and where a sample time that was stated is another."""
     if clock is None:
         return
-    where, column = "at sample {}".format(clock.first_odd), clock.name
+    where, column = f"at sample {clock.first_odd}", clock.name
     if clock.backwards:
         evidence = f"the time in {column} does not go on {where}, and {counted(clock.backwards, 'time')} in all"
         effect = "samples out of order, or twice, break the recursion that the model is"
@@ -135,6 +135,6 @@ def held_doubts(u: Array, inputs: Sequence[str]) -> Iterator[Doubt]:
                 "held input",
                 (name,),
                 f"{name} changes at every {step}-th sample alone",
-                f"it excites little beyond 1/{2 * step} of the sampling rate, where the model rests on few data; its standard errors say so",
+                f"it excites little beyond 1/{2 * step} of the sampling rate, where the model rests on few data, as its errors say",
                 "an input that may change at every sample, or slower sampling",
             )
