@@ -4,9 +4,9 @@
 
 Plants are random: two to five states, one or two inputs, one to three outputs, poles of modulus below 0.95. The inputs are white, coloured
 or binary, the noise is coloured and of unequal levels. Clean records are without a fault, with a fault of its own colour, or with one that
-sets in at the middle and is larger than the noise; none of these is a reason for a doubt. Each planted doubt changes one thing about a record
-without fault; `size` says how much. Every number of the tables is a count of records, each with the 95 % interval of Clopper and Pearson in
-the first table. A delay is an estimate and no test: plants whose first answers are small beside the next have one to the data.
+sets in at the middle and is larger than the noise; none of these is a reason for a doubt. Each planted doubt changes one thing about a
+record without fault; `size` says how much. Every number of the tables is a count of records, each with the 95 % interval of Clopper and
+Pearson in the first table. A delay is an estimate and no test: plants whose first answers are small beside the next have one to the data.
 """
 
 from __future__ import annotations

@@ -137,4 +137,3 @@ def _resolution(numbers: Array) -> float:
         if np.all(np.abs(scaled - np.round(scaled)) <= 1e-6 + 4 * np.finfo(np.float64).eps * sizes * 10.0**digits):
             return float(10.0**-digits)
     return 0.0
-

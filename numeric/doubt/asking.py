@@ -53,8 +53,8 @@ def doubts(
 
     Every test raises a doubt without reason in one clean record of a thousand at most, all channels together; what is no test is a plain
     fact. Doubts are no refusals: the answer stays, and says less. `python benchmarks/doubts.py` measures both kinds of error. Source:
-    [H76], [LB78] for the test of a closed loop; [L99, ch. 16] for tests on what a model leaves. Raises InvalidData where `record` is none, or
-    where `residual` has other samples or channels.
+    [H76], [LB78] for the test of a closed loop; [L99, ch. 16] for tests on what a model leaves. Raises InvalidData where `record` is none,
+    or where `residual` has other samples or channels.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, doubts, record_from
