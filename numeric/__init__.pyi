@@ -17,6 +17,8 @@ from .count.rank_gap import fault_dimension as fault_dimension
 from .data.files import read_record as read_record
 from .data.records import Record as Record
 from .data.sources import record_from as record_from
+from .doubt.asking import doubts as doubts
+from .doubt.listing import Doubts as Doubts
 from .model.asymptotic_likelihood import arx_reduction as arx_reduction
 from .model.asymptotic_likelihood import arx_reduction_experiments as arx_reduction_experiments
 from .model.models import StateSpaceModel as StateSpaceModel
