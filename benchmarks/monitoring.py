@@ -7,19 +7,19 @@ Simulated. Random stable plants of three states, two inputs and three outputs, s
 of the outputs. A model of order 3 is identified from 2000 healthy samples (`arx_reduction`); every method learns from 4000 more. Then
 
     false alarms   on 20000 healthy samples: alarms of the monitor at its own thresholds, stated LEVEL a sample, per test and in all
-    delays         all methods get thresholds that on these 20000 samples are exceeded in the same share of blocks of 100 samples, that of
-                   a rate of LEVEL; faults begin after 150 healthy samples, and the delay is that of the first exceedance, at most 200;
-                   the table has the mean over plants and trials, what is not found counting 200, and the share found where it is not 1
+    delays         all methods get thresholds that on these 20000 samples are exceeded in the same share of blocks of 100 samples,
+                   that of a rate of LEVEL; faults begin after 150 healthy samples, and the delay is that of the first exceedance;
+                   the table has the mean over plants and trials, what is not found counting 200, and the share found unless it is 1
 
-Faults: a step, a drift that reaches its size after 100 samples, a sinusoid of a period of 12.5 samples; sizes of 1, 3, 10, 30 deviations of
-the noise of the sensor that they act on ("sensor"), or at an input ("actuator"), the size being that of the largest response of an output to
-a white fault of deviation one, over its noise.
+Faults: a step, a drift that reaches its size after 100 samples, a sinusoid of a period of 12.5 samples; sizes of 1, 3, 10, 30 deviations
+of the noise of the sensor that they act on ("sensor"), or at an input ("actuator"), the size being that of the largest response of an
+output to a white fault of deviation one, over its noise.
 
-Tennessee Eastman. DIR holds the text files d00.dat, d00_te.dat .. d21_te.dat of the public repository
-github.com/camaramm/tennessee-eastman-profBraatz, which are fetched and never part of this tree. Every method learns from d00.dat alone, 500
-samples of the 22 measurements that come at every sample and the 11 manipulated variables. A state-space model of 22 outputs from 500 samples
-in closed loop would rest on too little, so that the monitor has a model of order 0 and learns an autoregressive predictor: "ours" of the 22
-measurements with the manipulated variables as inputs, "ours, all" of all 33 as outputs. Faults act from sample 161 of 960 on.
+Tennessee Eastman. DIR holds the text files d00.dat, d00_te.dat .. d21_te.dat of the public repository github.com/camaramm/tennessee-
+eastman-profBraatz, which are fetched and never part of this tree. Every method learns from d00.dat alone, 500 samples of the 22
+measurements that come at every sample and the 11 manipulated variables. A state-space model of 22 outputs from 500 samples in closed loop
+would rest on too little, so that the monitor has a model of order 0 and learns an autoregressive predictor: "ours" of the 22 measurements
+with the manipulated variables as inputs, "ours, all" of all 33 as outputs. Faults act from sample 161 of 960 on.
 
     rate          share of the 800 faulty samples beyond the threshold, in %
     delay         samples from the onset to the first of six exceedances in a row; - where there is none
