@@ -24,7 +24,7 @@ with the manipulated variables as inputs, "ours, all" of all 33 as outputs. Faul
     rate          share of the 800 faulty samples beyond the threshold, in %
     delay         samples from the onset to the first of six exceedances in a row; - where there is none
     thresholds    for every method alike: exceeded by 1 % of the healthy samples, those of d00_te.dat and the first 160 of d01_te.dat ..
-                  d21_te.dat, but for the file that is judged; `false` has the share of its own first 160 samples beyond, the mean of 21 files
+                  d21_te.dat, but for the file that is judged; `false` has the share of its own first 160 samples, over 21 files
     *             a statistic that was beyond its threshold at the onset already: it detects nothing there
     own           the monitor's alarms at its own thresholds, from d00.dat alone: false ones, and the first that begins after each onset
 """
@@ -32,16 +32,20 @@ with the manipulated variables as inputs, "ours, all" of all 33 as outputs. Faul
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from monitoring_methods import Method, parity_space, principal
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from faultspace.numeric import Monitor, StateSpaceModel, arx_reduction
 from faultspace.numeric.data.records import recorded
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
+
+from benchmarks.monitoring_methods import Method, parity_space, principal
 
 Array = NDArray[np.float64]
 
