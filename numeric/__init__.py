@@ -21,6 +21,8 @@ count_faults          how many faults act on outputs and inputs, without a model
 changes_since_healthy what has changed since a healthy part, whatever its rank; changes_within: the second half against the first
 fault_space_by_rows   all fault columns, from the laws that outputs and inputs obey; identified_fault_space: the model's error in its angle
 
+Monitor               a model against a stream of samples: alarms at a stated rate of false ones
+
 The folders:
 
 data          records, readers, checks of what comes in
@@ -31,6 +33,7 @@ space         the fault space, by ranks or by likelihood, with its uncertainty
 rows          the kernel rows of outputs and inputs: number of faults and fault space without a residual
 bound         the Cramer-Rao bounds of the model and of the fault space
 signal        reconstruction, the zeros that limit it, plots
+monitor       a model against a stream
 rounding      how far rounding may carry the answers
 report        what the command writes and says
 study         the paper's example and its Monte Carlo study

@@ -32,6 +32,9 @@ from .model.reduced_model import ReducedModel as ReducedModel
 from .model.residuals import ResidualSignal as ResidualSignal
 from .model.residuals import residual as residual
 from .model.uncertainty import Uncertainty as Uncertainty
+from .monitor.alarms import Alarm as Alarm
+from .monitor.alarms import Watched as Watched
+from .monitor.monitoring import Monitor as Monitor
 from .pipeline import identify as identify
 from .result import Identification as Identification
 from .rows.fault_count import FaultCount as FaultCount
