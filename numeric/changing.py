@@ -2,6 +2,7 @@
 
 with_changes      the Findings with the table: against the healthy samples, or the little that can be said within a record without them
 beside_changes    the same where the table forbids to say 0
+unlike_healthy_ranks    a count by ranks alone, where the healthy part is too short to count against it
 with_two_parts    the residual of a healthy record and of another one, which do not follow each other in time
 
 No number of faults follows from the table: a constant fault has no rank, and one fault can be seen in several rows. But 0 is too much said
@@ -12,10 +13,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
 from .changes.predictor import LEARNT_FROM, Stretch
 from .changes.testing import LEVEL, changes_within, parameters, responses, table
+from .count.rank_gap import fault_dimension
 from .data.records import Passes, Record, SampleStore
 from .findings import Findings
 from .model.models import StateSpaceModel
@@ -63,6 +66,22 @@ def beside_changes(answer: Findings) -> Findings:
     else:
         return answer
     return replace(answer, n_v=None, counted_by=None, reason=f"{answer.reason}; but {told}")
+
+
+def unlike_healthy_ranks(answer: Findings, healthy: Array, u: Array) -> Findings:
+    """Leave a number of faults undecided that the ranks of the residual alone give, where the healthy residual (K, p) with its inputs
+    (K, n_u) is too short to count against: noise of unequal powers has such ranks, too. They stand where the table sees a change and the
+    ranks of the healthy residual find no fault."""
+    if not answer.n_v:
+        return answer
+    try:
+        there = fault_dimension(healthy, u=u).n_v
+    except InvalidData:
+        there = None
+    if answer.changes is not None and answer.changes.seen and not there:
+        return answer
+    why = f"the same way finds {there} among the healthy samples" if there else "the table of changes sees none since the healthy samples"
+    return replace(answer, n_v=None, counted_by=None, reason=f"{answer.reason}; but {why}, so that this may be noise of unequal powers")
 
 
 def with_two_parts(healthy: ResidualSignal, record: Record, model: StateSpaceModel, on_progress: Progress) -> ResidualSignal:

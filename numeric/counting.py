@@ -21,7 +21,7 @@ from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress
 from ..base.sheets import counted
-from .changing import beside_changes, with_changes
+from .changing import beside_changes, unlike_healthy_ranks, with_changes
 from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest
 from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
@@ -184,7 +184,8 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
         reference = healthy_reference(healthy, before)
         against = fault_dimension_against_healthy(r, reference, u=u)
     except InvalidData as error:
-        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}")))
+        answer = replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}"))
+        return _zero_or_not(unlike_healthy_ranks(answer, healthy, before))
     if driven and against.n_v != 0:
         return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {driven}")))
     strange = unlike_healthy(r, healthy, record.stretch(*answer.held)[0], record.stretch(start, until)[0], record.outputs)

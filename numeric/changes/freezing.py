@@ -37,7 +37,7 @@ def frozen_sensors(before: Stretch, after: Stretch, names: Sequence[str], level:
         if more < 1.0:
             needed = max(2.0 + np.ceil((np.log(level / 2.0) - np.log(count) - np.log(first)) / np.log(more)), 2.0)
         visible = float(needed) if needed <= count else np.inf
-        detail = f"longest run {length} samples, while healthy {longest_run(before.y[:, i])}"
+        detail = f"longest run {length} samples, before {longest_run(before.y[:, i])}"
         yield Evidence(FREEZING, name, chance, float(length), float(length), None, visible, None, "samples", detail)
 
 
@@ -49,4 +49,4 @@ def longest_run(values: Array) -> int:
 
 def _at_most(hits: int, trials: int, level: float) -> float:
     """Return the probability that is exceeded with confidence `level` only [CP34]."""
-    return 1.0 if hits >= trials else float(scipy.stats.beta.isf(level, hits + 1, trials - hits))
+    return 1.0 if hits >= trials else float(scipy.special.betaincinv(hits + 1, trials - hits, 1.0 - level))

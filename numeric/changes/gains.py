@@ -23,6 +23,7 @@ import numpy as np
 from ...base.arrays import Array
 from .predictor import LEARNT_FROM, Predictor, Stretch
 from .rows import INPUT_GAIN, OUTPUT_GAIN, Estimate, Evidence, by_student, estimate, undecided
+from .slow import about_slope
 
 NO_MODEL = "the responses to single inputs need a model that is stable"
 HELD = 1 << 22  # numbers of filtered signals
@@ -69,7 +70,7 @@ def _row(kind: str, name: str, found: Estimate | str, level: float, size: float,
 def _gain(learnt: Predictor, after: Stretch, healthy_signals: Sequence[Array], signals: Sequence[Array], which: int) -> Estimate | str:
     """Return the change of one gain among those of all signals, each (M, p)."""
     z0 = np.stack([learnt.filtered(signal) for signal in healthy_signals], axis=2)
-    z = np.stack([_about_slope(learnt.filtered(signal)) for signal in signals], axis=2)
+    z = np.stack([about_slope(learnt.filtered(signal)) for signal in signals], axis=2)
     precision = np.linalg.inv(learnt.covariance)
     power = np.einsum("kpi,pq,kqj->ij", z, precision, z, optimize=True)
     units = np.sqrt(np.maximum(np.diag(power), 0.0))
@@ -95,10 +96,3 @@ def _gain(learnt: Predictor, after: Stretch, healthy_signals: Sequence[Array], s
     coloured = max(learnt.variance(weights)[0] / white, 1.0)
     variance = found.deviation**2 + coloured * float(share @ np.linalg.solve(healthy_power, share)) / learnt.share
     return Estimate(found.value - float(share @ healthy), float(np.sqrt(variance)), found.freedom)
-
-
-def _about_slope(values: Array) -> Array:
-    """Return values (M, p) with mean and slope taken off."""
-    time = np.arange(len(values)) - (len(values) - 1) / 2.0
-    values = values - values.mean(axis=0)
-    return np.asarray(values - np.outer(time, time @ values) / max(float(time @ time), 1.0))

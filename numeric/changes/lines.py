@@ -16,11 +16,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+import scipy  # its folders are loaded when they are first used
 
 from ...base.arrays import Array
 from ..count.mean_shift import POWER
 from .predictor import Complex, Predictor, Stretch
 from .rows import LINE, Evidence, undecided
+from .slow import about_slope
 
 SLOWEST = 3  # periods in the part tested: a slower sinusoid is a drift
 CANDIDATES = 12  # lines whose forecast's error is computed
@@ -36,10 +38,7 @@ def sinusoids(learnt: Predictor, after: Stretch, e: Array, names: Sequence[str],
     if len(frequencies) < 2:
         yield from (undecided(LINE, name, "too few samples") for name in names)
         return
-    time = np.arange(length) - (length - 1) / 2.0
-    flat = e - e.mean(axis=0)
-    flat = flat - np.outer(time, time @ flat) / (time @ time)
-    transform = 2.0 / length * np.fft.rfft(flat, n=2 * length, axis=0)[2 * SLOWEST : length - 1]
+    transform = 2.0 / length * np.fft.rfft(about_slope(e), n=2 * length, axis=0)[2 * SLOWEST : length - 1]
     spectrum = HealthySpectrum(learnt)
     amplitudes, densities = spectrum.seen(frequencies, transform)
     freedom = spectrum.freedom
@@ -66,9 +65,7 @@ def sinusoids(learnt: Predictor, after: Stretch, e: Array, names: Sequence[str],
 
 def _visible(deviation: float, bound: float) -> float:
     """Return the amplitude whose ratio exceeds `bound` with the chance POWER: the part of the noise along the line is normal."""
-    from scipy.special import ndtri
-
-    return float(deviation * (np.sqrt(bound) + ndtri(POWER) / np.sqrt(2.0)) / CLOSEST)
+    return float(deviation * (np.sqrt(bound) + scipy.special.ndtri(POWER) / np.sqrt(2.0)) / CLOSEST)
 
 
 class HealthySpectrum:

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..count.healthy_model import lagged, number_of_lags
 from ..count.mean_shift import COSINES, UNIT_ROOT, nearest_root
 from ..count.windows import channel_sizes
@@ -61,14 +62,15 @@ class Stretch:
 class Predictor:
     """This is a predictor of the healthy residual, with what its errors are worth.
 
-    `scales` (p,) and `input_scales` (n_u,) are the units, `constant` (p,), `steps` (lags, p, p + n_u), `direct` (p, n_u) the
-    coefficients, `regressors` X0 (count, q) are in the order constant, lags, inputs now, and `root` (q, q) satisfies root' root = (X0'
-    X0)^-1. `e` (count, p) is what is left of the healthy part, `share` the part of the degrees of freedom that is left, `waves` (count -
-    1, p) the cosine transforms of e but the first, put right for the share; `freedom` is B, and `spread` (p,) the standard deviation of
-    the healthy residual, in its units.
+    `moving` numbers the n_u inputs that are not constant. `scales` (p,) and `input_scales` (n_u,) are the units, `constant` (p,), `steps`
+    (lags, p, p + n_u), `direct` (p, n_u) the coefficients, `regressors` X0 (count, q) are in the order constant, lags, inputs now, and
+    `root` (q, q) satisfies root' root = (X0' X0)^-1. `e` (count, p) is what is left of the healthy part, `share` the part of the degrees
+    of freedom that is left, `waves` (count - 1, p) the cosine transforms of e but the first, put right for the share; `freedom` is B, and
+    `spread` (p,) the standard deviation of the healthy residual, in its units.
     """
 
     scales: Array
+    moving: NDArray[np.int_]
     input_scales: Array
     constant: Array
     steps: Array
@@ -111,9 +113,13 @@ class Predictor:
         turns = np.exp(-2j * np.pi * frequency * np.arange(1, self.lags + 1))
         return np.asarray(np.eye(self.p) - np.tensordot(turns, self.steps[:, :, : self.p], axes=1), dtype=complex)
 
+    def scaled(self, part: Stretch) -> Array:
+        """Return residual and inputs of a part in the units of the predictor, (M, p + n_u)."""
+        return np.hstack([part.r / self.scales, part.u[:, self.moving] / self.input_scales])
+
     def innovations(self, part: Stretch) -> Array:
         """Return e (M - lags, p) of another part, lag by lag: the regressors of a long one do not fit into memory."""
-        joint = np.hstack([part.r / self.scales, part.u / self.input_scales])
+        joint = self.scaled(part)
         e = joint[self.lags :, : self.p] - self.constant - joint[self.lags :, self.p :] @ self.direct.T
         for j, step in enumerate(self.steps, start=1):
             e -= joint[self.lags - j : len(joint) - j] @ step.T
@@ -129,7 +135,7 @@ class Predictor:
 
     def moments(self, part: Stretch, weights: Array) -> Array:
         """Return sum_k x(k) w(k)' (q, m) for the regressors x of another part and weights (M - lags, m)."""
-        joint = np.hstack([part.r / self.scales, part.u / self.input_scales])
+        joint = self.scaled(part)
         blocks = [joint[self.lags - j : len(joint) - j].T @ weights for j in range(1, self.lags + 1)]
         now = joint[self.lags :, self.p :].T @ weights
         return np.vstack([weights.sum(axis=0)[None], *blocks, now])
@@ -166,6 +172,11 @@ def predictor(healthy: Stretch) -> Predictor:
     Raises InvalidData for channels that are constant or exact combinations of others, and for too few samples.
     """
     r, u = healthy.r[-LEARNT_FROM:], healthy.u[-LEARNT_FROM:]
+    moving = np.flatnonzero(np.ptp(u, axis=0) > 0.0)
+    u = u[:, moving]
+    few = f"{counted(len(healthy), 'sample')} without fault are too few to say what a change of {counted(r.shape[1], 'output')} is worth"
+    if int(COSINES * len(r) ** (2 / 3)) < r.shape[1] + 2:
+        raise InvalidData(f"{few}: state more of them")
     scales = channel_sizes(r - r.mean(axis=0))
     input_scales = channel_sizes(u - u.mean(axis=0)) if u.shape[1] else np.ones(0)
     spread = r.std(axis=0)
@@ -176,7 +187,7 @@ def predictor(healthy: Stretch) -> Predictor:
     X = np.hstack([np.ones((len(now), 1)), past])
     freedom = int(COSINES * len(now) ** (2 / 3))
     if freedom < p + 2 or len(now) <= X.shape[1] + freedom:
-        raise InvalidData(f"{len(healthy)} samples without fault are too few to say what a change of {p} outputs is worth: state more")
+        raise InvalidData(f"{few}: state more of them")
     factor, triangle = np.linalg.qr(X)
     root = np.asarray(np.linalg.inv(triangle)).T
     coefficients = root.T @ (factor.T @ now)
@@ -185,6 +196,7 @@ def predictor(healthy: Stretch) -> Predictor:
     width = p + n_u
     return Predictor(
         scales=scales,
+        moving=moving,
         input_scales=input_scales,
         constant=coefficients[0],
         steps=coefficients[1 : 1 + lags * width].reshape(lags, width, p).transpose(0, 2, 1),

@@ -60,12 +60,12 @@ class Estimate:
 
     def chance(self) -> float:
         """Return the probability of a value so far from zero, on either side."""
-        return float(2.0 * scipy.stats.t.sf(abs(self.statistic), self.freedom))
+        return float(2.0 * scipy.special.stdtr(self.freedom, -abs(self.statistic)))
 
     def visible(self, level: float) -> float:
         """Return the value that is found at this level with the chance POWER, to the first order of Student's law."""
-        found, spare = scipy.stats.t.isf(level / 2.0, self.freedom), scipy.stats.t.isf(1.0 - POWER, self.freedom)
-        return float(self.deviation * (found + spare))
+        found, spare = scipy.special.stdtrit(self.freedom, level / 2.0), scipy.special.stdtrit(self.freedom, 1.0 - POWER)
+        return float(-self.deviation * (found + spare))
 
 
 def estimate(learnt: Predictor, e: Array, weights: Array, moments: Array) -> Estimate:

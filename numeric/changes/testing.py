@@ -6,12 +6,13 @@
 
 The probability that any row is seen by chance is at most `level`: each test is held against level / (number of tests). What no test allows
 for makes rows undecided rather than seen: inputs that leave what the healthy part shows (the error of the model can then look like any
-change), and rows that the second half of the healthy part would have against the first half.
+change), and rows that the second half of the healthy part would have against the first half, or its own drift.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -29,15 +30,15 @@ from .freezing import frozen_sensors
 from .gains import changed_gains
 from .lines import sinusoids
 from .predictor import Stretch, predictor
-from .rows import FREEZING, INPUT_GAIN, KINDS, LOSS, MEAN, undecided
-from .slow import slow_changes
+from .rows import DRIFT, FREEZING, INPUT_GAIN, KINDS, LOSS, MEAN, undecided
+from .slow import drifting, slow_changes
 from .table import FIRST_HALF, Changes, judged
 from .variances import changed_variances
 
 LEVEL = 0.01
 """This is the probability that any row of a table is seen by chance."""
 RAW = (FREEZING,)  # kinds that rest on the raw outputs alone
-ITSELF = "the healthy samples change in this way themselves, the second half against the first: state others, or fewer"
+ITSELF = "the healthy samples change in this way themselves, by a drift or in their second half: state others, or fewer"
 
 
 @one_thread()
@@ -69,8 +70,8 @@ def changes_since_healthy(
     >>> draw = np.random.default_rng(1)
     >>> y, u = draw.standard_normal((600, 2)), draw.standard_normal((600, 1))
     >>> y[300:, 0] = y[300, 0]
-    >>> [row.kind for row in changes_since_healthy(y, y, u, healthy=300).seen]
-    ['freezing', 'loss of variance']
+    >>> changes_since_healthy(y, y, u, healthy=300).seen[0].told
+    '300 samples, longest run 300 samples, before 1'
     """
     whole_part, names = _checked(residual, y, u, outputs, inputs, level)
     until = whole(healthy, "healthy", 1, "state how many samples precede the faults")
@@ -94,8 +95,9 @@ def changes_within(
     >>> from faultspace.numeric import changes_within
     >>> y, u = np.random.default_rng(1).standard_normal((600, 2)), np.zeros((600, 1))
     >>> y[300:, 1] = 0.5
-    >>> sorted({row.kind for row in changes_within(y, y, u).seen})
-    ['freezing', 'loss of variance']
+    >>> found = changes_within(y, y, u)
+    >>> found.against, found.seen[0].kind
+    ('the first half of the record', 'freezing')
     """
     record, names = _checked(residual, y, u, outputs, None, level)
     half = len(record) // 2
@@ -132,8 +134,11 @@ def table(before: Stretch, after: Stretch, names: tuple[Sequence[str], Sequence[
     suspects = [row for row in found.rows if row.seen]
     if not suspects:
         return found
-    itself = _tested(before.part(0, half), before.part(half, len(before)), names, level, tests, KINDS)
+    # Each row by itself: here a chance of `level` makes a row undecided, and no row seen.
+    itself = _tested(before.part(0, half), before.part(half, len(before)), names, level, 1, KINDS)
     moving = {(row.kind, row.channel) for row in itself.seen}
+    with suppress(InvalidData, np.linalg.LinAlgError):
+        moving |= {(kind, names[0][i]) for i in drifting(before, level) for kind in (MEAN, DRIFT)}
     rows = (replace(row, seen=None, reason=ITSELF) if row.seen and (row.kind, row.channel) in moving else row for row in found.rows)
     return replace(found, rows=tuple(rows))
 
