@@ -61,6 +61,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "n_v_reason": answer.reason,
         "n_v_from": answer.counted_by,
         "healthy_until": answer.healthy,
+        "healthy_record": answer.healthy_record,
         "noise_level": plain(answer.noise_level),
         "notes": [worded(note) for note in answer.notes],
         "next": [worded(line) for line in advice(answer)],
@@ -107,6 +108,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "deviations": plain(mean.deviations),
         "outputs": [answer.record.outputs[i] for i in mean.channels],
     }
+    result["changes"] = answer.changes and answer.changes.to_json()
     if answer.healthy is not None and mean:
         result["visible"] = {"power": POWER, "level": mean.level, "constant": plain(mean.visible), "white": plain(answer.visible)}
     result["fault_space"] = _space(answer)
