@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 import faultspace.proofs.claims
-from faultspace.proofs.verdict import ledger
 from faultspace.proofs.verdict.ledger import load
 from faultspace.proofs.verdict.verdicts import Verdict
 
@@ -73,7 +72,7 @@ def test_the_claims_of_the_review_are_there() -> None:
 )
 def test_a_slip_in_the_ledger_is_said_with_its_place(text: str, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "ledger.toml").write_text(text, "utf-8")
-    monkeypatch.setattr(ledger.resources, "files", lambda package: tmp_path)
+    monkeypatch.setattr("faultspace.proofs.verdict.ledger.resources.files", lambda package: tmp_path)
     with pytest.raises(ValueError, match=r"^proofs/verdict/ledger\.toml: ") as caught:
         load()
     assert says in str(caught.value)
