@@ -25,6 +25,7 @@ from .count.exactness import SCREENED, obeys_exactly
 from .data.records import Passes, Record
 from .model.arx_windows import longest_lag
 from .model.asymptotic_likelihood import arx_reduction
+from .model.feedback import FOLLOWS
 from .model.moesp_model import MoespModel, OrderUndecided
 from .model.past_inputs import pi_moesp
 from .model.reduced_model import ReducedModel
@@ -80,7 +81,8 @@ def _by_reduction(record: Record, order: int | None, block_rows: int | None, exa
     arx = found.arx.scaled(units[record.n_u :], units[: record.n_u])
     values = hankel_factors(arx, max(arx.order, 1), weighted=True)[2]
     way = f"an ARX model of {counted(arx.order, 'lag')}, reduced under its own weight"
-    notes = found.notes
+    # A closed loop is among the doubts, with what it does.
+    notes = tuple(note for note in found.notes if not note.startswith(FOLLOWS))
     if found.order == 0:
         notes += ("the outputs follow the inputs at once or not at all: the model has no state",)
     lags = block_rows if block_rows is not None else max(longest_lag([len(record)], record.p, record.n_u), 1)

@@ -29,6 +29,7 @@ class Identification(Findings):
     fault_space      the columns [f; g] that explain the residual: basis (n + p, n_z), orthonormal, and how sure it is
     pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
                      the signal explains, by_noise: what it would explain of noise
+    doubts           what the record gives reason to doubt: evidence, what it does to the answer, what to do
     notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
 
     order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
@@ -36,7 +37,7 @@ class Identification(Findings):
     ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
     where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
     visible (p,): the standard deviation of a white fault at one output that would be seen; dt: the sample time in seconds, where it was
-    stated.
+    stated or a time column tells it.
 
     `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
     `to_scipy()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there is none, and

@@ -13,7 +13,10 @@ what is needed, what to try.
 
 No more of a file than a piece is held in memory: text goes by lines, Parquet by the pages of its columns, NPY by a memory map, large
 arrays of an NPZ by a memory map of what is unpacked among the temporary files. MAT is the exception: its variables are compressed as a
-whole, so that each one asked for is read as a whole.
+whole, so that each one asked for is read as a whole; so are the times of a record.
+
+Times. A column, or an array, that is named as `clocks` knows it (time, t, "time [ms]", timestamp, date, ..) and is not chosen as a channel
+tells the sample time; nothing else is done with it, and one that holds no times is left alone.
 """
 
 from __future__ import annotations
@@ -27,7 +30,7 @@ import tempfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -39,6 +42,8 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import counted
+from .clocks import Clock, clock_from, time_name
+from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
 from .text_tables import TextTable
 from .validation import first_not_finite
@@ -59,12 +64,13 @@ _SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
 
 @dataclass(frozen=True)
 class _Opened:
-    """This is what a reader found: the channels of each selector, whether an output is known to float32 only, and rows (any, sum of
-    widths) in time's order."""
+    """This is what a reader found: the channels of each selector, whether an output is known to float32 only, rows (any, sum of widths) in
+    time's order, and what a time column says of them."""
 
     widths: tuple[int, ...]
     single: bool
     rows: Iterator[Array]
+    clock: Clock | None = None
 
 
 def split_names(given: str | Sequence[str]) -> list[str]:
@@ -85,7 +91,8 @@ def read_record(
 
     `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the
     names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas. Rows are samples, in the order of
-    time and in the file's units, and every number must be finite. `on_progress(stage, done, total)` hears how much of how much has been
+    time and in the file's units, and every number must be finite. A column of times or dates that is none of them gives the `clock` of the
+    record: its sample time, and what is odd about it. `on_progress(stage, done, total)` hears how much of how much has been
     read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and need not fit into memory (a MAT
     file must).
 
@@ -130,7 +137,7 @@ def read_record(
             reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
             raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None
         _some(len(writer.store))
-        return writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single)
+        return writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single, clock=found.clock)
 
 
 def named_once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
@@ -192,7 +199,12 @@ def _text(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -
                 raise InvalidInput(f"got {shorten(name)}, expected columns {MATRIX}[:,j] of a file without a line of names")
             wanted.append([int(j) for j in np.atleast_1d(picked[0])])
     places = [place for group in wanted for place in group]
-    return _Opened(tuple(map(len, wanted)), False, table.pieces(places, on_read))
+    when = time_name([name for name in table.names or () if name not in names])
+    clock = None
+    if when is not None and table.names is not None:
+        place = table.names.index(when)
+        clock = clock_from(table.column(place), when, table.units[place] if table.units else "")
+    return _Opened(tuple(map(len, wanted)), False, table.pieces(places, on_read), clock)
 
 
 def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
@@ -233,7 +245,9 @@ def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack
             raise refused(error) from None
 
     single = any(file.schema_arrow.field(name).type == arrow.float32() for name in names)
-    return _Opened((1,) * len(names), single, rows())
+    when = time_name([name for name in there if name not in names])
+    clock = None if when is None else clock_from(file.read(columns=[when]).column(0).to_numpy(), when)
+    return _Opened((1,) * len(names), single, rows(), clock)
 
 
 def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
@@ -245,7 +259,7 @@ def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
         members = {name.removesuffix(".npy"): name for name in archive.namelist()}
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="faultspace-")))
         arrays = _Lazily(list(members), lambda name: _member(archive, members[name], folder))
-        return _side_by_side([_signal(_picked(arrays, name, "array"), name) for name in names], names, on_read)
+        return _timed(_side_by_side([_signal(_picked(arrays, name, "array"), name) for name in names], names, on_read), arrays, names)
     except ValueError as error:
         if isinstance(error, InvalidInput):
             raise
@@ -291,14 +305,15 @@ def _mat(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
 
     try:
         there = [name for name, _, _ in whosmat(path)]
-        arrays = _Lazily(there, lambda name: loadmat(path, variable_names=[name])[name])
-        return _side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read)
+        arrays: Mapping[str, Any] = _Lazily(there, lambda name: loadmat(path, variable_names=[name])[name])
+        return _timed(_side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
     except NotImplementedError:
-        raise InvalidInput("got a MAT file of version 7.3 (HDF5), expected version 7 or older: save it with the option '-v7'") from None
+        arrays = hdf5_arrays(path, stack)
+        return _timed(_side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
     except (MatReadError, ValueError, TypeError, KeyError, IndexError) as error:
         if isinstance(error, InvalidInput):
             raise
-        raise InvalidInput(f"cannot be read as MAT data ({_first_line(error)}), expected a MAT file of version 7 or older") from None
+        raise InvalidInput(f"cannot be read as MAT data ({_first_line(error)}), expected a MAT file as MATLAB saves it") from None
 
 
 def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read: OnRead) -> _Opened:
@@ -318,6 +333,13 @@ def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read
 
     single = any(values.dtype in (np.float16, np.float32) for values in signals)
     return _Opened(tuple(values.shape[1] for values in signals), single, rows())
+
+
+def _timed(opened: _Opened, arrays: Mapping[str, Any], names: Sequence[str]) -> _Opened:
+    """Return what was opened with the clock of an array of times, where there is one of as many numbers as there are samples."""
+    chosen = {name.partition("[")[0] for name in names}
+    when = time_name([name for name in arrays if name not in chosen])
+    return opened if when is None else replace(opened, clock=clock_from(np.ravel(np.asarray(arrays[when])), when))
 
 
 def _forget(values: Any) -> None:

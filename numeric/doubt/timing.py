@@ -125,16 +125,22 @@ def _delay(sizes: Array, errors: Array, far: float) -> int:
 
 def held_doubts(u: Array, inputs: Sequence[str]) -> Iterator[Doubt]:
     """Yield the inputs (N, n_u) that change at every h-th sample alone, h >= 2, though they change often."""
-    for name, values in zip(inputs, u.T, strict=True):
-        changes = np.flatnonzero(np.diff(values)) + 1
-        if len(changes) < 3 or len(np.unique(values)) < 3:
-            continue
-        step = int(np.gcd.reduce(np.diff(changes)))
-        if step >= 2:
-            yield Doubt(
-                "held input",
-                (name,),
-                f"{name} changes at every {step}-th sample alone",
-                f"it excites little beyond 1/{2 * step} of the sampling rate, where the model rests on few data, as its errors say",
-                "an input that may change at every sample, or slower sampling",
-            )
+    found = [(name, step) for name, values in zip(inputs, u.T, strict=True) if (step := held_step(values)) >= 2]
+    if found:
+        names = [name for name, _ in found]
+        least = min(step for _, step in found)
+        yield Doubt(
+            "held input",
+            tuple(names),
+            f"{named(names)} {'changes' if len(names) == 1 else 'change'} at every {least}-th sample alone",
+            f"little is excited beyond 1/{2 * least} of the sampling rate, where the model rests on few data, as its errors say",
+            "an input that may change at every sample, or slower sampling",
+        )
+
+
+def held_step(values: Array) -> int:
+    """Return h where the values (N,) change at every h-th sample alone, 1 where they change anywhere or hardly ever."""
+    changes = np.flatnonzero(np.diff(values)) + 1
+    if len(changes) < 3 or len(np.unique(values)) < 3:
+        return 1
+    return int(np.gcd.reduce(np.diff(changes)))

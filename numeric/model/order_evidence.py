@@ -43,7 +43,8 @@ class OrderRow:
     than that of the choice where this order is right, and is one from the choice on.
     `one_step` and `free_run` are 1 - |error| / |y| on samples held back, with channels scaled to equal size, of the one-step prediction and
     of the simulation with fitted initial state, NaN where there were too few. `gap` is the ratio of singular value n to the next of the
-    weighted Hankel matrix of the ARX plant, NaN for order 0.
+    weighted Hankel matrix of the ARX plant, NaN for order 0 and where the matrix ends, whose size alone makes the last ones small. `poles`
+    are those of the model of this order from the whole record, by falling modulus.
     """
 
     order: int
@@ -53,6 +54,7 @@ class OrderRow:
     one_step: float
     free_run: float
     gap: float
+    poles: tuple[complex, ...] = ()
 
     @property
     def akaike(self) -> float:
@@ -108,7 +110,10 @@ class OrderEvidence(Shown):
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict: the choice, the range left open and the rows; null stands for a fit or gap that there is not."""
         names = ("cost", "parameters", "akaike", "chance", "one_step", "free_run", "gap")
-        rows = [{"order": row.order} | {name: plain(getattr(row, name)) for name in names} for row in self.rows]
+        rows = [
+            {"order": row.order} | {name: plain(getattr(row, name)) for name in names} | {"poles": [plain(pole) for pole in row.poles]}
+            for row in self.rows
+        ]
         return {"best": self.best, "least": self.least, "most": self.most, "decided": self.decided, "rows": rows}
 
     def plot(self, ax: Any = None) -> Any:

@@ -20,6 +20,7 @@ from ...base.sheets import counted
 from ..count.mean_shift import POWER
 from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
+from .physical import mode_lines
 
 if TYPE_CHECKING:
     from ..findings import Findings
@@ -30,6 +31,7 @@ MODEL_FILE = "model.json"
 MOST_ROWS = 12
 DIGITS = 4
 CANDIDATES = 3
+MOST_POLES = 3
 
 
 def fit(answer: Findings) -> Array | None:
@@ -57,6 +59,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield f"from {answer.way}, since {NO_NOISE if answer.exact else NOISE}"
         yield from _orders(answer)
         yield from _certainty(answer)
+        yield from mode_lines(answer)
         explained = fit(answer)
         if explained is not None:
             pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, explained, strict=True)]
@@ -87,6 +90,10 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
             yield f"gaps rank R_(s+1) - rank R_s beyond the inputs, s = 1, 2, ...: {' '.join(map(str, answer.dimension.gaps))}"
         yield from _space_lines(answer)
         yield from _signal_lines(answer)
+    if answer.doubts:
+        yield ""
+        yield "## Doubts"
+        yield from (f"- {worded(row.line)}" for row in answer.doubts)
     if answer.notes:
         yield ""
         yield "## Notes"
@@ -121,13 +128,25 @@ def _orders(answer: Findings) -> Iterator[str]:
     if orders is None:
         return
     yield "fits on the last third, held back from models of the rest (1: perfect, 0: no better than zero):"
-    yield "    order  one-step  free run  chance"
+    largest_gap = max((row.gap for row in orders.rows if np.isfinite(row.gap)), default=np.nan)
+    yield "    order  one-step  free run  chance      gap   poles"
     for row in orders.rows:
         mark = "  <- taken" if row.order == orders.best else ""
-        yield f"    {row.order:>5}  {row.one_step:>8.4f}  {row.free_run:>8.4f}  {row.chance:>6.2g}{mark}"
+        star = "*" if row.gap == largest_gap else " "
+        gap = f"{row.gap:.3g}" if np.isfinite(row.gap) else "-"
+        fits = f"{row.one_step:>8.4f}  {row.free_run:>8.4f}  {row.chance:>6.2g}"
+        yield f"    {row.order:>5}  {fits}  {gap:>7}{star}  {_pairs(row.poles) or 'none'}{mark}"
     yield "chance: the probability of so much worse an explanation than that of the order taken, were this order right"
+    yield "gap: singular value n over the next, * the largest; poles: those of the model of this order, a pair once"
     if not orders.decided:
         yield "the number of faults, the fault space and the signal rest on the order taken"
+
+
+def _pairs(poles: Sequence[complex]) -> str:
+    """Return the first poles in short, one of each pair."""
+    upper = [pole for pole in poles if pole.imag >= 0]
+    texts = [f"{pole.real:.3g}+-{pole.imag:.3g}i" if pole.imag else f"{pole.real:.3g}" for pole in upper[:MOST_POLES]]
+    return " ".join(texts) + (" .." if len(upper) > MOST_POLES else "")
 
 
 def _certainty(answer: Findings) -> Iterator[str]:

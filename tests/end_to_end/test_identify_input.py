@@ -156,7 +156,8 @@ TABLES: dict[str, tuple[str, tuple[str, ...]]] = {
     "missing column": ("u,z\n1,2\n3,4\n", ("no column", "'y'", "u, z")),
     "other case": ("U,y\n1,2\n3,4\n", ("did you mean 'U'?",)),
     "wrong delimiter": ("u|y\n1|2\n3|4\n", ("comma, semicolon, tab, blanks", "u|y")),
-    "decimal comma": ("u;y\n1,5;2\n3;4\n", ("line 2", "'1,5'", "point")),
+    "decimal comma, later a point": ("u;y\n1,5;2\n" + "3;4\n" * 60 + "1.5;2\n", ("line 63", "'1.5'", "comma")),
+    "decimal point, later a comma": ("u;y\n1.5;2\n" + "3;4\n" * 60 + "1,5;2\n", ("line 63", "'1,5'", "point")),
     "word": ("u,y\n1,2\n3,four\n", ("line 3", "'y'", "'four'", "number", "mend it")),
     "empty field": ("u,y\n1,2\n3,\n5,6\n", ("'y'", "sample 1", "NaN or empty")),
     "NaN": ("u,y\n1,2\nnan,4\n5,6\n", ("'u'", "sample 1")),
@@ -229,8 +230,9 @@ def test_bad_selectors_are_reported_in_one_line(name: str, tmp_path: Path) -> No
         ("d.mat", b"MATLAB 5.0 MAT-file" + bytes(40), ("MAT",)),
         ("d.mat", b"", ("MAT",)),
         ("d.xlsx", b"PK", ("'.xlsx'", ".csv", ".parquet")),
-        ("d.csv", "é,y\n1,2\n".encode("latin-1"), ("0xe9", "UTF-8")),
-        ("d.csv", "u,y\n1,2\n".encode("utf-16"), ("0xff", "UTF-8")),
+        ("d.csv", "é,y\n1,2\n".encode("latin-1"), ("no column", "expected one of: é, y")),
+        ("d.csv", "u,y\n1,2\n".encode("utf-16") + b"\x00\xd8", ("UTF-16",)),
+        ("d.csv", "u,y\n1,2\n".encode("utf-16-le"), ("zero byte", "UTF-16")),
     ],
 )
 def test_files_that_are_something_else(name: str, content: bytes, parts: tuple[str, ...], tmp_path: Path) -> None:
