@@ -7,8 +7,8 @@ Where tests run in several processes, each begins with a stretch of them in the 
 is made in one process, and takes half of what another has left when it has done its own. Tests marked `long` come first, so that no
 process is left with one at the end. The Rocq theory is compiled before they start (once, then it is in the user's cache), so that no test
 waits for another's compilation. The linear algebra library gets one thread a process: on small matrices threads mostly wait for each other.
-Bytecode is kept, in the folders `__pycache__` that git ignores, even where PYTHONDONTWRITEBYTECODE asks for none: without it each process of
-tests compiles all tests again, and each command that a test starts all modules of ours.
+Bytecode is kept, in the folders `__pycache__` that git ignores, even where PYTHONDONTWRITEBYTECODE asks for none: without it each process
+of tests compiles all tests again, and each command that a test starts all modules of ours.
 """
 
 import contextlib
