@@ -17,6 +17,7 @@ from faultspace.numeric.audit.checks.catalogue import all_checks
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.subjects.subprocess_adapter import Exec
 from tests.end_to_end.commands import call, command
+from tests.numeric.audit.left_behind import child, ends
 from tests.thorough import THOROUGH
 
 EXAMPLES = files("faultspace.numeric.audit").joinpath("examples")
@@ -58,15 +59,12 @@ def test_verdicts(tmp_path: Path, body: str, verdict: str, words: str) -> None:
 
 
 def test_a_program_that_hangs_is_killed_with_all_that_it_started(tmp_path: Path) -> None:
-    mark = tmp_path / "alive"
-    child = f"import time, pathlib; time.sleep(2.5); pathlib.Path({str(mark)!r}).touch()"
+    number = tmp_path / "number"
     begun = time.monotonic()
-    command = _program(tmp_path, f"import subprocess; subprocess.Popen([sys.executable, '-c', {child!r}]); time.sleep(60)")
-    record = _verdict(command, timeout=1.0)
-    assert record.verdict == "broken" and "no answer within 1 s" in record.detail
+    record = _verdict(_program(tmp_path, f"{child(number)}; time.sleep(60)"), timeout=2.0)
+    assert record.verdict == "broken" and "no answer within 2 s" in record.detail
     assert time.monotonic() - begun < 10
-    time.sleep(2.0)
-    assert not mark.exists()
+    assert ends(number)
 
 
 def test_the_run_goes_on_after_a_crash(tmp_path: Path) -> None:
