@@ -35,10 +35,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy  # its folders are loaded when they are first used
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
+from ...base.chi_squared import chi_squared_quantile
 from ...base.sheets import counted
 from .one_row import WindowMoments, kernel_row, window_moments
 
@@ -93,7 +93,7 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     floor = law_level(moments, (np.eye(p),))
     levels = {p: floor}
     noise_power = float(np.exp(floor.least))
-    chance = float(scipy.stats.chi2.ppf(0.999, 2 * p)) / moments.samples
+    chance = chi_squared_quantile(0.999, 2 * p) / moments.samples
     bound = SLACK + chance
 
     def undecided(reason: str) -> KernelRowTest:

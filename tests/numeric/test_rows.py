@@ -27,6 +27,7 @@ from faultspace.numeric.space.distances import principal_angles
 from faultspace.numeric.space.largest import largest_fault_space
 from tests.numeric.exact_cases import floats, matrix, stable_state_matrix
 from tests.numeric.planted import Planted, coloured, planted, simulate
+from tests.thorough import every
 
 
 def joint_record(system: Planted, seed: int, samples: int, decibels: float | None, *, inputs: int = 1) -> tuple[Any, Any]:
@@ -156,7 +157,10 @@ def plant(seed: int, p: int, m: int, n: int = 3) -> Planted:
     return planted(seed, n=n, p=p, m=m)
 
 
-@pytest.mark.parametrize(("p", "m", "decibels"), [(3, 1, 40), (3, 1, 20), (4, 2, 30), (3, 2, 40), (2, 1, 40)])
+@pytest.mark.parametrize(
+    ("p", "m", "decibels"),
+    [(3, 1, 20), (4, 2, 30), (2, 1, 40), pytest.param(3, 1, 40, marks=pytest.mark.slow), pytest.param(3, 2, 40, marks=pytest.mark.slow)],
+)
 def test_faults_are_counted(p: int, m: int, decibels: float) -> None:
     y, u = joint_record(plant(11, p, m), 11, 1000, decibels)
     found = count_faults(y, u, order=3)
@@ -402,15 +406,15 @@ def test_never_larger_than_the_structure_allows() -> None:
 
 def test_the_law_of_the_degree() -> None:
     """Where the least degree is true its stated probability is not small, and that of the degree below is none."""
-    small = 0
-    for seed in range(12):
+    small, seeds = 0, range(12)[:: every()]
+    for seed in seeds:
         system = planted(30 + seed, n=2, p=2, m=1)
         y, u = joint_record(system, seed, 600, 40)
         data = joint_moments(y, u, 4)
         chosen = least_degree(data, course(data, 1, 4), 0, 2)
         small += chosen.probabilities[2] < 0.01
         assert chosen.probabilities[1] < 1e-3
-    assert small <= 2
+    assert small <= len(seeds) / 6
 
 
 def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None:
