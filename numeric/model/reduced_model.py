@@ -54,10 +54,12 @@ class ReducedModel(Identified, Shown):
     `model` has A of the shape (n, n), B (n, n_u), C (p, n) and D (p, n_u). `innovation_covariance` (p, p) is that of the one-step errors
     of the ARX model, `arx`, whose `disturbance(angles)` is the spectrum (M, p, p) of faults and noise together. `uncertainty` has the
     standard deviations of Markov parameters, transfer function and poles. `cost` is the weighted sum of squares that the reduction left,
-    which is the likelihood ratio of the ARX plant against this one. `offsets` has what the outputs are at rest with u = 0, of the shape
-    (p,), for each experiment: sensors' zeros, the operating point and the means of the faults, which nothing in the data tells apart.
-    `initial_states` has one of the shape (n,) an experiment, by least squares, and none where the data are not there any more. `orders`
-    is the evidence where the order was left open, and `notes` say what a user must know. Look at `notes` first, then at `orders` where
+    which is the likelihood ratio of the ARX plant against this one. `likelihood` is what was minimised, in the units of the data and for
+    as many samples as the estimated weight is worth: differences of its `cost` are twice those of log likelihoods. `offsets` has what
+    the outputs are at rest with u = 0, of the shape (p,), for each experiment: sensors' zeros, the operating point and the means of the
+    faults, which nothing in the data tells apart. `initial_states` has one of the shape (n,) an experiment, by least squares, and none
+    where the data are not there any more. `orders` is the evidence where the order was left open, and `notes` say what a user must know.
+    Look at `notes` first, then at `orders` where
     the order was left open, then at the poles with their deviations. Raises ImportError in `plot()` and `to_control()` where the package
     that they need is not installed.
 
@@ -75,6 +77,7 @@ class ReducedModel(Identified, Shown):
     uncertainty: Uncertainty
     arx: Arx
     cost: float
+    likelihood: Reduction
     offsets: tuple[Array, ...] = ()
     initial_states: tuple[Array, ...] = ()
     orders: OrderEvidence | None = None
@@ -145,7 +148,8 @@ def described(windows: ArxWindows, arx: Arx, problem: Reduction, found: Found, n
     model = state_space(found.matrix * rows[:, None] * columns, n)
     uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
     inner = arx.scaled(y, u)
-    return ReducedModel(model, inner.covariance, uncertainty, inner, found.cost, _offsets(model, inner, windows))
+    likelihood = problem.scaled(y, u, problem.samples / weight_inflation(arx))
+    return ReducedModel(model, inner.covariance, uncertainty, inner, found.cost, likelihood, _offsets(model, inner, windows))
 
 
 def weight_inflation(arx: Arx) -> float:
