@@ -30,8 +30,8 @@ from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .findings import Findings
 from .rows.counting import count_faults
+from .rows.evidence import LONG
 from .rows.joint import affordable
-from .rows.laws import LONG
 from .signal.residual_sizes import loudest
 
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
