@@ -30,9 +30,9 @@ from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .findings import Findings
+from .rows.evidence import LONG
 from .rows.fault_count import count_faults
 from .rows.joint import affordable
-from .rows.laws import LONG
 from .signal.residual_sizes import loudest
 
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on

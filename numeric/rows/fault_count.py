@@ -42,8 +42,9 @@ from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
 from ..data.validation import constant_channels, noise_deviations, positive, signals
+from .evidence import EXTRA, Evidence
 from .joint import ROUNDING, JointMoments
-from .laws import EXTRA, FAILS, SUFFICES, Evidence, Laws, bootstrapped, longer_are_laws, tested
+from .laws import FAILS, SUFFICES, Laws, bootstrapped, longer_are_laws, tested
 
 # Nats (13 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
 FAINTEST = 3.0
@@ -146,6 +147,9 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
 
     # Invariant: `some` rows may be laws, `more` are not. Where more of them are laws, a doubt about fewer does not matter.
     some, more = 0, p + 1
+    # That no fault acts is asked first, for it takes no rows: a model tells.
+    if p > 1:
+        some, more = (0, p) if _holds(laws(p), known) is False else (p, p + 1)
     # A single row is asked last, when two are none: flatness alone judges it.
     while more - some > 1 and more > 2:
         k = max((some + more) // 2, 2)
@@ -164,7 +168,7 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
         return answer
     if n + EXTRA >= evidence.longest:
         reason = f"the record is too short for rows of {EXTRA} degrees more, which would tell whether the order is too low"
-    elif longer_are_laws(evidence, refused, shares):
+    elif longer_are_laws(evidence, laws(refused), shares):
         reason = f"{refused} rows of {EXTRA} degrees more have about the shape of noise: the order may be too low"
     else:
         return answer

@@ -20,6 +20,7 @@ from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.rows import bootstrap, laws, remainder
 from faultspace.numeric.rows.degree import least_degree
+from faultspace.numeric.rows.evidence import Evidence
 from faultspace.numeric.rows.fault_count import count_faults
 from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
 from faultspace.numeric.rows.space import fault_space_by_rows
@@ -108,7 +109,7 @@ def test_the_law_of_sphericity() -> None:
     def probability(shares_taken: Any) -> float:
         samples = [complex_normal(rng, count, k) @ root.T for root in roots]
         powers = np.array([part.T @ part.conj() / count for part in samples])
-        rest = remainder.Remainder(powers, gains, np.full(bands, 1 / bands), 2.0 * count * bands)
+        rest = remainder.Remainder(powers, gains, np.full(bands, 1 / bands), np.zeros(bands), 2.0 * count * bands)
         return remainder.sphericity(rest, shares_taken).level
 
     nominal = [probability(shares) for _ in range(200)]
@@ -125,7 +126,7 @@ def test_noise_shares_are_found() -> None:
     roots = np.linalg.cholesky(colour * ((gains * shares) @ gains.conj().transpose(0, 2, 1)))
     samples = [complex_normal(rng, count, k) @ root.T for root in roots]
     rest = remainder.Remainder(
-        np.array([part.T @ part.conj() / count for part in samples]), gains, np.full(bands, 1 / bands), 2.0 * count * bands
+        np.array([part.T @ part.conj() / count for part in samples]), gains, np.full(bands, 1 / bands), np.zeros(bands), 2.0 * count * bands
     )
     found = remainder.noise_shares(rest, np.ones(3))
     np.testing.assert_allclose(np.log(found), np.log(shares), atol=0.25)
@@ -343,7 +344,7 @@ def test_two_hundred_samples() -> None:
 
 def test_the_bootstrap_finds_the_misfit() -> None:
     y, u = joint_record(plant(21, 3, 1), 21, 500, 40)
-    evidence = laws.Evidence(y, u, 3)
+    evidence = Evidence(y, u, 3)
     quick = laws.tested(evidence, 2)
     careful = laws.bootstrapped(evidence, quick, 4)
     assert quick.holds and careful.holds
