@@ -1,6 +1,6 @@
 """This reads tables in text files: which character separates the columns, whether a line names them, and their values, piece by piece.
 
-TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns
+TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns, `row` those of a line
 SEPARATORS         the separators that are tried, with the names they have in messages
 PIECE              lines parsed at once
 
@@ -58,6 +58,12 @@ class TextTable:
                 beginning = list(islice(_lines(stream), LOOKED_AT))
         except UnicodeDecodeError as error:
             raise InvalidInput(f"got byte {error.object[error.start]:#04x}, expected text in UTF-8: save the table as UTF-8 CSV") from None
+        return cls.of_lines(path, beginning)
+
+    @classmethod
+    def of_lines(cls, path: Path, beginning: Sequence[tuple[int, str]]) -> TextTable:
+        """Return the table that begins with these lines, each with its number; the path is where they come from. Raises InvalidInput where
+        they are no table."""
         if not beginning:
             raise InvalidInput("got no line of a table, expected a line of names and a line a sample")
         lines = [line for _, line in beginning]
@@ -99,9 +105,9 @@ class TextTable:
                 return np.asarray(values, dtype=np.float64)
         except (ValueError, Warning):
             pass
-        return np.array([self._row(number, line, columns) for number, line in piece], dtype=np.float64)
+        return np.array([self.row(number, line, columns) for number, line in piece], dtype=np.float64)
 
-    def _row(self, number: int, line: str, columns: Sequence[int]) -> list[float]:
+    def row(self, number: int, line: str, columns: Sequence[int]) -> list[float]:
         """Parse one line, slowly, so that the complaint names the line and the column."""
         fields = _fields(line, self.separator)
         if len(fields) != self.width:
