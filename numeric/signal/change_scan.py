@@ -6,7 +6,7 @@ after, the likelihood ratio of two processes against one is
 
     L(k) = n log|S| - n_1 log|S_1| - n_2 log|S_2|,
 
-S the covariances of the innovations [CG00, section 1.3]. Of Gaussian data without a change its mean is known: n_1 S_1 is a Wishart matrix,
+S the covariances of the innovations [CG00, chapter 3]. Of Gaussian data without a change its mean is known: n_1 S_1 is a Wishart matrix,
 and E log|W| is a sum of digamma functions. The ratio is scaled by it, so that short parts are not preferred.
 
 The chance that such a largest ratio comes about without a change is counted on records without one: one autoregression, driven by the
@@ -34,12 +34,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import digamma
 
 from ...base.arrays import Array
 from ..data.validation import PIECE
 
 Reader = Callable[[int, int], Array]
+Numbers = NDArray[np.intp]
 
 PARTS = 64  # of equal length, at most
 SHORTEST = 4  # samples of a part
@@ -60,10 +62,10 @@ class Scan:
     are `rows[i]` (L, q), [1, r(k-1), .., r(k-lags), r(k)] each; `open` are the numbers of the edges at which a change is looked for,
     `ratios` the scaled ratios there, and `p_value` the chance of a largest one as large without a change."""
 
-    edges: Array
+    edges: Numbers
     rows: Array
     p: int
-    open: Array
+    open: Numbers
     ratios: Array
     p_value: float
 
@@ -221,7 +223,7 @@ def _best_split(rows: Array, p: int, edge: int) -> int:
     before = flat[:low].T @ flat[:low]
     sums = np.concatenate([before[None], inner, (squares.sum(axis=0) - before - inner.sum(axis=0))[None]])
     counts = np.array([low, *[1] * (high - low), M * L - high])
-    return low + int(np.argmax(_ratios(sums, counts, p, np.arange(1, len(sums)))))
+    return int(low + np.argmax(_ratios(sums, counts, p, np.arange(1, len(sums)))))
 
 
 def _tamed(slopes: Array, p: int, samples: int) -> Array:
@@ -242,27 +244,27 @@ def _of_sides(parts: Array) -> Array:
     return np.asarray(parts[-1] - parts[:half] - parts[half:-1])
 
 
-def _usual(counts: Array, q: int, p: int) -> Array:
+def _usual(counts: Numbers, q: int, p: int) -> Array:
     """Return what L is divided by: its mean for Gaussian data without a change over the degrees of freedom."""
     freedom = counts[:, None] - (q - p) - np.arange(p)
     usual = digamma(freedom / 2).sum(axis=-1) + p * np.log(2) - p * np.log(counts)
     return _of_sides(counts * usual) / (p * (q - p) + p * (p + 1) / 2)
 
 
-def _lifted(sums: Array, counts: Array) -> Array:
+def _lifted(sums: Array, counts: Numbers) -> Array:
     """Return sums of z z' (..., q, q) of so many samples with the floor added to all but the constant."""
     lift = np.full(sums.shape[-1], FLOOR**2)
     lift[0] = 0.0
     return np.asarray(sums + np.asarray(counts)[..., None, None] * np.diag(lift))
 
 
-def _log_spread(sums: Array, counts: Array, p: int) -> Array:
+def _log_spread(sums: Array, counts: Numbers, p: int) -> Array:
     """Return log|S| of the innovations for sums of z z' (..., q, q) of so many samples each."""
     sizes = np.diagonal(np.linalg.cholesky(_lifted(sums, counts)), axis1=-2, axis2=-1)[..., sums.shape[-1] - p :]
     return np.asarray(2 * np.log(sizes).sum(axis=-1) - p * np.log(counts))
 
 
-def _ratios(sums: Array, count: int | Array, p: int, at: Array) -> Array:
+def _ratios(sums: Array, count: int | Numbers, p: int, at: Numbers) -> Array:
     """Return L at the edges `at` for the sums (M, q, q) of parts of so many samples, one number or (M,)."""
     counts = np.broadcast_to(count, len(sums))
     # Both from their own end: what is small on one side is not the difference of what is large.
@@ -272,7 +274,7 @@ def _ratios(sums: Array, count: int | Array, p: int, at: Array) -> Array:
     return np.asarray(n * whole - n_1 * _log_spread(before, n_1, p) - (n - n_1) * _log_spread(after, n - n_1, p))
 
 
-def _sums(read: Reader, lags: int, edges: Sequence[int] | Array) -> Array:
+def _sums(read: Reader, lags: int, edges: Sequence[int] | Numbers) -> Array:
     """Return the sums (len(edges) - 1, q, q) of z z' between the edges, reading PIECE samples at a time."""
 
     def pieces(start: int, stop: int) -> Iterator[Array]:

@@ -4,10 +4,10 @@ fault_onset   the changes of a residual, one after the other
 FaultOnset    they, with the stretch that stands for "without fault", and what is said where there are none
 Onset         one change: sample, interval, chance, outputs, sizes
 
-A stretch is tested for one change (`change_scan.py`); where one is found, what lies before and after its interval is tested in turn, each at
-the same level (binary segmentation, [V81]). Sizes are in deviations, "sigmas", of what comes before the first change: the residual there is
-taken for one without fault, which samples that are stated to be healthy make sure of. Nothing here tells a fault that acts from the first
-sample to the last from none.
+A stretch is tested for one change (`change_scan.py`); where one is found, what lies before and after its interval is tested in turn, each
+at the same level (binary segmentation, [V81]). Sizes are in deviations, "sigmas", of what comes before the first change: the residual there
+is taken for one without fault, which samples that are stated to be healthy make sure of. Nothing here tells a fault that acts from the
+first sample to the last from none.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
@@ -124,7 +124,10 @@ class FaultOnset(Shown):
             yield "deviation there (one sigma)", ", ".join(f"{size:.4g}" for size in self.deviation)
         for onset in self.onsets:
             first, last = onset.interval
-            yield f"onset at sample {onset.sample}", f"between {first} and {last} with probability {self.confidence:g}, p {onset.p_value:.2g}"
+            yield (
+                f"onset at sample {onset.sample}",
+                f"between {first} and {last} with probability {self.confidence:g}, p {onset.p_value:.2g}",
+            )
             yield "    outputs that change", ", ".join(f"y{j + 1}" for j in onset.changed) or "none by itself, all of them together"
             yield "    size after it, in sigmas", ", ".join(f"{size:.3g}" for size in onset.size)
             yield "    mean moves by, in sigmas", ", ".join(f"{size:.3g}" for size in onset.shift)
@@ -162,13 +165,13 @@ def fault_onset(
 ) -> FaultOnset:
     """Find the samples from which on a residual is another one: its mean, its powers, how outputs go together, or its colour.
 
-    r (N, p) is an array, a store or the ResidualSignal of `residual`, in the units of y. `healthy` says how many samples, from the first on,
-    are stated to be without fault: no onset is looked for among them, and they are what the others are held against; without it, what comes
-    before the first onset is. `level` is the chance that a stretch without a change is said to have one, at least 1 / 200, and `confidence`
-    that of the intervals. The residual may have any colour that an autoregression takes off, and any law: the chance is counted on the
-    residual itself. A fault that comes slowly has an onset where it begins to be seen, and more where it has grown. A change of the inputs
-    can change a residual too, where the model is not exact. Raises InvalidData for values that are not finite, and for a level, a
-    confidence or a number of healthy samples that cannot be. Source: [CG00] section 1.3, [S88], [BC91], [V81].
+    r (N, p) is an array, a store or the ResidualSignal of `residual`, in the units of y. `healthy` says how many samples, from the first
+    on, are stated to be without fault: no onset is looked for among them, and they are what the others are held against; without it, what
+    comes before the first onset is. `level` is the chance that a stretch without a change is said to have one, at least 1 / 200, and
+    `confidence` that of the intervals. The residual may have any colour that an autoregression takes off, and any law: the chance is
+    counted on the residual itself. A fault that comes slowly has an onset where it begins to be seen, and more where it has grown. A change
+    of the inputs can change a residual too, where the model is not exact. Raises InvalidData for values that are not finite, and for a
+    level, a confidence or a number of healthy samples that cannot be. Source: [CG00] chapter 3, [S88], [BC91], [V81].
 
     >>> import numpy as np
     >>> from faultspace.numeric import fault_onset
@@ -204,15 +207,7 @@ def fault_onset(
 
 def _scaled(store: SampleStore) -> tuple[Reader, int, Array]:
     """Return a reader of the outputs that change at all, in units of their deviations, how many these are, and the deviations (p,)."""
-    count, mean, squares = 0, np.zeros(store.width), np.zeros(store.width)
-    low, high = np.full(store.width, np.inf), np.full(store.width, -np.inf)
-    for piece in store.pieces():
-        step = piece.mean(axis=0) - mean
-        total = count + len(piece)
-        squares += ((piece - piece.mean(axis=0)) ** 2).sum(axis=0) + step**2 * count * len(piece) / total
-        mean, count = mean + step * len(piece) / total, total
-        low, high = np.minimum(low, piece.min(axis=0)), np.maximum(high, piece.max(axis=0))
-    units = np.where(high > low, np.sqrt(squares / max(count, 1)), 0.0)
+    mean, units = _moments(store, 0, len(store))
     moving = units > 0
 
     def read(first: int, last: int) -> Array:
@@ -236,7 +231,7 @@ def _changes(read: Reader, first: int, last: int, p: int, earliest: int, level: 
 def _measured(
     store: SampleStore,
     changes: list[_Change],
-    moving: Array,
+    moving: NDArray[np.bool_],
     healthy: int | None,
     level: float,
     confidence: float,
@@ -263,18 +258,26 @@ def _measured(
 
 
 def _moments(store: SampleStore, first: int, last: int) -> tuple[Array, Array]:
-    """Return mean and deviation (p,) of samples first .. last - 1."""
+    """Return mean and deviation (p,) of samples first .. last - 1; the deviation of what never changes is exactly zero."""
     count = max(last - first, 1)
-    mean = np.asarray(sum((piece.sum(axis=0) for piece in store.pieces(first, last)), np.zeros(store.width)) / count)
-    squares = sum((((piece - mean) ** 2).sum(axis=0) for piece in store.pieces(first, last)), np.zeros(store.width))
-    return mean, np.asarray(np.sqrt(squares / count))
+    nothing = np.zeros(store.width)
+    low = np.min([piece.min(axis=0) for piece in store.pieces(first, last)] or [nothing], axis=0)
+    high = np.max([piece.max(axis=0) for piece in store.pieces(first, last)] or [nothing], axis=0)
+    # In units of the largest value: squares of very large or small numbers would leave what floats can hold.
+    size = np.maximum(np.abs(low), np.abs(high))
+    size = np.where(size > 0, size, 1.0)
+    mean = sum(((piece / size).sum(axis=0) for piece in store.pieces(first, last)), nothing) / count
+    squares = sum((((piece / size - mean) ** 2).sum(axis=0) for piece in store.pieces(first, last)), nothing)
+    return np.asarray(size * mean), np.where(high > low, size * np.sqrt(squares / count), 0.0)
 
 
 def _found(changes: list[_Change], healthy: int | None, level: float) -> str:
     """Return why there are so many onsets, and what the sizes are held against."""
-    against = "samples stated to be without fault come before" if healthy else "what comes before the first is taken for the state without fault"
+    against = (
+        "samples stated to be without fault come before" if healthy else "what comes before the first is taken for the state without fault"
+    )
     how = f"each stretch is tested at level {level:g}"
-    return f"the residual is not alike before and after {counted(len(changes), 'sample')}; {how}; {against}"
+    return f"the residual is another one before and after {counted(len(changes), 'sample')}; {how}; {against}"
 
 
 def _alike(healthy: int | None, p_value: float, level: float) -> str:
@@ -283,8 +286,8 @@ def _alike(healthy: int | None, p_value: float, level: float) -> str:
     if healthy is not None:
         return f"after the healthy samples the residual goes on as before: {chance}"
     return (
-        f"the residual is alike from the first sample to the last: {chance}; a fault that acts, acts all the time, and has no onset in this "
-        "record"
+        f"the residual is alike from the first sample to the last: {chance}; a fault that acts, acts all the time, and has no onset in "
+        "this record"
     )
 
 
