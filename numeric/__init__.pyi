@@ -41,10 +41,14 @@ from .rows.fault_count import FaultCount as FaultCount
 from .rows.fault_count import count_faults as count_faults
 from .rows.space import fault_space_by_rows as fault_space_by_rows
 from .rows.space import identified_fault_space as identified_fault_space
+from .signal.onset import FaultOnset as FaultOnset
+from .signal.onset import fault_onset as fault_onset
 from .signal.reconstruction import Reconstruction as Reconstruction
 from .signal.reconstruction import reconstruct_fault as reconstruct_fault
 from .space.by_ranks import fault_space as fault_space
 from .space.distances import subspace_distance as subspace_distance
+from .space.isolation import Isolation as Isolation
+from .space.isolation import isolate as isolate
 from .space.result import FaultSpaceEstimate as FaultSpaceEstimate
 from .space.result import SpaceUncertainty as SpaceUncertainty
 

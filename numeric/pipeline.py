@@ -4,14 +4,15 @@ identify         the whole chain on a record: an Identification, with what remai
 
 1  The model (`modelling.py`): an ARX model of high order, reduced under its own weight, near the Cramer-Rao bound; the order is given, or
 chosen with its evidence. PI-MOESP where the record has no noise, or where an ARX model cannot be had.
-2  The residual of that model, its initial state fitted.
+2  The residual of that model, its initial state fitted; the samples from which on it is another one (`causes.py`).
 3  The number of faults (`counting.py`): by the laws that outputs and inputs obey, for which no model is needed. Where the first samples are
 stated to be without fault, model and means are from these alone, the faults of the others are counted against what the residual shows
 there, and its mean is held against theirs: a constant fault moves the mean and no rank. The count against them goes first where it is
 decided, the ranks of the residual where it is not; 0 is said only where nothing is counted, no output has a spike or is stuck, and the
 mean is tested and has not moved, with the size of fault that would have been seen. Where the inputs leave what the healthy samples show,
 the model's error can look like a fault, and none is counted against them. Records without noise are counted by ranks, which are exact.
-4  The fault space (`choice.py`), unless the number of faults is undecided or 0: from the same laws, with A and C of the model.
+4  The fault space (`choice.py`), unless the number of faults is undecided or 0: from the same laws, with A and C of the model. Which
+single sensor or actuator lies in it (`causes.py`).
 5  F, G and the fault signal for one pair out of the space: determined up to that choice, and given only where n_z is decided and the signal
 explains more of the residual than it would of noise.
 
@@ -37,6 +38,7 @@ from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import counted
 from ..base.threads import one_thread
+from .causes import with_isolation, with_onset
 from .changing import with_two_parts
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
@@ -193,7 +195,8 @@ def _findings(
     answer = replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes))
     if np.all(sizes.peak <= ROUNDING * largest(record)):
         return replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model")
-    return with_signal(with_space(with_count(answer, n_v, on_progress), on_progress), on_progress)
+    answer = with_count(with_onset(answer, on_progress), n_v, on_progress)
+    return with_signal(with_isolation(with_space(answer, on_progress)), on_progress)
 
 
 def _residual(record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: Progress) -> ResidualSignal:

@@ -20,6 +20,7 @@ from ...base.sheets import counted
 from ..count.mean_shift import POWER
 from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
+from .causes import isolation_lines, onset_lines
 from .physical import mode_lines
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
                 left = "what is left is noise and the model's error"
             yield f"fit of the simulated outputs, from the fitted initial state: {_several(pairs)}; {left}"
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
+        yield from onset_lines(answer)
         yield ""
         yield "## Faults"
         yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
@@ -89,6 +91,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         if answer.dimension and answer.dimension.regime == "rounding":
             yield f"gaps rank R_(s+1) - rank R_s beyond the inputs, s = 1, 2, ...: {' '.join(map(str, answer.dimension.gaps))}"
         yield from _space_lines(answer)
+        yield from isolation_lines(answer)
         yield from _signal_lines(answer)
     if answer.doubts:
         yield ""
