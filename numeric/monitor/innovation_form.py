@@ -35,6 +35,8 @@ from ..model.models import StateSpaceModel, observability_matrix
 CANDIDATES = (1e-6, 1e-4, 1e-2, 1.0, 1e2)  # for q, beside 0
 FOLDS = 4  # parts of the healthy record, each judged by what the others taught
 FADED = 1e-2  # what may be left of the first state where the errors of an observer begin to count
+ELSEWHERE = 10.0  # times farther than on the healthy record may the plant be where its state is not known
+WILD = 1e3  # deviations at which the error of a forecast is cut off, so that a wild number is forgotten; an input of WILD^2 is missing
 KNOWN = 1e-10  # variance of the states, in units of the channels, below which they count as known
 
 
@@ -257,9 +259,9 @@ def _moments(model: StateSpaceModel, gain: Array, whitening: _Whitening, y: Arra
 class Predictor:
     """This is the Kalman filter of a form [AM79]: it gives the innovations of samples y (p,) and u (n_u,), in the units of the data.
 
-    The state is known up to a covariance, `unknown` of the form at first. An innovation then has the covariance S(k) = S + C P C', and the
-    gain is the optimal one; a missing output (NaN) is left out of both. P fades as samples come, and where it is nothing the filter is the
-    predictor x+ = A x + B u + K e.
+    The state is known up to a covariance P, at first that of the healthy record ten times as wide. An innovation then has the covariance
+    S + C P C', and the gain is the optimal one; a missing output (NaN) is left out of both. P fades as samples come, and where it is
+    nothing the filter is the predictor x+ = A x + B u + K e.
     """
 
     def __init__(self, form: Form) -> None:
@@ -272,34 +274,38 @@ class Predictor:
     def restart(self) -> None:
         """Forget the state."""
         self._state = np.zeros(len(self.form.A))
-        self._spread: Array | None = self.form.unknown.copy()
+        self._spread: Array | None = ELSEWHERE**2 * self.form.unknown
 
-    def step(self, y: Array, u: Array) -> tuple[Array, Array]:
+    def step(self, y: Array, u: Array) -> tuple[Array, Array] | None:
         """Return the innovation (p,) of one sample, uncorrelated and of deviation one, and output by output over its deviation.
 
-        Zero stands for what is missing. Where an input is missing, no output of the sample can be judged, and the state is unknown again.
+        Zero stands for an output that is missing. None is returned where all are, and where an input is missing: no output of the sample
+        can be judged then, and the state is unknown again.
         """
         form, units = self.form, self.form.units
         pushed, there = (u - units.input_centre) / units.input_scale, np.isfinite(y)
-        if not np.all(np.isfinite(pushed)):
+        if not np.all(np.abs(pushed) < WILD**2):  # NaN is not, either
             self.restart()
-            return np.zeros(form.p), np.zeros(form.p)
+            return None
         forecast = form.C @ self._state + form.D @ pushed + form.level
-        e = np.where(there, (np.where(there, y, 0.0) - units.centre) / units.scale - forecast, 0.0)
+        with np.errstate(over="ignore"):
+            e = np.where(there, (np.where(there, y, 0.0) - units.centre) / units.scale - forecast, 0.0)
         after = form.A @ self._state + form.B @ pushed + form.push
         if self._spread is None and np.all(there):
+            e = np.clip(e, -WILD * self._sizes, WILD * self._sizes)
             self._state = after + form.K @ e
             return self._inverse @ e, e / self._sizes
         return self._filtered(e, there, after)
 
-    def _filtered(self, e: Array, there: Array, after: Array) -> tuple[Array, Array]:
+    def _filtered(self, e: Array, there: Array, after: Array) -> tuple[Array, Array] | None:
         """Take the step with a state that is not known, or with outputs missing; `after` is the next state by the forecast alone."""
         form, seen = self.form, np.flatnonzero(there)
         spread = np.zeros_like(form.A) if self._spread is None else self._spread
         S = form.covariance + form.C @ spread @ form.C.T
         cross = form.A @ spread @ form.C.T + form.K @ form.covariance
         left = form.A @ spread @ form.A.T + form.K @ form.covariance @ form.K.T
-        expected = np.zeros(form.p)
+        sizes, expected = np.sqrt(np.diag(S)), np.zeros(form.p)
+        e = np.clip(e, -WILD * sizes, WILD * sizes)
         if len(seen):
             weighted = np.linalg.solve(S[np.ix_(seen, seen)], np.column_stack([e[seen], cross[:, seen].T]))
             expected = S[:, seen] @ weighted[:, 0]
@@ -307,5 +313,7 @@ class Predictor:
             left = left - cross[:, seen] @ weighted[:, 1:]
         self._state = after
         self._spread = None if np.abs(left).max(initial=0.0) < KNOWN else (left + left.T) / 2
+        if not len(seen):
+            return None
         z = scipy.linalg.solve_triangular(np.linalg.cholesky(S), expected, lower=True)
-        return np.asarray(z), e / np.sqrt(np.diag(S))
+        return np.asarray(z), e / sizes

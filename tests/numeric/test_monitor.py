@@ -80,7 +80,7 @@ def test_one_by_one_and_all_at_once_are_the_same_bytes(model: StateSpaceModel, g
 def slow_filter(form: Any, y: Any, u: Any) -> list[Any]:
     """Return the whitened innovations of a Kalman filter as a textbook has it, the joint covariance of state and output held whole."""
     units, found = form.units, []
-    x, P = np.zeros(len(form.A)), form.unknown
+    x, P = np.zeros(len(form.A)), 100 * form.unknown
     for sample, pushed in zip((y - units.centre) / units.scale, (u - units.input_centre) / units.input_scale, strict=True):
         mean = np.concatenate([form.A @ x + form.B @ pushed + form.push, form.C @ x + form.D @ pushed + form.level])
         step = np.vstack([np.hstack([form.A, form.K]), np.hstack([form.C, np.eye(form.p)])])
@@ -102,7 +102,8 @@ def test_the_predictor_is_the_kalman_filter(gaps: float) -> None:
     y, u = record(2, 120, colour=0.7)
     y[np.random.default_rng(3).random(y.shape) < gaps] = np.nan
     predictor = Predictor(form)
-    found = [predictor.step(sample, pushed)[0] for sample, pushed in zip(y, u, strict=True)]
+    steps = [predictor.step(sample, pushed) for sample, pushed in zip(y, u, strict=True)]
+    found = [np.zeros(2) if step is None else step[0] for step in steps]
     assert form.lags > 0 and np.allclose(found, slow_filter(form, y, u), atol=1e-6)
 
 
@@ -255,6 +256,22 @@ def test_a_fault_is_seen_through_missing_samples(watched: Monitor) -> None:
     assert any(200 <= alarm.sample < 220 and alarm.outputs[0] == "y1" for alarm in alarms)
 
 
+@pytest.mark.parametrize("wild", [1e300, -1e12, float("inf")])
+def test_a_wild_sample_is_an_alarm_and_then_forgotten(watched: Monitor, wild: float) -> None:
+    y, u = record(18, 900)
+    y[100, 0], u[500, 0] = wild, wild
+    seen = watched.extend(y, u)
+    assert ([alarm.sample for alarm in seen.alarms if alarm.sample < 101] == [100] * 4) == np.isfinite(wild)
+    assert np.all(seen.statistics[[400, -1]] < watched.calibration.threshold) and np.all(np.isnan(seen.statistics[500]))
+
+
+def test_a_stream_may_begin_where_the_healthy_record_has_not_been(watched: Monitor) -> None:
+    y, u = record(19, 300)
+    u = u + 8.0
+    y = y + PLANT.simulate(np.full((300, 1), 8.0), x0=np.linalg.solve(np.eye(2) - PLANT.A, PLANT.B @ [8.0]))
+    assert len(watched.extend(y, u).alarms) <= 2
+
+
 def test_a_restart_and_a_pause_of_unknown_length_raise_no_alarm(watched: Monitor) -> None:
     y, u = record(13, 200)
     watched.extend(y[:100], u[:100])
@@ -289,7 +306,11 @@ def test_models_of_every_kind_bring_or_are_given_what_is_healthy() -> None:
     alone = Monitor(reduced, level=1e-3, window=WINDOW)
     assert "no healthy record was given" in alone.notes[0] and alone.to_json()["healthy_samples"] > 4000
     found = fs.identify(y[:300], u[:300], order=2, healthy=200)
-    assert 150 <= Monitor(found, level=1e-3, window=WINDOW).calibration.samples <= 200
+    about_means = fs.identify(y[:300], u[:300], order=2, healthy=200, remove_means=True)
+    brought, also = (Monitor(one, level=1e-3, window=WINDOW) for one in (found, about_means))
+    assert 150 <= brought.calibration.samples <= 200
+    more = record(2, 200)
+    assert np.allclose(also.extend(*more).innovations, brought.extend(*more).innovations, atol=0.5)
     inputless = StateSpaceModel(np.zeros((0, 0)), np.zeros((0, 0)), np.zeros((1, 0)), np.zeros((1, 0)))
     noise = np.random.default_rng(1).standard_normal((900, 1))
     assert Monitor(inputless, noise, level=1e-3, window=WINDOW).extend(noise[:50]).statistics.shape == (50, 4)
