@@ -2,6 +2,10 @@ from .bound.information_bound import cramer_rao as cramer_rao
 from .bound.space_information import FaultSpectra as FaultSpectra
 from .bound.space_information import fault_space_bound as fault_space_bound
 from .bound.spectra import Spectra as Spectra
+from .changes.table import Change as Change
+from .changes.table import Changes as Changes
+from .changes.testing import changes_since_healthy as changes_since_healthy
+from .changes.testing import changes_within as changes_within
 from .count.against_healthy import FaultDirection as FaultDirection
 from .count.against_healthy import FaultsAgainstHealthy as FaultsAgainstHealthy
 from .count.against_healthy import fault_dimension_against_healthy as fault_dimension_against_healthy
@@ -13,6 +17,8 @@ from .count.rank_gap import fault_dimension as fault_dimension
 from .data.files import read_record as read_record
 from .data.records import Record as Record
 from .data.sources import record_from as record_from
+from .doubt.asking import doubts as doubts
+from .doubt.listing import Doubts as Doubts
 from .model.asymptotic_likelihood import arx_reduction as arx_reduction
 from .model.asymptotic_likelihood import arx_reduction_experiments as arx_reduction_experiments
 from .model.models import StateSpaceModel as StateSpaceModel
@@ -31,8 +37,8 @@ from .monitor.alarms import Watched as Watched
 from .monitor.monitoring import Monitor as Monitor
 from .pipeline import identify as identify
 from .result import Identification as Identification
-from .rows.counting import FaultCount as FaultCount
-from .rows.counting import count_faults as count_faults
+from .rows.fault_count import FaultCount as FaultCount
+from .rows.fault_count import count_faults as count_faults
 from .rows.space import fault_space_by_rows as fault_space_by_rows
 from .rows.space import identified_fault_space as identified_fault_space
 from .signal.reconstruction import Reconstruction as Reconstruction

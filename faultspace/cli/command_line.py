@@ -285,6 +285,15 @@ def identify(
             metavar="K", parser=_number(int, 1, 1000), help="The first K samples are without fault: count beyond them.", show_default=False
         ),
     ] = None,
+    healthy: Annotated[
+        str | None,
+        typer.Option(
+            "--healthy",
+            metavar="FILE",
+            help="A record without fault, of the same channels: model, means and noise from it.",
+            show_default=False,
+        ),
+    ] = None,
     noise_level: Annotated[
         list[float] | None,
         typer.Option(
@@ -317,7 +326,7 @@ def identify(
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    known = identifying.Known(**settings, noise_level=noise_level, remove_means=remove_means, dt=dt)
+    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, remove_means=remove_means, dt=dt)
     return identifying.run(data, known, inputs=inputs, outputs=outputs, out=out, as_json=json)
 
 

@@ -29,6 +29,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidInput
 from ...base.progress import Progress
 from ...base.sheets import Shown, counted
+from .clocks import Clock
 from .plain import plain
 from .validation import PIECE
 
@@ -116,8 +117,8 @@ class Record(Shown):
     `len` is the number of samples, `outputs` and `inputs` are the names, `y` and `u` read all samples, and iterating gives pieces (y, u) in
     the order of time. The `store` holds rows [u, y] of finite numbers in the units that they came in, `offset` (k,) is taken off every row
     that is read, and `format` says how they came. `single` says whether an output was given in float32, so that it is known to float32
-    rounding only; `length` samples of the store, from the first on, belong to the record (None: all). Raises InvalidInput where the
-    disk has no room for what is written.
+    rounding only; `length` samples of the store, from the first on, belong to the record (None: all). `clock` is what a time column says
+    of the steps, None where there is none. Raises InvalidInput where the disk has no room for what is written.
 
     >>> from faultspace.numeric import record_from
     >>> record = record_from([[1.0], [3.0]], [[0.0], [1.0]])
@@ -133,6 +134,7 @@ class Record(Shown):
     offset: Array
     single: bool = False
     length: int | None = None
+    clock: Clock | None = None
 
     def __len__(self) -> int:
         return len(self.store) if self.length is None else self.length
@@ -145,6 +147,8 @@ class Record(Shown):
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield one line a channel, inputs before outputs."""
         yield "read from", self.format
+        if self.clock is not None:
+            yield "sample time", f"{self.clock.dt:.6g} s, by {self.clock.name} (its unit taken as {self.clock.unit})"
         yield "", "".join(f"{name:>10}" for name in ("least", "greatest", "mean", "deviation"))
         known = self.channels
         for j, name in enumerate(self.names):
@@ -160,6 +164,7 @@ class Record(Shown):
             "inputs": list(self.inputs),
             "outputs": list(self.outputs),
             "format": self.format,
+            "dt": None if self.clock is None else self.clock.dt,
             "least": plain(known.least - self.offset),
             "greatest": plain(known.greatest - self.offset),
             "mean": plain(known.mean - self.offset),
@@ -214,6 +219,14 @@ class Record(Shown):
             known.add(rows)
         return replace(self, channels=known.channels(), length=length)
 
+    def ending(self, first: int) -> Record:
+        """Return the samples from `first` on as a record of their own, which are copied, with what is known of their channels."""
+        writer = RecordWriter(self.store.width)
+        for rows in self.store.pieces(first, len(self)):
+            writer.append(rows)
+        made = writer.record(outputs=self.outputs, inputs=self.inputs, format=self.format, single=self.single)
+        return replace(made, offset=self.offset)
+
     def _split(self, rows: Array) -> tuple[Array, Array]:
         rows = rows - self.offset
         return rows[:, self.n_u :], rows[:, : self.n_u]
@@ -261,9 +274,12 @@ class RecordWriter:
             self.store.append(rows)
             self._known.add(rows)
 
-    def record(self, *, outputs: Sequence[str], inputs: Sequence[str], format: str, single: bool = False) -> Record:
+    def record(
+        self, *, outputs: Sequence[str], inputs: Sequence[str], format: str, single: bool = False, clock: Clock | None = None
+    ) -> Record:
         """Make the record of the rows that have been taken."""
-        return Record(self.store, tuple(outputs), tuple(inputs), format, self._known.channels(), np.zeros(self.store.width), single)
+        known = self._known.channels()
+        return Record(self.store, tuple(outputs), tuple(inputs), format, known, np.zeros(self.store.width), single, clock=clock)
 
 
 def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequence[str]) -> Record:

@@ -36,7 +36,7 @@ from ...base.threads import one_thread
 from ..data.validation import experiment, positive
 from .arx_windows import about_zero, arx_windows, longest_lag, merge_windows
 from .compression import EPS, Pieces
-from .feedback import HEARD, LEVEL, feedback_chance
+from .feedback import FOLLOWS, HEARD, LEVEL, feedback_chance
 from .models import StateSpaceModel
 from .order_choice import order_tried
 from .reduced_model import ReducedModel, reduced
@@ -139,7 +139,7 @@ def _feedback(sources: Sequence[Pieces], found: ReducedModel, lags: int) -> tupl
     if chance >= LEVEL:
         return ()
     return (
-        f"u follows what disturbed y before (a chance of {chance:.2g} in open loop): in a closed loop the standard errors are too small, "
+        f"{FOLLOWS} (a chance of {chance:.2g} in open loop): in a closed loop the standard errors are too small, "
         "and D is wrong where the loop has no delay",
     )
 

@@ -10,6 +10,7 @@ e(k), that is, where the loop has a delay [L99, ch. 13]; the standard errors are
 a delay e(k) is in u(k), D is wrong, and nothing in the data shows it, since e is uncorrelated with u(k) by construction.
 
 feedback_chance     the probability, in open loop, of correlations as large as those of the record
+one_step_errors     the errors of an ARX model's predictions
 """
 
 from __future__ import annotations
@@ -17,14 +18,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.stats import chi2
 
 from ...base.arrays import Array
+from ...base.chi_squared import chi_squared_tail
 from .arx import Arx
 from .compression import EPS
 
 LEVEL = 1e-3
 """The probability of a note in open loop."""
+FOLLOWS = "u follows what disturbed y before"
+"""So begins the note of a closed loop."""
 HEARD = 1 << 13
 """Samples of an experiment that are looked at: so many show a correlation of 0.2 at one lag, be there a hundred others."""
 
@@ -42,7 +45,7 @@ def feedback_chance(records: Sequence[tuple[Array, Array]], arx: Arx, lags: int)
     regressors = np.concatenate([np.hstack([u[reach - i : len(u) - i] for i in range(1, reach + 1)]) for _, u in long])
     targets = np.concatenate([u[reach:] for _, u in long])
     news = targets - regressors @ np.linalg.lstsq(regressors, targets, rcond=None)[0]
-    errors = [_errors(y, u, arx, reach) for y, u in long]
+    errors = [one_step_errors(y, u, arx, reach) for y, u in long]
     if sum(float(np.sum(part**2)) for part in errors) <= EPS * sum(float(np.sum(y**2)) for y, _ in long):
         return 1.0  # what is left is rounding, which follows the signals
     z, w = _white(news), _white(np.concatenate(errors))
@@ -54,11 +57,11 @@ def feedback_chance(records: Sequence[tuple[Array, Array]], arx: Arx, lags: int)
             total += float(np.sum(moment**2)) / (len(part) - lag)
         start = stop
     # One sum for each stretch: as many degrees of freedom for each.
-    return float(chi2.sf(total, len(errors) * lags * p * n_u))
+    return chi_squared_tail(total, len(errors) * lags * p * n_u)
 
 
-def _errors(y: Array, u: Array, arx: Arx, reach: int) -> Array:
-    """Return the one-step errors (N - reach, p) from sample `reach` on."""
+def one_step_errors(y: Array, u: Array, arx: Arx, reach: int) -> Array:
+    """Return the one-step errors (N - reach, p) of a stretch y (N, p), u (N, n_u) from sample `reach` on."""
     errors = np.zeros((len(y) - reach, y.shape[1]))
     for i in range(arx.order + 1):
         errors += y[reach - i : len(y) - i] @ arx.outputs[i].T - u[reach - i : len(u) - i] @ arx.inputs[i].T
