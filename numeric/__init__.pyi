@@ -2,7 +2,6 @@ from .bound.information_bound import cramer_rao as cramer_rao
 from .bound.space_information import FaultSpectra as FaultSpectra
 from .bound.space_information import fault_space_bound as fault_space_bound
 from .bound.spectra import Spectra as Spectra
-from .changes.table import Change as Change
 from .changes.table import Changes as Changes
 from .changes.testing import changes_since_healthy as changes_since_healthy
 from .changes.testing import changes_within as changes_within

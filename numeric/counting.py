@@ -4,7 +4,8 @@ with_count   the Findings with the number of faults, or with those that remain p
 
     exact record             the ranks of the residual beside the inputs (`fault_dimension`), which are exact then
     no healthy samples       the laws that outputs and inputs obey (`count_faults`), each with a probability; no model enters
-    healthy samples          against what the residual shows there; the ranks where that is undecided, and the mean beside both
+    healthy samples          against what the residual shows there; the ranks where that is undecided; the mean and the table of changes
+                             (`changing.py`) beside both
 
 The ranks are looked at in any case, as evidence. A 0 of the laws is said only where the ranks do not find a fault either. Outputs and
 inputs are counted about their means: a constant is an operating point for the laws, so that one equation holds for both.
