@@ -40,8 +40,8 @@ class Identification(Findings):
     stated or a time column tells it.
 
     `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
-    `to_scipy()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there is none, and
-    ImportError where it needs a package that is not installed. Source: [V93], [G25].
+    `to_scipy()`, `to_pandas()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there
+    is none, and ImportError where it needs a package that is not installed. Source: [V93], [G25].
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, identify
@@ -110,6 +110,18 @@ class Identification(Findings):
         from .report.export import to_mat
 
         to_mat(self, path)
+
+    def to_pandas(self) -> Any:
+        """Return a DataFrame with a row a sample: the channels, the residual in units of y, and the fault signal, NaN where that is not
+        determined.
+
+        Columns are pairs: ("input", name), ("output", name), ("residual", name of the output), ("fault", "v1"), ..; the index is the time
+        in seconds from the first sample, or the number of the sample where the sample time is not known. All samples are read into
+        memory. Raises ImportError without pandas.
+        """
+        from .report.export import to_pandas
+
+        return to_pandas(self)
 
     @one_thread()
     def save(self, folder: str | os.PathLike[str], data: str = "arrays") -> list[str]:
