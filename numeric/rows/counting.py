@@ -202,8 +202,8 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     step = laws(2).level - one.level
     if step < FAINTEST:
         reason = (
-            f"{p - 1} or {p}: one row leaves {decibels(step)} less than two, and a fault fainter than {decibels(FAINTEST)} beside the others "
-            "would look the same; a noise_level would settle it"
+            f"{p - 1} or {p}: one row leaves {decibels(step)} less than two, and a fault fainter than {decibels(FAINTEST)} beside the "
+            "others would look the same; a noise_level would settle it"
         )
         return FaultCount(None, (p - 1, p), reason, _walk(tests))
     return _answer(p - 1, one, tests, data)
