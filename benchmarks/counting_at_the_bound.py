@@ -21,8 +21,8 @@ import scipy.stats
 from fault_dimension import fault_signals, noise, random_plant
 from numpy.typing import NDArray
 
-from faultspace.numeric.rows.counting import count_faults
 from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
+from faultspace.numeric.rows.fault_count import count_faults
 from faultspace.numeric.rows.joint import course, joint_moments
 from faultspace.numeric.rows.laws import FAR, FAR_LONGER, FLAT_MISFIT, SHAPE_MISFIT, SINGLE_MISFITS, Evidence, tested
 from faultspace.numeric.study.runs import NOISE_GAIN, study_run

@@ -19,7 +19,10 @@ arx_reduction         A, B, C, D under strong coloured faults, with standard err
 cramer_rao            the least standard deviations that any unbiased estimate of A, B, C, D can have
 fault_space_bound     the least error that any unbiased estimate of the fault space can have
 count_faults          how many faults act on outputs and inputs, without a model
+changes_since_healthy what has changed since a healthy part, whatever its rank; changes_within: the second half against the first
 fault_space_by_rows   all fault columns, from the laws that outputs and inputs obey; identified_fault_space: the model's error in its angle
+
+Monitor               a model against a stream of samples: alarms at a stated rate of false ones
 
 The folders:
 
@@ -27,10 +30,12 @@ data          records, readers, checks of what comes in
 model         compression, PI-MOESP, PO-MOESP, ARX and its reduction, B and D, the residual
 doubt         what a record gives reason to doubt
 count         the number of faults: rank gaps, kernel rows, against a healthy record
+changes       what has changed since a healthy part: one table of tests
 space         the fault space, by ranks or by likelihood, with its uncertainty
 rows          the kernel rows of outputs and inputs: number of faults and fault space without a residual
 bound         the Cramer-Rao bounds of the model and of the fault space
 signal        reconstruction, the zeros that limit it, plots
+monitor       a model against a stream
 rounding      how far rounding may carry the answers
 report        what the command writes and says
 study         the paper's example and its Monte Carlo study

@@ -2,6 +2,10 @@ from .bound.information_bound import cramer_rao as cramer_rao
 from .bound.space_information import FaultSpectra as FaultSpectra
 from .bound.space_information import fault_space_bound as fault_space_bound
 from .bound.spectra import Spectra as Spectra
+from .changes.table import Change as Change
+from .changes.table import Changes as Changes
+from .changes.testing import changes_since_healthy as changes_since_healthy
+from .changes.testing import changes_within as changes_within
 from .count.against_healthy import FaultDirection as FaultDirection
 from .count.against_healthy import FaultsAgainstHealthy as FaultsAgainstHealthy
 from .count.against_healthy import fault_dimension_against_healthy as fault_dimension_against_healthy
@@ -29,10 +33,13 @@ from .model.reduced_model import ReducedModel as ReducedModel
 from .model.residuals import ResidualSignal as ResidualSignal
 from .model.residuals import residual as residual
 from .model.uncertainty import Uncertainty as Uncertainty
+from .monitor.alarms import Alarm as Alarm
+from .monitor.alarms import Watched as Watched
+from .monitor.monitoring import Monitor as Monitor
 from .pipeline import identify as identify
 from .result import Identification as Identification
-from .rows.counting import FaultCount as FaultCount
-from .rows.counting import count_faults as count_faults
+from .rows.fault_count import FaultCount as FaultCount
+from .rows.fault_count import count_faults as count_faults
 from .rows.space import fault_space_by_rows as fault_space_by_rows
 from .rows.space import identified_fault_space as identified_fault_space
 from .signal.reconstruction import Reconstruction as Reconstruction

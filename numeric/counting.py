@@ -21,6 +21,7 @@ from ..base.arrays import Array
 from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress
 from ..base.sheets import counted
+from .changing import beside_changes, unlike_healthy_ranks, with_changes
 from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest
 from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
@@ -29,7 +30,7 @@ from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .findings import Findings
-from .rows.counting import count_faults
+from .rows.fault_count import count_faults
 from .rows.joint import affordable
 from .rows.laws import LONG
 from .signal.residual_sizes import loudest
@@ -66,7 +67,8 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
             if healthy:
                 answer = _against_healthy(answer, rest.store.read(first, last), on_progress)
             else:
-                answer = _about_zero(answer if answer.exact else _by_laws(answer, on_progress), r)
+                answer = _about_zero(answer if answer.exact else with_changes(_by_laws(answer, on_progress)), r)
+            answer = beside_changes(answer)
     except np.linalg.LinAlgError:
         reason = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
         answer = replace(answer, n_v=None, counted_by=None, reason=reason)
@@ -168,6 +170,7 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
     if np.all(sizes.early_peak <= ROUNDING * largest(record)):
         return _zero_or_not(replace(answer, unexplained=True))
     on_progress("counting faults against the healthy samples", 0, 0)
+    answer = with_changes(answer)
     start = max(until - HELD // (record.p + record.n_u), 0)
     healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
     mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[-MEANS_FROM:], before[-MEANS_FROM:])
@@ -181,7 +184,8 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
         reference = healthy_reference(healthy, before)
         against = fault_dimension_against_healthy(r, reference, u=u)
     except InvalidData as error:
-        return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}")))
+        answer = replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {error}"))
+        return _zero_or_not(unlike_healthy_ranks(answer, healthy, before))
     if driven and against.n_v != 0:
         return _zero_or_not(replace(answer, notes=(*answer.notes, f"not counted against samples {start} to {until - 1}: {driven}")))
     strange = unlike_healthy(r, healthy, record.stretch(*answer.held)[0], record.stretch(start, until)[0], record.outputs)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..base.arrays import Array
+from .changes.table import Changes
 from .count.against_healthy import FaultsAgainstHealthy
 from .count.mean_shift import MeanShift
 from .count.rank_gap import FaultDimension
@@ -18,7 +19,7 @@ from .model.moesp_model import MoespModel
 from .model.order_evidence import OrderEvidence
 from .model.reduced_model import ReducedModel
 from .model.residuals import ResidualSignal
-from .rows.counting import FaultCount
+from .rows.fault_count import FaultCount
 from .signal.reconstruction import Reconstruction
 from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
@@ -54,9 +55,11 @@ class Findings:
     reason: str = ""
     counted_by: str | None = None
     healthy: int | None = None
+    healthy_record: bool = False
     counted_against: tuple[int, int] = (0, 0)
     against: FaultsAgainstHealthy | None = None
     mean: MeanShift | None = None
+    changes: Changes | None = None
     visible: Array | None = None
     unexplained: bool = False
     fault_space: FaultSpaceEstimate | None = None
@@ -76,10 +79,12 @@ class Findings:
     @property
     def at_least(self) -> int:
         """Return the number of faults that act in any case: the count where there is one; else one where anything stands out, the mean
-        included."""
+        and the table of changes included."""
         if self.n_v is not None:
             return self.n_v
-        seen = (self.against.at_least if self.against else 0, int(self.moved), int(self.unexplained), min(self.possible, default=0))
+        changed = self.changes is not None and bool(self.changes.seen)
+        counts = (self.against.at_least if self.against else 0, min(self.possible, default=0))
+        seen = (*counts, int(self.moved or self.unexplained or changed))
         return max(seen)
 
     @property

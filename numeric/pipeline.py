@@ -23,7 +23,8 @@ are the exceptions (`residual`, `reconstruct_fault`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from numbers import Real
 from typing import Any
@@ -36,8 +37,10 @@ from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import counted
 from ..base.threads import one_thread
+from .changing import with_two_parts
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
+from .data.joining import healthy_from, joined
 from .data.records import Passes, Record
 from .data.sources import Source, record_from
 from .data.validation import noise_deviations, whole
@@ -59,7 +62,7 @@ def identify(
     order: int | None = None,
     block_rows: int | None = None,
     n_v: int | None = None,
-    healthy: int | None = None,
+    healthy: int | Source | None = None,
     noise_level: ArrayLike | None = None,
     remove_means: bool = False,
     inputs: str | Sequence[str] | None = None,
@@ -82,10 +85,12 @@ def identify(
 
     `order` is the number n of states, `block_rows` the samples of a window (the lags of the ARX model, the block rows of PI-MOESP), `n_v`
     the number of faults, each found from the data where it is not stated; `healthy` says how many samples, from the first on, are without
-    fault; `noise_level`, one number or one an output, is the standard deviation of the sensors' noise in units of y, by which faults are
-    told from noise where no samples are healthy; `remove_means` takes the means off, of the healthy samples where there are any. `dt` is
-    the time from sample to sample in seconds, which a time column of the data may tell instead; the exports have it, and with it the
-    summary tells frequencies and damping. `on_progress(stage, done, total)` hears how far it has come.
+    fault, or is another record of the same channels that has none (a Record, a path, a frame, a tuple (y, u), an iterator of pieces),
+    which then comes first in the record that the answer is about; `noise_level`, one number or one an output, is the standard deviation
+    of the sensors' noise in units of y, by which faults are told from noise where no samples are healthy; `remove_means` takes the means
+    off, of the healthy samples where there are any. `dt` is the time from sample to sample in seconds, which a time column of the data
+    may tell instead; the exports have it, and with it the summary tells frequencies and damping. `on_progress(stage, done, total)` hears
+    how far it has come.
     Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can be had; what cannot be told after
     that is a note of the Identification.
 
@@ -99,26 +104,37 @@ def identify(
     (1, 0)
     """
     on_progress = on_progress or silent
-    order, block_rows, n_v, healthy = _integers(order, block_rows, n_v, healthy)
+    counted_healthy = None if _is_record(healthy) else healthy
+    order, block_rows, n_v, until = _integers(order, block_rows, n_v, counted_healthy)
     if not isinstance(remove_means, bool | np.bool_):
         raise InvalidData(f"remove_means: got {shorten(remove_means)}; True or False is needed")
     dt = _seconds(dt)
     record = record_from(y, u, inputs=inputs, outputs=outputs, on_progress=on_progress)
     if n_v is not None and n_v > record.p:
         raise InvalidData(f"n_v: got {n_v} for {counted(record.p, 'output')}; at most as many can be told apart: state fewer")
-    if healthy is not None and healthy >= len(record):
-        raise InvalidData(f"healthy: got {healthy} for {counted(len(record), 'sample')}; some must follow: state fewer")
+    if until is not None and until >= len(record):
+        raise InvalidData(f"healthy: got {until} for {counted(len(record), 'sample')}; some must follow: state fewer")
+    if until is None and healthy is not None:
+        before = healthy_from(healthy, record, on_progress)
+        record, until = joined(before, record), len(before)
     level = None if noise_level is None else noise_deviations(noise_level, record.p)
-    found = _findings(record, order, block_rows, n_v, healthy, level, bool(remove_means), on_progress)
-    part = record if healthy is None else record.beginning(healthy)
+    found = _findings(record, order, block_rows, n_v, until, counted_healthy is None, level, bool(remove_means), on_progress)
+    part = record if until is None else record.beginning(until)
     raised = doubts(part, found.model, dt=dt, means_removed=bool(remove_means))
     if dt is None and record.clock is not None:
         dt = record.clock.dt
     return Identification(**vars(found) | {"dt": dt, "doubts": raised})
 
 
+def _is_record(healthy: Any) -> bool:
+    """Say whether the healthy samples are told by a record, however it comes, rather than by their number."""
+    if isinstance(healthy, str):
+        return not healthy.strip().isdecimal()
+    return isinstance(healthy, Record | os.PathLike | tuple | Iterator) or hasattr(healthy, "columns")
+
+
 def _integers(
-    order: int | None, block_rows: int | None, n_v: int | None, healthy: int | None
+    order: int | None, block_rows: int | None, n_v: int | None, healthy: Any
 ) -> tuple[int | None, int | None, int | None, int | None]:
     """Return the arguments that count something, as ints. Raises InvalidData for anything else."""
     return (
@@ -145,11 +161,12 @@ def _findings(
     block_rows: int | None,
     n_v: int | None,
     healthy: int | None,
+    apart: bool,
     noise_level: Array | None,
     remove_means: bool,
     on_progress: Progress,
 ) -> Findings:
-    """Go through the chain of the module's docstring."""
+    """Go through the chain of the module's docstring; `apart`: the `healthy` samples are a record of their own, before the other."""
     part = record if healthy is None else record.beginning(healthy)
     rows = block_rows if block_rows is not None else window_default(len(part), record.p, record.n_u, order)
     try:
@@ -165,10 +182,13 @@ def _findings(
         notes += ("noise_level is not used: the healthy samples show the noise themselves",)
     answer = Findings(record, found.window, remove_means, order is not None, found.singular_values, found.model, found.exact, found.way)
     answer = replace(answer, n_v_given=n_v is not None, healthy=healthy, noise_level=noise_level, notes=notes + found.notes)
+    answer = replace(answer, healthy_record=apart and healthy is not None)
     if found.model is None:
         return replace(answer, notes=(*answer.notes, f"the order is undecided: {found.refusal}"))
     with np.errstate(over="ignore", invalid="ignore"):  # outliers beyond all numbers are told by what they leave
-        rest = _residual(record, found.model, len(part), on_progress)
+        rest = _residual(part if answer.healthy_record else record, found.model, len(part), on_progress)
+        if answer.healthy_record:
+            rest = with_two_parts(rest, record.ending(len(part)), found.model.model, on_progress)
     sizes = residual_sizes(rest.store, len(part))
     answer = replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes))
     if np.all(sizes.peak <= ROUNDING * largest(record)):

@@ -7,10 +7,13 @@ Where tests run in several processes, each begins with a stretch of them in the 
 is made in one process, and takes half of what another has left when it has done its own. Tests marked `long` come first, so that no
 process is left with one at the end. The Rocq theory is compiled before they start (once, then it is in the user's cache), so that no test
 waits for another's compilation. The linear algebra library gets one thread a process: on small matrices threads mostly wait for each other.
+Bytecode is kept, in the folders `__pycache__` that git ignores, even where PYTHONDONTWRITEBYTECODE asks for none: without it each process
+of tests compiles all tests again, and each command that a test starts all modules of ours.
 """
 
 import contextlib
 import os
+import sys
 from typing import Any
 
 import pytest
@@ -21,6 +24,8 @@ from tests.thorough import examples
 # Before numpy is loaded, and inherited by every process that a test starts.
 for threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(threads, "1")
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 settings.register_profile("ci", derandomize=True, database=None, deadline=None, max_examples=examples(100))
 settings.register_profile("explore", derandomize=False, database=None, deadline=None, max_examples=1000)
 settings.load_profile("ci")

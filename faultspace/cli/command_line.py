@@ -285,6 +285,15 @@ def identify(
             metavar="K", parser=_number(int, 1, 1000), help="The first K samples are without fault: count beyond them.", show_default=False
         ),
     ] = None,
+    healthy: Annotated[
+        str | None,
+        typer.Option(
+            "--healthy",
+            metavar="FILE",
+            help="A record without fault, of the same channels: model, means and noise from it.",
+            show_default=False,
+        ),
+    ] = None,
     noise_level: Annotated[
         list[float] | None,
         typer.Option(
@@ -317,8 +326,52 @@ def identify(
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    known = identifying.Known(**settings, noise_level=noise_level, remove_means=remove_means, dt=dt)
+    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, remove_means=remove_means, dt=dt)
     return identifying.run(data, known, inputs=inputs, outputs=outputs, out=out, as_json=json)
+
+
+@_command()
+def monitor(
+    model: Annotated[
+        str, typer.Argument(metavar="MODEL", show_default=False, help="The model.json of identify, or the folder that it is in.")
+    ],
+    inputs: Annotated[
+        list[str] | None, typer.Option("--inputs", metavar="NAME,...", help="Input columns.", show_default="as in the model's file")
+    ] = None,
+    outputs: Annotated[
+        list[str] | None, typer.Option("--outputs", metavar="NAME,...", help="Output columns.", show_default="as in the model's file")
+    ] = None,
+    healthy: Annotated[
+        str | None, typer.Option("--healthy", metavar="FILE", help="A record without fault to calibrate by.", show_default=False)
+    ] = None,
+    healthy_until: Annotated[
+        int | None,
+        typer.Option(
+            metavar="K", parser=_number(int, 1, 10000), help="Instead: the first K samples of the stream are one.", show_default=False
+        ),
+    ] = None,
+    follow: Annotated[
+        str | None, typer.Option("--follow", metavar="FILE", help="Watch a file that grows.", show_default="standard input")
+    ] = None,
+    idle: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", parser=_number(float, 0, 60), help="Stop when nothing came for so long.", show_default="never"),
+    ] = None,
+    level: Annotated[
+        float, typer.Option(metavar="RATE", parser=_number(float, 0, 1e-4), help="False alarms a sample, all tests together.")
+    ] = 1e-4,
+    window: Annotated[int, typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of the chi-square test.")] = 20,
+    json: Json = False,
+) -> int:
+    """Watch a plant: a model against a stream.
+
+    Lines of a CSV table with a line of names come from standard input or a growing file; an empty field is a missing sample. Each alarm is
+    a line as it comes, with --json a JSON object; the last is the summary. Exit 0 at the end of the stream, whatever the alarms.
+    """
+    from . import monitoring
+
+    watching = monitoring.Watching(healthy, healthy_until, follow, idle, level, window)
+    return monitoring.run(model, watching, inputs=inputs or [], outputs=outputs or [], as_json=json)
 
 
 @_command("monte-carlo")

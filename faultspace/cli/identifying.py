@@ -17,6 +17,7 @@ from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
 from ..base.progress import evenly, working
 from ..numeric.data.files import read_record
+from ..numeric.data.records import Record
 from ..numeric.pipeline import identify
 from ..numeric.report import files as report
 from ..numeric.report.folders import refuse
@@ -35,6 +36,7 @@ class Known:
     block_rows: int | None
     faults: int | None
     healthy_until: int | None
+    healthy: str | None
     noise_level: Sequence[float] | None
     remove_means: bool
     dt: float | None
@@ -46,7 +48,11 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
     A folder with a file of these names that no earlier run wrote is refused before anything is read. Where there is no answer, folders that
     were made for it go again.
     """
-    taken = [name for name in report.NAMES if (out / name).exists() and _same(out / name, data)]
+    if known.healthy is not None and known.healthy_until is not None:
+        raise InvalidInput("--healthy: got --healthy-until as well, expected one of them: a file without fault, or the number of samples")
+    taken = [
+        name for name in report.NAMES if (out / name).exists() and any(_same(out / name, read) for read in (data, known.healthy) if read)
+    ]
     if taken:
         raise InvalidInput(f"{quote_path(data)}: would be overwritten by the answer of this name, expected another --out")
     refuse(out, report.NAMES)
@@ -56,13 +62,16 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
         with working(f"reading {quote_path(data)}") as telling:
             tell = evenly(telling)
             record = read_record(data, inputs=inputs, outputs=outputs, on_progress=tell)
+            healthy: int | Record | None = known.healthy_until
+            if known.healthy is not None:
+                healthy = read_record(known.healthy, inputs=inputs, outputs=outputs, on_progress=tell)
             with in_file(data):
                 answer = identify(
                     record,
                     order=known.order,
                     block_rows=known.block_rows,
                     n_v=known.faults,
-                    healthy=known.healthy_until,
+                    healthy=healthy,
                     noise_level=_one_or_each(known.noise_level),
                     remove_means=known.remove_means,
                     dt=known.dt,

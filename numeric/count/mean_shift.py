@@ -143,7 +143,7 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
         still=np.eye(p) - sum(steps, np.zeros((p, p))),
         long_run=waves.T @ waves / freedom,
         freedom=freedom,
-        nearest=_nearest_root(steps),
+        nearest=nearest_root(steps),
         samples=len(now),
     )
 
@@ -237,7 +237,7 @@ def _expected(reference: MeanReference, means: Array) -> Array:
     return expected
 
 
-def _nearest_root(steps: list[Array]) -> float:
+def nearest_root(steps: list[Array]) -> float:
     """Return the least |1 - z| over the roots z of the predictor."""
     if not steps:
         return 1.0

@@ -219,6 +219,14 @@ class Record(Shown):
             known.add(rows)
         return replace(self, channels=known.channels(), length=length)
 
+    def ending(self, first: int) -> Record:
+        """Return the samples from `first` on as a record of their own, which are copied, with what is known of their channels."""
+        writer = RecordWriter(self.store.width)
+        for rows in self.store.pieces(first, len(self)):
+            writer.append(rows)
+        made = writer.record(outputs=self.outputs, inputs=self.inputs, format=self.format, single=self.single)
+        return replace(made, offset=self.offset)
+
     def _split(self, rows: Array) -> tuple[Array, Array]:
         rows = rows - self.offset
         return rows[:, self.n_u :], rows[:, : self.n_u]

@@ -1,6 +1,6 @@
 """This reads tables in text files: which character separates the columns, whether a line names them, and their values, piece by piece.
 
-TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns
+TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns, `row` those of a line
 SEPARATORS         the separators that are tried, with the names they have in messages
 DECIMALS           what stands before the decimals
 PIECE              lines parsed at once
@@ -68,6 +68,12 @@ class TextTable:
         except UnicodeDecodeError as error:
             got = f"{error.object[error.start]:#04x}"
             raise InvalidInput(f"got byte {got} in UTF-16, expected text: save the table as UTF-8 CSV") from None
+        return cls.of_lines(path, beginning)
+
+    @classmethod
+    def of_lines(cls, path: Path, beginning: Sequence[tuple[int, str]]) -> TextTable:
+        """Return the table that begins with these lines, each with its number; the path is where they come from. Raises InvalidInput where
+        they are no table."""
         if not beginning:
             raise InvalidInput("got no line of a table, expected a line of names and a line a sample")
         lines = [line for _, line in beginning]
@@ -131,9 +137,9 @@ class TextTable:
                 return np.asarray(values, dtype=np.float64)
         except (ValueError, Warning):
             pass
-        return np.array([self._row(number, line, columns) for number, line in piece], dtype=np.float64)
+        return np.array([self.row(number, line, columns) for number, line in piece], dtype=np.float64)
 
-    def _row(self, number: int, line: str, columns: Sequence[int]) -> list[float]:
+    def row(self, number: int, line: str, columns: Sequence[int]) -> list[float]:
         """Parse one line, slowly, so that the complaint names the line and the column."""
         fields = _fields(line, self.separator)
         if len(fields) != self.width:

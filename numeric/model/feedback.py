@@ -18,9 +18,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.stats import chi2
 
 from ...base.arrays import Array
+from ...base.chi_squared import chi_squared_tail
 from .arx import Arx
 from .compression import EPS
 
@@ -57,7 +57,7 @@ def feedback_chance(records: Sequence[tuple[Array, Array]], arx: Arx, lags: int)
             total += float(np.sum(moment**2)) / (len(part) - lag)
         start = stop
     # One sum for each stretch: as many degrees of freedom for each.
-    return float(chi2.sf(total, len(errors) * lags * p * n_u))
+    return chi_squared_tail(total, len(errors) * lags * p * n_u)
 
 
 def one_step_errors(y: Array, u: Array, arx: Arx, reach: int) -> Array:

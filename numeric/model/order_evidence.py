@@ -26,8 +26,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from scipy.stats import chi2
-
+from ...base.chi_squared import chi_squared_tail
 from ...base.sheets import Shown
 from ..data.plain import plain
 from ..drawing import plot_criteria
@@ -136,7 +135,7 @@ def weighed(rows: Sequence[OrderRow]) -> OrderEvidence:
     for above, row in enumerate(reversed(rows)):
         if row.order < best.order:
             gain, states = max(row.cost - best.cost, 0.0), best.parameters - row.parameters
-            chances[len(rows) - 1 - above] = min(above * float(chi2.sf(gain, states)), 1.0)
+            chances[len(rows) - 1 - above] = min(above * chi_squared_tail(gain, states), 1.0)
     filled = tuple(replace(row, chance=chance) for row, chance in zip(rows, chances, strict=True))
     least = min(row.order for row in filled if row.chance >= REFUSED)
     return OrderEvidence(filled, best.order, least, best.order)

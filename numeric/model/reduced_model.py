@@ -24,9 +24,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.stats import chi2
 
 from ...base.arrays import Array
+from ...base.chi_squared import chi_squared_tail
 from ...base.errors import InvalidData
 from ...base.sheets import Shown
 from ..data.plain import plain
@@ -206,7 +206,7 @@ def judged(found: ReducedModel, windows: ArxWindows) -> ReducedModel:
     """
     model, arx, cost = found.model, found.arx, found.cost
     parameters = windows.p * windows.regressors(arx.order)
-    radius, misfit = spectral_radius(model.A), float(chi2.sf(cost, parameters)) < UNBELIEVABLE
+    radius, misfit = spectral_radius(model.A), chi_squared_tail(cost, parameters) < UNBELIEVABLE
     on_circle, most = radius > 1 - EPS**0.25, np.log(AMPLIFICATION)
     growing = np.log(max(arx.radius(), 1e-300)) * arx.rows > most
     if (misfit and arx.radius() > 1 and (on_circle or growing)) or (growing and windows.growth > most):

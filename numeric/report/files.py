@@ -27,6 +27,7 @@ from ..model.weighted_reduction import circle
 from ..rows.joint import even_split
 from ..space.distances import containment_distance
 from .folders import refuse, replace
+from .page import report
 from .physical import physical
 from .pictures import PICTURES, pictures
 from .summary import MODEL_FILE, advice, fit, markdown, summary
@@ -34,9 +35,9 @@ from .summary import MODEL_FILE, advice, fit, markdown, summary
 if TYPE_CHECKING:
     from ..findings import Findings
 
-MODEL, SPACE, SIGNAL, SUMMARY = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md"
+MODEL, SPACE, SIGNAL, SUMMARY, PAGE = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md", "report.html"
 FREQUENCIES = 32  # of the transfer function with standard errors
-NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, *PICTURES)
+NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, PAGE, *PICTURES)
 
 
 def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
@@ -61,6 +62,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "n_v_reason": answer.reason,
         "n_v_from": answer.counted_by,
         "healthy_until": answer.healthy,
+        "healthy_record": answer.healthy_record,
         "noise_level": plain(answer.noise_level),
         "doubts": None if answer.doubts is None else _worded(answer.doubts.to_json(), worded),
         "notes": [worded(note) for note in answer.notes],
@@ -109,6 +111,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "deviations": plain(mean.deviations),
         "outputs": [answer.record.outputs[i] for i in mean.channels],
     }
+    result["changes"] = answer.changes and answer.changes.to_json()
     if answer.healthy is not None and mean:
         result["visible"] = {"power": POWER, "level": mean.level, "constant": plain(mean.visible), "white": plain(answer.visible)}
     result["fault_space"] = _space(answer)
@@ -172,6 +175,7 @@ def write(
             if remarks:
                 lines += ["", "## Missing", *(f"- {remark}" for remark in remarks)]
             (folder / SUMMARY).write_text(markdown(lines), encoding="utf-8")
+            (folder / PAGE).write_text(report(answer, lines, folder, data), encoding="utf-8")
             written = replace(folder, out, NAMES)
     except OSError as error:
         reason = error.strerror or str(error)

@@ -65,7 +65,8 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
             pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, explained, strict=True)]
             left = "what is left is faults, noise and the model's error"
             if answer.healthy is not None:
-                yield f"identified from the samples 0 to {answer.healthy - 1}, stated to be without fault"
+                source = "those of the healthy record" if answer.healthy_record else "stated to be without fault"
+                yield f"identified from the samples 0 to {answer.healthy - 1}, {source}"
                 left = "what is left is noise and the model's error"
             yield f"fit of the simulated outputs, from the fitted initial state: {_several(pairs)}; {left}"
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
@@ -83,6 +84,8 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield from _healthy_lines(answer)
         yield from _mean_lines(answer)
         yield from _visible_lines(answer)
+        if answer.changes is not None:
+            yield from answer.changes.lines()
         if answer.dimension and answer.dimension.regime == "rounding":
             yield f"gaps rank R_(s+1) - rank R_s beyond the inputs, s = 1, 2, ...: {' '.join(map(str, answer.dimension.gaps))}"
         yield from _space_lines(answer)

@@ -24,9 +24,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.stats
 
 from ...base.arrays import Array
+from ...base.chi_squared import chi_squared_tail
 from ..space.basis import KernelBasis
 from .joint import ROUNDING, JointMoments
 
@@ -75,7 +75,7 @@ def excess(data: JointMoments, low: KernelBasis, high: KernelBasis, misfits: Seq
     misfits[i] is the misfit for i + 1 degrees more, and the last one is that for all beyond.
     """
     misfit = misfits[min(_total(high) - _total(low), len(misfits)) - 1]
-    return float(scipy.stats.chi2.sf(likelihood_ratio(data, low, high) / misfit, freedom(data, low, high)))
+    return chi_squared_tail(likelihood_ratio(data, low, high) / misfit, freedom(data, low, high))
 
 
 def _total(fit: KernelBasis) -> int:

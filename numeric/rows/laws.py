@@ -30,9 +30,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import scipy.stats
 
 from ...base.arrays import Array
+from ...base.chi_squared import chi_squared_tail
 from ...base.errors import InvalidData
 from ..data.plain import plain
 from ..model.asymptotic_likelihood import arx_reduction
@@ -271,7 +271,7 @@ def _several(evidence: Evidence, fit: KernelBasis, shares: Array, misfits: Misfi
     ratio = data.samples * count * max(gain, 0.0)
     freedom = extra * data.moments.channels
     ratio /= evidence.narrow
-    flat = float(scipy.stats.chi2.sf(ratio / misfits.flat, freedom))
+    flat = chi_squared_tail(ratio / misfits.flat, freedom)
     return Laws(count, fit, shares, shape, gain, flat, min(1.0, 2 * min(flat, shape.level)), (ratio / freedom,))
 
 
@@ -293,7 +293,7 @@ def _single(evidence: Evidence, shares: Array, misfits: Misfits = Misfits(), sta
         gains.append(max(fit.level - longest.level, 0.0))
         freedom = degrees * data.moments.channels
         ratios.append(data.samples * gains[-1] / (freedom * evidence.narrow))
-        probability = min(probability, len(steps) * float(scipy.stats.chi2.sf(ratios[-1] * freedom / misfit, freedom)))
+        probability = min(probability, len(steps) * chi_squared_tail(ratios[-1] * freedom / misfit, freedom))
     return Laws(1, fit, shares, None, gains[0], probability, probability, tuple(ratios), longest)
 
 

@@ -21,11 +21,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
-import scipy.stats
 from numpy.typing import NDArray
 from scipy.special import digamma, polygamma
 
 from ...base.arrays import Array
+from ...base.chi_squared import chi_squared_tail
 from ..space.basis import KernelBasis
 from .joint import JointMoments
 
@@ -129,6 +129,6 @@ def sphericity(rest: Remainder, shares: Array, misfit: float = 1.0) -> Sphericit
         mean += 2 * count * float(k * digamma(count * k) - k * np.log(k) - np.sum(digamma(count - j)))
         variance += 4 * count**2 * float(np.sum(polygamma(1, count - j)) - k**2 * polygamma(1, count * k))
     scale, freedom = misfit * variance / (2 * mean), 2 * mean**2 / variance
-    level = float(scipy.stats.chi2.sf(ratio / scale, freedom))
+    level = chi_squared_tail(ratio / scale, freedom)
     norm = rest.samples * k
     return Sphericity(ratio / norm, mean / norm, ratio, level)

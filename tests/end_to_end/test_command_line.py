@@ -442,7 +442,9 @@ def test_a_piped_table_has_no_trailing_blanks() -> None:
     assert len(lines) > 5 and [one for one in lines if one != one.rstrip()] == []
 
 
-@pytest.mark.parametrize("name", ["verify", "check", "inspect", "compare", "limit", "identify", "monte-carlo", "audit", "examples"])
+@pytest.mark.parametrize(
+    "name", ["verify", "check", "inspect", "compare", "limit", "identify", "monitor", "monte-carlo", "audit", "examples"]
+)
 def test_the_help_shows_arguments_as_they_are_typed(name: str) -> None:
     said = call(name, "--help").out
     usage = said.splitlines()[0]

@@ -131,6 +131,7 @@ def test_the_plots_are_pictures(csv_file: Path, tmp_path: Path, rendered: None) 
     assert set(PICTURES) <= set(run.json["files"])  # noisy data: the levels are pictured too
     for name in PICTURES:
         assert (tmp_path / "out" / name).read_bytes().startswith(b"\x89PNG"), name
+    assert (tmp_path / "out" / report.PAGE).read_text("utf-8").count('<img src="data:image/png;base64,') == len(PICTURES)
 
 
 def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -140,7 +141,8 @@ def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Pat
     monkeypatch.setattr("faultspace.numeric.report.pictures.import_module", without)
     run = identified(csv_file, tmp_path / "out", "--json", "--order", "3")
     assert run.code == 0 and "matplotlib is not installed" in run.err
-    assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, report.SUMMARY]
+    assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, report.SUMMARY, report.PAGE]
+    assert "<img" not in (tmp_path / "out" / report.PAGE).read_text("utf-8")
     assert "matplotlib" in (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
 
 

@@ -27,9 +27,9 @@ from faultspace.numeric.model.models import StateSpaceModel
 Array = NDArray[np.float64]
 RESULTS = (
     *("model", "residual", "dimension", "space", "signal", "study", "record", "matrices"),
-    *("reduced", "uncertainty", "orders", "count", "open count", "healthy", "against", "direction", "doubts"),
+    *("reduced", "uncertainty", "orders", "count", "open count", "healthy", "against", "direction", "changes", "doubts"),
 )
-DRAWN = (*(name for name in RESULTS if name not in ("record", "count", "open count", "healthy", "doubts")), "whole")
+DRAWN = (*(name for name in RESULTS if name not in ("record", "count", "open count", "healthy", "changes", "doubts")), "whole")
 needs_matplotlib = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is None, reason="matplotlib is not installed")
 
 
@@ -66,7 +66,8 @@ def chain() -> dict[str, Any]:
         "count": numeric.count_faults(one, pushed, order=1),
         "open count": numeric.count_faults(noise[:800, :1], pushed, order=1),
     }
-    more = {"healthy": healthy, "against": against, "direction": direction, **counts, **near}
+    changes = numeric.changes_since_healthy(noise, noise, noise[:, :1], healthy=800)
+    more = {"healthy": healthy, "changes": changes, "against": against, "direction": direction, **counts, **near}
     return {"y": y, "u": u, **steps, **more, "whole": whole, "study": study}
 
 

@@ -19,8 +19,8 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.rows import bootstrap, laws, remainder
-from faultspace.numeric.rows.counting import count_faults
 from faultspace.numeric.rows.degree import least_degree
+from faultspace.numeric.rows.fault_count import count_faults
 from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
 from faultspace.numeric.rows.space import fault_space_by_rows
 from faultspace.numeric.space.distances import principal_angles

@@ -24,7 +24,7 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.system.systems import ResidualSystem
 
-from .rationals import floats, matrix, scaled
+from .rationals import floats, matrix, residual_system, scaled
 
 HALF = 45  # of the 90 samples of each record
 CLEAR = 1e3 * 2.0**-53  # of the norm of R_s, channels in their units: a thousand times what rounding moves a singular value by
@@ -171,7 +171,7 @@ class FaultVector:
         return FaultVector(
             slug,
             view,
-            ResidualSystem.of(*(data["system"][name] for name in "AFCG")),
+            residual_system(data["system"]),
             matrix(data["x0"], 1),
             v,
             tuple(known["window_ranks"]),
@@ -215,10 +215,9 @@ class UnexcitingVector:
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> UnexcitingVector:
         """The vector that `to_json` wrote; the residual is computed again."""
-        system = ResidualSystem.of(*(data["system"][name] for name in "AFCG"))
-        known = data["expected"]
-        v, x0 = matrix(data["v"], system.m), matrix(data["x0"], 1)
-        return UnexcitingVector(data["slug"], system, x0, v, tuple(known["window_ranks"]), gaps_from_json(data), known["shown"])
+        known, shown = data["expected"], residual_system(data["system"])
+        v, x0 = matrix(data["v"], shown.m), matrix(data["x0"], 1)
+        return UnexcitingVector(data["slug"], shown, x0, v, tuple(known["window_ranks"]), gaps_from_json(data), known["shown"])
 
 
 def channel_units(r: Matrix) -> list[Fraction]:

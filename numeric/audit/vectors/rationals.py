@@ -1,6 +1,7 @@
 """These are rational matrices as the vectors hold them, and the one way in which they become floats.
 
 matrix      from strings, integers or Fractions
+residual_system   A, F, C, G of the file of a vector
 fractions   the entries
 floats      each entry correctly rounded (to nearest, ties to even): the stated rounding
 scaled      columns in other units
@@ -9,13 +10,14 @@ signs       +-1 by a linear congruential generator that any language can run
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.arrays import Array
 
@@ -25,6 +27,11 @@ ROUNDING = "each rational to the nearest IEEE binary64, ties to even, once"
 def matrix(rows: Sequence[Sequence[Any]], width: int) -> Matrix:
     """Return a matrix over Q, from strings, integers or Fractions; `width` for matrices without rows."""
     return Matrix.of([[str(entry) for entry in row] for row in rows], shape=(len(rows), width))
+
+
+def residual_system(written: Mapping[str, Any]) -> ResidualSystem:
+    """Return the system whose matrices A, F, C and G a vector's file holds, each as a list of rows."""
+    return ResidualSystem.of(*(written[name] for name in "AFCG"))
 
 
 def fractions(given: Matrix) -> list[list[Fraction]]:

@@ -21,7 +21,7 @@ from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 from ....base.arrays import Array
 from ...model.models import StateSpaceModel
 from .exact_comparison import matched, poles
-from .rationals import floats, matrix, signs
+from .rationals import floats, matrix, residual_system, signs
 
 
 def _complexes(values: tuple[complex, ...]) -> list[list[float]]:
@@ -75,12 +75,10 @@ class ConsistencyVector:
     def from_json(data: Mapping[str, Any]) -> ConsistencyVector:
         """This reads the vector that `to_json` wrote."""
         parts = data["system"]
-        system = FaultySystem(
-            ResidualSystem.of(*(parts[name] for name in "AFCG")), *(matrix(parts[name], len(parts[name][0])) for name in "BD")
-        )
+        driven = FaultySystem(residual_system(parts), *(matrix(parts[name], len(parts[name][0])) for name in "BD"))
         numbers = {name: data[name] for name in ("slug", "block_rows", "samples", "seed")}
         return ConsistencyVector(
-            system=system, c=Fraction(data["c"]), biased_poles=tuple(complex(*z) for z in data["biased_poles"]), **numbers
+            system=driven, c=Fraction(data["c"]), biased_poles=tuple(complex(*z) for z in data["biased_poles"]), **numbers
         )
 
 
@@ -128,7 +126,7 @@ class NoisyVector:
         """This reads the vector that `to_json` wrote."""
         return NoisyVector(
             data["slug"],
-            ResidualSystem.of(*(data["system"][name] for name in "AFCG")),
+            residual_system(data["system"]),
             Fraction(data["noise"]),
             data["samples"],
             data["seed"],

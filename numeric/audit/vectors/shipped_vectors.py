@@ -27,7 +27,7 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.arrays import Array
 from .fault_vectors import FaultVector, UnexcitingVector
-from .rationals import floats, fractions, matrix, scaled, signs
+from .rationals import floats, fractions, matrix, residual_system, scaled, signs
 from .recipe_vectors import ConsistencyVector, NoisyVector
 
 FORMAT = "faultspace-audit-vectors/1"
@@ -144,7 +144,7 @@ class StructureVector:
         known = data["expected"]
         return StructureVector(
             data["slug"],
-            ResidualSystem.of(*(data["system"][name] for name in "AFCG")),
+            residual_system(data["system"]),
             known["normal_rank"],
             tuple(complex(*z) for z in known["finite_zeros"]),
             tuple(data["bounds"]["finite_zeros"]),

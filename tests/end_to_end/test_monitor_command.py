@@ -1,0 +1,171 @@
+"""`faultspace monitor`: streams and growing files, what it prints, and what it refuses.
+
+plant       a folder with model.json, a healthy record and a stream with a fault from sample 150 on
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from faultspace.numeric import StateSpaceModel
+from faultspace.numeric.data.streams import RESTARTED, TableStream, followed
+from tests.end_to_end.commands import ROOT, Run, call, command, environment
+
+MODEL = StateSpaceModel([[0.7]], [[1.0]], [[1.0], [0.5]], [[0.0], [0.0]])
+OPTIONS = ("--window", "5", "--level", "0.001")
+
+
+def table(seed: int, samples: int, fault: float = 0.0) -> str:
+    """Return a table of time, y2, u, y1, in this order."""
+    draw = np.random.default_rng(seed)
+    u = draw.standard_normal((samples, 1))
+    y = MODEL.simulate(u) + 0.1 * draw.standard_normal((samples, 2))
+    y[150:, 1] += fault
+    lines = [f"{k},{two:.6g},{push:.6g},{one:.6g}" for k, ((push,), (one, two)) in enumerate(zip(u, y, strict=True))]
+    return "\n".join(["time,level,valve,flow", *lines]) + "\n"
+
+
+@pytest.fixture(scope="module")
+def plant(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("plant")
+    (folder / "model.json").write_text(json.dumps(MODEL.to_json() | {"inputs": ["valve"], "outputs": ["flow", "level"]}))
+    (folder / "healthy.csv").write_text(table(1, 400))
+    (folder / "stream.csv").write_text(table(2, 250, fault=1.0))
+    return folder
+
+
+def followed_run(plant: Path, file: Path, *more: str) -> Run:
+    """Run on a file in this process, until nothing comes any more."""
+    return call("monitor", str(plant), "--healthy", str(plant / "healthy.csv"), "--follow", str(file), "--idle", "0.1", *OPTIONS, *more)
+
+
+def alarms(run: Run) -> list[dict[str, Any]]:
+    """Return the alarms of a run with --json, whose last line is the summary."""
+    lines = [json.loads(line) for line in run.out.splitlines()]
+    assert run.code == 0 and [set(line) for line in lines] == [{"alarm"}] * (len(lines) - 1) + [{"summary"}]
+    return [line["alarm"] for line in lines[:-1]]
+
+
+def test_a_stream_and_a_file_give_the_same_alarms(plant: Path) -> None:
+    streamed = command(
+        "monitor", str(plant / "model.json"), "--healthy", str(plant / "healthy.csv"), *OPTIONS, stdin=(plant / "stream.csv").read_bytes()
+    )
+    from_file = followed_run(plant, plant / "stream.csv")
+    assert streamed.code == from_file.code == 0 and streamed.out == from_file.out
+    first = streamed.out.splitlines()[0]
+    assert first.startswith("sample 15") and "outputs level, since about sample 1" in first
+    assert "monitor of 2 outputs and 1 input" in streamed.out and "healthy samples cannot show 0.001 false alarms" in from_file.err
+
+
+def test_json_lines_end_with_the_summary(plant: Path) -> None:
+    run = followed_run(plant, plant / "stream.csv", "--json")
+    found = alarms(run)
+    assert found[0]["outputs"] == ["level"] and 150 <= found[0]["sample"] <= 155
+    summary = json.loads(run.out.splitlines()[-1])["summary"]
+    assert summary["samples"] == 250 and sum(summary["alarms"].values()) == len(found)
+
+
+def test_the_beginning_of_the_stream_can_be_the_healthy_record(plant: Path, tmp_path: Path) -> None:
+    both = tmp_path / "both.csv"
+    both.write_text(table(3, 400) + (plant / "stream.csv").read_text().partition("\n")[2])
+    run = call("monitor", str(plant), "--healthy-until", "400", "--follow", str(both), "--idle", "0.1", *OPTIONS, "--json")
+    assert 550 <= alarms(run)[0]["sample"] <= 556
+    short = call("monitor", str(plant), "--healthy-until", "4000", "--follow", str(both), "--idle", "0.1")
+    assert short.code == 2 and "--healthy-until: got 650 samples in all, expected 4000" in short.err
+
+
+def test_an_empty_field_is_a_missing_sample(plant: Path, tmp_path: Path) -> None:
+    lines = (plant / "stream.csv").read_text().splitlines()
+    for k in range(20, 60):
+        fields = lines[k].split(",")
+        lines[k] = ",".join([fields[0], "", *fields[2:]])
+    (tmp_path / "gaps.csv").write_text("\n".join(lines) + "\n")
+    found = alarms(followed_run(plant, tmp_path / "gaps.csv", "--json"))
+    assert [one["outputs"] for one in found if one["test"] == "missing"] == [["level"]]
+    assert any(one["test"] == "cusum" and one["sample"] >= 150 for one in found)
+
+
+@pytest.mark.parametrize(
+    ("words", "parts"),
+    [
+        (["monitor", "{plant}"], "--healthy, --healthy-until: got neither, expected one"),
+        (["monitor", "{plant}", "--healthy", "x.csv", "--healthy-until", "9"], "got both, expected one"),
+        (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--idle", "1"], "--idle: got no --follow"),
+        (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--follow", "{plant}/none.csv"], "none.csv: is no file"),
+        (["monitor", "{plant}", "--healthy", "none.csv"], "none.csv: cannot be read"),
+        (["monitor", "{plant}/healthy.csv", "--healthy", "x.csv"], "expected JSON"),
+        (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--outputs", "flow"], "got 'flow' for 2 outputs of the model"),
+        (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--inputs", "pump"], "there is no column (separated by comma) 'pump'"),
+        (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--window", "1"], "--window: got '1', expected a whole number from 2"),
+        (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--level", "2"], "level: got 2.0; needed the false alarms a sample"),
+    ],
+)
+def test_what_cannot_be_watched_is_refused_in_a_line(plant: Path, words: list[str], parts: str) -> None:
+    run = call(*(word.format(plant=plant) for word in words))
+    assert run.code == 2 and parts in run.err and run.err.count("\n") == 1 and run.out == ""
+
+
+@pytest.mark.parametrize(
+    ("tail", "parts"),
+    [
+        ("1,x,2,3\n", "line 252, column 'level': got 'x', expected a number"),
+        ("1,2\n", "line 252 has 2 fields"),
+        ("1,2,\xff,3\n", "got byte 0xff"),
+    ],
+)
+def test_a_line_that_is_none_ends_the_watch_with_its_number(plant: Path, tmp_path: Path, tail: str, parts: str) -> None:
+    (tmp_path / "bad.csv").write_bytes((plant / "stream.csv").read_bytes() + tail.encode("latin-1"))
+    run = followed_run(plant, tmp_path / "bad.csv")
+    assert run.code == 2 and parts in run.err and run.out.startswith("sample 15")
+
+
+def test_a_table_without_names_is_read_by_numbers(plant: Path, tmp_path: Path) -> None:
+    (tmp_path / "plain.csv").write_text((plant / "stream.csv").read_text().partition("\n")[2])
+    (tmp_path / "healthy.csv").write_text((plant / "healthy.csv").read_text().partition("\n")[2])
+    channels = ("--inputs", "data[:,2]", "--outputs", "data[:,3],data[:,1]")
+    run = call(
+        *("monitor", str(plant), "--healthy", str(tmp_path / "healthy.csv"), "--follow", str(tmp_path / "plain.csv"), "--idle", "0.1"),
+        *(*OPTIONS, "--json", *channels),
+    )
+    assert alarms(run)[0]["outputs"] == ["data[:,1]"]
+
+
+def test_a_file_grows_is_cut_and_begins_anew(tmp_path: Path) -> None:
+    file = tmp_path / "growing.csv"
+    file.write_text("a,b\n1,2\n3,")
+    seen: list[Any] = []
+
+    def read() -> None:
+        seen.extend(RESTARTED if row is None else row.tolist() for row in TableStream(followed(str(file), idle=1.0), ["b"], str(file)))
+
+    reader = threading.Thread(target=read)
+    reader.start()
+    time.sleep(0.5)
+    with open(file, "a") as stream:
+        stream.write("4\n# a comment\n\n5,6\n7,8")
+    time.sleep(0.5)
+    file.write_text("b;a\n9;1\n")
+    reader.join(20)
+    assert seen == [[2.0], [4.0], [6.0], RESTARTED, [9.0]] or seen == [[2.0], [4.0], [6.0], RESTARTED, RESTARTED, [9.0]]
+
+
+def test_an_interrupt_is_one_line_after_the_summary(plant: Path) -> None:
+    line = [sys.executable, "-m", "faultspace", "monitor", str(plant), "--healthy", str(plant / "healthy.csv"), *OPTIONS]
+    line += ["--follow", str(plant / "stream.csv"), "--json"]
+    started = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, env=environment(), text=True)
+    assert started.stdout is not None and "alarm" in json.loads(started.stdout.readline())
+    time.sleep(0.5)
+    os.kill(started.pid, signal.SIGINT)
+    out, err = started.communicate(timeout=60)
+    assert started.returncode == 130 and "summary" in json.loads(out.splitlines()[-1]) and err.endswith("faultspace: interrupted\n")

@@ -1,0 +1,97 @@
+"""The page of a record is complete in itself, harmless whatever a channel is called, and says in words what is open."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from faultspace.base.page import Picture, Tile, page
+from faultspace.numeric import identify
+from faultspace.numeric.data.records import recorded
+from faultspace.numeric.findings import Findings
+from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.report.page import CAPTIONS, report, tiles
+from faultspace.numeric.report.pictures import PICTURES
+from faultspace.numeric.report.summary import summary
+
+PLANT = StateSpaceModel([[0.5, 0.2], [0.0, 0.3]], [[1.0], [0.5]], [[1.0, 0.0], [0.3, 1.0]], [[0.0], [0.0]])
+EVIL = "<script>alert('y')</script>"
+
+
+class Elements(HTMLParser):
+    """Collects the elements of a page with their attributes, those that stay open, and the words."""
+
+    EMPTY = ("meta", "img", "br", "hr", "!doctype")
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.found: list[tuple[str, dict[str, str | None]]] = []
+        self.stack: list[str] = []
+        self.words = ""
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.found.append((tag, dict(attrs)))
+        if tag not in self.EMPTY:
+            self.stack.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert tag in self.EMPTY or self.stack.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.words += data
+
+    def names(self) -> list[str]:
+        return [name for name, _ in self.found]
+
+
+@pytest.fixture(scope="module")
+def found() -> Findings:
+    u = np.random.default_rng(1).standard_normal((400, 1))
+    y = PLANT.simulate(u) + 0.01 * np.random.default_rng(2).standard_normal((400, 2))
+    return identify(recorded(y, u, outputs=(EVIL, "y|2"), inputs=("u",)), order=2)
+
+
+def test_the_page_is_well_formed_fetches_nothing_and_runs_nothing(found: Findings, tmp_path: Path) -> None:
+    for name in PICTURES[:2]:
+        (tmp_path / name).write_bytes(b"\x89PNG")
+    seen = Elements(report(found, [*summary(found, EVIL)], tmp_path, EVIL))
+    assert seen.stack == [] and "script" not in seen.names() and "link" not in seen.names()
+    assert EVIL in seen.words, "a name is shown as it is"
+    for name, attributes in seen.found:
+        for attribute in ("src", "href", "onload", "onerror", "srcset"):
+            value = attributes.get(attribute)
+            assert value is None or (name == "img" and value.startswith("data:image/png;base64,")), (name, attributes)
+    images = [attributes for name, attributes in seen.found if name == "img"]
+    assert len(images) == 2 and all(attributes["alt"] for attributes in images)
+    assert seen.names().count("h1") == 1 and ("html", {"lang": "en"}) in seen.found
+
+
+def test_every_picture_has_a_caption_and_its_words() -> None:
+    assert set(CAPTIONS) == set(PICTURES)
+
+
+def test_pictures_stand_in_their_section_or_last() -> None:
+    pictures = [Picture(b"a", "Two", "second", "2"), Picture(b"b", "Nowhere", "lost", "3")]
+    text = page("t", "# t\n\n## One\n\nfirst\n\n## Two\n\nwords\n", pictures=pictures)
+    assert text.index("first") < text.index("words") < text.index("second") < text.index("Pictures") < text.index("lost")
+
+
+def test_an_open_answer_says_so_in_words_not_in_colour_alone(found: Findings) -> None:
+    shown = {tile.of: tile for tile in tiles(replace(found, n_v=None, possible=(1, 2)))}
+    assert shown["Faults"] == Tile("Faults", "undecided: 1 or 2", "See the section on faults.", False)
+    assert 'class="tile open"' in page("t", "# t", tiles=[shown["Faults"]])
+
+
+def test_a_zero_that_rests_on_the_noise_is_no_bare_zero(found: Findings) -> None:
+    assert found.n_v == 0 and found.noise_level is None
+    shown = {tile.of: tile for tile in tiles(found)}["Faults"]
+    assert not shown.decided and shown.answer == "none told from noise" and "noise" in shown.rests
+    assert found.mean is not None
+    moved = {tile.of: tile for tile in tiles(replace(found, mean=replace(found.mean, shifted=True)))}["Faults"]
+    assert moved.answer == "a constant one acts" and not moved.decided
