@@ -14,6 +14,7 @@ from .count.healthy_model import healthy_reference as healthy_reference
 from .count.rank_gap import FaultDimension as FaultDimension
 from .count.rank_gap import fault_dimension as fault_dimension
 from .data.files import read_record as read_record
+from .data.files import read_stretches as read_stretches
 from .data.records import Record as Record
 from .data.sources import record_from as record_from
 from .doubt.asking import doubts as doubts

@@ -121,6 +121,18 @@ class Identification(Findings):
 
         to_mat(self, path)
 
+    def to_pandas(self) -> Any:
+        """Return a DataFrame with a row a sample: the channels, the residual in units of y, and the fault signal, NaN where that is not
+        determined.
+
+        Columns are pairs: ("input", name), ("output", name), ("residual", name of the output), ("fault", "v1"), ..; the index is the time
+        in seconds from the first sample, or the number of the sample where the sample time is not known. All samples are read into
+        memory. Raises ImportError without pandas.
+        """
+        from .report.export import to_pandas
+
+        return to_pandas(self)
+
     @one_thread()
     def save(self, folder: str | os.PathLike[str], data: str = "arrays") -> list[str]:
         """Writes model, residual, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their

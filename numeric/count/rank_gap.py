@@ -37,7 +37,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ...base.sheets import Shown, counted
+from ...base.sheets import Shown, counted, decibels
 from ...base.threads import one_thread
 from ..count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
 from ..count.residual_laws import LawLevel, kernel_row_test
@@ -104,7 +104,7 @@ class FaultDimension(Shown):
             yield "rank R_s", " ".join(map(str, self.ranks))
             yield "rank R_(s+1) - rank R_s", " ".join(map(str, self.gaps))
         for level in self.levels:
-            yield f"level of {counted(level.outputs, 'mixed output')}", f"{level.least:.3g} to {level.largest:.3g} nats"
+            yield f"level of {counted(level.outputs, 'mixed output')}", f"{decibels(level.least, '')} to {decibels(level.largest)}"
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict: the answer, its reason, and what belongs to each window."""

@@ -1,6 +1,7 @@
 """This reads measured data from files: named columns of CSV, Parquet, NPZ, NPY and MAT files as inputs and outputs.
 
 read_record     the chosen channels of a file, as a Record
+read_stretches  the stretches of a file between rows that are not whole, as Records
 split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate
 named_once      the refusal of a channel that is named more than once
 FORMATS         suffix -> format
@@ -29,7 +30,7 @@ import shutil
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
@@ -105,39 +106,90 @@ def read_record(
     >>> len(record), record.inputs, record.outputs
     (2, ('valve',), ('level',))
     """
-    heard, path = on_progress or silent, os.fspath(path)
+    path = os.fspath(path)
     with in_file(path), ExitStack() as stack:
-        chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
-        for option, names in chosen.items():
-            if not names:
-                raise InvalidInput(f"got no {option}, expected at least one channel: try --{option} NAME,NAME")
-        names = [*chosen["inputs"], *chosen["outputs"]]
-        named_once(chosen["inputs"], chosen["outputs"])
-        try:
-            with open(path, "rb"):
-                pass
-        except OSError as error:
-            reason = error.strerror or str(error)
-            raise InvalidInput(f"cannot be read ({reason[:1].lower()}{reason[1:]}), expected a data file: {', '.join(FORMATS)}") from None
-        read_as = FORMATS.get(Path(path).suffix.lower())
-        if read_as is None:
-            suffix = shorten(Path(path).suffix)
-            raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
-        try:
-            found = READERS[read_as](Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
-            labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
-            u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
-            y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
-            named_once(u_names, y_names)
-            writer = RecordWriter(len(u_names) + len(y_names))
+        read_as, found, u_names, y_names = _opened(path, inputs, outputs, on_progress or silent, stack)
+        writer = RecordWriter(len(u_names) + len(y_names))
+        with _readable(read_as):
             for rows in found.rows:
                 _finite([*u_names, *y_names], rows, len(writer.store))
                 writer.append(rows)
-        except (OSError, EOFError) as error:
-            reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-            raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None
         _some(len(writer.store))
         return writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single, clock=found.clock)
+
+
+def read_stretches(
+    path: str | os.PathLike[str], *, inputs: str | Sequence[str], outputs: str | Sequence[str], on_progress: Progress | None = None
+) -> list[Record]:
+    """Return the whole stretches of a file in which samples are missing: what lies between rows with a cell that is no finite number.
+
+    The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
+    one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments([(part.y, part.u) for part in
+    parts])`; the longest of them is a record for `identify`. No clock is read, since it would say the same of every stretch. Raises
+    InvalidInput as `read_record` does, but for numbers that are not finite, and where no row is whole.
+
+    >>> import faultspace as fs, pathlib, tempfile
+    >>> from faultspace.numeric import read_stretches
+    >>> path = pathlib.Path(tempfile.mkdtemp(), "small.csv")
+    >>> _ = path.write_text("valve,level\\n0.0,1.0\\n1.0,0.5\\n1.0,\\n0.0,0.2\\n")
+    >>> [len(part) for part in read_stretches(path, inputs="valve", outputs="level")]
+    [2, 1]
+    """
+    path = os.fspath(path)
+    with in_file(path), ExitStack() as stack:
+        read_as, found, u_names, y_names = _opened(path, inputs, outputs, on_progress or silent, stack)
+        writers: list[RecordWriter] = []
+        going = False
+        with _readable(read_as):
+            for rows in found.rows:
+                whole = np.asarray(np.isfinite(rows).all(axis=1))
+                for part in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(whole)) + 1):
+                    if len(part) and whole[part[0]]:
+                        if not going:
+                            writers.append(RecordWriter(len(u_names) + len(y_names)))
+                        writers[-1].append(rows[part])
+                    going = bool(len(part) and whole[part[0]])
+        _some(len(writers))
+        return [writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single) for writer in writers]
+
+
+def _opened(
+    path: str, inputs: str | Sequence[str], outputs: str | Sequence[str], heard: Progress, stack: ExitStack
+) -> tuple[str, _Opened, list[str], list[str]]:
+    """Return the format, the chosen channels of a file, open until the stack closes, and the names of inputs and outputs."""
+    chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
+    for option, names in chosen.items():
+        if not names:
+            raise InvalidInput(f"got no {option}, expected at least one channel: try --{option} NAME,NAME")
+    names = [*chosen["inputs"], *chosen["outputs"]]
+    named_once(chosen["inputs"], chosen["outputs"])
+    try:
+        with open(path, "rb"):
+            pass
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise InvalidInput(f"cannot be read ({reason[:1].lower()}{reason[1:]}), expected a data file: {', '.join(FORMATS)}") from None
+    read_as = FORMATS.get(Path(path).suffix.lower())
+    if read_as is None:
+        suffix = shorten(Path(path).suffix)
+        raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
+    with _readable(read_as):
+        found = READERS[read_as](Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
+    labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
+    u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
+    y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
+    named_once(u_names, y_names)
+    return read_as, found, u_names, y_names
+
+
+@contextmanager
+def _readable(read_as: str) -> Iterator[None]:
+    """Raise InvalidInput where what is read turns out to be damaged."""
+    try:
+        yield
+    except (OSError, EOFError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None
 
 
 def named_once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
@@ -170,7 +222,7 @@ def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
         what = "no number (NaN or empty)" if np.isnan(rows[k, j]) else "infinite"
         raise InvalidInput(
             f"channel {shorten(labels[j])} is {what} at sample {first + k} (counted from 0), expected finite numbers: cut the record "
-            "before or after, or fill the samples in"
+            "before or after, fill the samples in, or read the stretches between with read_stretches"
         )
 
 

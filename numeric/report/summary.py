@@ -77,10 +77,10 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
         yield f"why: {answer.reason}"
         said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
-        if any(" nats" in reason for reason in said):
+        if any(word in reason for reason in said for word in (" law", " row")):
             yield (
-                "law: an equation that the last few samples of these outputs obey up to noise; nats: the natural logarithm of a ratio of "
-                "powers, so that 1 nat is a factor of 2.72 (4.34 dB)"
+                "law, or row: an equation that the last few samples of the channels obey up to noise, whatever the faults do; dB: of the "
+                "power of what it leaves"
             )
         yield from _law_lines(answer)
         yield from _healthy_lines(answer)

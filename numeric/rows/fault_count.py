@@ -37,7 +37,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ...base.sheets import Shown, counted
+from ...base.sheets import Shown, counted, decibels
 from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
@@ -209,8 +209,8 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     step = laws(2).level - one.level
     if step < FAINTEST:
         reason = (
-            f"{p - 1} or {p}: one row leaves {step:.2g} nats less than two, and a fault fainter than {FAINTEST:g} beside the others would "
-            "look the same; a noise_level would settle it"
+            f"{p - 1} or {p}: one row leaves {decibels(step)} less than two, and a fault fainter than {decibels(FAINTEST)} beside the "
+            "others would look the same; a noise_level would settle it"
         )
         return FaultCount(None, (p - 1, p), reason, _walk(tests))
     return _answer(p - 1, one, tests, data)
@@ -253,7 +253,7 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
     possible = tuple(range(max(p - least + 1, 0), p - most + 1))
     if near.sphericity is not None and near.sphericity.level >= SUFFICES:
         reason = (
-            f"{k} rows leave what has the shape of noise, but rows of {EXTRA} degrees more gain {near.gain:.2g} nats: try a higher order"
+            f"{k} rows leave what has the shape of noise, but rows of {EXTRA} degrees more gain {decibels(near.gain)}: try a higher order"
         )
     else:
         limits = f"accepted from {SUFFICES:g}; refused, of a single row below {FAILS:g}, of several far from the shape of noise"

@@ -108,8 +108,11 @@ def test_delays_and_slow_modes_are_told_from_the_model() -> None:
     model = arx_reduction(slow, u, order=1)
     asked = doubts(record_from(slow[:1500], u), model, dt=0.1, means_removed=True)
     (row,) = asked.of("slow modes")
-    assert "50 s" in row.evidence or "s)" in row.evidence
-    assert asked.of("fast sampling")
+    assert "s)" in row.evidence and "integration" in row.effect and asked.of("fast sampling")
+    turning = StateSpaceModel([[0.95, 0.31], [-0.31, 0.95]], [[1.0], [0.0]], [[1.0, 0.0]], [[0.0]])
+    ringing = turning.simulate(u) + noise
+    (row,) = doubts(record_from(ringing, u), arx_reduction(ringing, u, order=2)).rows
+    assert row.kind == "slow modes" and "damping" in row.effect
 
 
 def test_without_noise_or_samples_what_cannot_be_asked_is_said() -> None:
