@@ -31,8 +31,7 @@ _SEED = 20250519
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SpaceUncertainty(Shown):
-    """This says how far a fault space may be off, as a linear map of standard normal numbers, which is honest while errors are small
-    [MN89].
+    """A fault space may be off by this linear map of standard normal numbers, which is honest while errors are small [MN89].
 
     `root` has the shape (q, n + p, n_z): to first order the orthonormal basis (n + p, n_z) of the space is off its span by the sum of
     root[i] times standard normal numbers. Every call gives the same figures. Raises InvalidData for a confidence outside (0, 1).
