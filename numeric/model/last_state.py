@@ -1,15 +1,17 @@
-"""Ask whether the data need the last state of a model, or whether one state less explains them as well.
+"""Ask whether the data need the last state of a model, or whether they would rather do with one less.
 
 Every surplus state of a model is a zero of its faults: the kernel rows have the degrees that they have, and n_z grows with the order that
-was told. The reduction's cost at the order below is the likelihood ratio of the two orders, by the law that `order_evidence` uses: the gain
-of a state that is not there is chi-squared with p + n_u degrees of freedom, about [D87].
+was told. The reduction's cost at the order below is the likelihood ratio of the two orders, by which `order_evidence` chooses where the
+order is open: a state is worth its p + n_u parameters where it gains more than twice their number [A74]. A state that is not there gains
+as much about once in ten records.
 
-last_state_chance    the probability of so large a gain where the state is not there
+LastState     what the last state gains
+last_state    from a reduced model
 """
 
 from __future__ import annotations
 
-from scipy.stats import chi2
+from dataclasses import dataclass
 
 from ...base.threads import one_thread
 from .reduced_model import ReducedModel
@@ -18,18 +20,29 @@ from .valleys import END, begun, in_units
 from .weighted_reduction import descend
 
 
+@dataclass(frozen=True)
+class LastState:
+    """The last state lowers the cost by `gain` with so many `parameters`."""
+
+    gain: float
+    parameters: int
+
+    @property
+    def worth(self) -> float:
+        """Return the gain over what Akaike's criterion asks of it: from one on, the state is needed."""
+        return self.gain / (2 * self.parameters)
+
+
 @one_thread()
-def last_state_chance(found: ReducedModel) -> float:
-    """Return the probability, one for a model without states: from 0.01 on, an order less is not refused.
+def last_state(found: ReducedModel) -> LastState:
+    """Return what the last of n >= 1 states gains.
 
     Models of the order below are sought from the model without each of its modes, and from random starts as `valleys` does.
     """
     n = found.order
-    if n == 0:
-        return 1.0
     problem, own, _, _ = in_units(found)
     shorter = [descend(problem, matrix, n - 1, *END) for matrix in one_state_less(own, n, problem)]
     best, cost = min(shorter, key=lambda end: end[1])
-    if n > 1 and problem.plant.shape[2]:
+    if n > 1:
         cost = min([cost, *(descend(problem, matrix, n - 1, *END)[1] for matrix in begun(problem, best, n - 1))])
-    return float(chi2.sf(max(cost - problem.cost(own, n), 0.0), sum(problem.plant.shape[1:])))
+    return LastState(max(cost - problem.cost(own, n), 0.0), sum(problem.plant.shape[1:]))
