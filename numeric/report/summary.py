@@ -272,7 +272,9 @@ def _space_lines(answer: Findings) -> Iterator[str]:
     if space.uncertainty is not None:
         angle = np.degrees(space.uncertainty.angle())
         if isinstance(answer.model, ReducedModel) and space.method == "kernel rows":
-            taken = "n_z taken as right; to first order in the model's error, which in short records fails more often than that"
+            count = len(space.uncertainty.valleys)
+            others = f", over {count} models that explain the data about as well" if count > 1 else ""
+            taken = f"n_z and the order taken as right{others}"
         else:
             taken = "n_z, A and C taken as right"
         yield f"angle to the true space: below {angle:.2g} degrees with probability 0.95, {taken}"

@@ -27,18 +27,8 @@ from faultspace.numeric.rows.space import fault_space_by_rows
 from faultspace.numeric.space.distances import principal_angles
 from faultspace.numeric.space.largest import largest_fault_space
 from tests.numeric.exact_cases import floats, matrix, stable_state_matrix
-from tests.numeric.planted import Planted, coloured, planted, simulate
+from tests.numeric.planted import Planted, coloured, joint_record, planted, simulate
 from tests.thorough import every
-
-
-def joint_record(system: Planted, seed: int, samples: int, decibels: float | None, *, inputs: int = 1) -> tuple[Any, Any]:
-    """Return y (N, p) and u (N, inputs) of a system with white faults and inputs, and low-pass noise so far below each output."""
-    rng = np.random.default_rng([seed, 77])
-    B, D = rng.standard_normal((len(system.A), inputs)), rng.standard_normal((len(system.C), inputs))
-    u, v = rng.standard_normal((samples, inputs)), rng.standard_normal((samples, system.m))
-    driven = Planted(system.A, np.hstack([system.F, B]), system.C, np.hstack([system.G, D]), system.Z, ())
-    y = simulate(driven, rng.standard_normal(len(system.A)), np.hstack([v, u]))
-    return (y if decibels is None else y + coloured(seed, y, decibels)), u
 
 
 def of_faults(system: Planted, m: int) -> Planted:
