@@ -68,7 +68,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
         yield ""
         yield "## Faults"
-        yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
+        yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"
         yield f"why: {answer.reason}"
         said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
         if any(" nats" in reason for reason in said):
