@@ -74,7 +74,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield from onset_lines(answer)
         yield ""
         yield "## Faults"
-        yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
+        yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"
         yield f"why: {answer.reason}"
         said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
         if any(word in reason for reason in said for word in (" law", " row")):
