@@ -31,9 +31,9 @@ from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .findings import Findings
+from .rows.evidence import LONG
 from .rows.fault_count import count_faults
 from .rows.joint import affordable
-from .rows.laws import LONG
 from .signal.residual_sizes import loudest
 
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
@@ -94,7 +94,7 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
         found = replace(found, n_v=None, reason=f"{found.reason}; but so many outputs are not explained to rounding: {AS_MANY}")
     independent = np.linalg.matrix_rank((y - y.mean(axis=0)) / np.maximum(y.std(axis=0), TINY), tol=DEPENDENT * np.sqrt(y.size))
     if found.n_v and found.n_v >= independent < record.p:
-        copies = f"but only {independent} of {record.p} outputs are no combinations of others, such as copies: leave these out"
+        copies = f"but the {record.p} outputs are combinations of {independent} of them, as copies are: leave the others out"
         found = replace(found, n_v=None, reason=f"{found.reason}; {copies}, for {AS_MANY}")
     by = None if found.n_v is None else "residual alone"
     return replace(answer, dimension=found, n_v=found.n_v, reason=found.reason, counted_by=by)
