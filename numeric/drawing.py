@@ -39,6 +39,7 @@ BLUE, ORANGE, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#777777"
 MOST_POINTS = 3000
 MOST_DRAWN = 1 << 15  # rows of a stored signal that are drawn: of a longer one the extremes of equal parts, two rows each
 TICKS = 7
+DECIBEL = 10.0 / np.log(10.0)  # of the natural logarithm of a power
 MOST_CHANNELS = 8
 SEEN = 0.2  # of the picture: smaller regions are drawn larger by a power of ten that does not go beyond it
 LOWEST = 1e-18  # relative: smaller singular values are drawn there
@@ -69,7 +70,7 @@ def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any =
         raise InvalidData("there is no condition on a fault column, so that there is nothing to draw")
     ax = _axes(ax)
     sigma, count = sigma / sigma[0], np.arange(1, len(sigma) + 1)
-    ax.semilogy(count[:equations], sigma[:equations], "o", color=BLUE, markersize=5, label=f"{equations} independent conditions")
+    ax.semilogy(count[:equations], sigma[:equations], "o", color=BLUE, markersize=5, label=f"{counted(equations, 'independent condition')}")
     style = {"color": BLUE, "markersize": 5, "fillstyle": "none"}
     ax.semilogy(count[equations:], sigma[equations:], "o", label=others, **style)
     ax.set(xlabel="number", ylabel="singular value over the largest", title="Conditions on a fault column, and the fault space")
@@ -382,14 +383,15 @@ def plot_levels(levels: Sequence[Level], n_v: int | None, *, ax: Any = None) -> 
     """Draw the levels of the kernel-row test by number of mixed outputs, from least to largest over the mixtures tried."""
     ax = _axes(ax)
     by_count = sorted(levels, key=lambda level: level.outputs)
-    count, middle = [level.outputs for level in by_count], [level.middle for level in by_count]
-    reach = [(level.largest - level.least) / 2 for level in by_count]
+    # Levels are natural logarithms of powers.
+    count, middle = [level.outputs for level in by_count], [DECIBEL * level.middle for level in by_count]
+    reach = [DECIBEL * (level.largest - level.least) / 2 for level in by_count]
     label = "noise left by the best law; bars: least to largest over the mixtures"
     ax.errorbar(count, middle, yerr=reach, fmt="o-", color=BLUE, linewidth=1, capsize=4, label=label)
     if n_v:
         ax.axvline(n_v + 0.5, color=GREY, linestyle="--", linewidth=1, label=f"$n_v$ = {n_v}: no law up to here")
     verdict = "undecided" if n_v is None else f"{n_v}"
-    ax.set(xlabel="outputs mixed", ylabel="log noise power (nats)", title=f"How many outputs still obey a common law? Faults: {verdict}")
+    ax.set(xlabel="outputs mixed", ylabel="noise power (dB)", title=f"How many outputs still obey a common law? Faults: {verdict}")
     ax.set_xticks(count)
     return _finished(ax, legend=True)
 

@@ -14,6 +14,7 @@ from .count.against_healthy import FaultsAgainstHealthy
 from .count.mean_shift import MeanShift
 from .count.rank_gap import FaultDimension
 from .data.records import Record
+from .doubt.listing import Doubts
 from .model.moesp_model import MoespModel
 from .model.order_evidence import OrderEvidence
 from .model.reduced_model import ReducedModel
@@ -72,6 +73,7 @@ class Findings:
     by_noise: float | None = None
     notes: tuple[str, ...] = ()
     dt: float | None = None
+    doubts: Doubts | None = None
 
     @property
     def modelled(self) -> int:

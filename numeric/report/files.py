@@ -29,6 +29,7 @@ from ..space.distances import containment_distance
 from .causes import RESIDUAL, residual_table, told
 from .folders import refuse, replace
 from .page import report
+from .physical import physical
 from .pictures import PICTURES, pictures
 from .summary import MODEL_FILE, advice, fit, markdown, summary
 
@@ -64,9 +65,11 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "healthy_until": answer.healthy,
         "healthy_record": answer.healthy_record,
         "noise_level": plain(answer.noise_level),
+        "doubts": None if answer.doubts is None else _worded(answer.doubts.to_json(), worded),
         "notes": [worded(note) for note in answer.notes],
         "next": [worded(line) for line in advice(answer)],
     }
+    result |= physical(answer)
     if model:
         result |= {
             "poles": plain(model.model.poles),
@@ -126,6 +129,11 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "reason": signal.reason,
     }
     return result
+
+
+def _worded(found: dict[str, Any], worded: Callable[[str], str]) -> dict[str, Any]:
+    """Return the doubts with their advice, which names arguments, reworded."""
+    return found | {"rows": [row | {"evidence": worded(row["evidence"]), "advice": worded(row["advice"])} for row in found["rows"]]}
 
 
 def _of_past_inputs(model: MoespModel) -> dict[str, Any]:

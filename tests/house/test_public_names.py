@@ -33,7 +33,7 @@ WITHOUT_SOURCE = {
         *("Matrix", "rank", "left_null_space", "right_null_space"),
         *("System", "ResidualSystem", "FaultySystem", "read_system", "Experiment", "read_experiment", "Filter", "read_filter"),
     },
-    "faultspace.numeric": {"Record", "read_record", "record_from", "StateSpaceModel"},
+    "faultspace.numeric": {"Record", "read_record", "read_stretches", "record_from", "StateSpaceModel"},
     "faultspace.proofs": {"certify", "check", "Checked", "CheckedFile", "check_file", "Verdict"},
 }
 # What goes into a question: numbers, fields, matrices and functions, not answers about something.
