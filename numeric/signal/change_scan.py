@@ -11,13 +11,14 @@ and E log|W| is a sum of digamma functions. The ratio is scaled by it, so that s
 
 The chance that such a largest ratio comes about without a change is counted on records without one: one autoregression, driven by the
 innovations of M parts of equal length in another order. Slow colours, whose means wander within a part, do so there too; the innovations
-may have any law, and depend on each other within a part. They are those about the means, and in units of the powers, of both sides of the
-best split, but for the samples whose regressors lie beyond it: a step would else be one large innovation of a slow process. Besag and
-Clifford's rule ends the count when the answer is clear [BC91].
+may have any law, and depend on each other within a part. They are those about the means of both sides of the best split, but for the
+samples whose regressors lie beyond it: a step would else be one large innovation of a slow process. Besag and Clifford's rule ends the
+count when the answer is clear [BC91].
 
 The interval. Where both densities are known, log likelihood ratios beside the true sample are sums whose exponentials have the mean one,
-and a supremum above c on one side has a chance of at most e^-c (Ville's inequality, [S88]). Both sides are independent: the samples whose
-L is less than 2 c below the largest hold the true one with a probability of at least (1 - e^-c)^2.
+and a supremum above c on one side has a chance of at most e^-c (Ville's inequality, [S88]). Both sides are independent: the samples whose L
+is less than 2 c below the largest hold the true one with a probability of at least (1 - e^-c)^2. As many samples as there are lags are
+added in front: behind the true sample these have regressors from before it, which fit neither process.
 
 Scan             a stretch, cut into parts, and what it tells
 scan             makes it
@@ -161,7 +162,7 @@ def located(read: Reader, found: Scan, lags: int, earliest: int, confidence: flo
         gap = -(-(high - low + 1) // FINE)
         places = np.append(np.arange(low, high, gap), high)
     best = int(places[np.argmax(ratios)])
-    return best, (max(int(kept[0]) - gap + 1, lowest), min(int(kept[-1]) + gap - 1, highest))
+    return best, (max(int(kept[0]) - gap + 1 - lags, lowest), min(int(kept[-1]) + gap - 1, highest))
 
 
 def _squares(rows: Array) -> Array:
@@ -170,15 +171,18 @@ def _squares(rows: Array) -> Array:
 
 
 def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
-    """Yield the sums (M, q, q) of DRAWS records like the rows (M, L, q) that have no change, in units of their own: one autoregression,
-    driven by the innovations of both sides of the edge, the parts of which are put in another order."""
+    """Yield the sums (M, q, q) of DRAWS records like the rows (M, L, q) that have no change: one autoregression, driven
+    by the innovations of both sides of the edge, the parts of which are put in another order."""
     M, L, q = rows.shape
     lags = (q - 1) // p - 1
     slopes, innovations = _innovations(rows, p, edge)
     draw = np.random.default_rng(SEED)
     batch = max(NUMBERS // (M * L * q), 1)
-    for start in range(0, DRAWS, batch):
-        count = min(batch, DRAWS - start)
+    done = 0
+    while done < DRAWS:
+        # A few at first, which are enough where nothing has changed.
+        count = min(batch, DRAWS - done, max(2 * CLEAR, done))
+        done += count
         orders = np.array([draw.permutation(M) for _ in range(count)])
         driven = innovations[orders].reshape(count, M * L, p)
         record, past = np.zeros((count, lags + M * L, p)), np.zeros((count, lags * p))
@@ -193,8 +197,7 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
 
 def _innovations(rows: Array, p: int, edge: int) -> tuple[Array, Array]:
     """Return coefficients (p lags, p) that both sides of the best split near the edge share, and the innovations (M, L, p) about the means
-    of their side, the covariances of both sides brought to that of the longer one. There are none (zero) where regressors reach over the
-    split, and on a side where an output never changes."""
+    of their side. There are none (zero) where regressors reach over the split."""
     M, L, q = rows.shape
     flat, split = rows.reshape(M * L, q), _best_split(rows, p, edge)
     m, lags = q - 1 - p, (q - 1) // p - 1
@@ -203,14 +206,9 @@ def _innovations(rows: Array, p: int, edge: int) -> tuple[Array, Array]:
     squares = sides[0].T @ sides[0] + sides[1].T @ sides[1]
     slopes = np.linalg.solve(squares[:m, :m] + FLOOR**2 * M * L * np.eye(m), squares[:m, m:])
     slopes *= _tamed(slopes, p, M * L)
-    found, first = np.zeros((M * L, p)), np.eye(p)
-    for number, longer in enumerate(sorted((0, 1), key=lambda i: -len(places[i]))):
-        left = sides[longer][:, m:] - sides[longer][:, :m] @ slopes
-        covariance = left.T @ left / len(left)
-        if np.all(np.diag(covariance) > 0):
-            root = np.linalg.cholesky(covariance + FLOOR**2 * np.diag(np.diag(covariance)))
-            first = root if number == 0 else first
-            found[places[longer]] = np.linalg.solve(root, left.T).T @ first.T
+    found = np.zeros((M * L, p))
+    for place, side in zip(places, sides, strict=True):
+        found[place] = side[:, m:] - side[:, :m] @ slopes
     return slopes, found.reshape(M, L, p)
 
 

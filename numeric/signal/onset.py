@@ -192,46 +192,53 @@ def fault_onset(
         raise InvalidData(f"level: got {level}; a chance between {1 / (DRAWS + 1)} and 1 is needed, for example 0.01")
     if not 0 < confidence < 1:
         raise InvalidData(f"confidence: got {confidence}; a number between 0 and 1 is needed, for example 0.95")
-    read, width, units = _scaled(store)
+    read, moving = _scaled(store, 0, N)
+    width = int(moving.sum())
     if not width:
         return _nothing(store, known, level, confidence, 0, None, "the residual never changes at all")
     lags = choose_lags(read, 0, N, width)
     whole_scan = scan(read, 0, N, width, lags, known or 0)
     if whole_scan is None:
         return _nothing(store, known, level, confidence, lags, None, f"{counted(N, 'sample')} are too few to look for a change")
-    changes = _changes(read, 0, N, width, known or 0, level, confidence)
+    changes = _changes(store, 0, N, known or 0, level, confidence)
     if not changes:
         return _nothing(store, known, level, confidence, lags, whole_scan.p_value, _alike(known, whole_scan.p_value, level))
-    return _measured(store, changes, units > 0, known, level, confidence, whole_scan.p_value, lags)
+    return _measured(store, changes, known, level, confidence, whole_scan.p_value, lags)
 
 
-def _scaled(store: SampleStore) -> tuple[Reader, int, Array]:
-    """Return a reader of the outputs that change at all, in units of their deviations, how many these are, and the deviations (p,)."""
-    mean, units = _moments(store, 0, len(store))
-    moving = units > 0
+def _scaled(store: SampleStore, start: int, stop: int) -> tuple[Reader, NDArray[np.bool_]]:
+    """Return a reader of the outputs that change at all in samples start .. stop - 1, in units of their deviations there, and which these
+    are."""
+    mean, units = _moments(store, start, stop)
+    moving = np.asarray(units > 0)
 
     def read(first: int, last: int) -> Array:
         return np.asarray((store.read(first, last)[:, moving] - mean[moving]) / units[moving])
 
-    return read, int(moving.sum()), units
+    return read, moving
 
 
-def _changes(read: Reader, first: int, last: int, p: int, earliest: int, level: float, confidence: float) -> list[_Change]:
+def _changes(store: SampleStore, first: int, last: int, earliest: int, level: float, confidence: float) -> list[_Change]:
     """Return the changes of samples first .. last - 1 at `earliest` or later, in the order of time."""
+    read, moving = _scaled(store, first, last)
+    p = int(moving.sum())
+    if not p:
+        return []
     lags = choose_lags(read, first, last, p)
     found = scan(read, first, last, p, lags, earliest)
     if found is None or found.p_value > level:
         return []
+    chances = np.ones(store.width)
+    chances[moving] = changed_outputs(found)
     sample, interval = located(read, found, lags, earliest, confidence)
-    change = _Change(sample, interval, found.p_value, changed_outputs(found))
-    before = _changes(read, first, interval[0], p, earliest, level, confidence)
-    return [*before, change, *_changes(read, interval[1], last, p, interval[1] + 1, level, confidence)]
+    change = _Change(sample, interval, found.p_value, chances)
+    before = _changes(store, first, interval[0], earliest, level, confidence)
+    return [*before, change, *_changes(store, interval[1], last, interval[1] + 1, level, confidence)]
 
 
 def _measured(
     store: SampleStore,
     changes: list[_Change],
-    moving: NDArray[np.bool_],
     healthy: int | None,
     level: float,
     confidence: float,
@@ -247,11 +254,9 @@ def _measured(
     for change, stop in zip(changes, ends, strict=True):
         stretch = (change.interval[1], stop)
         after, spread = _moments(store, *stretch)
-        chances = np.ones(store.width)
-        chances[moving] = change.chances
-        seen = tuple(int(j) for j in np.flatnonzero(chances <= level))
+        seen = tuple(int(j) for j in np.flatnonzero(change.chances <= level))
         shift, growth = (after - mean) / sigma, spread / sigma
-        onsets.append(Onset(change.sample, change.interval, change.p_value, seen, chances, stretch, shift, growth))
+        onsets.append(Onset(change.sample, change.interval, change.p_value, seen, change.chances, stretch, shift, growth))
     return FaultOnset(
         tuple(onsets), len(store), healthy, reference, deviation, level, confidence, p_value, lags, _found(changes, healthy, level)
     )

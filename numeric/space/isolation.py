@@ -13,6 +13,9 @@ the errors make of it: t = dQ a - dz, to first order linear in standard normal n
 space and in z [MN89]. The states of two models are matched by the least-squares map of their observability matrices, as in
 `uncertainty.py`, so that this turns [B_j; D_j] too. t in units of its covariance is chi-squared, which gives the probability; it does not
 depend on the basis of the state or on units. The angle does, and is there to be looked at.
+
+Where the likelihood of the model has other valleys, a cause is excluded only if it is in all of them, each with its probability; of an
+actuator, whose column is another one there, nothing is known beyond the estimate's own valley.
 """
 
 from __future__ import annotations
@@ -33,7 +36,7 @@ from ...base.threads import one_thread
 from ..data.plain import plain
 from ..data.validation import noise_deviations
 from ..drawing import plot_angles
-from .result import FaultSpaceEstimate
+from .result import FaultSpaceEstimate, SpaceOfValley
 
 EXCLUDED, CONSISTENT = 0.01, 0.05  # a column whose probability lies between is undecided
 WIDE = 0.5  # radians: above it, the first order says no more than that the space is not known (`identified_fault_space`)
@@ -267,10 +270,21 @@ def _cause(kind: str, channel: str, column: Array, errors: Array, space: FaultSp
         moved = errors / size
         spread[-len(errors) :] -= moved - (moved @ Q) @ Q.T
     across = np.linalg.qr(Q, mode="complete")[0][:, Q.shape[1] :]
-    bound, chance = _test(across.T @ off, spread @ across)
-    if bound > WIDE or EXCLUDED <= chance < CONSISTENT:
-        return Cause(kind, channel, angle, bound, chance, "undecided")
-    return Cause(kind, channel, angle, bound, chance, "consistent" if chance >= CONSISTENT else "excluded")
+    bound, here = _test(across.T @ off, spread @ across)
+    own, *others = space.uncertainty.valleys or (None,)
+    chance = here if own is None else own.weight * here + sum(valley.weight * _elsewhere(kind, z, valley) for valley in others)
+    answer = "consistent" if here >= CONSISTENT else "excluded" if chance < EXCLUDED else "undecided"
+    return Cause(kind, channel, angle, bound, chance, "undecided" if bound > WIDE else answer)
+
+
+def _elsewhere(kind: str, z: Array, valley: SpaceOfValley) -> float:
+    """Return the chance of a column in another valley of the likelihood; of an actuator nothing is known there, where B, D are others."""
+    if kind != "sensor":
+        return 1.0
+    Q = valley.basis
+    inside = Q.T @ z
+    across = np.linalg.qr(Q, mode="complete")[0][:, Q.shape[1] :]
+    return _test(across.T @ (z - Q @ inside), valley.root @ inside @ across)[1]
 
 
 def _test(off: Array, spread: Array) -> tuple[float, float]:
