@@ -162,7 +162,7 @@ def test_a_ceiling_changes_no_crossing_below_it() -> None:
 
 
 def test_thresholds_have_the_stated_rate_on_streams_that_they_were_not_made_of() -> None:
-    settings, rate, streams, samples = Settings(p=2, window=WINDOW, shift=1.0), 2e-3, 64, 800
+    settings, rate, streams, samples = Settings(p=2, window=WINDOW, shift=1.0), 3e-4, 64, 1000
     threshold = ideal_thresholds(settings, rate)
     draw, bank = np.random.default_rng(99), Bank(settings, streams)
     above, episodes = np.zeros((streams, 4), bool), np.zeros(4)
@@ -214,6 +214,27 @@ def test_an_alarm_names_the_output_and_the_onset(fault: str, output: int) -> Non
     assert alarms and all(alarm.sample >= 200 for alarm in alarms) and alarms[0].sample < 260
     assert watch.outputs[output] == alarms[0].outputs[0] and abs(alarms[0].onset - 200) < 50
     assert {alarm.test for alarm in alarms} <= set(TESTS)
+
+
+def test_windows_and_cusum_find_the_sample_of_a_step() -> None:
+    watch = made(level=1e-4)
+    y, u = record(20, 300)
+    y[200:, 0] += 5 * NOISE
+    onsets = {alarm.test: alarm.onset for alarm in reversed(watch.extend(y, u).alarms)}
+    assert set(onsets) >= {"chi-square", "cusum", "hankel"} and all(198 <= onset <= 202 for onset in onsets.values())
+
+
+def test_a_healthy_record_may_begin_in_the_middle_of_a_transient() -> None:
+    slow, draw = StateSpaceModel([[0.97]], [[1.0]], [[1.0]], [[0.0]]), np.random.default_rng(1)
+
+    def drawn(start: float) -> tuple[Any, Any]:
+        u = draw.standard_normal((600, 1))
+        return slow.simulate(u, x0=[start]) + 0.01 * draw.standard_normal((600, 1)), u
+
+    watch = Monitor(slow, *drawn(200.0), level=1e-3, window=WINDOW)
+    form = watch._form
+    assert form.lags == 0 and abs(np.sqrt(form.covariance[0, 0]) * form.units.scale[0] / 0.01 - 1) < 0.08
+    assert abs(watch.extend(*drawn(0.0)).innovations[50:].std() - 1) < 0.15
 
 
 def test_the_rank_gap_counts_the_signals_of_the_faults() -> None:
