@@ -308,7 +308,7 @@ def test_an_operating_point_that_the_model_does_not_know_is_an_alarm_that_says_s
     u[200:] += 10
     y[200:] = y[200:] - PLANT.simulate(u)[200:] + PLANT.simulate(u)[200:] ** 3 / 100
     alarms = watched.extend(y, u).alarms
-    assert alarms and alarms[0].inputs_beyond == ("u1",) and "inputs beyond the healthy record: u1" in alarms[0].title
+    assert alarms and alarms[0].inputs_beyond == ("u1",) and "inputs beyond the healthy record: u1" in alarms[0].line
 
 
 def test_units_do_not_matter() -> None:
@@ -369,7 +369,8 @@ def test_people_and_programs_read_it(watched: Monitor) -> None:
     y[50:] += 1.0
     seen = watched.extend(y, u)
     for one in (watched, seen, seen.alarms[0]):
-        assert json.loads(json.dumps(one.to_json(), allow_nan=False)) and one.title in one.summary()
+        assert json.loads(json.dumps(one.to_json(), allow_nan=False)) and one.summary().splitlines()[0] == one.title
+        assert max(map(len, one.summary().splitlines())) <= 80 and len(repr(one)) < 120 and "<table" in one._repr_html_()
     assert repr(watched) == "<Monitor: monitor of 2 outputs and 1 input, 0.001 false alarms a sample>"
 
 
