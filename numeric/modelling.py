@@ -20,10 +20,12 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
+from ..base.sheets import counted
 from .count.exactness import SCREENED, obeys_exactly
 from .data.records import Passes, Record
 from .model.arx_windows import longest_lag
 from .model.asymptotic_likelihood import arx_reduction
+from .model.feedback import FOLLOWS
 from .model.moesp_model import MoespModel, OrderUndecided
 from .model.past_inputs import pi_moesp
 from .model.reduced_model import ReducedModel
@@ -36,7 +38,8 @@ STAGE = "identifying the model"
 
 @dataclass(frozen=True, eq=False)
 class Modelled:
-    """The model, or None with the `refusal`; singular values and the window that they belong to; `exact`: the record has no noise."""
+    """This is the model, or None with the `refusal`, with singular values and the window that they belong to; `exact` says that the record
+    has no noise."""
 
     model: MoespModel | ReducedModel | None
     singular_values: Array
@@ -77,8 +80,9 @@ def _by_reduction(record: Record, order: int | None, block_rows: int | None, exa
     units = np.exp2(-np.round(np.log2(record.channels.deviation)))
     arx = found.arx.scaled(units[record.n_u :], units[: record.n_u])
     values = hankel_factors(arx, max(arx.order, 1), weighted=True)[2]
-    way = f"an ARX model of {arx.order} lags, reduced under its own weight"
-    notes = found.notes
+    way = f"an ARX model of {counted(arx.order, 'lag')}, reduced under its own weight"
+    # A closed loop is among the doubts, with what it does.
+    notes = tuple(note for note in found.notes if not note.startswith(FOLLOWS))
     if found.order == 0:
         notes += ("the outputs follow the inputs at once or not at all: the model has no state",)
     lags = block_rows if block_rows is not None else max(longest_lag([len(record)], record.p, record.n_u), 1)

@@ -1,7 +1,7 @@
 """This recognises the time of a record: a column of seconds or dates, its step, and what is odd about it.
 
 Clock             what a time column says: the step dt, and where steps differ
-clock_of          the Clock of times in seconds
+clock_from        the Clock of a column; clock_of: of times in seconds
 time_name         which of some names is that of a time column
 seconds_in        how many seconds the unit of a name has: "t [ms]" -> 0.001
 seconds_of        times of any kind (numbers, dates, texts) in seconds
@@ -24,7 +24,7 @@ from ...base.arrays import Array
 
 NAMES = ("time", "t", "timestamp", "date", "datetime", "date_time", "zeit", "temps", "tiempo", "tempo", "clock", "elapsed")
 UNITS = {
-    "ns": 1e-9, "us": 1e-6, "µs": 1e-6, "μs": 1e-6, "ms": 1e-3, "s": 1.0, "sec": 1.0, "seconds": 1.0,
+    "ns": 1e-9, "us": 1e-6, "\u00b5s": 1e-6, "\u03bcs": 1e-6, "ms": 1e-3, "s": 1.0, "sec": 1.0, "seconds": 1.0,
     "min": 60.0, "minutes": 60.0, "h": 3600.0, "hours": 3600.0, "d": 86400.0, "days": 86400.0,
 }  # fmt: skip
 ODD = 0.25
@@ -98,20 +98,40 @@ def seconds_of(values: Any, name: str) -> tuple[Array, str] | None:
 
 
 def _plain_date(text: Any) -> str:
-    """Return an ISO date as numpy reads it: with a T, and without a zone, which is the same for all where steps are regular."""
-    word = str(text).strip().replace(" ", "T", 1)
-    if not re.match(r"\d{4}-\d{2}-\d{2}", word):
+    """Return a date as numpy reads it: with a T, and without a zone, which is the same for all where steps are regular. Days come as
+    2024-03-01, 2024/03/01 or 01.03.2024, with or without a time of the day, or are left out."""
+    word = str(text).strip().replace(" ", "T", 1).replace("/", "-")
+    if re.match(r"\d{2}:\d{2}", word):
+        word = f"1970-01-01T{word}"
+    if day := re.match(r"(\d{2})\.(\d{2})\.(\d{4})", word):
+        word = f"{day[3]}-{day[2]}-{day[1]}{word[day.end() :]}"
+    if not re.match(r"\d{4}-\d{2}-\d{2}(T\d{2}:\d{2}|$)", word):
         raise ValueError(word)
+    word = re.sub(r"(?<=:\d{2}),(?=\d)", ".", word)
     return re.sub(r"(?:Z|[+-]\d{2}:?\d{2})$", "", word) if "T" in word else word
 
 
-def clock_of(times: Array, name: str, unit: str = "seconds", *, factor: float = 1.0) -> Clock | None:
-    """Return what times (N,) in seconds say, N >= 2; `factor` seconds make one unit of the numbers that were written. None where they do
-    not move at all."""
+def clock_from(values: Any, name: str, unit: str = "") -> Clock | None:
+    """Return the Clock of a column's values (N,), numbers, dates or texts of dates; `unit` is that of a line of units, where there is one.
+    None for what is no time."""
+    titled = f"{name} [{unit}]" if unit.strip().lower() in UNITS else name
+    found = seconds_of(values, titled)
+    if found is None:
+        return None
+    times, unit_word = found
+    factor, array = seconds_in(titled)[0], np.asarray(values)
+    # What a float has lost of a large starting time.
+    rounding = float(np.spacing(np.abs(array).max())) * factor if array.dtype.kind == "f" else 0.0
+    return clock_of(times, name, unit_word, factor=factor, rounding=rounding)
+
+
+def clock_of(times: Array, name: str, unit: str = "seconds", *, factor: float = 1.0, rounding: float = 0.0) -> Clock | None:
+    """Return what times (N,) in seconds say, N >= 2; `factor` seconds make one unit of the numbers that were written, and `rounding`
+    seconds are what each has lost. None where they do not move at all."""
     steps = np.diff(times)
     if not len(steps) or not np.any(steps):
         return None
-    resolution = _resolution(times / factor) * factor
+    resolution = max(_resolution(times / factor) * factor, 2 * rounding)
     mean = float(times[-1] - times[0]) / len(steps)
     found = Clock(name, mean, float(steps.min()), float(steps.max()), resolution, unit)
     typical = float(np.median(steps))

@@ -62,16 +62,16 @@ def doubts(
     >>> y = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]).simulate(u) + 0.1 * noise
     >>> len(doubts(record_from(y, u)))
     0
-    >>> [row.kind for row in doubts(record_from(np.clip(y, -1, 1), u))]
-    ['non-linearity', 'limits']
+    >>> [row.kind for row in doubts(record_from(np.minimum(y, 1.0), u))]
+    ['non-linearity', 'outliers', 'limits']
     """
     if not isinstance(record, Record):
         raise InvalidData(f"record: got one of type {type(record).__name__}; a Record is needed, as record_from(y, u) gives it")
+    record = record.about(np.zeros(len(record.names)))
     y, u = record.stretch(0, HEARD)
     rest = None if residual is None else _residual(residual, record)
     samples = np.hstack([u, y])
-    known = record.about(np.zeros(len(record.names))).channels
-    rows = [*channel_doubts(samples, known, record.names, record.n_u, means_removed=means_removed)]
+    rows = [*channel_doubts(samples, record.channels, record.names, record.n_u, means_removed=means_removed)]
     rows += limit_doubts(samples, record.names, record.n_u)
     rows += held_doubts(u, record.inputs)
     rows += clock_doubts(record.clock, dt)
@@ -117,7 +117,8 @@ def _arx(record: Record, model: object) -> tuple[Arx | None, str]:
     try:
         if lags < 1:
             raise InvalidData("the record is too short for an ARX model")
-        return fitted_arx(arx_windows([record.stretch(0, HEARD)], lags), 1), ""
+        windows = arx_windows([record.stretch(0, HEARD)], lags)
+        return fitted_arx(windows, 1).scaled(*windows.scales), ""
     except (InvalidData, np.linalg.LinAlgError) as error:
         return None, f"no ARX model can be had: {error}"
 
