@@ -10,6 +10,8 @@ po_moesp              with past outputs, for comparison
 residual              r = y - (response of the model to u), the initial state fitted or given
 fault_dimension       how many faults a residual shows, or "undecided"
 fault_space           all fault columns [f; g] that explain the residual
+fault_onset           the samples from which on a residual is another one, with intervals
+isolate               which single sensor or actuator lies in a fault space
 reconstruct_fault     the fault signal for a chosen pair (F, G)
 
 The audit's reference calls these very functions, and so does `identify` on records without noise and, but for the model, beside samples

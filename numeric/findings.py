@@ -20,9 +20,11 @@ from .model.order_evidence import OrderEvidence
 from .model.reduced_model import ReducedModel
 from .model.residuals import ResidualSignal
 from .rows.fault_count import FaultCount
+from .signal.onset import FaultOnset
 from .signal.reconstruction import Reconstruction
 from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
+from .space.isolation import Isolation
 
 COUNTED_BY = ("given", "model", "healthy samples", "residual alone", "outputs and inputs")
 """An n_v rests on one of these: the user, a model that explains everything, or one of the three ways of counting."""
@@ -62,7 +64,9 @@ class Findings:
     changes: Changes | None = None
     visible: Array | None = None
     unexplained: bool = False
+    onset: FaultOnset | None = None
     fault_space: FaultSpaceEstimate | None = None
+    isolation: Isolation | None = None
     pair: tuple[Array, Array] | None = None
     signal: Reconstruction | None = None
     explained: float | None = None

@@ -20,6 +20,7 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
+from ..base.sheets import counted
 from .count.exactness import SCREENED, obeys_exactly
 from .data.records import Passes, Record
 from .model.arx_windows import longest_lag
@@ -39,7 +40,8 @@ MOST_TRIED = 1 << 18  # samples of a record of which orders are tried by samples
 
 @dataclass(frozen=True, eq=False)
 class Modelled:
-    """The model, or None with the `refusal`; singular values and the window that they belong to; `exact`: the record has no noise."""
+    """This is the model, or None with the `refusal`, with singular values and the window that they belong to; `exact` says that the record
+    has no noise."""
 
     model: MoespModel | ReducedModel | None
     singular_values: Array
@@ -95,7 +97,7 @@ def _by_reduction(record: Record, order: int | None, block_rows: int | None, exa
     units = np.exp2(-np.round(np.log2(record.channels.deviation)))
     arx = found.arx.scaled(units[record.n_u :], units[: record.n_u])
     values = hankel_factors(arx, max(arx.order, 1), weighted=True)[2]
-    way = f"an ARX model of {arx.order} lags, reduced under its own weight"
+    way = f"an ARX model of {counted(arx.order, 'lag')}, reduced under its own weight"
     # A closed loop is among the doubts, with what it does.
     notes = tuple(note for note in found.notes if not note.startswith(FOLLOWS))
     if found.order == 0:

@@ -4,14 +4,15 @@ identify         the whole chain on a record: an Identification, with what remai
 
 1  The model (`modelling.py`): an ARX model of high order, reduced under its own weight, near the Cramer-Rao bound; the order is given, or
 chosen with its evidence. PI-MOESP where the record has no noise, or where an ARX model cannot be had.
-2  The residual of that model, its initial state fitted.
+2  The residual of that model, its initial state fitted; the samples from which on it is another one (`causes.py`).
 3  The number of faults (`counting.py`): by the laws that outputs and inputs obey, for which no model is needed. Where the first samples are
 stated to be without fault, model and means are from these alone, the faults of the others are counted against what the residual shows
 there, and its mean is held against theirs: a constant fault moves the mean and no rank. The count against them goes first where it is
 decided, the ranks of the residual where it is not; 0 is said only where nothing is counted, no output has a spike or is stuck, and the
 mean is tested and has not moved, with the size of fault that would have been seen. Where the inputs leave what the healthy samples show,
 the model's error can look like a fault, and none is counted against them. Records without noise are counted by ranks, which are exact.
-4  The fault space (`choice.py`), unless the number of faults is undecided or 0: from the same laws, with A and C of the model.
+4  The fault space (`choice.py`), unless the number of faults is undecided or 0: from the same laws, with A and C of the model. Which
+single sensor or actuator lies in it (`causes.py`).
 5  F, G and the fault signal for one pair out of the space: determined up to that choice, and given only where n_z is decided and the signal
 explains more of the residual than it would of noise.
 
@@ -37,6 +38,7 @@ from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import counted
 from ..base.threads import one_thread
+from .causes import with_isolation, with_onset
 from .changing import with_two_parts
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
@@ -70,7 +72,7 @@ def identify(
     dt: float | None = None,
     on_progress: Progress | None = None,
 ) -> Identification:
-    """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
+    """Identify the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
 
     Look at `found.doubts` and `found.notes` first, then at `found.model`: where it is None the order stayed open, and
     `found.singular_values` tell the choices. Then at `found.n_v` and `found.reason`; None is an answer, too. Only then at
@@ -193,7 +195,8 @@ def _findings(
     answer = replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes))
     if np.all(sizes.peak <= ROUNDING * largest(record)):
         return replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model")
-    return with_signal(with_space(with_count(answer, n_v, on_progress), on_progress), on_progress)
+    answer = with_count(with_onset(answer, on_progress), n_v, on_progress)
+    return with_signal(with_isolation(with_space(answer, on_progress)), on_progress)
 
 
 def _residual(record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: Progress) -> ResidualSignal:
@@ -228,7 +231,7 @@ def _nothing_left(answer: Findings) -> str:
 
 
 def _enough(record: Record, rows: int) -> None:
-    """Refuses a record with fewer windows than rows in its Hankel matrices."""
+    """Refuse a record with fewer windows than rows in its Hankel matrices."""
     samples, height = len(record), 2 * record.n_u + record.p
     needed = rows * (height + 2) - 1
     if samples >= needed:
@@ -244,7 +247,7 @@ def _enough(record: Record, rows: int) -> None:
 
 
 def _varying(record: Record) -> None:
-    """Refuses channels that never change: an input excites nothing, an output tells nothing."""
+    """Refuse channels that never change: an input excites nothing, an output tells nothing."""
     for kind, names, start in (("input", record.inputs, 0), ("output", record.outputs, record.n_u)):
         least, greatest = (values[start : start + len(names)] for values in (record.channels.least, record.channels.greatest))
         still = [name for name, low, high in zip(names, least, greatest, strict=True) if low == high]

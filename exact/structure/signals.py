@@ -83,14 +83,15 @@ def simulate(system: System, x0: object, v: object) -> Trajectory:
     x0, v = Matrix.of(x0, system.field, where="x0"), Matrix.of(v, system.field, where="v")
     if x0.shape != (system.n, 1) or v.ncols != system.m:
         raise InvalidInput(f"x0, v: got {x0.shape} and {v.shape}, expected ({system.n}, 1) and (N, {system.m})")
-    x = x0
-    states, residuals = [x.transposed()], [Matrix.zero(system.field, 0, system.p)]
+    # Time runs down the rows, so that all is transposed; what does not depend on the states is one product.
+    driven, A = v @ system.F.transposed(), system.A.transposed()
+    x = x0.transposed()
+    states = [x]
     for k in range(v.nrows):
-        fault = v.rows([k]).transposed()
-        residuals.append((system.C @ x + system.G @ fault).transposed())
-        x = system.A @ x + system.F @ fault
-        states.append(x.transposed())
-    return Trajectory(stacked(*states), v, stacked(*residuals))
+        x = x @ A + driven.rows([k])
+        states.append(x)
+    X = stacked(*states)
+    return Trajectory(X, v, X.rows(range(v.nrows)) @ system.C.transposed() + v @ system.G.transposed())
 
 
 def hankel(signal: Matrix, s: int) -> Matrix:

@@ -27,11 +27,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy  # its folders are loaded when they are first used
+import scipy  # its folders are loaded when they are first used; scipy.stats takes longer than most tests, and is not needed
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from .healthy_model import LEVEL, lagged, number_of_lags, residual_and_inputs
 from .windows import channel_sizes
 
@@ -76,16 +77,16 @@ class MeanReference:
     def threshold(self, level: float) -> float:
         """Return what T^2 exceeds by chance with probability `level`."""
         over, under = self.law
-        return float(scipy.stats.f.isf(level, over, under)) * self.freedom * self.p / under
+        return float(scipy.special.fdtri(over, under, 1 - level)) * self.freedom * self.p / under
 
     def noncentrality(self, level: float, power: float) -> float:
         """Return d' V^-1 d of a shift d that the test finds with chance `power`."""
         over, under = self.law
-        bound = float(scipy.stats.f.isf(level, over, under))
+        bound = float(scipy.special.fdtri(over, under, 1 - level))
         most = 1.0
-        while scipy.stats.ncf.sf(bound, over, under, most) < power:
+        while scipy.special.ncfdtr(over, under, most, bound) > 1 - power:
             most *= 2.0
-        return float(scipy.optimize.brentq(lambda size: scipy.stats.ncf.sf(bound, over, under, size) - power, 1e-9, most))
+        return float(scipy.optimize.brentq(lambda size: 1 - power - scipy.special.ncfdtr(over, under, size, bound), 1e-9, most))
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +126,10 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
     X, now = _regressors(r, inputs, lags)
     freedom = int(COSINES * len(now) ** (2 / 3))
     if freedom < p + 2 or len(now) <= X.shape[1] + freedom:
-        raise InvalidData(f"{K} samples without fault are too few to say what the means of {p} outputs are worth: state more of them")
+        raise InvalidData(
+            f"{counted(K, 'sample')} without fault {'is' if K == 1 else 'are'} too few to say what the "
+            f"means of {counted(p, 'output')} are worth: state more of them"
+        )
     factor, triangle = np.linalg.qr(X)
     root = np.asarray(np.linalg.inv(triangle)).T
     coefficients = root.T @ (factor.T @ now)
@@ -161,7 +165,9 @@ def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u:
     except InvalidData as error:
         return MeanShift(None, str(error), level)
     if len(after) < reference.lags + 1:
-        return MeanShift(None, f"{len(after)} samples are fewer than the {reference.lags + 1} that the healthy noise remembers", level)
+        return MeanShift(
+            None, f"there are {counted(len(after), 'sample')}, fewer than the {reference.lags + 1} that the healthy noise remembers", level
+        )
     found = _tested(reference, after, inputs, level)
     if reference.nearest * reference.samples < UNIT_ROOT:
         reason = "the healthy residual wanders: its mean says nothing (an integrating plant, a drift, a fault in it?)"
@@ -207,7 +213,7 @@ def _judged(reference: MeanReference, e: Array, h: float, level: float) -> MeanS
     V = back @ reference.long_run @ back.T * h
     shift = back @ e * reference.scales
     deviations = np.sqrt(np.diag(V)) * reference.scales
-    single = float(scipy.stats.t.isf(level / (2 * reference.p), reference.freedom))
+    single = -float(scipy.special.stdtrit(reference.freedom, level / (2 * reference.p)))
     channels = tuple(int(i) for i in np.flatnonzero(np.abs(shift) > single * deviations))
     # The mean of W^-1, a Wishart matrix of freedom B, is B / (B - p - 1) times the true one.
     precisions = np.diag(np.linalg.inv(V)) * (reference.freedom - reference.p - 1) / reference.freedom

@@ -35,11 +35,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy  # its folders are loaded when they are first used
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
-from ...base.sheets import decibels
+from ...base.chi_squared import chi_squared_quantile
+from ...base.sheets import counted, decibels
 from .one_row import WindowMoments, kernel_row, window_moments
 
 ALARM = 1.0
@@ -93,7 +93,7 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     floor = law_level(moments, (np.eye(p),))
     levels = {p: floor}
     noise_power = float(np.exp(floor.least))
-    chance = float(scipy.stats.chi2.ppf(0.999, 2 * p)) / moments.samples
+    chance = chi_squared_quantile(0.999, 2 * p) / moments.samples
     bound = SLACK + chance
 
     def undecided(reason: str) -> KernelRowTest:
@@ -101,8 +101,9 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
 
     if floor.drop > bound:
         return undecided(
-            f"no noise floor: the best law on all {p} outputs still improves by {decibels(floor.drop)} over the last two degrees "
-            f"(at most {decibels(bound)} allowed); there may be {p} faults, or an order that needs larger block_rows"
+            f"no noise floor: the best law on {'the one output' if p == 1 else f'all {p} outputs'} still "
+            f"improves by {decibels(floor.drop)} over the last two degrees "
+            f"(at most {decibels(bound)} allowed); there may be {counted(p, 'fault')}, or an order that needs larger block_rows"
         )
     # Invariant: `high` mixtures are at the floor, `low` are not (none at all, to begin with).
     high, low = p, 0
@@ -123,8 +124,9 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     step = f"from {high} mixed outputs to {low} the noise left by the best law rises by at least {decibels(rise)}"
     if below.middle - floor.middle <= ALARM:
         return undecided(
-            f"on {low} mixed outputs the best law still improves by {decibels(below.drop)} over the last two degrees (at most "
-            f"{decibels(bound)} allowed): an order that needs larger block_rows"
+            f"on {counted(low, 'mixed output')} the best law still improves by {decibels(below.drop)} "
+            f"over the last two degrees (at most {decibels(bound)} "
+            f"allowed): an order that needs larger block_rows"
         )
     if rise < needed:
         return undecided(f"{step}: too much for the same floor, too little for a missing law (at least {decibels(needed)})")
@@ -141,10 +143,14 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     alone = law_level(moments, (np.eye(p)[:, chosen],)).least - floor.middle
     if alone < SPARSE * rise:
         return undecided(
-            f"{step}, but {low} outputs as they are, unmixed, obey a law nearly as good ({decibels(alone)} above the floor): noise that is "
+            f"{step}, but {counted(low, 'output')}, not mixed, {'obeys' if low == 1 else 'obey'} a law "
+            f"nearly as good ({decibels(alone)} above the floor): noise that is "
             "louder, beside the faults, at other outputs looks like this"
         )
-    reason = f"{high} mixed outputs obey a common law up to the noise floor, {low} do not: {step} ({decibels(needed)} needed)"
+    reason = (
+        f"{high} mixed outputs obey a common law up to the noise floor, {low} "
+        f"{'does' if low == 1 else 'do'} not: {step} ({decibels(needed)} needed)"
+    )
     return KernelRowTest(low, _walk(levels), noise_power, reason)
 
 

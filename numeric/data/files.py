@@ -5,6 +5,7 @@ read_stretches  the stretches of a file between rows that are not whole, as Reco
 split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate
 named_once      the refusal of a channel that is named more than once
 FORMATS         suffix -> format
+READERS         format -> the function that reads it, at the end of the file
 
 A channel is chosen by its column's name. For matrices (NPZ, NPY, MAT, and text without a line of names; in NPY and text the matrix is
 called `data`): NAME is all columns, NAME[:,j] or NAME[j] column j, NAME[:,i:j] several, NAME[i,:] row i, NAME[i,j] channel (i, j) of an
@@ -41,6 +42,7 @@ from numpy.typing import NDArray
 from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
+from ...base.sheets import counted
 from .clocks import Clock, clock_from, time_name
 from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
@@ -171,9 +173,8 @@ def _opened(
     if read_as is None:
         suffix = shorten(Path(path).suffix)
         raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
-    reader = {"text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat}[read_as]
     with _readable(read_as):
-        found = reader(Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
+        found = READERS[read_as](Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
     labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
     u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
     y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
@@ -215,7 +216,7 @@ def _labels(selector: str, count: int) -> list[str]:
 
 
 def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
-    """Refuses what is no finite number; the rows begin with sample `first`."""
+    """Refuse what is no finite number; the rows begin with sample `first`."""
     if wrong := first_not_finite(rows):
         k, j = wrong
         what = "no number (NaN or empty)" if np.isnan(rows[k, j]) else "infinite"
@@ -394,7 +395,7 @@ def _timed(opened: _Opened, arrays: Mapping[str, Any], names: Sequence[str]) -> 
 
 
 def _forget(values: Any) -> None:
-    """Gives the pages of a memory map back, which would else count as memory used as long as there is enough."""
+    """Give the pages of a memory map back, which would else count as memory used as long as there is enough."""
     while isinstance(values, np.ndarray):
         values = values.base
     if isinstance(values, mmap.mmap) and hasattr(mmap, "MADV_DONTNEED"):
@@ -472,7 +473,7 @@ def _signal(values: Any, name: str) -> NDArray[Any]:
     if array.shape[1] > len(array):
         rows, columns = array.shape
         advice = f"{name}[i,:] is row i" if "[" not in name else "write it transposed"
-        looks = f"{rows} samples of {columns} channels and looks transposed"
+        looks = f"{counted(rows, 'sample')} of {counted(columns, 'channel')} and looks transposed"
         raise InvalidInput(f"{shorten(name)} has {looks}, expected a row a sample: {advice}")
     return array
 
@@ -484,3 +485,8 @@ def _some(samples: int) -> None:
 
 def _first_line(error: Exception) -> str:
     return (str(error).strip().splitlines() or [type(error).__name__])[0]
+
+
+READERS: dict[str, Callable[[Path, Sequence[str], OnRead, ExitStack], _Opened]] = {
+    "text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat,
+}  # fmt: skip

@@ -104,7 +104,8 @@ def _written(
     for what, given, width in (("outputs", outputs, widths[0]), ("inputs", inputs, widths[1])):
         if len(given) != width:
             raise InvalidData(
-                f"{what}: got {len(given)} names for {width} channels: one name a channel is needed, in the order of the columns; got "
+                f"{what}: got {counted(len(given), 'name')} for {counted(width, 'channel')}: one name "
+                f"a channel is needed, in the order of the columns; got "
                 f"{', '.join(map(shorten, given[:12])) or 'none'}"
             )
     named_once(inputs, outputs)

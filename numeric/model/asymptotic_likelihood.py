@@ -32,6 +32,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
+from ...base.sheets import counted
 from ...base.threads import one_thread
 from ..data.validation import experiment, positive
 from .arx_windows import about_zero, arx_windows, longest_lag, merge_windows
@@ -155,7 +156,8 @@ def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tup
     least = max(1, -(-n // p)) if n else 0
     if carried < least:
         raise InvalidData(
-            f"{sum(lengths)} samples of {p} outputs and {n_u} inputs carry {max(carried, 0)} lags, order {n} needs {least} or more: record "
+            f"{counted(sum(lengths), 'sample')} of {counted(p, 'output')} and {counted(n_u, 'input')} carry "
+            f"{counted(max(carried, 0), 'lag')}, order {n} needs {least} or more: record "
             "more" + ("" if lags is None else ", or pass more lags")
         )
     return lengths, carried

@@ -64,7 +64,7 @@ class OrderRow:
 
 @dataclass(frozen=True, repr=False)
 class OrderEvidence(Shown):
-    """What the data say of the order of the model, where it was left open.
+    """This is what the data say of the order of the model, where it was left open.
 
     `rows` is a list of OrderRow, one an order; `best` is the order chosen, by Akaike's criterion [A74], and `least` to `most` are the
     orders that the data leave open: `least` is the least that is not refused at a level of 1 %, and `most` is `best`. More states than
@@ -87,7 +87,7 @@ class OrderEvidence(Shown):
 
     @property
     def decided(self) -> bool:
-        """Whether one order alone is left."""
+        """This tells whether one order alone is left."""
         return self.least == self.most
 
     @property

@@ -26,6 +26,7 @@ from ..model.reduced_model import ReducedModel
 from ..model.weighted_reduction import circle
 from ..rows.joint import even_split
 from ..space.distances import containment_distance
+from .causes import RESIDUAL, residual_table, told
 from .folders import refuse, replace
 from .page import report
 from .physical import physical
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 
 MODEL, SPACE, SIGNAL, SUMMARY, PAGE = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md", "report.html"
 FREQUENCIES = 32  # of the transfer function with standard errors
-NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, PAGE, *PICTURES)
+NAMES = (MODEL, SPACE, SIGNAL, RESIDUAL, SUMMARY, PAGE, *PICTURES)
 
 
 def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
@@ -115,6 +116,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
     if answer.healthy is not None and mean:
         result["visible"] = {"power": POWER, "level": mean.level, "constant": plain(mean.visible), "white": plain(answer.visible)}
     result["fault_space"] = _space(answer)
+    result |= told(answer)
     result["explained"] = plain(answer.explained)
     result["explained_by_noise"] = plain(answer.by_noise)
     signal = answer.signal
@@ -195,6 +197,8 @@ def _tables(answer: Findings, folder: Path, on_progress: Progress) -> None:
         _json(folder / MODEL, model)
     if (space := _space(answer)) is not None:
         _json(folder / SPACE, space)
+    if answer.residual is not None:
+        residual_table(answer, folder / RESIDUAL, on_progress)
     if answer.signal is not None:
         _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, on_progress)
 

@@ -20,6 +20,7 @@ from ...base.sheets import counted
 from ..count.mean_shift import POWER
 from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
+from .causes import isolation_lines, onset_lines
 from .physical import mode_lines
 
 if TYPE_CHECKING:
@@ -70,6 +71,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
                 left = "what is left is noise and the model's error"
             yield f"fit of the simulated outputs, from the fitted initial state: {_several(pairs)}; {left}"
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
+        yield from onset_lines(answer)
         yield ""
         yield "## Faults"
         yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
@@ -89,6 +91,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         if answer.dimension and answer.dimension.regime == "rounding":
             yield f"gaps rank R_(s+1) - rank R_s beyond the inputs, s = 1, 2, ...: {' '.join(map(str, answer.dimension.gaps))}"
         yield from _space_lines(answer)
+        yield from isolation_lines(answer)
         yield from _signal_lines(answer)
     if answer.doubts:
         yield ""
@@ -200,8 +203,7 @@ def _law_lines(answer: Findings) -> Iterator[str]:
     if asked:
         yield f"rows asked whether they are laws of outputs and inputs (probability): {_several(asked)}"
     if count.noise_power is not None:
-        sizes = zip(answer.record.outputs, np.sqrt(count.noise_power), strict=True)
-        yield f"noise that the laws leave, deviation: {_several([f'{name} {size:.3g}' for name, size in sizes])}"
+        yield f"noise that the laws leave, deviation: {_by_output(answer, np.sqrt(count.noise_power))}"
     if ranks is not None:
         yield f"from the ranks of the residual, for comparison: {_said(ranks.n_v)} ({ranks.reason})"
 
@@ -211,8 +213,12 @@ def _condition(answer: Findings) -> str:
     count = answer.count
     if answer.n_v != 0 or answer.n_v_given or answer.noise_level is not None or count is None or count.noise_power is None:
         return ""
-    sizes = zip(answer.record.outputs, np.sqrt(count.noise_power), strict=True)
-    return f", if this is the noise of each output: {_several([f'{name} {size:.3g}' for name, size in sizes])} (deviation)"
+    return f", if this is the noise of each output: {_by_output(answer, np.sqrt(count.noise_power))} (deviation)"
+
+
+def _by_output(answer: Findings, sizes: Array) -> str:
+    """Return one size (p,) for each output, beside its name."""
+    return _several([f"{name} {size:.3g}" for name, size in zip(answer.record.outputs, sizes, strict=True)])
 
 
 def _count(answer: Findings) -> str:
@@ -240,14 +246,13 @@ def _mean_lines(answer: Findings) -> Iterator[str]:
 
 def _visible_lines(answer: Findings) -> Iterator[str]:
     """Yield what would have been seen, where little or nothing was."""
-    mean, outputs = answer.mean, answer.record.outputs
+    mean = answer.mean
     if answer.healthy is None or mean is None:
         return
     kinds = [("a constant at one output", mean.visible), ("a white signal at one output, deviation", answer.visible)]
     for kind, sizes in kinds:
         if sizes is not None:
-            listed = _several([f"{name} {size:.3g}" for name, size in zip(outputs, sizes, strict=True)])
-            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {listed}"
+            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {_by_output(answer, sizes)}"
 
 
 def _said(number: int | None) -> str:

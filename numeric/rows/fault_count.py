@@ -42,8 +42,9 @@ from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
 from ..data.validation import constant_channels, noise_deviations, positive, signals
+from .evidence import EXTRA, Evidence
 from .joint import ROUNDING, JointMoments
-from .laws import EXTRA, FAILS, SUFFICES, Evidence, Laws, bootstrapped, longer_are_laws, tested
+from .laws import FAILS, SUFFICES, Laws, bootstrapped, longer_are_laws, tested
 
 # Nats (13 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
 FAINTEST = 3.0
@@ -56,7 +57,7 @@ DEPENDENT = 1e-10
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FaultCount(Shown):
-    """The number of faults that `count_faults` finds, with what it rests on [W91].
+    """This is the number of faults that `count_faults` finds, with what it rests on [W91].
 
     `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why. `tests`: what was asked of k rows, by
     falling k; empty where there was no noise. `noise_power`, of shape (p,): what the rows leave of each output, in its own units, squared;
@@ -76,7 +77,7 @@ class FaultCount(Shown):
 
     @property
     def decided(self) -> bool:
-        """Whether there is one answer."""
+        """This tells whether there is one answer."""
         return self.n_v is not None
 
     @property
@@ -146,6 +147,9 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
 
     # Invariant: `some` rows may be laws, `more` are not. Where more of them are laws, a doubt about fewer does not matter.
     some, more = 0, p + 1
+    # That no fault acts is asked first, for it takes no rows: a model tells.
+    if p > 1:
+        some, more = (0, p) if _holds(laws(p), known) is False else (p, p + 1)
     # A single row is asked last, when two are none: flatness alone judges it.
     while more - some > 1 and more > 2:
         k = max((some + more) // 2, 2)
@@ -164,7 +168,7 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
         return answer
     if n + EXTRA >= evidence.longest:
         reason = f"the record is too short for rows of {EXTRA} degrees more, which would tell whether the order is too low"
-    elif longer_are_laws(evidence, refused, shares):
+    elif longer_are_laws(evidence, laws(refused), shares):
         reason = f"{refused} rows of {EXTRA} degrees more have about the shape of noise: the order may be too low"
     else:
         return answer
@@ -192,7 +196,10 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     if found is None:
         return _undecided(p, 1, one, tests)
     if not found:
-        reason = f"{p} faults, or an order above the one given: no row of its degree leaves noise alone (probability {one.probability:.1g})"
+        reason = (
+            f"{counted(p, 'fault')}, or an order above the one given: no row of its degree "
+            f"leaves noise alone (probability {one.probability:.1g})"
+        )
         return FaultCount(None, (p,), reason, _walk(tests))
     if known is not None:
         return _answer(p - 1, one, tests, data)
@@ -250,7 +257,7 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
         )
     else:
         limits = f"accepted from {SUFFICES:g}; refused, of a single row below {FAILS:g}, of several far from the shape of noise"
-        reason = f"{k} rows may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
+        reason = f"{counted(k, 'row')} may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
     return FaultCount(None, possible, reason, _walk(tests))
 
 

@@ -27,6 +27,7 @@ from scipy.special import digamma, polygamma
 from ...base.arrays import Array
 from ...base.chi_squared import chi_squared_tail
 from ..space.basis import KernelBasis
+from ..space.tapered_moments import CrossMoments
 from .joint import JointMoments
 
 ComplexArray = NDArray[np.complex128]
@@ -43,12 +44,20 @@ TINY = float(np.finfo(float).tiny)
 
 @dataclass(frozen=True, eq=False)
 class Remainder:
-    """`powers` (bands, k, k) are those per sample, `gains` are (bands, k, p), `weights` (bands,) and `samples` are those of the moments."""
+    """`powers` (bands, k, k) are those per sample, `gains` (bands, k, p); `weights`, `angles` (bands,) and `samples` are of the moments."""
 
     powers: ComplexArray
     gains: ComplexArray
     weights: Array
+    angles: Array
     samples: float
+
+
+def as_signals(powers: ComplexArray, moments: CrossMoments) -> Remainder:
+    """Return p signals of these spectra (bands, p, p) as what p rows leave, each of one output."""
+    p = powers.shape[1]
+    gains = np.broadcast_to(np.eye(p, dtype=complex), (len(powers), p, p))
+    return Remainder(powers, gains, moments.weights, moments.angles, moments.samples)
 
 
 def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
@@ -60,7 +69,7 @@ def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
     gains = np.einsum("bj,kjc->bkc", powers, N)[:, :, : data.p]
     flat = N.reshape(len(N), (degree + 1) * channels)
     E = flat @ moments.moments @ flat.T / moments.weights[:, None, None]
-    return Remainder(np.asarray(E), np.asarray(gains, dtype=complex), moments.weights, moments.samples)
+    return Remainder(np.asarray(E), np.asarray(gains, dtype=complex), moments.weights, moments.angles, moments.samples)
 
 
 def noise_shares(rest: Remainder, start: Array) -> Array:

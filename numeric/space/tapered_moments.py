@@ -16,11 +16,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy  # its folders are loaded when they are first used
 from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..count.one_row import WindowMoments
 
 ComplexArray = NDArray[np.complex128]
@@ -64,6 +64,19 @@ class CrossMoments:
         return WindowMoments(self.moments.real * count, self.weights * count, self.angles, self.channels, self.degree, count)
 
 
+def cosine_taper(length: int, edges: float) -> Array:
+    """Return the taper of Tukey with cosines over the share 0 < `edges` < 1 of its length, half at either end; 0 at both, 1 between.
+
+    It is that of `scipy.signal.windows.tukey`, whose folder takes longer to load than most records to be identified.
+    """
+    places, width = np.arange(length, dtype=np.float64), int(edges * (length - 1) / 2)
+    rising, falling = places[: width + 1], places[length - width - 1 :]
+    taper = np.ones(length)
+    taper[: width + 1] = 0.5 * (1 + np.cos(np.pi * (-1 + 2 * rising / edges / (length - 1))))
+    taper[length - width - 1 :] = 0.5 * (1 + np.cos(np.pi * (-2 / edges + 1 + 2 * falling / edges / (length - 1))))
+    return taper
+
+
 def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
     """Return the moments of r (N, p) in `most` bands, or fewer where the record is short.
 
@@ -73,14 +86,14 @@ def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
     windows, size = N - degree, p * (degree + 1)
     if windows < 2 * size:
         raise InvalidData(
-            f"r has {N} samples of {p} channels: kernel rows of degree {degree} need at least {2 * size + degree}; "
+            f"r has {counted(N, 'sample')} of {counted(p, 'channel')}: kernel rows of degree {degree} need at least {2 * size + degree}; "
             "record more, or take a model of lower order"
         )
     bands = max(4, min(most, windows // 8))
     length = min(windows, SEGMENT)
     pieces = 1 + int(np.ceil((windows - length) / (length * (1 - EDGES / 2))))
     starts = np.linspace(0, windows - length, pieces).astype(int).tolist()
-    taper = scipy.signal.windows.tukey(length, EDGES)
+    taper = cosine_taper(length, EDGES)
     frequencies = length // 2 + 1
     # Both halves of the spectrum, told by one: twice, but for the frequencies that are their own mirror image.
     doubled = np.full(frequencies, 2.0)

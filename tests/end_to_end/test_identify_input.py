@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import inspect
 import os
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ from scipy.io import savemat
 
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidInput
-from faultspace.cli import identifying
+from faultspace.cli import command_line, identifying
 from faultspace.numeric.data import files as data_files
 from faultspace.numeric.data.files import read_record, split_names
 from faultspace.numeric.model.models import StateSpaceModel
@@ -82,6 +83,17 @@ def test_every_way_of_writing_a_record_reads_the_same(tmp_path: Path, record: ma
         assert np.array_equal(got.y, wanted), name
         assert len(got.inputs) == 2 and len(set(got.inputs + got.outputs)) == 2 + wanted.shape[1], name
         assert path.read_bytes() == before
+
+
+def test_every_format_is_tried_here_and_told_to_users(tmp_path: Path, record: made.FaultyRecord) -> None:
+    """A reader that is added has a way of writing in `write_tables` (Parquet has a test of its own), and stands where people look."""
+    tried = {data_files.FORMATS[path.suffix] for path, _, _ in write_tables(tmp_path, record.u[:9], record.y[:9]).values()}
+    assert tried | {"Parquet"} == set(data_files.READERS) == set(data_files.FORMATS.values())
+    assert [suffix for suffix in data_files.FORMATS if suffix not in (read_record.__doc__ or "")] == [], "the docstring of read_record"
+    names = {"CSV" if name == "text" else name for name in data_files.READERS}
+    page = (Path(__file__).parents[2] / "docs" / "your-data.md").read_text("utf-8")
+    for place, text in ("docs/your-data.md", page), ("the help of DATA in command_line.py", inspect.getsource(command_line.identify)):
+        assert [name for name in names if name not in text] == [], place
 
 
 def test_labels_of_a_range_select_the_channels_themselves(tmp_path: Path, record: made.FaultyRecord) -> None:

@@ -41,7 +41,16 @@ VALUES = {"Rationals", "PrimeField", "NumberField", "Matrix", "RowEchelon", "Fil
 # A command's answer with a page of Markdown for a summary; every other record says it by its sheet.
 WITHOUT_SHEET = {"Identification"}
 PICTURED = {
-    *("FaultDimension", "FaultDirection", "FaultSpaceEstimate", "FaultsAgainstHealthy", "Identification", "MoespModel", "OrderEvidence"),
+    *(
+        "FaultDimension",
+        "FaultDirection",
+        "FaultSpaceEstimate",
+        "FaultsAgainstHealthy",
+        "Identification",
+        "Isolation",
+        "MoespModel",
+        "OrderEvidence",
+    ),
     *("Reconstruction", "ReducedModel", "Report", "ResidualSignal", "StateSpaceModel", "Study", "Uncertainty"),
 }
 HEAVY = ("numpy", "scipy", "sympy", "flint", "mpmath", "pandas", "matplotlib")

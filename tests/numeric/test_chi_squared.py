@@ -1,4 +1,4 @@
-"""The tail of chi-squared is that of scipy's statistics, bit for bit, and commands do without loading those."""
+"""The law of chi-squared and the taper are those of scipy, bit for bit, and `identify` does without loading those folders of scipy's."""
 
 from __future__ import annotations
 
@@ -8,9 +8,21 @@ import sys
 
 import numpy as np
 import pytest
+import scipy.signal
 import scipy.stats
 
-from faultspace.base.chi_squared import chi_squared_tail
+from faultspace.base.chi_squared import chi_squared_quantile, chi_squared_tail
+from faultspace.numeric.space.tapered_moments import cosine_taper
+
+IDENTIFIED = """
+import sys
+import faultspace.cli.identifying
+from faultspace import identify
+from faultspace.example_data import faulty_record
+record = faulty_record(2500)
+assert identify(record.y, record.u, order=3).n_v == 1
+print([name for name in sys.modules if name.startswith(('scipy.stats._stats', 'scipy.signal'))])
+"""
 
 
 @pytest.mark.parametrize("freedom", [1, 2, 3.7, 40, 100_000])
@@ -20,11 +32,23 @@ def test_the_tail_is_that_of_scipy(freedom: float) -> None:
     assert math.isnan(chi_squared_tail(math.nan, freedom))
 
 
+@pytest.mark.parametrize("freedom", [1, 2, 3.7, 40, 100_000])
+def test_the_quantile_is_that_of_scipy(freedom: float) -> None:
+    levels = [0.0, 1e-300, 0.5, 0.999, 1.0, -0.1, 1.1, math.nan]
+    assert np.array_equal([chi_squared_quantile(q, freedom) for q in levels], scipy.stats.chi2.ppf(levels, freedom), equal_nan=True)
+
+
 @pytest.mark.parametrize("x", [-1.0, 0.0, 1.0, math.inf])
-def test_no_freedom_has_no_tail(x: float) -> None:
+def test_no_freedom_has_no_law(x: float) -> None:
     assert all(math.isnan(chi_squared_tail(x, freedom)) for freedom in (0, -1, math.nan))
+    assert all(math.isnan(chi_squared_quantile(0.5, freedom)) for freedom in (0, -1, math.nan))
 
 
-def test_identify_is_imported_without_the_statistics() -> None:
-    source = "import sys, faultspace.cli.identifying; print([name for name in sys.modules if name.startswith('scipy.stats')])"
-    assert subprocess.run([sys.executable, "-c", source], capture_output=True, text=True, check=True).stdout == "[]\n"
+@pytest.mark.parametrize("length", [2, 3, 19, 20, 21, 22, 1000, 4097])
+@pytest.mark.parametrize("edges", [0.1, 0.5, 0.999])
+def test_the_taper_is_that_of_scipy(length: int, edges: float) -> None:
+    assert cosine_taper(length, edges).tobytes() == scipy.signal.windows.tukey(length, edges).tobytes()
+
+
+def test_identify_loads_neither_statistics_nor_filters() -> None:
+    assert subprocess.run([sys.executable, "-c", IDENTIFIED], capture_output=True, text=True, check=True).stdout == "[]\n"

@@ -6,6 +6,7 @@ import importlib
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -63,7 +64,8 @@ def by_lists(y: Array, u: Array, folder: Path) -> Any:
     return identify(y.tolist(), np.asfortranarray(u), order=3)
 
 
-WAYS = [by_file, by_read_record, by_chunks, by_frames, by_one_frame, by_lists]
+Way = Callable[[Array, Array, Path], Any]
+WAYS: list[Way] = [by_file, by_read_record, by_chunks, by_frames, by_one_frame, by_lists]
 
 
 @pytest.fixture(scope="module")
@@ -71,11 +73,15 @@ def wanted(data: tuple[Array, Array]) -> Any:
     return identify(*data, order=3)
 
 
+@pytest.fixture(scope="module")
+def found_by(data: tuple[Array, Array], tmp_path_factory: pytest.TempPathFactory) -> Callable[[Way], Any]:
+    """What each way finds, once for all tests."""
+    return cache(lambda way: way(*data, tmp_path_factory.mktemp("record")))
+
+
 @pytest.mark.parametrize("way", WAYS)
-def test_every_way_gives_the_same_bytes(
-    way: Callable[[Array, Array, Path], Any], data: tuple[Array, Array], wanted: Any, tmp_path: Path
-) -> None:
-    found = way(*data, tmp_path)
+def test_every_way_gives_the_same_bytes(way: Way, found_by: Callable[[Way], Any], wanted: Any) -> None:
+    found = found_by(way)
     for name in ("A", "B", "C", "D", "x0", "innovation_covariance"):
         assert getattr(found.model, name).tobytes() == getattr(wanted.model, name).tobytes()
     assert found.model.uncertainty.root.tobytes() == wanted.model.uncertainty.root.tobytes()
@@ -86,9 +92,9 @@ def test_every_way_gives_the_same_bytes(
     assert found.residual.r.tobytes() == wanted.residual.r.tobytes() and found.signal.v.tobytes() == wanted.signal.v.tobytes()
 
 
-def test_frames_and_arguments_name_the_channels(data: tuple[Array, Array], tmp_path: Path) -> None:
-    assert by_frames(*data, tmp_path).record.names == (*made.INPUTS, *made.OUTPUTS)
-    found = by_chunks(*data, tmp_path)
+def test_frames_and_arguments_name_the_channels(found_by: Callable[[Way], Any]) -> None:
+    assert found_by(by_frames).record.names == (*made.INPUTS, *made.OUTPUTS)
+    found = found_by(by_chunks)
     assert found.record.names == ("u1", "u2", "y1", "y2", "y3") and f"{N} samples, inputs u1, u2" in found.summary()
 
 

@@ -20,6 +20,7 @@ from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.rows import bootstrap, laws, remainder
 from faultspace.numeric.rows.degree import least_degree
+from faultspace.numeric.rows.evidence import Evidence
 from faultspace.numeric.rows.fault_count import count_faults
 from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
 from faultspace.numeric.rows.space import fault_space_by_rows
@@ -27,6 +28,7 @@ from faultspace.numeric.space.distances import principal_angles
 from faultspace.numeric.space.largest import largest_fault_space
 from tests.numeric.exact_cases import floats, matrix, stable_state_matrix
 from tests.numeric.planted import Planted, coloured, planted, simulate
+from tests.thorough import every
 
 
 def joint_record(system: Planted, seed: int, samples: int, decibels: float | None, *, inputs: int = 1) -> tuple[Any, Any]:
@@ -107,7 +109,7 @@ def test_the_law_of_sphericity() -> None:
     def probability(shares_taken: Any) -> float:
         samples = [complex_normal(rng, count, k) @ root.T for root in roots]
         powers = np.array([part.T @ part.conj() / count for part in samples])
-        rest = remainder.Remainder(powers, gains, np.full(bands, 1 / bands), 2.0 * count * bands)
+        rest = remainder.Remainder(powers, gains, np.full(bands, 1 / bands), np.zeros(bands), 2.0 * count * bands)
         return remainder.sphericity(rest, shares_taken).level
 
     nominal = [probability(shares) for _ in range(200)]
@@ -124,7 +126,7 @@ def test_noise_shares_are_found() -> None:
     roots = np.linalg.cholesky(colour * ((gains * shares) @ gains.conj().transpose(0, 2, 1)))
     samples = [complex_normal(rng, count, k) @ root.T for root in roots]
     rest = remainder.Remainder(
-        np.array([part.T @ part.conj() / count for part in samples]), gains, np.full(bands, 1 / bands), 2.0 * count * bands
+        np.array([part.T @ part.conj() / count for part in samples]), gains, np.full(bands, 1 / bands), np.zeros(bands), 2.0 * count * bands
     )
     found = remainder.noise_shares(rest, np.ones(3))
     np.testing.assert_allclose(np.log(found), np.log(shares), atol=0.25)
@@ -156,7 +158,10 @@ def plant(seed: int, p: int, m: int, n: int = 3) -> Planted:
     return planted(seed, n=n, p=p, m=m)
 
 
-@pytest.mark.parametrize(("p", "m", "decibels"), [(3, 1, 40), (3, 1, 20), (4, 2, 30), (3, 2, 40), (2, 1, 40)])
+@pytest.mark.parametrize(
+    ("p", "m", "decibels"),
+    [(3, 1, 20), (4, 2, 30), (2, 1, 40), pytest.param(3, 1, 40, marks=pytest.mark.slow), pytest.param(3, 2, 40, marks=pytest.mark.slow)],
+)
 def test_faults_are_counted(p: int, m: int, decibels: float) -> None:
     y, u = joint_record(plant(11, p, m), 11, 1000, decibels)
     found = count_faults(y, u, order=3)
@@ -339,7 +344,7 @@ def test_two_hundred_samples() -> None:
 
 def test_the_bootstrap_finds_the_misfit() -> None:
     y, u = joint_record(plant(21, 3, 1), 21, 500, 40)
-    evidence = laws.Evidence(y, u, 3)
+    evidence = Evidence(y, u, 3)
     quick = laws.tested(evidence, 2)
     careful = laws.bootstrapped(evidence, quick, 4)
     assert quick.holds and careful.holds
@@ -402,15 +407,15 @@ def test_never_larger_than_the_structure_allows() -> None:
 
 def test_the_law_of_the_degree() -> None:
     """Where the least degree is true its stated probability is not small, and that of the degree below is none."""
-    small = 0
-    for seed in range(12):
+    small, seeds = 0, range(12)[:: every()]
+    for seed in seeds:
         system = planted(30 + seed, n=2, p=2, m=1)
         y, u = joint_record(system, seed, 600, 40)
         data = joint_moments(y, u, 4)
         chosen = least_degree(data, course(data, 1, 4), 0, 2)
         small += chosen.probabilities[2] < 0.01
         assert chosen.probabilities[1] < 1e-3
-    assert small <= 2
+    assert small <= len(seeds) / 6
 
 
 def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None:

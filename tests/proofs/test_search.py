@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from itertools import product
+from itertools import islice, product
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.evidence import search
 from faultspace.proofs.evidence.search import Box, Facts, Flags, chunks, ranks, smallest, systems_in_order
 from tests.oracle import inspect_slowly
+from tests.thorough import THOROUGH
 
 
 def everything(facts: Facts) -> Flags:
@@ -84,7 +85,8 @@ def slow_gap_is_wrong(data: dict[str, Any]) -> bool:
 
 def test_nothing_smaller_than_the_counterexample_to_n_minus_1_at_four() -> None:
     """The ledger's counterexample has n + m + p = 5; below that the oracle finds none among all systems with n = 1."""
-    assert not any(slow_gap_is_wrong(data) for data in slowly(4, (1, 1, 2)))
+    step = 1 if THOROUGH else 4  # entries have three values: a step of three would leave the last one at the same
+    assert not any(slow_gap_is_wrong(data) for data in islice(slowly(4, (1, 1, 2)), 0, None, step))
 
 
 def test_a_search_whose_test_lets_too_little_through_misses_the_smallest(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from faultspace.exact.algebra.fields import QQ
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.system.systems import ResidualSystem
 
@@ -41,12 +42,14 @@ def fractions(given: Matrix) -> list[list[Fraction]]:
 
 def floats(given: Matrix) -> Array:
     """Return each entry correctly rounded; a new array at every call."""
-    return np.array([[float(x) for x in row] for row in fractions(given)], dtype=np.float64).reshape(given.shape)
+    # Python divides two integers with one rounding, to nearest, ties to even.
+    return np.array([[int(x.p) / int(x.q) for x in row] for row in given.elements()], dtype=np.float64).reshape(given.shape)
 
 
 def scaled(given: Matrix, factors: Sequence[Fraction]) -> Matrix:
     """Column j is multiplied by factors[j]."""
-    return matrix([[x * f for x, f in zip(row, factors, strict=True)] for row in fractions(given)], given.ncols)
+    exact = [QQ.element(factor) for factor in factors]
+    return Matrix.from_elements(QQ, *given.shape, [[x * f for x, f in zip(row, exact, strict=True)] for row in given.elements()])
 
 
 def signs(seed: int, count: int) -> Array:

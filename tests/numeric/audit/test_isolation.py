@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit.outcome import Audit
 from faultspace.numeric.audit.running import audit, parametrize_with_checks
 from faultspace.numeric.audit.subjects.isolation import Isolated
+from tests.numeric.audit.left_behind import child, ends
 
 REFERENCE = "faultspace.numeric.audit.reference"
 ONE, TWO = "fault-dimension[one-fault]", "fault-dimension[two-faults]"
@@ -66,23 +66,15 @@ def test_what_breaks_is_told_and_the_run_goes_on(tmp_path: Path, body: str, verd
 
 
 def test_a_process_left_behind_ends_with_the_audit(tmp_path: Path) -> None:
-    mark = tmp_path / "alive"
-    child = f"import time, pathlib; time.sleep(3); pathlib.Path({str(mark)!r}).touch()"
-    name = _adapter(tmp_path, f"import subprocess; subprocess.Popen([sys.executable, '-c', {child!r}])")
-    (record,) = audit(name, only=[ONE])
-    assert record.verdict == "pass"
-    time.sleep(3.5)
-    assert not mark.exists()
+    number = tmp_path / "number"
+    (record,) = audit(_adapter(tmp_path, child(number)), only=[ONE])
+    assert record.verdict == "pass" and ends(number)
 
 
 def test_a_process_that_leaves_the_session_ends_with_the_audit(tmp_path: Path) -> None:
-    mark = tmp_path / "alive"
-    child = f"import time, pathlib; time.sleep(4); pathlib.Path({str(mark)!r}).touch()"
-    body = f"import subprocess; subprocess.Popen([sys.executable, '-c', {child!r}], start_new_session=True); time.sleep(0.3)"
-    (record,) = audit(_adapter(tmp_path, body), only=[ONE])
-    assert record.verdict == "pass"
-    time.sleep(4.5)
-    assert not mark.exists()
+    number = tmp_path / "number"
+    (record,) = audit(_adapter(tmp_path, f"{child(number, ', start_new_session=True')}; time.sleep(0.3)"), only=[ONE])
+    assert record.verdict == "pass" and ends(number)
 
 
 def test_an_adapter_that_loads_once_only_breaks_what_comes_after(tmp_path: Path) -> None:

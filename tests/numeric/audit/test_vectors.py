@@ -18,13 +18,15 @@ from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import data_fault_space, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.audit.checks.excitation import unexciting_inputs
-from faultspace.numeric.audit.making.all_vectors import documents, main
+from faultspace.numeric.audit.making import fault_records
+from faultspace.numeric.audit.making.all_vectors import MAKERS, documents, main
 from faultspace.numeric.audit.making.fault_records import singular_values
 from faultspace.numeric.audit.vectors.exact_comparison import markov, polynomial_from_the_top
 from faultspace.numeric.audit.vectors.fault_vectors import VIEWS, in_channel_units
 from faultspace.numeric.audit.vectors.shipped_vectors import KINDS, floats, fractions, matrix, scaled, shipped, signs
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.space.by_ranks import noise_free_fault_space
+from tests.thorough import every
 
 DATA = files("faultspace.numeric.audit.vectors").joinpath("data")
 
@@ -51,14 +53,22 @@ def _same(made: Any, kept: Any, place: str) -> None:
 
 @pytest.fixture(scope="module")
 def made() -> dict[str, Any]:
-    """All documents as the tool would write them now."""
-    result: dict[str, Any] = json.loads(json.dumps(documents()))
+    """All documents as the tool would write them now; of the records of faults, each of which is made in ten views, a third."""
+    part = fault_records.fault_systems()[:: every()]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(MAKERS, "faults", lambda: [fault_records._faults(slug, system) for slug, system in part])
+        result: dict[str, Any] = json.loads(json.dumps(documents()))
     return result
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_shipped_files_are_what_the_tool_makes(kind: str, made: dict[str, Any]) -> None:
-    _same(made[f"{kind}.json"], _read(f"{kind}.json"), kind)
+    kept = _read(f"{kind}.json")
+    if kind == "faults":
+        slugs = [one["slug"] for one in kept["vectors"]]
+        assert slugs == [slug for slug, _ in fault_records.fault_systems()]
+        kept["vectors"] = kept["vectors"][:: every()]
+    _same(made[f"{kind}.json"], kept, kind)
 
 
 def test_the_tool_writes_them(tmp_path: Path, made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
