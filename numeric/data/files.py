@@ -43,7 +43,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import counted
-from .clocks import Clock, clock_from, time_name
+from .clocks import Clock, first_clock
 from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
 from .text_tables import TextTable
@@ -251,11 +251,9 @@ def _text(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -
                 raise InvalidInput(f"got {shorten(name)}, expected columns {MATRIX}[:,j] of a file without a line of names")
             wanted.append([int(j) for j in np.atleast_1d(picked[0])])
     places = [place for group in wanted for place in group]
-    when = time_name([name for name in table.names or () if name not in names])
-    clock = None
-    if when is not None and table.names is not None:
-        place = table.names.index(when)
-        clock = clock_from(table.column(place), when, table.units[place] if table.units else "")
+    there = table.names or ()
+    units = dict(zip(there, table.units or (), strict=False))
+    clock = first_clock([name for name in there if name not in names], lambda name: table.column(there.index(name)), units)
     return _Opened(tuple(map(len, wanted)), False, table.pieces(places, on_read), clock)
 
 
@@ -297,8 +295,7 @@ def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack
             raise refused(error) from None
 
     single = any(file.schema_arrow.field(name).type == arrow.float32() for name in names)
-    when = time_name([name for name in there if name not in names])
-    clock = None if when is None else clock_from(file.read(columns=[when]).column(0).to_numpy(), when)
+    clock = first_clock([name for name in there if name not in names], lambda name: file.read(columns=[name]).column(0).to_numpy())
     return _Opened((1,) * len(names), single, rows(), clock)
 
 
@@ -390,8 +387,8 @@ def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read
 def _timed(opened: _Opened, arrays: Mapping[str, Any], names: Sequence[str]) -> _Opened:
     """Return what was opened with the clock of an array of times, where there is one of as many numbers as there are samples."""
     chosen = {name.partition("[")[0] for name in names}
-    when = time_name([name for name in arrays if name not in chosen])
-    return opened if when is None else replace(opened, clock=clock_from(np.ravel(np.asarray(arrays[when])), when))
+    clock = first_clock([name for name in arrays if name not in chosen], lambda name: np.ravel(np.asarray(arrays[name])))
+    return replace(opened, clock=clock)
 
 
 def _forget(values: Any) -> None:

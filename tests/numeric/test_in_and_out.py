@@ -68,6 +68,14 @@ def test_text_tables_of_every_dialect_read_the_same(name: str, tmp_path: Path) -
     assert got.to_json()["dt"] == got.clock.dt and "0.05 s" in got.summary()
 
 
+def test_days_and_times_of_the_day_in_columns_of_their_own(tmp_path: Path) -> None:
+    path = tmp_path / "d.csv"
+    lines = table(",", ".", lambda k: f"2024-03-01,{ISO[k][11:]}", names=("Date", "Time", *NAMES))
+    path.write_text(lines)
+    got = read_record(path, inputs="valve", outputs="level,flow")
+    assert got.clock is not None and got.clock.name == "Time" and got.clock.dt == pytest.approx(DT)
+
+
 def test_a_time_that_is_a_channel_or_no_time_is_left_alone(tmp_path: Path) -> None:
     path = tmp_path / "d.csv"
     path.write_text(table(",", ".", seconds()))
