@@ -3,6 +3,7 @@
 Clock             what a time column says: the step dt, and where steps differ
 clock_from        the Clock of a column; clock_of: of times in seconds
 first_clock       the Clock of the first column that holds times
+whole_clock       that of a stretch without gaps
 time_name         which of some names is that of a time column
 seconds_in        how many seconds the unit of a name has: "t [ms]" -> 0.001
 seconds_of        times of any kind (numbers, dates, texts) in seconds
@@ -44,7 +45,8 @@ class Clock:
 
     `name` is the column's, and its numbers were taken as `unit`, a word. `least` and `greatest` are steps in seconds, `resolution` is what
     the digits of the times can tell apart. `regular` says that all steps are dt to that; `missing` counts rows that are not there,
-    `backwards` steps that do not go on, and `first_odd` is the first sample that is not where it should be.
+    `backwards` steps that do not go on, `first_odd` is the first sample that is not where it should be, and `gaps` are those with rows
+    missing before them.
     """
 
     name: str
@@ -57,6 +59,7 @@ class Clock:
     missing: int = 0
     backwards: int = 0
     first_odd: int | None = None
+    gaps: tuple[int, ...] = ()
 
     @property
     def source(self) -> str:
@@ -163,10 +166,18 @@ def clock_of(times: Array, name: str, unit: str = "seconds", *, factor: float = 
     longer = multiples > 1
     if longer.any() and longer.mean() < ODD and np.all(multiples >= 1) and np.all(np.abs(steps - multiples * typical) <= resolution + tiny):
         gone = int(np.sum(multiples - 1))
-        return replace(found, dt=typical, regular=False, missing=gone, first_odd=int(np.flatnonzero(longer)[0]) + 1)
+        gaps = tuple(int(k) + 1 for k in np.flatnonzero(longer))
+        return replace(found, dt=typical, regular=False, missing=gone, first_odd=gaps[0], gaps=gaps)
     line = times - times[0] - mean * np.arange(len(times))
     odd = np.flatnonzero(np.abs(line - (line.max() + line.min()) / 2) > resolution + tiny)
     return replace(found, regular=not len(odd), first_odd=int(odd[0]) if len(odd) else None)
+
+
+def whole_clock(clock: Clock) -> Clock | None:
+    """Return the clock of a stretch between the gaps of this one, None where its steps are odd in other ways."""
+    if clock.regular:
+        return clock
+    return replace(clock, regular=True, missing=0, first_odd=None, gaps=(), greatest=clock.dt) if clock.gaps else None
 
 
 def _resolution(numbers: Array) -> float:

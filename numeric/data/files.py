@@ -43,7 +43,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import counted
-from .clocks import Clock, first_clock
+from .clocks import Clock, first_clock, whole_clock
 from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
 from .text_tables import TextTable
@@ -121,12 +121,13 @@ def read_record(
 def read_stretches(
     path: str | os.PathLike[str], *, inputs: str | Sequence[str], outputs: str | Sequence[str], on_progress: Progress | None = None
 ) -> list[Record]:
-    """Return the whole stretches of a file in which samples are missing: what lies between rows with a cell that is no finite number.
+    """Return the whole stretches of a file in which samples are missing: what lies between rows with a cell that is no finite number, and
+    between times at which rows are missing.
 
     The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
-    one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments([(part.y, part.u) for part in
-    parts])`; the longest of them is a record for `identify`. No clock is read, since it would say the same of every stretch. Raises
-    InvalidInput as `read_record` does, but for numbers that are not finite, and where no row is whole.
+    one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments(parts)`;
+    the longest of them is a record for `identify`, with the sample time where a column tells it. Raises InvalidInput as `read_record`
+    does, but for numbers that are not finite, and where no row is whole.
 
     >>> import faultspace as fs, pathlib, tempfile
     >>> from faultspace.numeric import read_stretches
@@ -139,18 +140,22 @@ def read_stretches(
     with in_file(path), ExitStack() as stack:
         read_as, found, u_names, y_names = _opened(path, inputs, outputs, on_progress or silent, stack)
         writers: list[RecordWriter] = []
-        going = False
+        clock = None if found.clock is None else whole_clock(found.clock)
+        gaps = np.array([] if found.clock is None else found.clock.gaps, dtype=int)
+        going, start = False, 0
         with _readable(read_as):
             for rows in found.rows:
                 whole = np.asarray(np.isfinite(rows).all(axis=1))
-                for part in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(whole)) + 1):
+                ends = np.union1d(np.flatnonzero(np.diff(whole)) + 1, gaps[(gaps > start) & (gaps < start + len(rows))] - start)
+                for part in np.split(np.arange(len(rows)), ends):
                     if len(part) and whole[part[0]]:
-                        if not going:
+                        if not going or start + part[0] in gaps:
                             writers.append(RecordWriter(len(u_names) + len(y_names)))
                         writers[-1].append(rows[part])
                     going = bool(len(part) and whole[part[0]])
+                start += len(rows)
         _some(len(writers))
-        return [writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single) for writer in writers]
+        return [writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single, clock=clock) for writer in writers]
 
 
 def _opened(

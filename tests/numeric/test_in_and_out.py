@@ -105,11 +105,25 @@ def test_missing_cells_are_refused_with_a_way_on(tmp_path: Path) -> None:
     parts = read_stretches(path, inputs="valve", outputs="level,flow")
     assert [len(part) for part in parts] == [100, 148, 49]
     assert np.array_equal(np.vstack([part.y for part in parts]), np.delete(Y, [100, 101, 250], axis=0))
-    model = arx_reduction_experiments([(part.y, part.u) for part in parts], order=2)
+    model = arx_reduction_experiments(parts, order=2)
+    assert np.array_equal(model.A, arx_reduction_experiments([(part.y, part.u) for part in parts], order=2).A)
     assert np.allclose(model.model.markov(4), PLANT.markov(4), atol=0.05)
     path.write_text("u,y\n1,\n,2\n")
     with pytest.raises(InvalidInput, match="no samples"):
         read_stretches(path, inputs="u", outputs="y")
+
+
+def test_rows_missing_by_their_times_end_a_stretch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("faultspace.numeric.data.text_tables.PIECE", 50)
+    path = tmp_path / "d.csv"
+    lines = table(",", ".", seconds()).splitlines()
+    lines[120] = lines[120].rpartition(",")[0] + ","
+    path.write_text("\n".join([*lines[:51], *lines[53:200], *lines[210:]]))
+    whole = read_record(path, inputs="valve", outputs="level")
+    assert whole.clock is not None and whole.clock.missing == 12 and whole.clock.gaps == (50, 197)
+    parts = read_stretches(path, inputs="valve", outputs="level,flow")
+    assert [len(part) for part in parts] == [50, 67, 79, 91]
+    assert all(part.clock is not None and part.clock.regular and part.clock.dt == pytest.approx(DT) for part in parts)
 
 
 def test_stretches_go_on_over_the_pieces_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
