@@ -124,9 +124,8 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     step = f"from {high} mixed outputs to {low} the noise left by the best law rises by at least {decibels(rise)}"
     if below.middle - floor.middle <= ALARM:
         return undecided(
-            f"on {counted(low, 'mixed output')} the best law still improves by {decibels(below.drop)} "
-            f"over the last two degrees (at most {decibels(bound)} "
-            f"allowed): an order that needs larger block_rows"
+            f"on {counted(low, 'mixed output')} the best law still improves by {decibels(below.drop)} over the last two degrees (at most "
+            f"{decibels(bound)} allowed): an order that needs larger block_rows"
         )
     if rise < needed:
         return undecided(f"{step}: too much for the same floor, too little for a missing law (at least {decibels(needed)})")

@@ -221,7 +221,7 @@ def test_the_sample_time_of_the_data_goes_where_the_model_goes(found: Any, tmp_p
 
 def test_a_frame_has_channels_residual_and_fault_by_time(found: Any, tmp_path: Path) -> None:
     pandas: Any = importlib.import_module("pandas")
-    frame = found.to_frame()
+    frame = found.to_pandas()
     assert frame.index.name == "time [s]" and np.allclose(frame.index, T) and len(frame) == N
     assert np.array_equal(frame["output"].to_numpy(), found.record.y) and list(frame["input"].columns) == ["valve"]
     assert np.array_equal(frame["residual"][["level", "flow"]].to_numpy(), found.residual.r)
@@ -234,7 +234,7 @@ def test_a_frame_has_channels_residual_and_fault_by_time(found: Any, tmp_path: P
     assert np.array_equal(again.y, found.record.y) and again.clock is not None and again.clock.dt == pytest.approx(found.dt)
     text = pandas.read_csv(io.StringIO(frame["residual"].to_csv()), index_col=0)
     assert np.array_equal(text.to_numpy(), found.residual.r)
-    unknown = identify(Y, U, order=2, remove_means=True).to_frame()
+    unknown = identify(Y, U, order=2, remove_means=True).to_pandas()
     assert unknown.index.name == "sample" and np.array_equal(unknown["output"].to_numpy(), Y)
 
 
@@ -251,4 +251,4 @@ def test_without_pandas_it_is_said_what_to_install(found: Any, monkeypatch: pyte
 
     monkeypatch.setattr("faultspace.numeric.report.export.import_module", without)
     with pytest.raises(ImportError, match="pip install pandas"):
-        found.to_frame()
+        found.to_pandas()
