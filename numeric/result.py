@@ -118,7 +118,8 @@ class Identification(Findings):
         """Return a DataFrame with a row a sample: the channels, the residual in units of y, and the fault signal, NaN where that is not
         determined.
 
-        Columns are pairs: ("input", name), ("output", name), ("residual", name of the output), ("fault", "v1"), ..; the index is the time
+        Columns are pairs: ("input", name), ("output", name), ("residual", name of the output), ("onset", "before"), which counts the
+        onsets before a sample, ("fault", "v1"), ..; the index is the time
         in seconds from the first sample, or the number of the sample where the sample time is not known. All samples are read into
         memory. Raises ImportError without pandas.
         """

@@ -43,7 +43,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import counted
-from .clocks import Clock, clock_from, time_name
+from .clocks import Clock, first_clock, whole_clock
 from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
 from .text_tables import TextTable
@@ -121,12 +121,13 @@ def read_record(
 def read_stretches(
     path: str | os.PathLike[str], *, inputs: str | Sequence[str], outputs: str | Sequence[str], on_progress: Progress | None = None
 ) -> list[Record]:
-    """Return the whole stretches of a file in which samples are missing: what lies between rows with a cell that is no finite number.
+    """Return the whole stretches of a file in which samples are missing: what lies between rows with a cell that is no finite number, and
+    between times at which rows are missing.
 
     The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
-    one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments([(part.y, part.u) for part in
-    parts])`; the longest of them is a record for `identify`. No clock is read, since it would say the same of every stretch. Raises
-    InvalidInput as `read_record` does, but for numbers that are not finite, and where no row is whole.
+    one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments(parts)`;
+    the longest of them is a record for `identify`, with the sample time where a column tells it. Raises InvalidInput as `read_record`
+    does, but for numbers that are not finite, and where no row is whole.
 
     >>> import faultspace as fs, pathlib, tempfile
     >>> from faultspace.numeric import read_stretches
@@ -139,18 +140,22 @@ def read_stretches(
     with in_file(path), ExitStack() as stack:
         read_as, found, u_names, y_names = _opened(path, inputs, outputs, on_progress or silent, stack)
         writers: list[RecordWriter] = []
-        going = False
+        clock = None if found.clock is None else whole_clock(found.clock)
+        gaps = np.array([] if found.clock is None else found.clock.gaps, dtype=int)
+        going, start = False, 0
         with _readable(read_as):
             for rows in found.rows:
                 whole = np.asarray(np.isfinite(rows).all(axis=1))
-                for part in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(whole)) + 1):
+                ends = np.union1d(np.flatnonzero(np.diff(whole)) + 1, gaps[(gaps > start) & (gaps < start + len(rows))] - start)
+                for part in np.split(np.arange(len(rows)), ends):
                     if len(part) and whole[part[0]]:
-                        if not going:
+                        if not going or start + part[0] in gaps:
                             writers.append(RecordWriter(len(u_names) + len(y_names)))
                         writers[-1].append(rows[part])
                     going = bool(len(part) and whole[part[0]])
+                start += len(rows)
         _some(len(writers))
-        return [writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single) for writer in writers]
+        return [writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single, clock=clock) for writer in writers]
 
 
 def _opened(
@@ -251,11 +256,9 @@ def _text(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -
                 raise InvalidInput(f"got {shorten(name)}, expected columns {MATRIX}[:,j] of a file without a line of names")
             wanted.append([int(j) for j in np.atleast_1d(picked[0])])
     places = [place for group in wanted for place in group]
-    when = time_name([name for name in table.names or () if name not in names])
-    clock = None
-    if when is not None and table.names is not None:
-        place = table.names.index(when)
-        clock = clock_from(table.column(place), when, table.units[place] if table.units else "")
+    there = table.names or ()
+    units = dict(zip(there, table.units or (), strict=False))
+    clock = first_clock([name for name in there if name not in names], lambda name: table.column(there.index(name)), units)
     return _Opened(tuple(map(len, wanted)), False, table.pieces(places, on_read), clock)
 
 
@@ -297,8 +300,7 @@ def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack
             raise refused(error) from None
 
     single = any(file.schema_arrow.field(name).type == arrow.float32() for name in names)
-    when = time_name([name for name in there if name not in names])
-    clock = None if when is None else clock_from(file.read(columns=[when]).column(0).to_numpy(), when)
+    clock = first_clock([name for name in there if name not in names], lambda name: file.read(columns=[name]).column(0).to_numpy())
     return _Opened((1,) * len(names), single, rows(), clock)
 
 
@@ -390,8 +392,8 @@ def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read
 def _timed(opened: _Opened, arrays: Mapping[str, Any], names: Sequence[str]) -> _Opened:
     """Return what was opened with the clock of an array of times, where there is one of as many numbers as there are samples."""
     chosen = {name.partition("[")[0] for name in names}
-    when = time_name([name for name in arrays if name not in chosen])
-    return opened if when is None else replace(opened, clock=clock_from(np.ravel(np.asarray(arrays[when])), when))
+    clock = first_clock([name for name in arrays if name not in chosen], lambda name: np.ravel(np.asarray(arrays[name])))
+    return replace(opened, clock=clock)
 
 
 def _forget(values: Any) -> None:

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress
 from ...base.sheets import counted
-from .clocks import Clock, clock_from, time_name
+from .clocks import Clock, clock_from, first_clock, time_name
 from .files import named_once, read_record, split_names
 from .records import Record, RecordWriter
 from .validation import checked_pieces, two_dimensional
@@ -150,8 +150,7 @@ def _index_clock(values: Any) -> Clock | None:
 def _column_clock(frame: Any, chosen: Sequence[str]) -> Clock | None:
     """Return what a column of times, or else the index, of a frame says."""
     by_name = dict(zip(_columns(frame) or [], frame.columns, strict=True))
-    when = time_name([name for name in by_name if name not in chosen])
-    return None if when is None else clock_from(frame[by_name[when]].to_numpy(), when)
+    return first_clock([name for name in by_name if name not in chosen], lambda name: frame[by_name[name]].to_numpy())
 
 
 def _columns(values: Any) -> list[str] | None:

@@ -67,6 +67,11 @@ def doubts(
     """
     if not isinstance(record, Record):
         raise InvalidData(f"record: got one of type {type(record).__name__}; a Record is needed, as record_from(y, u) gives it")
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what no float holds is asked nothing
+        return _asked(record, model, residual, dt, means_removed)
+
+
+def _asked(record: Record, model: object, residual: ArrayLike | None, dt: float | None, means_removed: bool) -> Doubts:
     record = record.about(np.zeros(len(record.names)))
     y, u = record.stretch(0, HEARD)
     rest = None if residual is None else _residual(residual, record)
@@ -88,7 +93,10 @@ def doubts(
     else:
         unasked |= dict.fromkeys(OF_MODEL, "it needs a model with standard errors, as arx_reduction gives it")
     arx, why = _arx(record, model)
-    found = None if arx is None else _of_errors(y, u, arx, record)
+    try:
+        found = None if arx is None else _of_errors(y, u, arx, record)
+    except np.linalg.LinAlgError:
+        found, why = None, "numbers of the record are too unequal to compute with"
     if found is not None:
         rows += found
         asked += OF_ERRORS
@@ -129,6 +137,8 @@ def _of_errors(y: Array, u: Array, arx: Arx, record: Record) -> list[Doubt] | No
     about_y, about_u = y - y.mean(axis=0), u - u.mean(axis=0)
     e = one_step_errors(about_y, about_u, arx, h)
     e = e - e.mean(axis=0)
+    if not np.all(np.isfinite(e)):
+        raise np.linalg.LinAlgError
     if len(e) < 2 or np.all(np.sum(e**2, axis=0) <= EPS * np.sum(about_y**2, axis=0)):
         return None
     rows = list(rounding_doubts(y, e.std(axis=0), record.outputs))

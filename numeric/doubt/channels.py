@@ -51,7 +51,9 @@ def _copies(samples: Array, names: Sequence[str], moving: Sequence[int], n_u: in
     """Yield channels that are sums of multiples of earlier ones of the same kind, sample by sample, outputs also of inputs."""
     if len(samples) <= len(moving) or len(moving) < 2:
         return
-    about = samples[:, moving] - samples[:, moving].mean(axis=0)
+    # In units of the largest value, whose squares overflow nowhere.
+    about = samples[:, moving] / np.abs(samples[:, moving]).max(axis=0).clip(np.finfo(np.float64).tiny)
+    about -= about.mean(axis=0)
     sizes = np.linalg.norm(about, axis=0)
     unit = about / np.where(sizes > 0, sizes, 1.0)
     kept: list[int] = []

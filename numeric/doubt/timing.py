@@ -58,7 +58,7 @@ def clock_doubts(clock: Clock | None, stated: float | None) -> Iterator[Doubt]:
         effect = "the model takes them as equal, so that the plant seems to change from sample to sample, which looks like noise"
         yield Doubt("sampling time", (column,), evidence, effect, "interpolate all channels to equal steps, or record with a fixed clock")
     if stated is not None and abs(stated - clock.dt) > max(SAME * clock.dt, clock.resolution):
-        evidence = f"dt={stated:g} s was stated, the time in {column} steps by {clock.dt:.6g} s (its unit taken as {clock.unit})"
+        evidence = f"dt={stated:g} s was stated, the times step by {clock.dt:.6g} s ({clock.source})"
         effect = "frequencies and damping in physical units are those of the stated time"
         yield Doubt("sampling time", (column,), evidence, effect, "leave dt out where the column is right")
 

@@ -34,6 +34,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
 from ...base.sheets import counted
 from ...base.threads import one_thread
+from ..data.records import Record
 from ..data.validation import experiment, positive
 from .arx_windows import about_zero, arx_windows, longest_lag, merge_windows
 from .compression import EPS, Pieces
@@ -83,15 +84,19 @@ def arx_reduction(
 
 @one_thread()
 def arx_reduction_experiments(
-    experiments: Sequence[tuple[ArrayLike, ArrayLike]], *, order: int | None = None, lags: int | None = None, offset: bool = True
+    experiments: Sequence[tuple[ArrayLike, ArrayLike] | Record],
+    *,
+    order: int | None = None,
+    lags: int | None = None,
+    offset: bool = True,
 ) -> ReducedModel:
     """Estimate one model from several experiments (y, u) with the same channels and units [W89].
 
     Each has a length, an initial state and an offset of its own: their operating points may differ. Experiments no longer than the lags
     have no part in the model; their offset and state are NaN, and a note tells how many there are.
 
-    `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u); the other arguments and the result are those of
-    `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
+    `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u), or of Records, as `read_stretches` gives them; the
+    other arguments and the result are those of `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction_experiments
@@ -102,7 +107,8 @@ def arx_reduction_experiments(
     """
     if len(experiments) == 0:
         raise InvalidData("no experiment: give at least one pair (y, u)")
-    return _from_experiments([experiment(y, u) for y, u in experiments], order, lags, offset)
+    sources = [experiment(one, None) if isinstance(one, Record) else experiment(*one) for one in experiments]
+    return _from_experiments(sources, order, lags, offset)
 
 
 def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | None, offset: bool) -> ReducedModel:

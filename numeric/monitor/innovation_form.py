@@ -217,7 +217,8 @@ def _settled(model: StateSpaceModel, gain: Array, e: Array, first: int) -> Array
     span = min(len(e), 4 * first + model.n + 1)
     closed = StateSpaceModel(model.A - gain @ model.C, np.zeros((model.n, 1)), -model.C, np.zeros((model.p, 1)))
     free = np.stack([closed.simulate(np.zeros((span, 1)), x0) for x0 in np.eye(model.n)], axis=2)
-    start = np.linalg.lstsq(free.reshape(-1, model.n), e[:span].ravel(), rcond=None)[0]
+    level = np.tile(np.eye(model.p), (span, 1))  # the means of a record with a transient are not those of the plant at rest
+    start = np.linalg.lstsq(np.hstack([free.reshape(-1, model.n), level]), e[:span].ravel(), rcond=None)[0][: model.n]
     settled = e.copy()
     settled[:span] -= free @ start
     return settled

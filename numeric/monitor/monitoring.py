@@ -233,7 +233,7 @@ class Monitor(Shown):
         """Yield notes, what the predictor and the thresholds rest on, and what has been seen so far."""
         yield from (("note", note) for note in self.notes)
         found = self.calibration
-        yield "healthy errors, lags of the whitening", f"{found.samples}, {self._form.lags}"
+        yield "healthy errors, lags", f"{found.samples}, {self._form.lags}"
         for test, threshold, ideal, alarms in zip(TESTS, found.threshold, found.ideal, found.healthy_alarms, strict=True):
             yield f"threshold of {test}", f"{threshold:.4g} ({ideal:.4g} for Gaussian errors), {counted(alarms, 'healthy alarm')}"
         yield "samples seen, not judged", f"{self.samples}, {self.untested}"

@@ -66,7 +66,7 @@ def sample_time(answer: Findings) -> tuple[float | None, str]:
     if answer.dt is None:
         return None, "unknown"
     if clock is not None and answer.dt == clock.dt:
-        return answer.dt, f"column {clock.name}, its unit taken as {clock.unit}"
+        return answer.dt, clock.source
     return answer.dt, "stated"
 
 

@@ -7,6 +7,7 @@ PLANTED     kind -> a record with that reason
 from __future__ import annotations
 
 import itertools
+import json
 from dataclasses import replace
 from typing import Any
 
@@ -135,6 +136,20 @@ def test_one_channel_and_tiny_records_are_no_trouble() -> None:
         for p in (1, 2):
             assert all(row.kind in KINDS for row in doubts(record_from(Y[:samples, :p], U[:samples])))
     assert kinds(np.zeros((50, 1)), np.zeros((50, 1))) == ["constant channel", "constant channel"]
+
+
+def test_numbers_at_the_end_of_floats_are_no_trouble() -> None:
+    rng = np.random.default_rng(8)
+    for y, u in (
+        (np.full((3, 1), 1e300), np.arange(3.0)[:, None]),
+        (1e200 * rng.standard_normal((40, 1)), 1e-200 * rng.standard_normal((40, 1))),
+        (rng.standard_normal((300, 3)), np.zeros((300, 1))),
+        (rng.standard_cauchy((600, 2)), rng.standard_normal((600, 2))),
+        (np.arange(300.0)[:, None], rng.standard_normal((300, 1))),
+    ):
+        found = doubts(record_from(y, u))
+        assert set(found.asked) | set(found.unasked) == set(KINDS)
+        json.dumps(found.to_json(), allow_nan=False)
 
 
 # The tests themselves

@@ -68,6 +68,14 @@ def test_text_tables_of_every_dialect_read_the_same(name: str, tmp_path: Path) -
     assert got.to_json()["dt"] == got.clock.dt and "0.05 s" in got.summary()
 
 
+def test_days_and_times_of_the_day_in_columns_of_their_own(tmp_path: Path) -> None:
+    path = tmp_path / "d.csv"
+    lines = table(",", ".", lambda k: f"2024-03-01,{ISO[k][11:]}", names=("Date", "Time", *NAMES))
+    path.write_text(lines)
+    got = read_record(path, inputs="valve", outputs="level,flow")
+    assert got.clock is not None and got.clock.name == "Time" and got.clock.dt == pytest.approx(DT)
+
+
 def test_a_time_that_is_a_channel_or_no_time_is_left_alone(tmp_path: Path) -> None:
     path = tmp_path / "d.csv"
     path.write_text(table(",", ".", seconds()))
@@ -97,11 +105,25 @@ def test_missing_cells_are_refused_with_a_way_on(tmp_path: Path) -> None:
     parts = read_stretches(path, inputs="valve", outputs="level,flow")
     assert [len(part) for part in parts] == [100, 148, 49]
     assert np.array_equal(np.vstack([part.y for part in parts]), np.delete(Y, [100, 101, 250], axis=0))
-    model = arx_reduction_experiments([(part.y, part.u) for part in parts], order=2)
+    model = arx_reduction_experiments(parts, order=2)
+    assert np.array_equal(model.A, arx_reduction_experiments([(part.y, part.u) for part in parts], order=2).A)
     assert np.allclose(model.model.markov(4), PLANT.markov(4), atol=0.05)
     path.write_text("u,y\n1,\n,2\n")
     with pytest.raises(InvalidInput, match="no samples"):
         read_stretches(path, inputs="u", outputs="y")
+
+
+def test_rows_missing_by_their_times_end_a_stretch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("faultspace.numeric.data.text_tables.PIECE", 50)
+    path = tmp_path / "d.csv"
+    lines = table(",", ".", seconds()).splitlines()
+    lines[120] = lines[120].rpartition(",")[0] + ","
+    path.write_text("\n".join([*lines[:51], *lines[53:200], *lines[210:]]))
+    whole = read_record(path, inputs="valve", outputs="level")
+    assert whole.clock is not None and whole.clock.missing == 12 and whole.clock.gaps == (50, 197)
+    parts = read_stretches(path, inputs="valve", outputs="level,flow")
+    assert [len(part) for part in parts] == [50, 67, 79, 91]
+    assert all(part.clock is not None and part.clock.regular and part.clock.dt == pytest.approx(DT) for part in parts)
 
 
 def test_stretches_go_on_over_the_pieces_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -162,7 +162,7 @@ def test_a_ceiling_changes_no_crossing_below_it() -> None:
 
 
 def test_thresholds_have_the_stated_rate_on_streams_that_they_were_not_made_of() -> None:
-    settings, rate, streams, samples = Settings(p=2, window=WINDOW, shift=1.0), 2e-3, 64, 800
+    settings, rate, streams, samples = Settings(p=2, window=WINDOW, shift=1.0), 3e-4, 64, 1000
     threshold = ideal_thresholds(settings, rate)
     draw, bank = np.random.default_rng(99), Bank(settings, streams)
     above, episodes = np.zeros((streams, 4), bool), np.zeros(4)
@@ -214,6 +214,27 @@ def test_an_alarm_names_the_output_and_the_onset(fault: str, output: int) -> Non
     assert alarms and all(alarm.sample >= 200 for alarm in alarms) and alarms[0].sample < 260
     assert watch.outputs[output] == alarms[0].outputs[0] and abs(alarms[0].onset - 200) < 50
     assert {alarm.test for alarm in alarms} <= set(TESTS)
+
+
+def test_windows_and_cusum_find_the_sample_of_a_step() -> None:
+    watch = made(level=1e-4)
+    y, u = record(20, 300)
+    y[200:, 0] += 5 * NOISE
+    onsets = {alarm.test: alarm.onset for alarm in reversed(watch.extend(y, u).alarms)}
+    assert set(onsets) >= {"chi-square", "cusum", "hankel"} and all(198 <= onset <= 202 for onset in onsets.values())
+
+
+def test_a_healthy_record_may_begin_in_the_middle_of_a_transient() -> None:
+    slow, draw = StateSpaceModel([[0.97]], [[1.0]], [[1.0]], [[0.0]]), np.random.default_rng(1)
+
+    def drawn(start: float) -> tuple[Any, Any]:
+        u = draw.standard_normal((600, 1))
+        return slow.simulate(u, x0=[start]) + 0.01 * draw.standard_normal((600, 1)), u
+
+    watch = Monitor(slow, *drawn(200.0), level=1e-3, window=WINDOW)
+    form = watch._form
+    assert form.lags == 0 and abs(np.sqrt(form.covariance[0, 0]) * form.units.scale[0] / 0.01 - 1) < 0.08
+    assert abs(watch.extend(*drawn(0.0)).innovations[50:].std() - 1) < 0.15
 
 
 def test_the_rank_gap_counts_the_signals_of_the_faults() -> None:
@@ -287,7 +308,7 @@ def test_an_operating_point_that_the_model_does_not_know_is_an_alarm_that_says_s
     u[200:] += 10
     y[200:] = y[200:] - PLANT.simulate(u)[200:] + PLANT.simulate(u)[200:] ** 3 / 100
     alarms = watched.extend(y, u).alarms
-    assert alarms and alarms[0].inputs_beyond == ("u1",) and "inputs beyond the healthy record: u1" in alarms[0].title
+    assert alarms and alarms[0].inputs_beyond == ("u1",) and "inputs beyond the healthy record: u1" in alarms[0].line
 
 
 def test_units_do_not_matter() -> None:
@@ -348,7 +369,8 @@ def test_people_and_programs_read_it(watched: Monitor) -> None:
     y[50:] += 1.0
     seen = watched.extend(y, u)
     for one in (watched, seen, seen.alarms[0]):
-        assert json.loads(json.dumps(one.to_json(), allow_nan=False)) and one.title in one.summary()
+        assert json.loads(json.dumps(one.to_json(), allow_nan=False)) and one.summary().splitlines()[0] == one.title
+        assert max(map(len, one.summary().splitlines())) <= 80 and len(repr(one)) < 120 and "<table" in one._repr_html_()
     assert repr(watched) == "<Monitor: monitor of 2 outputs and 1 input, 0.001 false alarms a sample>"
 
 
