@@ -20,6 +20,9 @@ and a supremum above c on one side has a chance of at most e^-c (Ville's inequal
 is less than 2 c below the largest hold the true one with a probability of at least (1 - e^-c)^2. As many samples as there are lags are
 added in front: behind the true sample these have regressors from before it, which fit neither process.
 
+The sample behind a step has regressors from before it, and is an outlier of either process, which may hide the step. So, where there are
+lags, processes that have none are compared as well, on the same records without a change; both chances are then doubled.
+
 Scan             a stretch, cut into parts, and what it tells
 scan             makes it
 changed_outputs  the chance of the change in each output alone
@@ -31,7 +34,7 @@ Reader           gives rows first .. last - 1 of the residual, in units of its o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -50,7 +53,8 @@ HELD_OF_PART = 256  # samples of a longer part that are looked at to tell whethe
 MOST_LAGS = 12
 SAMPLES_A_NUMBER = 12  # samples for each number of a row, from which lags are tried
 FLOOR = 1e-6  # of each output's deviation: as if white noise of this size were added, so that parts without any noise are compared, too
-DRAWS = 199  # orders of the parts that are tried
+DRAWS = 399  # orders of the parts that are tried
+LEAST = 1 / (DRAWS + 1)  # the least chance that can be told
 CLEAR = 10  # larger ratios after which no more are tried
 SEED = 20251122
 NUMBERS = 1 << 21  # of the records that are made at a time
@@ -59,16 +63,23 @@ FINE = 256  # samples at which the ratio is looked at in each step of closing in
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """This is what a stretch of a residual says of a change. Part i has the samples `edges[i]` to `edges[i + 1]` - 1, the first of which
-    are `rows[i]` (L, q), [1, r(k-1), .., r(k-lags), r(k)] each; `open` are the numbers of the edges at which a change is looked for,
-    `ratios` the scaled ratios there, and `p_value` the chance of a largest one as large without a change."""
+    """This is what a stretch of a residual says of a change. Part i has the samples `edges[i]` to `edges[i + 1]` - 1, the first of
+    which `rows[i]` (L, q), [1, r(k-1), .., r(k-lags), r(k)] each, of which the columns `kept` are looked at; `open` are the
+    numbers of the edges at which a change is looked for, `ratios` the scaled ratios there, and `p_value` the chance of a
+    largest one as large without a change."""
 
     edges: Numbers
     rows: Array
     p: int
+    kept: tuple[int, ...]
     open: Numbers
     ratios: Array
     p_value: float
+
+    @property
+    def lags(self) -> int:
+        """Return the lags of the processes before and after."""
+        return (len(self.kept) - 1) // self.p - 1
 
     @property
     def best(self) -> int:
@@ -119,21 +130,34 @@ def scan(read: Reader, first: int, last: int, p: int, lags: int, earliest: int) 
         return None
     held = min(length, HELD_OF_PART)
     rows = np.array([rows_of(read(a - lags, a + held), lags) for a in edges[:-1].tolist()])
-    scale = _usual(held * np.concatenate([at, len(rows) - at, [len(rows)]]), q, p)
-    ratios = _ratios(_squares(rows), held, p, at) / scale
+    found = _counted(edges, rows, p, at, tuple(range(q)))
+    if lags == 0:
+        return found
+    if found.p_value > LEAST:
+        plain = _counted(edges, rows, p, at, (0, *range(q - p, q)))
+        found = plain if plain.p_value < found.p_value else found
+    return replace(found, p_value=min(2 * found.p_value, 1.0))
+
+
+def _counted(edges: Numbers, rows: Array, p: int, at: Numbers, kept: tuple[int, ...]) -> Scan:
+    """Return the ratios of the columns `kept` of the rows, and the chance of the largest of them."""
+    (M, held, _), some = rows.shape, np.ix_(np.arange(len(rows)), np.array(kept), np.array(kept))
+    scale = _usual(held * np.concatenate([at, M - at, [M]]), len(kept), p)
+    ratios = _ratios(_squares(rows)[some], held, p, at) / scale
     largest, exceeded = float(ratios.max()), 0
     for tried, sums in enumerate(_without_change(rows, p, int(at[np.argmax(ratios)])), 1):
-        exceeded += bool((_ratios(sums, held, p, at) / scale).max() >= largest)
+        exceeded += bool((_ratios(sums[some], held, p, at) / scale).max() >= largest)
         if exceeded == CLEAR:
-            return Scan(edges, rows, p, at, ratios, exceeded / tried)
-    return Scan(edges, rows, p, at, ratios, (exceeded + 1) / (DRAWS + 1))
+            return Scan(edges, rows, p, kept, at, ratios, exceeded / tried)
+    return Scan(edges, rows, p, kept, at, ratios, (exceeded + 1) / (DRAWS + 1))
 
 
 def changed_outputs(found: Scan) -> Array:
     """Return for each output alone the chance (p,) of so large a ratio at the best edge without a change."""
-    p, (_, held, q) = found.p, found.rows.shape
+    p, held = found.p, found.rows.shape[1]
     at = np.array([found.best])
-    own = [np.ix_(np.arange(len(found.rows)), kept, kept) for kept in ([0, *range(1 + j, q, p)] for j in range(p))]
+    columns = [np.array([c for c in found.kept if c == 0 or (c - 1) % p == j]) for j in range(p)]
+    own = [np.ix_(np.arange(len(found.rows)), kept, kept) for kept in columns]
 
     def alone(sums: Array) -> Array:
         return np.array([_ratios(sums[kept], held, 1, at)[0] for kept in own])
@@ -143,9 +167,9 @@ def changed_outputs(found: Scan) -> Array:
     return np.asarray((exceeded + 1) / (DRAWS + 1))
 
 
-def located(read: Reader, found: Scan, lags: int, earliest: int, confidence: float) -> tuple[int, tuple[int, int]]:
+def located(read: Reader, found: Scan, earliest: int, confidence: float) -> tuple[int, tuple[int, int]]:
     """Return the first sample after the change, and (first, last) of the samples that it may be with this confidence."""
-    p, q = found.p, found.rows.shape[-1]
+    p, q, lags = found.p, len(found.kept), found.lags
     begin, last = int(found.edges[0]), int(found.edges[-1])
     reach = -2 * np.log(1 - np.sqrt(confidence))
     lowest, highest = max(begin + least_samples(q), earliest), last - least_samples(q)

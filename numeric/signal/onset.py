@@ -26,7 +26,7 @@ from ...base.threads import one_thread
 from ..data.plain import plain
 from ..data.records import SampleStore, Stored, stored
 from ..data.validation import signal, whole
-from .change_scan import DRAWS, Reader, changed_outputs, choose_lags, located, scan
+from .change_scan import LEAST, Reader, changed_outputs, choose_lags, located, scan
 
 LEVEL = 0.01  # the chance that a stretch without a change is said to have one
 CONFIDENCE = 0.95  # of the interval
@@ -167,7 +167,7 @@ def fault_onset(
 
     r (N, p) is an array, a store or the ResidualSignal of `residual`, in the units of y. `healthy` says how many samples, from the first
     on, are stated to be without fault: no onset is looked for among them, and they are what the others are held against; without it, what
-    comes before the first onset is. `level` is the chance that a stretch without a change is said to have one, at least 1 / 200, and
+    comes before the first onset is. `level` is the chance that a stretch without a change is said to have one, at least 0.005, and
     `confidence` that of the intervals. The residual may have any colour that an autoregression takes off, and any law: the chance is
     counted on the residual itself. A fault that comes slowly has an onset where it begins to be seen, and more where it has grown. A change
     of the inputs can change a residual too, where the model is not exact. Raises InvalidData for values that are not finite, and for a
@@ -188,8 +188,8 @@ def fault_onset(
     N = len(store)
     if known is not None and known >= N:
         raise InvalidData(f"healthy: got {known} for {counted(N, 'sample')}; some must follow: state fewer")
-    if not 1 / (DRAWS + 1) <= level < 1:
-        raise InvalidData(f"level: got {level}; a chance between {1 / (DRAWS + 1)} and 1 is needed, for example 0.01")
+    if not 2 * LEAST <= level < 1:
+        raise InvalidData(f"level: got {level}; a chance of {2 * LEAST} or more, below 1, is needed, for example 0.01")
     if not 0 < confidence < 1:
         raise InvalidData(f"confidence: got {confidence}; a number between 0 and 1 is needed, for example 0.95")
     read, moving = _scaled(store, 0, N)
@@ -230,7 +230,7 @@ def _changes(store: SampleStore, first: int, last: int, earliest: int, level: fl
         return []
     chances = np.ones(store.width)
     chances[moving] = changed_outputs(found)
-    sample, interval = located(read, found, lags, earliest, confidence)
+    sample, interval = located(read, found, earliest, confidence)
     change = _Change(sample, interval, found.p_value, chances)
     before = _changes(store, first, interval[0], earliest, level, confidence)
     return [*before, change, *_changes(store, interval[1], last, interval[1] + 1, level, confidence)]

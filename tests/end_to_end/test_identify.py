@@ -29,6 +29,7 @@ from faultspace.numeric.data.records import recorded
 from faultspace.numeric.model.models import FORMAT, StateSpaceModel
 from faultspace.numeric.report import files as report
 from faultspace.numeric.report import folders
+from faultspace.numeric.report.causes import RESIDUAL
 from faultspace.numeric.report.folders import MANIFEST
 from faultspace.numeric.report.pictures import PICTURES
 from faultspace.numeric.report.summary import advice
@@ -141,7 +142,7 @@ def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Pat
     monkeypatch.setattr("faultspace.numeric.report.pictures.import_module", without)
     run = identified(csv_file, tmp_path / "out", "--json", "--order", "3")
     assert run.code == 0 and "matplotlib is not installed" in run.err
-    assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, report.SUMMARY, report.PAGE]
+    assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, RESIDUAL, report.SUMMARY, report.PAGE]
     assert "<img" not in (tmp_path / "out" / report.PAGE).read_text("utf-8")
     assert "matplotlib" in (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
 
