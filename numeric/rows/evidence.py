@@ -25,6 +25,7 @@ from ..model.models import StateSpaceModel
 from ..model.quick_reduction import quick_reduction
 from ..model.reduced_model import ReducedModel
 from ..model.residuals import residual
+from ..model.weighted_reduction import spectral_radius
 from ..space.tapered_moments import BANDS, tapered_moments
 from .joint import JointMoments, joint_moments
 from .remainder import Remainder, as_signals
@@ -35,6 +36,8 @@ EXTRA = 3
 LONG = 10
 # Samples up to which the usual number of bands does.
 SHORT = 2000
+# Share of the initial state's error, itself far below the noise, that is left where it is thought to have died away.
+GONE = 1e-4
 TINY = float(np.finfo(np.float64).tiny)
 
 
@@ -115,10 +118,12 @@ class Evidence:
 
     @cached_property
     def unexplained(self) -> Remainder | None:
-        """What the model leaves of y, with the initial state fitted."""
+        """What the model leaves of y after the initial state, whose error would fill the nulls of the noise spectrum, has died away."""
         if self.reduction is None:
             return None
-        r = residual(self.y, self.u, self.reduction.model).r / self.data.scale[: self.data.p]
+        radius = min(max(spectral_radius(self.reduction.model.A), TINY), 1 - 1 / len(self.y))
+        gone = min(int(np.log(GONE) / np.log(radius)) + 1, len(self.y) // 4)
+        r = residual(self.y, self.u, self.reduction.model).r[gone:] / self.data.scale[: self.data.p]
         moments = tapered_moments(r - r.mean(axis=0), 0)
         return as_signals(moments.moments / moments.weights[:, None, None], moments)
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from functools import cache
 from random import Random
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from faultspace.base.errors import InvalidData
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
+from faultspace.numeric.model.asymptotic_likelihood import arx_reduction
 from faultspace.numeric.rows import bootstrap, laws, remainder
 from faultspace.numeric.rows.degree import least_degree
 from faultspace.numeric.rows.evidence import Evidence
@@ -283,6 +285,23 @@ def test_noise_of_unlike_colours_may_be_all_that_there_is(seed: int) -> None:
     noise = np.stack([scipy.signal.lfilter([1.0], [1.0, -a], e) for a, e in zip((0.9, -0.8, 0.0), white.T, strict=True)], axis=1)
     found = count_faults(y + 0.05 * noise, u, order=3)
     assert found.n_v is None and found.possible == (0, 1, 2, 3) and "unrelated" in found.reason, found.reason
+
+
+def test_a_model_that_is_there_already_saves_its_making() -> None:
+    y, u = joint_record(plant(15, 3, 1), 15, 600, 40)
+    model = arx_reduction(y, u, order=3)
+    alone = count_faults(y, u, order=3)
+    with patch("faultspace.numeric.rows.evidence.arx_windows", side_effect=AssertionError):
+        found = count_faults(y, u, order=3, model=model)
+    assert found.n_v == alone.n_v == 1 and abs(found.tests[-1].level - alone.tests[-1].level) < 1e-3
+
+
+def test_too_many_outputs_for_the_rows_are_said_at_once() -> None:
+    rng = np.random.default_rng(9)
+    u, v = rng.standard_normal((1000, 1)), rng.standard_normal((1000, 1))
+    y = u @ rng.standard_normal((1, 24)) + v @ rng.standard_normal((1, 24)) + 0.01 * rng.standard_normal((1000, 24))
+    found = count_faults(y, u, order=1)
+    assert found.n_v is None and found.possible == tuple(range(1, 25)) and "unknowns" in found.reason
 
 
 def test_the_law_of_unrelated_signals() -> None:
