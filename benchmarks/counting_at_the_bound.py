@@ -31,9 +31,9 @@ from numpy.typing import NDArray
 
 from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
 from faultspace.numeric.rows.evidence import Evidence
-from faultspace.numeric.rows.fault_count import count_faults
+from faultspace.numeric.rows.fault_count import FAINTEST, count_faults
 from faultspace.numeric.rows.joint import course, joint_moments
-from faultspace.numeric.rows.laws import FAR, FAR_LONGER, FLAT_MISFIT, SHAPE_MISFIT, SINGLE_MISFITS, tested
+from faultspace.numeric.rows.laws import FAR, FAR_LONGER, FLAT_MISFIT, SHAPE_MISFIT, SINGLE_MISFITS, step_to_two, tested
 from faultspace.numeric.study.runs import NOISE_GAIN, study_run
 from faultspace.numeric.study.systems import N_X, study_system
 
@@ -148,13 +148,13 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
         print(f"{extra} degrees more: ratio / freedom {quantiles(ratios)}; of the stated probabilities {shares}")
 
 
-def laws(seed: int, trials: int, samples: int, clock: Clock) -> None:
+def laws(seed: int, trials: int, samples: int, clock: Clock, cells: Sequence[int]) -> None:
     """Print the ratios of `laws.py` over their expectations: of as many rows as are laws, and of one more, which are none."""
     shapes, flats, others, steps = list[float](), list[float](), list[float](), list[float]()
     singles: list[tuple[float, ...]] = []
-    full: list[bool] = []
+    full, clear = list[bool](), list[float]()
     for number in clock.range(trials):
-        p, n_v, decibels, spread = COUNT_CELLS[number % len(COUNT_CELLS)]
+        p, n_v, decibels, spread = COUNT_CELLS[cells[number % len(cells)]]
         evidence = Evidence(*record(seed + number, p, n_v, decibels, spread, samples), N_X)
         if n_v < p:
             found = tested(evidence, p - n_v)
@@ -169,19 +169,28 @@ def laws(seed: int, trials: int, samples: int, clock: Clock) -> None:
             found = tested(evidence, 1)
             full.append(found.holds is not False)
             if found.holds:
-                steps.append(tested(evidence, 2).level - found.level)
+                steps.append(step_to_two(evidence, found, tested(evidence, 2)))
+        if n_v == p - 1 and decibels == 40.0:
+            clear.append(step_to_two(evidence, found, tested(evidence, 2)))
     print(f"laws, k >= 2: sphericity / expected {quantiles(shapes)} (SHAPE_MISFIT is {SHAPE_MISFIT:g}, FAR {FAR:g})")
     print(f"laws, k >= 2: flatness / freedom {quantiles(flats)} (FLAT_MISFIT is {FLAT_MISFIT:g}, FAR_LONGER {FAR_LONGER:g})")
     for i, misfit in enumerate(SINGLE_MISFITS):
         print(
             f"laws, k = 1: flatness / freedom, step {i + 1}: {quantiles([ratios[i] for ratios in singles])} (SINGLE_MISFITS has {misfit:g})"
         )
-    print(f"no laws, k >= 2: the larger of the ratios over FAR and FAR_LONGER: least {min(others):.2f}, {quantiles(others)}")
-    print(f"n_v = p, k = 1: not refused {sum(full)} of {len(full)}, accepted {len(steps)}, with steps {np.round(steps, 1).tolist()}")
+    print(
+        f"no laws, k >= 2: the larger of the ratios over FAR and FAR_LONGER: least {min(others, default=np.nan):.2f}, {quantiles(others)}"
+    )
+    print(
+        f"n_v = p, k = 1: not refused {sum(full)} of {len(full)}, accepted {len(steps)}, with steps {np.round(sorted(steps), 1).tolist()}"
+    )
+    print(f"n_v = p - 1, 40 dB: steps {np.round(sorted(clear), 1).tolist()} (FAINTEST is {FAINTEST:g})")
 
 
 def quantiles(values: list[float]) -> str:
     """Return the mean and some quantiles, as text."""
+    if not values:
+        return "none made"
     q = np.quantile(values, [0.5, 0.9, 0.99])
     return f"mean {np.mean(values):.2f}, median {q[0]:.2f}, 90 % {q[1]:.2f}, 99 % {q[2]:.2f} of {len(values)}"
 
@@ -217,7 +226,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--samples", type=int, default=1001)
     parser.add_argument("--limit", type=float, default=float("inf"))
-    parser.add_argument("--cells", type=int, nargs="+", default=range(len(COUNT_CELLS)), help="of count: numbers of the cells, from 0")
+    parser.add_argument("--cells", type=int, nargs="+", default=range(len(COUNT_CELLS)), help="of count and laws: which, from 0")
     parser.add_argument("--jobs", type=int, default=1, help="of count: processes at a time")
     parser.add_argument("--out", type=Path, help="of count: the file to which trials are appended")
     chosen = parser.parse_args()
@@ -226,8 +235,10 @@ def main() -> None:
     elif chosen.table == "count":
         clock = Clock(chosen.limit, len(chosen.cells))
         count(chosen.seed, chosen.trials, chosen.samples, clock, chosen.cells, chosen.jobs, chosen.out)
+    elif chosen.table == "laws":
+        laws(chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1), chosen.cells)
     else:
-        {"calibrate": calibrate, "laws": laws}[chosen.table](chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1))
+        calibrate(chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1))
 
 
 if __name__ == "__main__":

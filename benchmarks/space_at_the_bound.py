@@ -17,7 +17,8 @@ found counts, decided or not. A row a cell and N:
     angle       what is stated, in radians, and over the true error: medians; an angle normal in one direction has 2.9 on the right
 
 `--calibrate` prints how often the angle holds, and its median, with fewer random starts than STARTS of `numeric/model/valleys.py`, and
-with more.
+with more; and what WIDENED of `numeric/rows/space.py` is set by: quantiles of the tangent of the angle over that of the stated one, not
+widened, in records where the estimate's own valley has a probability of ALONE.
 
 Brackets of rates are Wilson's 95 % intervals. Seconds are CPU seconds of the space alone; hold BLAS to one thread.
 """
@@ -49,6 +50,7 @@ from faultspace.numeric import (
 )
 from faultspace.numeric.model import valleys
 from faultspace.numeric.model.models import observability_matrix
+from faultspace.numeric.rows import space as rows_space
 from faultspace.numeric.space.distances import principal_angles, two_sided_error
 from faultspace.numeric.space.result import orthonormal
 
@@ -57,6 +59,7 @@ T = TypeVar("T")
 
 SMALL = 0.5  # radians below which a stated angle says that the space is known
 STARTS = (0, 4, 8, 16, 32)  # numbers of random starts that are compared
+ALONE = 0.95  # probability from which a valley counts as the only one
 
 
 @dataclass(frozen=True)
@@ -206,10 +209,11 @@ def tables(options: argparse.Namespace) -> Iterator[str]:
 
 @dataclass(frozen=True)
 class Followed:
-    """The true angle of one record, and the stated ones with each number of STARTS."""
+    """The true angle of one record, the stated ones with each number of STARTS, and the one not widened, None beside other valleys."""
 
     angle: float
     stated: tuple[float, ...]
+    narrow: float | None
 
 
 def followed(cell: Cell, seed: int, number: int, samples: int) -> Followed | None:
@@ -226,9 +230,11 @@ def followed(cell: Cell, seed: int, number: int, samples: int) -> Followed | Non
                 return None
             angle = pair[0]
             stated.append(pair[1])
+        with patch.object(rows_space, "WIDENED", 1.0):
+            known = identified_fault_space(trial.y, trial.u, model, n_v=trial.n_v).uncertainty
     except InvalidData:
         return None
-    return Followed(angle, tuple(stated))
+    return Followed(angle, tuple(stated), known.angle() if known is not None and known.valleys[0].weight >= ALONE else None)
 
 
 def calibration(options: argparse.Namespace) -> Iterator[str]:
@@ -241,6 +247,9 @@ def calibration(options: argparse.Namespace) -> Iterator[str]:
                 median = np.median([one.stated[number] for one in records])
                 share = f"{held} of {len(records)}, {rate(held, len(records))} %"
                 yield f"N = {samples}, {starts} starts: holds in {share}; median {median:.2f} rad"
+            ratios = [np.tan(one.angle) / np.tan(one.narrow) for one in records if one.narrow is not None]
+            quantiles = ", ".join(f"{100 * q:g} %: {np.quantile(ratios, q):.2f}" for q in (0.5, 0.9, 0.95)) if ratios else "none"
+            yield f"N = {samples}, not widened: {quantiles} of {len(ratios)}"
 
 
 def main() -> None:

@@ -31,6 +31,7 @@ from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .findings import Findings
+from .model.reduced_model import ReducedModel
 from .rows.evidence import LONG
 from .rows.fault_count import count_faults
 from .rows.joint import affordable
@@ -111,7 +112,9 @@ def _by_laws(answer: Findings, on_progress: Progress) -> Findings:
     on_progress("counting the laws of outputs and inputs", 0, 0)
     y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
     try:
-        count = count_faults(y, u, order=order, noise_level=answer.noise_level)
+        same = answer.held == (0, len(record)) and answer.modelled == len(record)
+        given = model if same and isinstance(model, ReducedModel) else None
+        count = count_faults(y, u, order=order, noise_level=answer.noise_level, model=given)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return replace(answer, notes=(*answer.notes, f"the laws of outputs and inputs were not counted, the residual alone was: {error}"))
     answer = replace(answer, count=count, possible=count.possible)

@@ -34,14 +34,14 @@ class Identification(Findings):
     doubts           what the record gives reason to doubt: evidence, what it does to the answer, what to do
     notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
 
-    order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these;
-    healthy: samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of
-    the healthy ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or
-    against zero where there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of
-    the little that the second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained:
-    the healthy samples are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output
-    that would be seen; dt: the sample time in seconds, where it was stated or a time column
-    tells it.
+    order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
+    samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
+    ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
+    where there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of the little
+    that the second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained: the
+    healthy samples are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output
+    that would be seen; dt: the sample time in seconds, where it was
+    stated or a time column tells it.
 
     `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
     `to_scipy()`, `to_pandas()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there
@@ -98,13 +98,6 @@ class Identification(Findings):
 
         return to_control(self)
 
-    def to_pandas(self) -> Any:
-        """Return the residual as a pandas.DataFrame with the columns of residual.csv: for each sample how many onsets came before, and the
-        residual of each output in units of y. Raises InvalidData where there is no model, and ImportError without pandas."""
-        from .report.causes import residual_frame
-
-        return residual_frame(self)
-
     def to_scipy(self) -> Any:
         """Return the model as a scipy.signal.dlti with the sample time, 1 where none was stated. Raises InvalidData where there is no
         model."""
@@ -126,7 +119,8 @@ class Identification(Findings):
         """Return a DataFrame with a row a sample: the channels, the residual in units of y, and the fault signal, NaN where that is not
         determined.
 
-        Columns are pairs: ("input", name), ("output", name), ("residual", name of the output), ("fault", "v1"), ..; the index is the time
+        Columns are pairs: ("input", name), ("output", name), ("residual", name of the output), ("onset", "before"), which counts the
+        onsets before a sample, ("fault", "v1"), ..; the index is the time
         in seconds from the first sample, or the number of the sample where the sample time is not known. All samples are read into
         memory. Raises ImportError without pandas.
         """

@@ -11,8 +11,10 @@ is every controllable stable pair in input-normal coordinates, C and D by least 
 functions differ by less than a standard deviation are one valley. Its probability is proportional to exp(-cost / 2): under Jeffreys' prior
 [J46], which is the volume in the space of transfer functions, all valleys are as wide.
 
-Valley     a model with its uncertainty and its probability
-valleys    those of a reduced model, its own first
+Valley       a model with its uncertainty and its probability
+valleys      those of a reduced model, its own first
+in_units     likelihood and model in units in which it is conditioned well
+begun        where descents from random starts come
 """
 
 from __future__ import annotations
@@ -55,11 +57,9 @@ class Valley:
 @one_thread()
 def valleys(found: ReducedModel) -> tuple[Valley, ...]:
     """Return the valleys that were found, in the units of the data, the model's own one first; the weights add up to one."""
-    y, u = _units(found.likelihood)
-    problem, n = found.likelihood.scaled(1 / y, 1 / u, found.likelihood.samples), found.order
-    rows, columns = np.concatenate([np.ones(n), 1 / y]), np.concatenate([np.ones(n), u])
-    own = system_matrix(found.model) * rows[:, None] * columns
-    ends = [descend(problem, matrix, n, *END)[0] for matrix in _begun(problem, own, n)] if min(n, problem.plant.shape[2]) else []
+    n = found.order
+    problem, own, rows, columns = in_units(found)
+    ends = [descend(problem, matrix, n, *END)[0] for matrix in begun(problem, own, n)] if min(n, problem.plant.shape[2]) else []
     minima = _distinct(problem, own, ends, n, HIGHEST)
     costs = np.array([problem.cost(matrix, n) for matrix in minima])
     weights = np.exp((costs.min() - costs) / 2)
@@ -68,15 +68,19 @@ def valleys(found: ReducedModel) -> tuple[Valley, ...]:
     return tuple(Valley(known, float(weight)) for known, weight in zip([found.uncertainty, *others], weights, strict=True))
 
 
-def _units(likelihood: Reduction) -> tuple[Array, Array]:
-    """Return the deviations (p,) of what disturbs the outputs, and those (n_u,) of the inputs."""
+def in_units(found: ReducedModel) -> tuple[Reduction, Array, Array, Array]:
+    """Return the likelihood and the system matrix T with outputs in units of what disturbs them and inputs in units of their deviation, and
+    the factors of the rows (n + p,) and columns (n + n_u,) of T that lead there."""
+    likelihood, n = found.likelihood, found.order
     powers = np.linalg.inv(likelihood.weight), likelihood.spectrum
     y, u = (np.sqrt(np.einsum("mii->i", power).real / len(power)) for power in powers)
-    return y, np.where(u > 0.0, u, 1.0)
+    u = np.where(u > 0.0, u, 1.0)
+    rows, columns = np.concatenate([np.ones(n), 1 / y]), np.concatenate([np.ones(n), u])
+    return likelihood.scaled(1 / y, 1 / u, likelihood.samples), system_matrix(found.model) * rows[:, None] * columns, rows, columns
 
 
-def _begun(problem: Reduction, own: Array, n: int) -> list[Array]:
-    """Return where descents from random starts come near other minima, on few angles."""
+def begun(problem: Reduction, own: Array, n: int) -> list[Array]:
+    """Return where descents from random starts come near minima other than `own` (n + p, n + n_u), on few angles."""
     step = max(len(problem.angles) // COARSE, 1)
     thin = slice(step // 2, None, step)
     coarse = Reduction(problem.angles[thin], problem.plant[thin], problem.weight[thin], problem.spectrum[thin], problem.samples)

@@ -4,7 +4,7 @@ onset_lines       the onsets, in lines of Markdown
 isolation_lines   which single cause explains the faults, with the angles in a table
 told              both in JSON
 residual_table    residual.csv: a line a sample
-residual_frame    the same as a data frame
+stretches         for each sample, how many onsets came before
 causes_drawn      the pictures of both, with their names
 """
 
@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...base.errors import InvalidData
 from ...base.progress import Progress
 from ..drawing import plot_onsets
 
@@ -98,29 +97,21 @@ def residual_table(answer: Findings, path: Path, on_progress: Progress) -> None:
     """Write a line a sample: its number, how many onsets came before, the residual of each output in digits that give the float back."""
     rest = answer.residual
     assert rest is not None
-    N, bounds = len(rest.store), _bounds(answer)
+    N = len(rest.store)
     with open(path, "w", encoding="utf-8", newline="") as stream:
         lines = csv.writer(stream, lineterminator="\n")
         lines.writerow(["sample", "stretch", *answer.record.outputs])
         k = 0
         for piece in rest.store.pieces():
-            stretches = np.searchsorted(bounds, np.arange(k, k + len(piece)), side="right").tolist()
-            lines.writerows([k + i, stretches[i], *map(repr, row)] for i, row in enumerate(piece.tolist()))
+            before = stretches(answer, k, k + len(piece)).tolist()
+            lines.writerows([k + i, before[i], *map(repr, row)] for i, row in enumerate(piece.tolist()))
             k += len(piece)
             on_progress("writing the residual", k, N)
 
 
-def residual_frame(answer: Findings) -> Any:
-    """Return the residual as a pandas.DataFrame with the columns of residual.csv, `sample` as its index. Raises InvalidData where there is
-    no model, and ImportError without pandas."""
-    import pandas
-
-    if answer.residual is None:
-        raise InvalidData("there is no model, so that there is no residual: state an order")
-    r = answer.residual.r
-    frame = pandas.DataFrame(r, columns=list(answer.record.outputs), index=pandas.RangeIndex(len(r), name="sample"))
-    frame.insert(0, "stretch", np.searchsorted(_bounds(answer), np.arange(len(r)), side="right"), allow_duplicates=True)
-    return frame
+def stretches(answer: Findings, first: int, until: int) -> Any:
+    """Return how many onsets came before each of the samples from `first` to before `until`."""
+    return np.searchsorted(_bounds(answer), np.arange(first, until), side="right")
 
 
 def causes_drawn(answer: Findings) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.errors import InvalidData, InvalidInput, quote_path
+from .causes import stretches
 
 if TYPE_CHECKING:
     from ..findings import Findings
@@ -56,8 +57,8 @@ def to_mat(answer: Findings, path: str | os.PathLike[str]) -> None:
 
 
 def to_pandas(answer: Findings) -> Any:
-    """Return a DataFrame, a row a sample, with columns ("input", name), ("output", name), ("residual", name of the output) and ("fault",
-    v1, ..): NaN where the signal is not determined."""
+    """Return a DataFrame, a row a sample, with columns ("input", name), ("output", name), ("residual", name of the output),
+    ("onset", "before"), how many onsets came before, and ("fault", v1, ..): NaN where the signal is not determined."""
     try:
         pandas: Any = import_module("pandas")
     except ImportError:
@@ -69,6 +70,7 @@ def to_pandas(answer: Findings) -> Any:
     if answer.residual is not None:
         rest = answer.residual.store.read(0, len(record))
         columns |= {("residual", name): values for name, values in zip(record.outputs, rest.T, strict=True)}
+        columns |= {("onset", "before"): stretches(answer, 0, len(record))}
     if answer.signal is not None:
         first, last = answer.signal.trusted
         v = np.full((len(record), answer.signal.store.width), np.nan)

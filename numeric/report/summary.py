@@ -74,7 +74,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield from onset_lines(answer)
         yield ""
         yield "## Faults"
-        yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
+        yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"
         yield f"why: {answer.reason}"
         said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
         if any(word in reason for reason in said for word in (" law", " row")):
@@ -272,7 +272,9 @@ def _space_lines(answer: Findings) -> Iterator[str]:
     if space.uncertainty is not None:
         angle = np.degrees(space.uncertainty.angle())
         if isinstance(answer.model, ReducedModel) and space.method == "kernel rows":
-            taken = "n_z taken as right; to first order in the model's error, which in short records fails more often than that"
+            count = len(space.uncertainty.valleys)
+            others = f", over {count} models that explain the data about as well" if count > 1 else ""
+            taken = f"n_z and the order taken as right{others}"
         else:
             taken = "n_z, A and C taken as right"
         yield f"angle to the true space: below {angle:.2g} degrees with probability 0.95, {taken}"

@@ -3,7 +3,7 @@
     Evidence            the moments of [y; u] for rows of degree order + EXTRA, those for long single rows, and the models
     quick, higher       models of the order and of EXTRA states more, from the ARX model in milliseconds: starts, no estimates
     unexplained         the moments of what the model of `arx_reduction` leaves of y
-    disturbance         the spectrum of what disturbs y, by the ARX model alone, whatever the order
+    disturbance         the spectrum of what disturbs y, by the ARX model alone, whatever the order; `apparent` rows seem to be laws by it
 
 Everything is made when it is first asked for, and once.
 """
@@ -35,6 +35,7 @@ EXTRA = 3
 LONG = 10
 # Samples up to which the usual number of bands does.
 SHORT = 2000
+TINY = float(np.finfo(np.float64).tiny)
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,3 +126,13 @@ class Evidence:
     def disturbance(self) -> Remainder | None:
         """What disturbs y by the ARX model."""
         return None if self.arx is None else as_signals(self.arx.disturbance(self.data.moments.angles), self.data.moments)
+
+    @cached_property
+    def apparent(self) -> int:
+        """So many rows seem to be laws: the widest step between neighbouring powers of the disturbance, on average over frequency. This
+        decides no answer, but what is asked first, and how often."""
+        rest, p = self.disturbance, self.data.p
+        if rest is None or p == 1:
+            return p // 2
+        powers = rest.weights @ np.log(np.maximum(np.linalg.eigvalsh(rest.powers), TINY))
+        return 1 + int(np.argmax(np.diff(powers)))

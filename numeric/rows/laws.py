@@ -12,6 +12,7 @@ a determinant that changes within a band.
 
     Laws         k rows with their level, shares, both ratios with their probabilities, and `holds`: True, False, or None in between
     Evidence     what a record says to rows: the moments, those for long single rows, and the model with its residual where there is one
+    step_to_two  what a single row leaves less than two: how far a last fault must stand above the noise
     tested       the test; with draws > 0 the misfit of the ratios is measured by the parametric bootstrap
 
 What the constants rest on. `benchmarks/counting_at_the_bound.py laws --trials 60 --seed 82000` (N = 1001) gives, where rows are laws, means
@@ -135,10 +136,11 @@ def tested(evidence: Evidence, count: int, shares: Array | None = None) -> Laws:
             return laws
         return _all(evidence, evidence.unexplained, shares, Misfits())
     best: Laws | None = None
-    for fit, found in _descents(evidence, count, shares):
+    for number, (fit, found) in enumerate(_descents(evidence, count, shares)):
         laws = _several(evidence, fit, found, Misfits())
         best = laws if best is None else max(best, laws, key=lambda each: (each.probability, -each.farness))
-        if best.holds or _hopeless(best):
+        # One descent may end elsewhere. Where the disturbance, too, shows fewer laws, it is enough; else a second one must confirm it.
+        if best.holds or (_hopeless(best) and (number > 0 or count > evidence.apparent)):
             break
     assert best is not None
     return best
@@ -283,3 +285,19 @@ def longer_are_laws(evidence: Evidence, refused: Laws, known: Array | None) -> b
         if shape.nats <= FAR * shape.expected:
             return True
     return False
+
+
+def step_to_two(evidence: Evidence, one: Laws, two: Laws) -> float:
+    """Return by how many nats a single row leaves less than two: the least step of the shares of the single one and of any that make the
+    two more spherical, each at the end of a descent."""
+    data, degrees = evidence.data, even_split(evidence.order, 2)
+    fit = refitted(data, degrees, two.fit.rows, shares=one.shares, rounds=3, flat=_flat(data))
+    least, shares = fit.level, two.shares
+    best = np.inf
+    for _ in range(TURNS):
+        fit = refitted(data, degrees, fit.rows, shares=shares, rounds=2, flat=_flat(data))
+        nats = sphericity(remainder(data, fit), shares).nats
+        if not nats < best:
+            break
+        least, best, shares = min(least, fit.level), nats, noise_shares(remainder(data, fit), shares)
+    return least - one.level

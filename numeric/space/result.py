@@ -42,8 +42,7 @@ class SpaceOfValley:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SpaceUncertainty(Shown):
-    """This says how far a fault space may be off, as a linear map of standard normal numbers, which is honest while errors are small
-    [MN89].
+    """A fault space may be off by this linear map of standard normal numbers, which is honest while errors are small [MN89].
 
     `root` has the shape (q, n + p, n_z): to first order the orthonormal basis (n + p, n_z) of the space is off its span by the sum of
     root[i] times standard normal numbers. Where the likelihood of a model has several valleys, `valleys` are the spaces in all of them,

@@ -173,7 +173,7 @@ from faultspace.cli import command_line
 from faultspace.numeric import counting
 from faultspace.numeric.data import records
 from faultspace.numeric.signal import reconstruction
-counting.HELD, records.IN_MEMORY, reconstruction.LONGEST = 1 << 16, {in_memory}, 1 << 13
+counting.HELD, records.IN_MEMORY, reconstruction.LONGEST = 1 << 15, {in_memory}, 1 << 13
 code = command_line.main(sys.argv[1:])
 with open("/proc/self/status") as status:
     print(code, *[line.split()[1] for line in status if line.startswith("VmHWM")], file=sys.stderr)
@@ -189,6 +189,7 @@ def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> flo
 
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc to read the peak of memory from")
+@pytest.mark.long
 @pytest.mark.parametrize("format", ["csv", pytest.param("parquet", marks=pytest.mark.slow), pytest.param("npy", marks=pytest.mark.slow)])
 def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
     if format == "parquet" and importlib.util.find_spec("pyarrow") is None:

@@ -60,6 +60,7 @@ def cost(file: Path) -> Cost:
     return Cost(said, code, seconds, peak * unit / 1e6)
 
 
+@pytest.mark.long
 @pytest.mark.timeout(3000)
 def test_floods_are_answered_or_refused_in_time(tmp_path: Path) -> None:
     step = 1 if os.environ.get("FAULTSPACE_FLOODS") == "all" else every(40)

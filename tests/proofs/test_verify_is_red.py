@@ -141,6 +141,7 @@ def once(again: Callable[[Mapping[str, str]], dict[str, bytes]]) -> Callable[[Ma
     return compiled
 
 
+@pytest.mark.long
 @pytest.mark.timeout(900)
 def test_a_poisoned_cache_is_told(place: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """It is poisoned in four ways, one after the other, each with digests that are right; what was there before each is put back.
