@@ -134,6 +134,7 @@ def test_of_nothing_no_more_is_seen_than_stated() -> None:
     assert alarms <= trials * level + 3.0 * np.sqrt(trials * level)
 
 
+@pytest.mark.slow
 def test_a_change_of_the_size_that_is_told_is_mostly_seen_and_a_tenth_of_it_is_not() -> None:
     seen = {1.0: 0, 0.1: 0}
     for seed in range(8):
