@@ -21,45 +21,36 @@ from .findings import Findings
 class Identification(Findings):
     """This is what `identify` found. A field is None where it was not asked for, because of what came before.
 
-        model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
-                         stays open, for which singular_values tell the choices
-        residual         r (N, p) in units of y, with x0 and its covariance; `sizes` of its channels
-        n_v, reason      the number of faults, None where it is undecided, and why; n_v_given: the caller stated it; counted_by: what it rests
-                         on, of COUNTED_BY; `at_least` faults act in any case
-        fault_space      the columns [f; g] that explain the residual: basis (n + p, n_z), orthonormal, and how sure it is
-        onset            the samples from which on the residual is another one, with intervals, outputs and sizes in sigmas
-        isolation        which single sensor or actuator lies in the fault space
-        pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
-                         the signal explains, by_noise: what it would explain of noise
-        doubts           what the record gives reason to doubt: evidence, what it does to the answer, what to do
-        notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
+    model            the MoespModel: A (n, n), B (n, n_u), C (p, n), D (p, n_u), x0 (n,), residual_covariance (p, p); None where the order
+                     stays open, for which singular_values tell the choices
+    residual         r (N, p) in units of y, with x0 and its covariance; `sizes` of its channels
+    n_v, reason      the number of faults, None where it is undecided, and why; n_v_given: the caller stated it; counted_by: what it rests
+                     on, of COUNTED_BY; `at_least` faults act in any case
+    fault_space      the columns [f; g] that explain the residual: basis (n + p, n_z), orthonormal, and how sure it is
+    onset            the samples from which on the residual is another one, with intervals, outputs and sizes in sigmas
+    isolation        which single sensor or actuator lies in the fault space
+    pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
+                     the signal explains, by_noise: what it would explain of noise
+    doubts           what the record gives reason to doubt: evidence, what it does to the answer, what to do
+    notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
 
-        order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
-        samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
-    <<<<<<< HEAD
+    order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
+    samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
         ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero where
-        there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of the little that the
-        second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained: the healthy samples
-        are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output that would be seen;
-        dt: the sample time in seconds, where it was stated or a time column tells it.
-    =======
-        ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
-        where there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of the little
-        that the second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained: the
-        healthy samples are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output
-        that would be seen; dt: the sample time in seconds, where it was
-        stated or a time column tells it.
-    >>>>>>> w-changes
+    there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of the little that the
+    second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained: the healthy samples
+    are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output that would be seen;
+    dt: the sample time in seconds, where it was stated or a time column tells it.
 
-        `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
-        `to_scipy()`, `to_pandas()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there
-        is none, and ImportError where it needs a package that is not installed. Source: [V93], [G25].
+    `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
+    `to_scipy()`, `to_pandas()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there
+    is none, and ImportError where it needs a package that is not installed. Source: [V93], [G25].
 
-        >>> import numpy as np
-        >>> from faultspace.numeric import StateSpaceModel, identify
-        >>> u = np.random.default_rng(1).standard_normal((400, 1))
-        >>> identify(StateSpaceModel([[0.5]], [[1.0]], [[1.0], [2.0]], [[0.0], [1.0]]).simulate(u), u)
-        <Identification of 400 samples: order 1, n_v 0, n_z None, no signal>
+    >>> import numpy as np
+    >>> from faultspace.numeric import StateSpaceModel, identify
+    >>> u = np.random.default_rng(1).standard_normal((400, 1))
+    >>> identify(StateSpaceModel([[0.5]], [[1.0]], [[1.0], [2.0]], [[0.0], [1.0]]).simulate(u), u)
+    <Identification of 400 samples: order 1, n_v 0, n_z None, no signal>
     """
 
     def __repr__(self) -> str:
