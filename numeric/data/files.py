@@ -121,8 +121,9 @@ def read_record(
 def read_stretches(
     path: str | os.PathLike[str], *, inputs: str | Sequence[str], outputs: str | Sequence[str], on_progress: Progress | None = None
 ) -> list[Record]:
-    """Return the whole stretches of a file in which samples are missing: what lies between rows with a cell that is no finite number, and
-    between times at which rows are missing.
+    """Return the whole stretches of a file in which samples are missing, as a list of Records.
+
+    They lie between rows with a cell that is no finite number, and between times at which rows are missing.
 
     The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
     one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments(parts)`;
