@@ -112,7 +112,12 @@ def _of_the_study(seed: int, number: int, samples: int, coloured: bool, rng: np.
 
 
 def _smoothed(v: Array, first_angle: int) -> Spectrum:
-    """Return the smoothed periodogram of each fault as a spectrum, from that angle on: 0 includes the offset, 1 leaves it out."""
+    """Return the smoothed periodogram of each fault as a spectrum, from that angle on: 0 includes the offset, 1 leaves it out.
+
+    Positive angles alone are smoothed over, at every angle asked for. `smoothed` of `space_at_the_bound_cells` goes round the circle,
+    negative angles included, and interpolates; the two differ beside an offset, by up to a factor of two in the power and by about 1 % in
+    the bound of a fault space (seed 9901, 4 records of 1000 samples). Tables made with one are not made again with the other.
+    """
     power = np.abs(np.fft.rfft(v, axis=0)[first_angle:]) ** 2 / len(v)
     at = 2 * np.pi * np.arange(first_angle, first_angle + len(power)) / len(v)
     # Behind each angle but zero stands a negative one.

@@ -11,6 +11,8 @@ of the outputs. A model of order 3 is identified from 2000 healthy samples (`arx
                    that of a rate of LEVEL; faults begin after 150 healthy samples, and the delay is that of the first exceedance;
                    the table has the mean over plants and trials, what is not found counting 200, and the share found unless it is 1
 
+A column "PCA Q, 20" is of the mean over 20 samples: the chi-square test sums over as many, and an average sees more than a sample.
+
 Faults: a step, a drift that reaches its size after 100 samples, a sinusoid of a period of 12.5 samples; sizes of 1, 3, 10, 30 deviations
 of the noise of the sensor that they act on ("sensor"), or at an input ("actuator"), the size being that of the largest response of an
 output to a white fault of deviation one, over its noise.
@@ -45,12 +47,12 @@ from faultspace.numeric.data.records import recorded
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
 
-from benchmarks.monitoring_methods import Method, parity_space, principal
+from benchmarks.monitoring_methods import Method, averaged, parity_space, principal
 
 Array = NDArray[np.float64]
 
 LEVEL = 1e-3
-BLOCK = 100
+BLOCK, WINDOW = 100, 20
 MODELLED, LEARNT, HEALTHY, LEAD, HORIZON = 2000, 4000, 20_000, 150, 200
 SHAPES, SIZES, PLACES = ("step", "drift", "sinusoid"), (1, 3, 10, 30), ("sensor", "actuator")
 COLOURS = (0.0, 0.8)
@@ -123,7 +125,8 @@ def simulated(plants: int, trials: int, seed: int) -> tuple[dict[float, Array], 
             learnt = plant.record(LEARNT)
             monitor = Monitor(model, *learnt, level=LEVEL)
             fresh = plant.record(HEALTHY)
-            methods = [watched(monitor, (*OURS, "ours")), parity_space(model, *learnt), principal(*learnt), principal(*learnt, lags=3)]
+            others = [parity_space(model, *learnt), principal(*learnt), principal(*learnt, lags=3)]
+            methods = [watched(monitor, (*OURS, "ours")), *others, *(averaged(method, WINDOW) for method in others)]
             found = [method.of(*fresh) for method in methods]
             counts.append([monitor.alarms[test] for test in OURS])
             thresholds = [block_threshold(one, LEVEL) for one in found]
@@ -202,11 +205,12 @@ def report_tep(folder: Path, markdown: bool) -> None:
     record = recorded(y, u, outputs=names[:22], inputs=names[22:])
     monitors = {"ours": Monitor(nothing, record, level=LEVEL), "ours, all": Monitor(alone, np.hstack([y, u]), level=LEVEL, outputs=names)}
     every = watched(monitors["ours, all"], ("ours, all",))
+    others = [principal(y, u), principal(y, u, lags=2)]
     methods = [
         watched(monitors["ours"], (*OURS, "ours")),
         Method(every.names, lambda y, u: every.of(np.hstack([y, u]), np.zeros((len(y), 0)))[:, -1:]),
-        principal(y, u),
-        principal(y, u, lags=2),
+        *others,
+        *(averaged(method, WINDOW) for method in others),
     ]
     heads = [name for method in methods for name in method.names]
     found = {k: np.hstack([method.of(*tep_file(folder, f"d{k:02d}_te.dat")) for method in methods]) for k in range(22)}

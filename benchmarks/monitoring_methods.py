@@ -1,6 +1,7 @@
 """The statistics that the monitor is held against: parity space, PCA and dynamic PCA, each learnt from the same healthy record.
 
 Method        a name and its statistics (any, k) of a stream y (N, p), u (N, n_u); NaN before the first whole window
+averaged      the same with the means of its statistics over a window
 parity_space  T^2 of the parity vector W (Y_s - T_s U_s), W O_s = 0, of windows of n + 1 samples of the model [CW84]
 principal     T^2 in the principal components of [y u] with `lags` samples before, and Q beside them [RCB00]; lags = 0 is PCA, else dynamic
               PCA [KSG95]; as many components as have more variance than those of as many random columns have on average (parallel analysis)
@@ -27,6 +28,19 @@ class Method:
 
     names: tuple[str, ...]
     of: Callable[[Array, Array], Array]
+
+
+def averaged(method: Method, samples: int) -> Method:
+    """Return the method with the means of its statistics over the last `samples` samples, fewer at the beginning of a stream."""
+
+    def statistics(y: Array, u: Array) -> Array:
+        plain = method.of(y, u)
+        sums = np.cumsum(np.nan_to_num(plain), axis=0)
+        counts = np.cumsum(np.isfinite(plain), axis=0)
+        sums[samples:], counts[samples:] = sums[samples:] - sums[:-samples], counts[samples:] - counts[:-samples]
+        return np.asarray(np.where(counts > 0, sums / np.maximum(counts, 1), np.nan))
+
+    return Method(tuple(f"{name}, {samples}" for name in method.names), statistics)
 
 
 def windows(values: Array, s: int) -> Array:

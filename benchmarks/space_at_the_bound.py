@@ -13,10 +13,12 @@ found counts, decided or not. A row a cell and N:
     error       in % of its maximum, and error / bound: median with its 95 % bootstrap interval, and the 90 % quantile
     true A, C   the same error / bound where A and C are the true ones: what the rows alone contribute
     angle holds share of the largest principal angles, in the basis of the estimate, below the stated 95 % angle, where zeta is right;
-                "small": of those where the stated angle is below LINEAR
+                "small": of those where the stated angle is below SMALL
+    angle       what is stated, in radians, and over the true error: medians; an angle normal in one direction has 2.9 on the right
 
-`--calibrate` prints what UNDERSTATED of `numeric/rows/space.py` is set by: quantiles of the tangent of the angle over that of the stated
-one, the model's part not widened, where that is below SMALL.
+`--calibrate` prints how often the angle holds, and its median, with fewer random starts than STARTS of `numeric/model/valleys.py`, and
+with more; and what WIDENED of `numeric/rows/space.py` is set by: quantiles of the tangent of the angle over that of the stated one, not
+widened, in records where the estimate's own valley has a probability of ALONE.
 
 Brackets of rates are Wilson's 95 % intervals. Seconds are CPU seconds of the space alone; hold BLAS to one thread.
 """
@@ -27,6 +29,7 @@ import argparse
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TypeVar
 from unittest.mock import patch
 
 import joblib
@@ -45,15 +48,18 @@ from faultspace.numeric import (
     fault_space_by_rows,
     identified_fault_space,
 )
+from faultspace.numeric.model import valleys
 from faultspace.numeric.model.models import observability_matrix
 from faultspace.numeric.rows import space as rows_space
 from faultspace.numeric.space.distances import principal_angles, two_sided_error
 from faultspace.numeric.space.result import orthonormal
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 
-SMALL = 0.3  # radians below which a stated angle that is not widened may be linear
-LINEAR = 0.5  # radians below which the answer may be, widened
+SMALL = 0.5  # radians below which a stated angle says that the space is known
+STARTS = (0, 4, 8, 16, 32)  # numbers of random starts that are compared
+ALONE = 0.95  # probability from which a valley counts as the only one
 
 
 @dataclass(frozen=True)
@@ -132,6 +138,8 @@ HEADS = (
     "true A, C",
     "angle holds %",
     "small",
+    "angle",
+    "angle / error",
     "true A, C",
     "s",
 )
@@ -145,7 +153,7 @@ def line(name: str, samples: int, outcomes: list[Outcome]) -> str:
     bounds = np.array([outcome.bound for outcome in outcomes])
     identified = [outcome.identified.angles for outcome in outcomes if outcome.identified.angles]
     true = [outcome.true.angles for outcome in outcomes if outcome.true.angles]
-    held = identified, [pair for pair in identified if pair[1] < LINEAR], true
+    small = [pair for pair in identified if pair[1] < SMALL]
     columns = [
         "/".join(map(str, verdicts)),
         rate(verdicts[0], len(outcomes)),
@@ -153,26 +161,29 @@ def line(name: str, samples: int, outcomes: list[Outcome]) -> str:
         summary(100 * errors, rng),
         summary(errors / bounds, rng),
         summary(np.array([outcome.true.error for outcome in outcomes]) / bounds, rng),
-        *(rate(sum(angle <= stated for angle, stated in kind), len(kind)) for kind in held),
+        *(rate(sum(angle <= stated for angle, stated in kind), len(kind)) for kind in (identified, small)),
+        *sizes(identified),
+        rate(sum(angle <= stated for angle, stated in true), len(true)),
         f"{np.nanmean([outcome.identified.seconds for outcome in outcomes]):.2f}",
     ]
     return f"| {name} | {samples} | {len(outcomes)} | {' | '.join(columns)} |"
 
 
-def not_widened(cell: Cell, seed: int, number: int, samples: int) -> Outcome:
-    """Return the same with the model's part of the angle as it is."""
-    with patch.object(rows_space, "UNDERSTATED", 1.0):
-        return compared(cell, seed, number, samples)
+def sizes(pairs: list[tuple[float, float]]) -> tuple[str, str]:
+    """Return the medians of the stated angles, and of these over the true ones."""
+    if not pairs:
+        return "none", "none"
+    return f"{np.median([stated for _, stated in pairs]):.2f}", f"{np.median([stated / angle for angle, stated in pairs]):.1f}"
 
 
 def made(
-    run: joblib.Parallel, options: argparse.Namespace, samples: int, trial: Callable[[Cell, int, int, int], Outcome]
-) -> Iterator[tuple[Cell, list[Outcome]]]:
+    run: joblib.Parallel, options: argparse.Namespace, samples: int, trial: Callable[[Cell, int, int, int], T]
+) -> Iterator[tuple[Cell, list[T]]]:
     """Yield what was found in each cell, as far as the time goes, which the cells and lengths share."""
     cells = [cell for cell in CELLS if cell.kind in options.cells]
     share = options.limit / len(cells) / len(options.samples)
     for cell in cells:
-        end, outcomes = time.monotonic() + share, list[Outcome]()
+        end, outcomes = time.monotonic() + share, list[T]()
         for first in range(0, options.systems, options.jobs):
             if time.monotonic() > end:
                 break
@@ -196,16 +207,49 @@ def tables(options: argparse.Namespace) -> Iterator[str]:
                     yield line(name, samples, outcomes)
 
 
+@dataclass(frozen=True)
+class Followed:
+    """The true angle of one record, the stated ones with each number of STARTS, and the one not widened, None beside other valleys."""
+
+    angle: float
+    stated: tuple[float, ...]
+    narrow: float | None
+
+
+def followed(cell: Cell, seed: int, number: int, samples: int) -> Followed | None:
+    """Return what is stated with each number of starts, None where the number of zeros is wrong or there is no model."""
+    trial = cell.trial(seed, number, samples)
+    stated, angle = list[float](), 0.0
+    try:
+        model = arx_reduction(trial.y, trial.u, order=trial.model.n)
+        for starts in STARTS:
+            with patch.object(valleys, "STARTS", starts):
+                space = identified_fault_space(trial.y, trial.u, model, n_v=trial.n_v)
+            pair = judged(trial, model.model, space, 0.0).angles
+            if pair is None:
+                return None
+            angle = pair[0]
+            stated.append(pair[1])
+        with patch.object(rows_space, "WIDENED", 1.0):
+            known = identified_fault_space(trial.y, trial.u, model, n_v=trial.n_v).uncertainty
+    except InvalidData:
+        return None
+    return Followed(angle, tuple(stated), known.angle() if known is not None and known.valleys[0].weight >= ALONE else None)
+
+
 def calibration(options: argparse.Namespace) -> Iterator[str]:
-    """Yield the quantiles that UNDERSTATED is set by, for each number of samples."""
+    """Yield how often the angle holds with each number of starts, for each number of samples."""
     with joblib.Parallel(n_jobs=options.jobs) as run:
         for samples in options.samples:
-            pairs = [
-                o.identified.angles for _, outcomes in made(run, options, samples, not_widened) for o in outcomes if o.identified.angles
-            ]
-            ratios = np.array([np.tan(angle) / np.tan(stated) for angle, stated in pairs if stated < SMALL])
-            quantiles = ", ".join(f"{100 * q:g} %: {np.quantile(ratios, q):.2f}" for q in (0.5, 0.9, 0.95))
-            yield f"N = {samples}: {quantiles} of {len(ratios)} angles below {SMALL} of {len(pairs)}"
+            records = [one for _, found in made(run, options, samples, followed) for one in found if one is not None]
+            for number, starts in enumerate(STARTS):
+                held = sum(one.angle <= one.stated[number] for one in records)
+                median = np.median([one.stated[number] for one in records])
+                share = f"{held} of {len(records)}, {rate(held, len(records))} %"
+                yield f"N = {samples}, {starts} starts: holds in {share}; median {median:.2f} rad"
+            ratios = [np.tan(one.angle) / np.tan(one.narrow) for one in records if one.narrow is not None]
+            quantiles = ", ".join(f"{100 * q:g} %: {np.quantile(ratios, q):.2f}" for q in (0.5, 0.9, 0.95)) if ratios else "none"
+            yield f"N = {samples}, not widened: {quantiles} of {len(ratios)}"
 
 
 def main() -> None:
@@ -217,7 +261,7 @@ def main() -> None:
     parser.add_argument("--cells", nargs="+", default=["study", "random"], choices=["study", "random"])
     parser.add_argument("--limit", type=float, default=float("inf"), help="seconds for all")
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--calibrate", action="store_true", help="what UNDERSTATED is set by")
+    parser.add_argument("--calibrate", action="store_true", help="how often the angle holds by the number of starts")
     options = parser.parse_args()
     print(f"seed {options.seed}" if options.calibrate else f"median [95 % interval of the median] 90 % quantile; seed {options.seed}\n")
     for text in calibration(options) if options.calibrate else tables(options):

@@ -105,7 +105,10 @@ def _of_the_study(seed: int, number: int, zeros: int, samples: int, coloured: bo
 
 
 def smoothed(v: Array) -> Spectrum:
-    """Return the smoothed periodogram of each fault as a spectrum, with its offset, which tells its direction too."""
+    """Return the smoothed periodogram of each fault as a spectrum, with its offset, which tells its direction too.
+
+    It is smoothed round the circle, for it has the offset at angle zero, where `_smoothed` of `at_the_bound_cells` sees one side alone.
+    """
     power = np.abs(np.fft.fft(v, axis=0)) ** 2 / len(v)
     at, grid = 2 * np.pi * np.fft.fftfreq(len(v)), np.linspace(0, np.pi, GRID)
     values = np.empty((GRID, v.shape[1]))

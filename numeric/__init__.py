@@ -3,12 +3,15 @@
     from faultspace.numeric import identify, pi_moesp, residual, fault_dimension, fault_space, reconstruct_fault
 
 identify              the whole chain on arrays, data frames, a file, pieces or a record; an Identification
-read_record           a record from a file; record_from: from whatever holds one
+read_record           a record from a file; record_from: from whatever holds one; read_stretches: the parts of one with missing samples
+doubts                what a record gives reason to doubt, with the evidence, what it does to the answer, and what to do
 pi_moesp              A, B, C, D from faulty data, past inputs as instruments; pi_moesp_experiments: from several experiments
 po_moesp              with past outputs, for comparison
 residual              r = y - (response of the model to u), the initial state fitted or given
 fault_dimension       how many faults a residual shows, or "undecided"
 fault_space           all fault columns [f; g] that explain the residual
+fault_onset           the samples from which on a residual is another one, with intervals
+isolate               which single sensor or actuator lies in a fault space
 reconstruct_fault     the fault signal for a chosen pair (F, G)
 
 The audit's reference calls these very functions, and so does `identify` on records without noise and, but for the model, beside samples
@@ -27,6 +30,7 @@ The folders:
 
 data          records, readers, checks of what comes in
 model         compression, PI-MOESP, PO-MOESP, ARX and its reduction, B and D, the residual
+doubt         what a record gives reason to doubt
 count         the number of faults: rank gaps, kernel rows, against a healthy record
 changes       what has changed since a healthy part: one table of tests
 space         the fault space, by ranks or by likelihood, with its uncertainty

@@ -2,7 +2,6 @@ from .bound.information_bound import cramer_rao as cramer_rao
 from .bound.space_information import FaultSpectra as FaultSpectra
 from .bound.space_information import fault_space_bound as fault_space_bound
 from .bound.spectra import Spectra as Spectra
-from .changes.table import Change as Change
 from .changes.table import Changes as Changes
 from .changes.testing import changes_since_healthy as changes_since_healthy
 from .changes.testing import changes_within as changes_within
@@ -15,6 +14,7 @@ from .count.healthy_model import healthy_reference as healthy_reference
 from .count.rank_gap import FaultDimension as FaultDimension
 from .count.rank_gap import fault_dimension as fault_dimension
 from .data.files import read_record as read_record
+from .data.files import read_stretches as read_stretches
 from .data.records import Record as Record
 from .data.sources import record_from as record_from
 from .doubt.asking import doubts as doubts
@@ -41,10 +41,14 @@ from .rows.fault_count import FaultCount as FaultCount
 from .rows.fault_count import count_faults as count_faults
 from .rows.space import fault_space_by_rows as fault_space_by_rows
 from .rows.space import identified_fault_space as identified_fault_space
+from .signal.onset import FaultOnset as FaultOnset
+from .signal.onset import fault_onset as fault_onset
 from .signal.reconstruction import Reconstruction as Reconstruction
 from .signal.reconstruction import reconstruct_fault as reconstruct_fault
 from .space.by_ranks import fault_space as fault_space
 from .space.distances import subspace_distance as subspace_distance
+from .space.isolation import Isolation as Isolation
+from .space.isolation import isolate as isolate
 from .space.result import FaultSpaceEstimate as FaultSpaceEstimate
 from .space.result import SpaceUncertainty as SpaceUncertainty
 

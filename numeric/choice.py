@@ -17,6 +17,7 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
+from ..base.sheets import counted
 from .data.records import Record
 from .findings import Findings
 from .model.reduced_model import ReducedModel
@@ -55,7 +56,7 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
             return replace(answer, notes=(*notes, f"no fault space: {error}"))
         if space.method == "likelihood":
             notes += (FROM_IDENTIFIED,)
-    return replace(answer, notes=notes, fault_space=space if answer.n_v_given else replace(space, reason=counted(space.reason)))
+    return replace(answer, notes=notes, fault_space=space if answer.n_v_given else replace(space, reason=said_counted(space.reason)))
 
 
 def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
@@ -63,7 +64,7 @@ def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
     record, model, rows = answer.record, answer.model, max(answer.record.p - faults, 1)
     assert model is not None
     if not affordable(record.p + record.n_u, -(-(model.order + BEYOND) // rows)):
-        return f"{record.p} outputs with {faults} faults at order {model.order} are too many for the laws of outputs and inputs"
+        return f"{record.p} outputs with {counted(faults, 'fault')} at order {model.order} are too many for the laws of outputs and inputs"
     y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
     count, level = answer.count, answer.noise_level
     if level is None and count is not None and count.n_v == faults and count.noise_power is not None:
@@ -123,7 +124,7 @@ def _shares(answer: Findings, signal: Reconstruction, count: int) -> tuple[float
         return signal.explained(units), count / answer.record.p
 
 
-def counted(reason: str) -> str:
+def said_counted(reason: str) -> str:
     """Return the reason of a fault space for an n_v that was estimated, where `fault_space` could only say that it was handed over."""
     return reason.replace("n_v as given", "n_v as counted").replace("was given but", "was counted but")
 

@@ -4,7 +4,8 @@ with_count   the Findings with the number of faults, or with those that remain p
 
     exact record             the ranks of the residual beside the inputs (`fault_dimension`), which are exact then
     no healthy samples       the laws that outputs and inputs obey (`count_faults`), each with a probability; no model enters
-    healthy samples          against what the residual shows there; the ranks where that is undecided, and the mean beside both
+    healthy samples          against what the residual shows there; the ranks where that is undecided; the mean and the table of changes
+                             (`changing.py`) beside both
 
 The ranks are looked at in any case, as evidence. A 0 of the laws is said only where the ranks do not find a fault either. Outputs and
 inputs are counted about their means: a constant is an operating point for the laws, so that one equation holds for both.
@@ -30,9 +31,10 @@ from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .findings import Findings
+from .model.reduced_model import ReducedModel
+from .rows.evidence import LONG
 from .rows.fault_count import count_faults
 from .rows.joint import affordable
-from .rows.laws import LONG
 from .signal.residual_sizes import loudest
 
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
@@ -93,7 +95,7 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
         found = replace(found, n_v=None, reason=f"{found.reason}; but so many outputs are not explained to rounding: {AS_MANY}")
     independent = np.linalg.matrix_rank((y - y.mean(axis=0)) / np.maximum(y.std(axis=0), TINY), tol=DEPENDENT * np.sqrt(y.size))
     if found.n_v and found.n_v >= independent < record.p:
-        copies = f"but only {independent} of {record.p} outputs are no combinations of others, such as copies: leave these out"
+        copies = f"but the {record.p} outputs are combinations of {independent} of them, as copies are: leave the others out"
         found = replace(found, n_v=None, reason=f"{found.reason}; {copies}, for {AS_MANY}")
     by = None if found.n_v is None else "residual alone"
     return replace(answer, dimension=found, n_v=found.n_v, reason=found.reason, counted_by=by)
@@ -110,7 +112,9 @@ def _by_laws(answer: Findings, on_progress: Progress) -> Findings:
     on_progress("counting the laws of outputs and inputs", 0, 0)
     y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
     try:
-        count = count_faults(y, u, order=order, noise_level=answer.noise_level)
+        same = answer.held == (0, len(record)) and answer.modelled == len(record)
+        given = model if same and isinstance(model, ReducedModel) else None
+        count = count_faults(y, u, order=order, noise_level=answer.noise_level, model=given)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return replace(answer, notes=(*answer.notes, f"the laws of outputs and inputs were not counted, the residual alone was: {error}"))
     answer = replace(answer, count=count, possible=count.possible)

@@ -11,6 +11,8 @@ plot_measured_and_simulated   outputs and the model's, one below the other
 plot_fault_signal             the reconstructed signals, the samples shaded that are not determined
 plot_stored_signal            the same for a signal of any length in a store
 plot_residual                 a residual, one output below the other
+plot_onsets                   the same over the whole record, with the changes found in it and their intervals
+plot_angles                   angles of single causes to a fault space, with the angles that chance reaches
 plot_levels                   what the best law on so many mixed outputs leaves, which jumps at the number of faults
 
 matplotlib is imported when a figure is made, so that the package does without it. Colours are ones that the colour-blind tell
@@ -37,6 +39,7 @@ BLUE, ORANGE, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#777777"
 MOST_POINTS = 3000
 MOST_DRAWN = 1 << 15  # rows of a stored signal that are drawn: of a longer one the extremes of equal parts, two rows each
 TICKS = 7
+DECIBEL = 10.0 / np.log(10.0)  # of the natural logarithm of a power
 MOST_CHANNELS = 8
 SEEN = 0.2  # of the picture: smaller regions are drawn larger by a power of ten that does not go beyond it
 LOWEST = 1e-18  # relative: smaller singular values are drawn there
@@ -67,7 +70,7 @@ def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any =
         raise InvalidData("there is no condition on a fault column, so that there is nothing to draw")
     ax = _axes(ax)
     sigma, count = sigma / sigma[0], np.arange(1, len(sigma) + 1)
-    ax.semilogy(count[:equations], sigma[:equations], "o", color=BLUE, markersize=5, label=f"{equations} independent conditions")
+    ax.semilogy(count[:equations], sigma[:equations], "o", color=BLUE, markersize=5, label=f"{counted(equations, 'independent condition')}")
     style = {"color": BLUE, "markersize": 5, "fillstyle": "none"}
     ax.semilogy(count[equations:], sigma[equations:], "o", label=others, **style)
     ax.set(xlabel="number", ylabel="singular value over the largest", title="Conditions on a fault column, and the fault space")
@@ -324,18 +327,71 @@ def plot_residual(r: ArrayLike, *, names: Sequence[str] | None = None, ax: Any =
     return _finished(ax, legend=False)
 
 
+def plot_onsets(
+    store: SampleStore,
+    onsets: Sequence[tuple[int, tuple[int, int]]],
+    *,
+    healthy: int | None = None,
+    names: Sequence[str] | None = None,
+    ax: Any = None,
+) -> Any:
+    """Draw all samples of a residual (N, p) in a store, the onsets (sample, (first, last)) as lines within their intervals, and the end of
+    the samples stated to be healthy; a long record is drawn by the extremes of equal parts."""
+    N = len(store)
+    step = 1 if N <= MOST_DRAWN else -(-2 * N // MOST_DRAWN)
+    parts = (store.read(start, min(start + step, N)) for start in range(0, N, step)) if step > 1 else ()
+    rows = np.array([ends for part in parts for ends in (part.min(axis=0), part.max(axis=0))]) if step > 1 else store.read(0, N)
+    samples = 1.0 if step == 1 else step / 2
+    ax = plot_residual(rows, names=names, ax=ax)
+    for number, (sample, (first, last)) in enumerate(onsets):
+        label = "onset, in its interval" if number == 0 else None
+        ax.axvspan(first / samples, last / samples, color=ORANGE, alpha=0.3, linewidth=0)
+        ax.axvline(sample / samples, color=ORANGE, linewidth=1.4, linestyle="--", label=label)
+    if healthy is not None:
+        ax.axvline(healthy / samples, color=GREEN, linewidth=1.4, linestyle=":", label="stated to be healthy until here")
+    ticker: Any = import_module("matplotlib.ticker")
+    ticks = [place for place in ticker.MaxNLocator(TICKS, integer=True).tick_values(0, N - 1) if 0 <= place <= N - 1]
+    ax.set_xticks([place / samples for place in ticks], [f"{place:,.0f}" for place in ticks])
+    ax.set_title("Residual of the whole record" if onsets else "Residual of the whole record: no onset")
+    return _finished(ax, legend=bool(onsets) or healthy is not None, outside=True)
+
+
+def plot_angles(rows: Sequence[tuple[str, float, float | None, str]], *, ax: Any = None) -> Any:
+    """Draw a bar for each (name, angle, bound, answer), angles in radians: as long as the angle, with a mark at the bound, hatched by the
+    answer, which stands beside it. The scale is logarithmic, so that small angles are seen beside their bounds."""
+    ax = _axes(ax)
+    least = min((np.degrees(size) for _, angle, bound, _ in rows for size in (angle, bound) if size), default=1.0)
+    left = max(least, 1e-9) / 3
+    styles = {"consistent": (GREEN, ""), "excluded": (GREY, "//"), "undecided": (ORANGE, "..")}
+    for place, (_, angle, bound, answer) in enumerate(rows):
+        colour, hatch = styles[answer]
+        ax.barh(place, max(np.degrees(angle) - left, 0.0), left=left, height=0.6, color=colour, alpha=0.55, hatch=hatch, edgecolor=colour)
+        reach = max(angle, bound or 0.0, np.radians(left))
+        if bound is not None:
+            ax.plot(np.degrees([bound, bound]), [place - 0.42, place + 0.42], color="black", linewidth=2)
+        ax.annotate(answer, (np.degrees(reach), place), xytext=(6, 0), textcoords="offset points", va="center", fontsize=9)
+    ax.plot([], [], color="black", linewidth=2, label="what chance stays below (95 %), were it the cause")
+    ax.set_yticks(range(len(rows)), [name for name, *_ in rows])
+    ax.set_ylim(len(rows) - 0.4, -0.6)
+    ax.set_xscale("log")
+    ax.set_xlim(left, 90 * (90 / left) ** 0.2)  # with room for the answers
+    ax.set(xlabel="angle to the fault space (degrees)", title="Single causes")
+    return _finished(ax, legend=True, outside=True)
+
+
 def plot_levels(levels: Sequence[Level], n_v: int | None, *, ax: Any = None) -> Any:
     """Draw the levels of the kernel-row test by number of mixed outputs, from least to largest over the mixtures tried."""
     ax = _axes(ax)
     by_count = sorted(levels, key=lambda level: level.outputs)
-    count, middle = [level.outputs for level in by_count], [level.middle for level in by_count]
-    reach = [(level.largest - level.least) / 2 for level in by_count]
+    # Levels are natural logarithms of powers.
+    count, middle = [level.outputs for level in by_count], [DECIBEL * level.middle for level in by_count]
+    reach = [DECIBEL * (level.largest - level.least) / 2 for level in by_count]
     label = "noise left by the best law; bars: least to largest over the mixtures"
     ax.errorbar(count, middle, yerr=reach, fmt="o-", color=BLUE, linewidth=1, capsize=4, label=label)
     if n_v:
         ax.axvline(n_v + 0.5, color=GREY, linestyle="--", linewidth=1, label=f"$n_v$ = {n_v}: no law up to here")
     verdict = "undecided" if n_v is None else f"{n_v}"
-    ax.set(xlabel="outputs mixed", ylabel="log noise power (nats)", title=f"How many outputs still obey a common law? Faults: {verdict}")
+    ax.set(xlabel="outputs mixed", ylabel="noise power (dB)", title=f"How many outputs still obey a common law? Faults: {verdict}")
     ax.set_xticks(count)
     return _finished(ax, legend=True)
 

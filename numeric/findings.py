@@ -14,14 +14,17 @@ from .count.against_healthy import FaultsAgainstHealthy
 from .count.mean_shift import MeanShift
 from .count.rank_gap import FaultDimension
 from .data.records import Record
+from .doubt.listing import Doubts
 from .model.moesp_model import MoespModel
 from .model.order_evidence import OrderEvidence
 from .model.reduced_model import ReducedModel
 from .model.residuals import ResidualSignal
 from .rows.fault_count import FaultCount
+from .signal.onset import FaultOnset
 from .signal.reconstruction import Reconstruction
 from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
+from .space.isolation import Isolation
 
 COUNTED_BY = ("given", "model", "healthy samples", "residual alone", "outputs and inputs")
 """An n_v rests on one of these: the user, a model that explains everything, or one of the three ways of counting."""
@@ -61,13 +64,16 @@ class Findings:
     changes: Changes | None = None
     visible: Array | None = None
     unexplained: bool = False
+    onset: FaultOnset | None = None
     fault_space: FaultSpaceEstimate | None = None
+    isolation: Isolation | None = None
     pair: tuple[Array, Array] | None = None
     signal: Reconstruction | None = None
     explained: float | None = None
     by_noise: float | None = None
     notes: tuple[str, ...] = ()
     dt: float | None = None
+    doubts: Doubts | None = None
 
     @property
     def modelled(self) -> int:

@@ -7,8 +7,8 @@ window_default  the block rows of PI-MOESP where none are given
 Which way. Without noise and fault both are exact; of PI-MOESP [V93] the audit asks it of every record that it ships, and it stays there.
 Under noise it is far from what the data hold, and the reduction [W89] comes near it. Ranks tell the two kinds of record apart
 (`count/exactness.py`). PI-MOESP also stands in where the windows of an ARX model cannot be had: too few samples, an input that does not
-excite them, an unstable plant. Where it finds no gap in its singular values, the reduction chooses the order, so that there is a model
-whenever there can be one.
+excite them, an unstable plant. Where it finds no gap in its singular values, the reduction chooses the order, and where there is none
+either, samples held back do (`model/held_out_orders.py`), so that there is a model whenever one is better than none.
 """
 
 from __future__ import annotations
@@ -20,10 +20,13 @@ import numpy as np
 from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
+from ..base.sheets import counted
 from .count.exactness import SCREENED, obeys_exactly
 from .data.records import Passes, Record
 from .model.arx_windows import longest_lag
 from .model.asymptotic_likelihood import arx_reduction
+from .model.feedback import FOLLOWS
+from .model.held_out_orders import order_left_open
 from .model.moesp_model import MoespModel, OrderUndecided
 from .model.past_inputs import pi_moesp
 from .model.reduced_model import ReducedModel
@@ -32,11 +35,13 @@ from .model.reduction_starts import hankel_factors
 DEFAULT_WINDOW = 20
 SPARE = 3  # windows for each row of the Hankel matrices of PI-MOESP, at least
 STAGE = "identifying the model"
+MOST_TRIED = 1 << 18  # samples of a record of which orders are tried by samples held back: it stands in memory
 
 
 @dataclass(frozen=True, eq=False)
 class Modelled:
-    """The model, or None with the `refusal`; singular values and the window that they belong to; `exact`: the record has no noise."""
+    """This is the model, or None with the `refusal`, with singular values and the window that they belong to; `exact` says that the record
+    has no noise."""
 
     model: MoespModel | ReducedModel | None
     singular_values: Array
@@ -56,15 +61,30 @@ def modelled(record: Record, order: int | None, block_rows: int | None, on_progr
         except InvalidData as error:
             found = _by_past_inputs(record, order, block_rows, exact, on_progress)
             note = f"the model is from PI-MOESP, without standard errors, for want of an ARX model: {error}"
-            return _with_notes(found, note)
+            return _with_notes(_by_held_out(record, found, on_progress), note)
     found = _by_past_inputs(record, order, block_rows, exact, on_progress)
     if found.model is not None:
         return found
     try:
         other = _by_reduction(record, order, block_rows, exact, on_progress)
     except InvalidData:
-        return found
+        return _by_held_out(record, found, on_progress)
     return _with_notes(other, f"PI-MOESP leaves the order undecided: {found.refusal}")
+
+
+def _by_held_out(record: Record, found: Modelled, on_progress: Progress) -> Modelled:
+    """Return the model of the order that fits samples held back best, where the singular values left it open, with what remains open."""
+    if found.model is not None:
+        return found
+    chosen = order_left_open(*record.stretch(0, len(record)), found.window) if len(record) <= MOST_TRIED else None
+    if chosen is None:
+        return found
+    fits = ", ".join(f"{n}: {fit:.3g}" for n, fit in enumerate(chosen.fits, 1) if np.isfinite(fit))
+    note = (
+        f"the order is chosen by the fit of models of the first two thirds to the last, 1 perfect, by order {fits}: {chosen.best} fits "
+        f"best, and {chosen.least} to {chosen.most} are not told apart; what follows rests on it ({found.refusal})"
+    )
+    return _with_notes(_by_past_inputs(record, chosen.best, found.window, found.exact, on_progress), note)
 
 
 def _with_notes(found: Modelled, *notes: str) -> Modelled:
@@ -77,8 +97,9 @@ def _by_reduction(record: Record, order: int | None, block_rows: int | None, exa
     units = np.exp2(-np.round(np.log2(record.channels.deviation)))
     arx = found.arx.scaled(units[record.n_u :], units[: record.n_u])
     values = hankel_factors(arx, max(arx.order, 1), weighted=True)[2]
-    way = f"an ARX model of {arx.order} lags, reduced under its own weight"
-    notes = found.notes
+    way = f"an ARX model of {counted(arx.order, 'lag')}, reduced under its own weight"
+    # A closed loop is among the doubts, with what it does.
+    notes = tuple(note for note in found.notes if not note.startswith(FOLLOWS))
     if found.order == 0:
         notes += ("the outputs follow the inputs at once or not at all: the model has no state",)
     lags = block_rows if block_rows is not None else max(longest_lag([len(record)], record.p, record.n_u), 1)

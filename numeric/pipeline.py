@@ -4,14 +4,15 @@ identify         the whole chain on a record: an Identification, with what remai
 
 1  The model (`modelling.py`): an ARX model of high order, reduced under its own weight, near the Cramer-Rao bound; the order is given, or
 chosen with its evidence. PI-MOESP where the record has no noise, or where an ARX model cannot be had.
-2  The residual of that model, its initial state fitted.
+2  The residual of that model, its initial state fitted; the samples from which on it is another one (`causes.py`).
 3  The number of faults (`counting.py`): by the laws that outputs and inputs obey, for which no model is needed. Where the first samples are
 stated to be without fault, model and means are from these alone, the faults of the others are counted against what the residual shows
 there, and its mean is held against theirs: a constant fault moves the mean and no rank. The count against them goes first where it is
 decided, the ranks of the residual where it is not; 0 is said only where nothing is counted, no output has a spike or is stuck, and the
 mean is tested and has not moved, with the size of fault that would have been seen. Where the inputs leave what the healthy samples show,
 the model's error can look like a fault, and none is counted against them. Records without noise are counted by ranks, which are exact.
-4  The fault space (`choice.py`), unless the number of faults is undecided or 0: from the same laws, with A and C of the model.
+4  The fault space (`choice.py`), unless the number of faults is undecided or 0: from the same laws, with A and C of the model. Which
+single sensor or actuator lies in it (`causes.py`).
 5  F, G and the fault signal for one pair out of the space: determined up to that choice, and given only where n_z is decided and the signal
 explains more of the residual than it would of noise.
 
@@ -37,6 +38,7 @@ from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import counted
 from ..base.threads import one_thread
+from .causes import with_isolation, with_onset
 from .changing import with_two_parts
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
@@ -44,6 +46,7 @@ from .data.joining import healthy_from, joined
 from .data.records import Passes, Record
 from .data.sources import Source, record_from
 from .data.validation import noise_deviations, whole
+from .doubt.asking import doubts
 from .findings import Findings
 from .model.moesp_model import MoespModel
 from .model.reduced_model import ReducedModel
@@ -69,12 +72,12 @@ def identify(
     dt: float | None = None,
     on_progress: Progress | None = None,
 ) -> Identification:
-    """Identifies the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
+    """Identify the model, the number of faults, their space and one signal from a record of inputs and outputs with faults.
 
-    Look at `found.notes` first, then at `found.model`: where it is None the order stayed open, and `found.singular_values` tell the
-    choices. Then at `found.n_v` and `found.reason`; None is an answer, too. Only then at `found.fault_space`, whose angle says how sure it
-    is, and last at `found.pair` and `found.signal`, which are one choice out of that space. `print(found.summary())` tells all of it in
-    this order.
+    Look at `found.doubts` and `found.notes` first, then at `found.model`: where it is None the order stayed open, and
+    `found.singular_values` tell the choices. Then at `found.n_v` and `found.reason`; None is an answer, too. Only then at
+    `found.fault_space`, whose angle says how sure it is, and last at `found.pair` and `found.signal`, which are one choice out of that
+    space. `print(found.summary())` tells all of it in this order.
 
     Source: [W89] for the model, [W91] for the laws, [G25] for the fault space; [V93] for the model of a record without noise.
 
@@ -87,8 +90,9 @@ def identify(
     fault, or is another record of the same channels that has none (a Record, a path, a frame, a tuple (y, u), an iterator of pieces),
     which then comes first in the record that the answer is about; `noise_level`, one number or one an output, is the standard deviation
     of the sensors' noise in units of y, by which faults are told from noise where no samples are healthy; `remove_means` takes the means
-    off, of the healthy samples where there are any. `dt` is the time from sample to sample in seconds, which only the exports need.
-    `on_progress(stage, done, total)` hears how far it has come.
+    off, of the healthy samples where there are any. `dt` is the time from sample to sample in seconds, which a time column of the data
+    may tell instead; the exports have it, and with it the summary tells frequencies and damping. `on_progress(stage, done, total)` hears
+    how far it has come.
     Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can be had; what cannot be told after
     that is a note of the Identification.
 
@@ -117,7 +121,11 @@ def identify(
         record, until = joined(before, record), len(before)
     level = None if noise_level is None else noise_deviations(noise_level, record.p)
     found = _findings(record, order, block_rows, n_v, until, counted_healthy is None, level, bool(remove_means), on_progress)
-    return Identification(**vars(found) | {"dt": dt})
+    part = record if until is None else record.beginning(until)
+    raised = doubts(part, found.model, dt=dt, means_removed=bool(remove_means))
+    if dt is None and record.clock is not None:
+        dt = record.clock.dt
+    return Identification(**vars(found) | {"dt": dt, "doubts": raised})
 
 
 def _is_record(healthy: Any) -> bool:
@@ -168,7 +176,7 @@ def _findings(
         _varying(part)
     except InvalidData as error:
         raise error if healthy is None else InvalidData(f"healthy: the model is from these samples alone: {error}") from None
-    notes = () if remove_means else _far_from_zero(part)
+    notes: tuple[str, ...] = ()
     if remove_means:
         record, part = record.about(part.channels.mean), part.about_means()
     found = modelled(part, order, block_rows, on_progress)
@@ -187,7 +195,8 @@ def _findings(
     answer = replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes))
     if np.all(sizes.peak <= ROUNDING * largest(record)):
         return replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model")
-    return with_signal(with_space(with_count(answer, n_v, on_progress), on_progress), on_progress)
+    answer = with_count(with_onset(answer, on_progress), n_v, on_progress)
+    return with_signal(with_isolation(with_space(answer, on_progress)), on_progress)
 
 
 def _residual(record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: Progress) -> ResidualSignal:
@@ -222,7 +231,7 @@ def _nothing_left(answer: Findings) -> str:
 
 
 def _enough(record: Record, rows: int) -> None:
-    """Refuses a record with fewer windows than rows in its Hankel matrices."""
+    """Refuse a record with fewer windows than rows in its Hankel matrices."""
     samples, height = len(record), 2 * record.n_u + record.p
     needed = rows * (height + 2) - 1
     if samples >= needed:
@@ -238,7 +247,7 @@ def _enough(record: Record, rows: int) -> None:
 
 
 def _varying(record: Record) -> None:
-    """Refuses channels that never change: an input excites nothing, an output tells nothing."""
+    """Refuse channels that never change: an input excites nothing, an output tells nothing."""
     for kind, names, start in (("input", record.inputs, 0), ("output", record.outputs, record.n_u)):
         least, greatest = (values[start : start + len(names)] for values in (record.channels.least, record.channels.greatest))
         still = [name for name, low, high in zip(names, least, greatest, strict=True) if low == high]
@@ -246,12 +255,3 @@ def _varying(record: Record) -> None:
             what = "excites nothing" if kind == "input" else "tells nothing of the system"
             which, value = ", ".join(map(shorten, still[:4])), least[names.index(still[0])]
             raise InvalidData(f"{kind} {which} is constant ({value:g}): it {what}; leave it out, or record it while it varies")
-
-
-def _far_from_zero(record: Record) -> tuple[str, ...]:
-    channels = record.channels
-    far = [name for name, far in zip(record.names, np.abs(channels.mean) > channels.deviation, strict=True) if far]
-    if not far:
-        return ()
-    which = ", ".join(far[:4]) + (f" and {len(far) - 4} more" if len(far) > 4 else "")
-    return (f"the mean of {which} exceeds its deviation: about an operating point, try remove_means=True",)

@@ -27,20 +27,24 @@ class Identification(Findings):
     n_v, reason      the number of faults, None where it is undecided, and why; n_v_given: the caller stated it; counted_by: what it rests
                      on, of COUNTED_BY; `at_least` faults act in any case
     fault_space      the columns [f; g] that explain the residual: basis (n + p, n_z), orthonormal, and how sure it is
+    onset            the samples from which on the residual is another one, with intervals, outputs and sizes in sigmas
+    isolation        which single sensor or actuator lies in the fault space
     pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
                      the signal explains, by_noise: what it would explain of noise
+    doubts           what the record gives reason to doubt: evidence, what it does to the answer, what to do
     notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
 
     order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
     samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
-    ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero
-    where there are none and no means were removed); unexplained: the healthy samples are explained to rounding, the others are not;
-    visible (p,): the standard deviation of a white fault at one output that would be seen; dt: the sample time in seconds, where it was
-    stated.
+    ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero where
+    there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of the little that the
+    second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained: the healthy samples
+    are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output that would be seen;
+    dt: the sample time in seconds, where it was stated or a time column tells it.
 
     `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
-    `to_scipy()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there is none, and
-    ImportError where it needs a package that is not installed. Source: [V93], [G25].
+    `to_scipy()`, `to_pandas()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there
+    is none, and ImportError where it needs a package that is not installed. Source: [V93], [G25].
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, identify
@@ -110,9 +114,23 @@ class Identification(Findings):
 
         to_mat(self, path)
 
+    def to_pandas(self) -> Any:
+        """Return a DataFrame with a row a sample: the channels, the residual in units of y, and the fault signal, NaN where that is not
+        determined.
+
+        Columns are pairs: ("input", name), ("output", name), ("residual", name of the output), ("onset", "before"), which counts the
+        onsets before a sample, ("fault", "v1"), ..; the index is the time
+        in seconds from the first sample, or the number of the sample where the sample time is not known. All samples are read into
+        memory. Raises ImportError without pandas.
+        """
+        from .report.export import to_pandas
+
+        return to_pandas(self)
+
     @one_thread()
     def save(self, folder: str | os.PathLike[str], data: str = "arrays") -> list[str]:
-        """Writes model, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their names.
+        """Writes model, residual, fault space, fault signal, summary and pictures into `folder`, which is made where it is missing; their
+        names.
 
         `data` is the title of the summary, which says where the record is from: "arrays" unless it is named. The summary also tells what
         could not be had, as pictures without matplotlib. Of what is in the folder, only the files that an earlier `save` or `faultspace

@@ -12,6 +12,7 @@ from importlib import import_module
 
 from ..base.errors import InvalidInput, shorten
 from ..base.progress import Progress, silent
+from ..base.sheets import counted
 from .adversary.attacking import attacking, of_reading, of_row
 from .evidence.corpus import describe
 from .hypotheses import ablations
@@ -126,7 +127,10 @@ def _theorems(claims: Sequence[Claim], report: Progress) -> _Machine:
         return _Machine(None, None, message, {name: lock.sha256 for name, lock in held(sources()).theorems.items()})
     except (BrokenTheory, NotProved) as error:
         return _Machine(None, f"Rocq: {error}", f"failed: {error}")
-    message = f"Rocq {theorems.version}: {len(theorems.statements)} theorems, all as locked and closed under the global context; {TRUSTED}"
+    message = (
+        f"Rocq {theorems.version}: {counted(len(theorems.statements), 'theorem')}, all as "
+        f"locked and closed under the global context; {TRUSTED}"
+    )
     return _Machine(theorems, None, message, theorems.locks)
 
 

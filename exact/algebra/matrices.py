@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 from flint import fmpq_mat, fmpz, nmod_mat
 
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import counted
 from .fields import QQ, Field, NumberField, PrimeField, base_matrix
 from .sympy_values import is_domain_matrix, is_matrix
 from .validation import fits, natural
@@ -448,7 +449,7 @@ def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where
         found = (len(rows), len(rows[0]) if rows else 0)
         for i, row in enumerate(rows):
             if len(row) != found[1]:
-                raise InvalidInput(f"{where}[{i}]: got {len(row)} entries, expected {found[1]} as in the first row")
+                raise InvalidInput(f"{where}[{i}]: got {counted(len(row), 'entry', 'entries')}, expected {found[1]} as in the first row")
         if shape is not None and 0 in shape and found in ((0, 0), (shape[0], 0)):
             found = shape  # [] and the right number of empty rows stand for every empty matrix
     else:

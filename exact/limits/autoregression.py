@@ -123,9 +123,14 @@ def arx_limit(experiment: Experiment, lags: int) -> ARXLimit:
     if rank(gram) < gram.nrows:
         excited = rank(known.windows(u, u, window, window))
         if excited < nu * (lags + 1):
-            why = f"{lags + 1} samples of u have a covariance of rank {excited} of {nu * (lags + 1)}: try an input of more noises"
+            why = (
+                f"the covariance of {counted(lags + 1, 'sample')} of u has rank {excited} of {nu * (lags + 1)}: try an input of more noises"
+            )
         else:
-            why = f"u excites {lags + 1} samples, but faults and noise leave a combination of outputs exact: try fewer lags, or noise"
+            why = (
+                f"u excites {counted(lags + 1, 'sample')}, but faults and noise leave a "
+                f"combination of outputs exact: try fewer lags, or noise"
+            )
         raise InvalidInput(f"lags: got {lags}, for which the limit is not unique: {why}")
     coefficients = solve(gram, crossed).transposed()
     blocks = [coefficients.columns(range(i * width, (i + 1) * width)) for i in range(lags)][::-1]

@@ -73,7 +73,7 @@ class Experiment(Shown):
             given.append(("w_filter", self.w_filter, residual.p, "p"))
         for name, one, channels, symbol in given:
             if one.channels != channels:
-                raise InvalidInput(f"{name}: got {one.channels} rows, expected {symbol} = {channels}")
+                raise InvalidInput(f"{name}: got {counted(one.channels, 'row')}, expected {symbol} = {channels}")
         states = residual.n + sum(one.memory * one.noise for _, one, _, _ in given)
         if states > MAX_STATES:
             raise InvalidInput(
@@ -81,7 +81,8 @@ class Experiment(Shown):
             )
         if residual.m and self.v_filter.noise != self.u_filter.noise:
             raise InvalidInput(
-                f"v_filter: got matrices with {self.v_filter.noise} columns, expected {self.u_filter.noise} as in u_filter: u and v are "
+                f"v_filter: got matrices with {counted(self.v_filter.noise, 'column')}, expected "
+                f"{self.u_filter.noise} as in u_filter: u and v are "
                 "filters of the same white noise; for independent ones give each its own columns"
             )
         if self.u_filter.is_zero():

@@ -15,6 +15,7 @@ from fractions import Fraction
 from typing import Any
 
 from ...base.errors import InvalidInput, shorten
+from ...base.sheets import counted
 from ..algebra.fields import QQ
 from ..algebra.matrices import Matrix
 from ..algebra.stability import is_schur
@@ -62,7 +63,7 @@ class Filter:
                 continue
             matrix = Matrix.of(entries, where=place)
             if channels is not None and matrix.nrows != channels:
-                raise InvalidInput(f"{place}: got {matrix.nrows} rows, expected {channels}, one for each channel of the signal")
+                raise InvalidInput(f"{place}: got {counted(matrix.nrows, 'row')}, expected {channels}, one for each channel of the signal")
             if matrices and matrix.shape != matrices[0].shape:
                 raise InvalidInput(
                     f"{place}: got shape {matrix.nrows} x {matrix.ncols}, expected {matrices[0].nrows} x {matrices[0].ncols} as at lag 0"

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.errors import InvalidInput
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..algebra.matrices import Matrix, beside, rank, stacked
 from ..algebra.notation import named_matrix
 from ..structure.inversion import delay_known_state, delay_unknown_state, largest_output_nulling
@@ -147,8 +147,8 @@ def zero_feedthrough(kernel: KernelRepresentation | System) -> ZeroFeedthrough:
     known = delay_known_state(kernel)
     if known is None:
         raise InvalidInput(
-            f"system: has normal rank {kernel.normal_rank} and m = {system.m} faults, expected a left-invertible system; keep "
-            f"{kernel.normal_rank} independent faults"
+            f"system: has normal rank {kernel.normal_rank} and {counted(system.m, 'fault')}, expected a left-invertible system; keep "
+            f"{counted(kernel.normal_rank, 'independent fault')}"
         )
     pencil = exceptional(kernel)
     own = judge(pencil, _coordinates(pencil, system.F))

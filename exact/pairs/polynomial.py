@@ -32,7 +32,7 @@ from functools import cached_property
 from typing import Any
 
 from ...base.errors import InvalidInput
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..algebra.matrices import Matrix, beside, left_null_space, rank, row_echelon, row_profile, solve_left, stacked
 from ..algebra.notation import named_matrix, polynomial, several
 from ..algebra.polynomials import Poly, written
@@ -183,7 +183,7 @@ class PairVerdict(Shown):
         if self.good:
             return f"D(q; P) is not zero: {self.finite_zeros} finite and {self.infinite_zeros} infinite zeros"
         if self.rank < self.P.ncols:
-            return f"P has rank {self.rank}, below its {self.P.ncols} columns"
+            return f"P has rank {self.rank}, below its {counted(self.P.ncols, 'column')}"
         return f"P has full column rank, but D(q; P) = 0: the pair has normal rank below {self.P.ncols}"
 
     def to_json(self) -> dict[str, Any]:

@@ -139,7 +139,7 @@ class Comparison(Shown):
         widths = [max(map(len, column)) for column in zip(*table, strict=True)]
         result += ["".join(f"  {text:<{width}}  " for text, width in zip(row, widths, strict=True)).rstrip() for row in table]
         if listed < found.window:
-            result.append(f"  ... and {found.window - listed} samples more; --word prints them all")
+            result.append(f"  ... and {counted(found.window - listed, 'sample')} more; --word prints them all")
         row = found.row.coefficients
         polynomials = [polynomial([row[k, j] for k in range(row.nrows)], field) for j in range(row.ncols)]
         return [*result, f"every word r of {other} satisfies N(q) r = 0 with N(q) = [ {',  '.join(polynomials)} ]"]

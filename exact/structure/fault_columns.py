@@ -60,7 +60,7 @@ class FaultSpace(Shown):
         """This says why the solutions on a short window are not yet the limit Z, and what to ask for; it is None where they are."""
         if self.is_limit:
             return None
-        lag, samples = self.exact_from - 1, "1 sample is" if self.window == 1 else f"{self.window} samples are"
+        lag, samples = self.exact_from - 1, f"{counted(self.window or 0, 'sample')} {'is' if self.window == 1 else 'are'}"
         return (
             f"window: {samples} fewer than lag + 1 = {lag + 1} (the lag is {lag}), so that the {self.dimension} columns "
             f"found include some that are no fault columns of an equivalent model; ask for {lag + 1} samples or for the limit"
@@ -162,5 +162,5 @@ def with_pair(space: FaultSpace | KernelRepresentation | System, P: object) -> R
     space = space if isinstance(space, FaultSpace) else fault_space(space)
     P = Matrix.of(P, space.system.field, where="P")
     if P.nrows != space.dimension:
-        raise InvalidInput(f"P: got {P.nrows} x {P.ncols}, expected {space.dimension} rows, one a basis column")
+        raise InvalidInput(f"P: got {P.nrows} x {P.ncols}, expected {counted(space.dimension, 'row')}, one a basis column")
     return space.system.with_faults(space.F @ P, space.G @ P)

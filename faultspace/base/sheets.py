@@ -3,6 +3,7 @@
 Sheet      (name, value) pairs; a pair without a value is a heading, one without a name goes on with the value above it
 line       one pair as a line of text
 counted    a number with its noun: 1 sample, 2 samples
+decibels   the natural logarithm of a ratio of powers in dB, which people know
 Shown      gives a record with `title` and `sheet` its `summary()`, a short `repr` and the table that a notebook shows
 """
 
@@ -11,6 +12,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from html import escape
+from math import log
 from textwrap import fill
 
 Sheet = Iterable[tuple[str, str]]
@@ -27,6 +29,11 @@ def line(name: str, value: str) -> str:
 def counted(count: int, noun: str, plural: str = "") -> str:
     """Return the number with its noun, in the plural unless it is one; `plural` is needed where it is not the noun with an s."""
     return f"{count} {noun if count == 1 else plural or noun + 's'}"
+
+
+def decibels(logarithm: float, unit: str = " dB") -> str:
+    """Return the natural logarithm of a ratio of powers in dB: 4.34 times as much, with three digits."""
+    return f"{10.0 / log(10.0) * logarithm:.3g}{unit}"
 
 
 def _broken(name: str, value: str) -> str:

@@ -132,7 +132,7 @@ def _first(samples: Iterator[np.ndarray | None], count: int, inputs: Sequence[st
 
 
 def _tell(alarm: Alarm, as_json: bool) -> None:
-    sys.stdout.write((json.dumps({"alarm": alarm.to_json()}) if as_json else alarm.title) + "\n")
+    sys.stdout.write((json.dumps({"alarm": alarm.to_json()}) if as_json else alarm.line) + "\n")
     sys.stdout.flush()
 
 

@@ -22,6 +22,7 @@ from rich.table import Table
 
 from ..base.errors import InvalidInput, quote_path
 from ..base.messages import say
+from ..base.sheets import counted
 from ..numeric.report.folders import refuse, replace
 from ..numeric.study.cases import LIKELIHOOD
 from ..numeric.study.groups import QUANTILES, Group, by_phase, by_zeros
@@ -99,7 +100,10 @@ def lines(studies: Sequence[Study]) -> Iterator[str]:
     first = studies[0]
     yield "# The Monte Carlo study"
     yield ""
-    yield f"{len(first.cases)} systems, seed {first.seed}, {first.samples} samples; the same systems and faults in each study."
+    yield (
+        f"{counted(len(first.cases), 'system')}, seed {first.seed}, "
+        f"{counted(first.samples, 'sample')}; the same systems and faults in each study."
+    )
     yield f"Errors in percent. {EXPLANATION[0].upper()}{EXPLANATION[1:]}."
     for study in studies:
         yield ""

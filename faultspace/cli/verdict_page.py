@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from rich.console import Console
 from rich.text import Text
 
+from ..base.sheets import counted
 from ..proofs.trust.structure_certificates import sha256
 from ..proofs.verdict.verdicts import ClaimResult, ReadingResult, Row
 from .consoles import paragraph
@@ -60,7 +61,7 @@ def _reading(result: ReadingResult) -> Iterator[tuple[str, str]]:
         yield "to a proof:", reading.missing
     for line in attack_lines(result.attacks):
         yield "attacked by:", line
-    yield "accepted:", f"{outcome.accepted} certificates by the checker"
+    yield "accepted:", f"{counted(outcome.accepted, 'certificate')} by the checker"
     for name, lock in result.locks.items():
         yield "theorem:", f"{name}, locked as SHA-256 {lock}"
     for certificate in outcome.certificates:

@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from ..base.sheets import counted
 from ..proofs.verdict.verdicts import ClaimResult, Report, Row, Verdict
 from .consoles import paragraph, print_table
 from .verdict_tables import STYLES
@@ -89,7 +90,7 @@ def hypothesis_words(rows: Sequence[Row]) -> str:
     parts = ", ".join(f"{meanings[meaning]} {words.get(meaning, meaning)}" for meaning in order if meanings[meaning])
     together = [row for row in rows if len(row.dropped) == 2]
     pairs = sum(row.verdict == Verdict.REFUTED and row.already is None for row in together)
-    return f"{len(single)} dropped alone: {parts or 'none'}; {len(together)} pairs: {pairs} needed only together."
+    return f"{len(single)} dropped alone: {parts or 'none'}; {counted(len(together), 'pair')}: {pairs} needed only together."
 
 
 def attack_words(report: Report) -> str:
@@ -116,12 +117,15 @@ def print_summary(console: Console, report: Report) -> None:
     different += [_without(row) for row in report.hypotheses if not row.as_expected]
     accepted += sum(row.accepted for row in report.hypotheses if row.verdict == Verdict.REFUTED and row.already is None)
     tail = (
-        f"{len(readings)} readings, {len(report.hypotheses)} sets of hypotheses dropped, {accepted} certificates accepted, "
+        f"{counted(len(readings), 'reading')}, {counted(len(report.hypotheses), 'set')} of "
+        f"hypotheses dropped, {counted(accepted, 'certificate')} accepted, "
         f"effort {report.effort}, {report.seconds:.0f} s"
     )
     count = "the claim" if len(report.claims) == 1 else f"all {len(report.claims)} claims"
     if different:
-        paragraph(console, Text(f"NOT as expected: {', '.join(different)}; {len(report.claims)} claims, {tail}", style="bold red"))
+        paragraph(
+            console, Text(f"NOT as expected: {', '.join(different)}; {counted(len(report.claims), 'claim')}, {tail}", style="bold red")
+        )
     else:
         paragraph(console, Text(f"as expected: {count}; {tail}", style="bold green"))
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from ..base.errors import InvalidInput, quote_path, shorten
 from ..base.messages import say
 from ..base.progress import working
+from ..base.sheets import counted
 from ..proofs.evidence.specimens import specimens
 from ..proofs.rocq import recheck as rocq_recheck
 from ..proofs.rocq.build import BrokenTheory, NoRocq, NotProved
@@ -46,7 +47,7 @@ def run(claims: Sequence[str], *, effort: str, jobs: int, out: Path | None, rech
         report = verify(claims or None, effort=effort, jobs=jobs, on_progress=tell)
     if out is not None:
         count = write_out(report, out, () if claims else specimens())
-        say(f"{count} certificates and verdicts.json are in {quote_path(str(out))}")
+        say(f"{counted(count, 'certificate')} and verdicts.json are in {quote_path(str(out))}")
     if as_json:
         print_json(report.to_json())
     else:

@@ -40,10 +40,11 @@ FUNCTIONS = ("identify", "residual", "window_ranks", "fault_dimension", "fault_s
 
 @dataclass(frozen=True)
 class ZeroStructure:
-    """Of x(k+1) = A x + F v, r = C x + G v: normal rank of the transfer function, finite invariant zeros, orders of the infinite zeros
-    (ascending, one per unit of normal rank, zeros included), left-invertibility. The finite zeros are the roots of the invariant
-    polynomials of the pencil [[qI - A, -F], [C, G]], with their multiplicities, also where the system is not left-invertible: where
-    F = G = 0 they are the eigenvalues of A that C does not show.
+    """The record holds of x(k+1) = A x + F v, r = C x + G v the normal rank of the transfer function, the finite invariant zeros, the
+    orders of the infinite zeros (ascending, one per unit of normal rank, zeros included), and whether the system is left-invertible.
+
+    The finite zeros are the roots of the invariant polynomials of the pencil [[qI - A, -F], [C, G]], with their multiplicities, also
+    where the system is not left-invertible: where F = G = 0 they are the eigenvalues of A that C does not show.
     """
 
     normal_rank: int
@@ -103,7 +104,7 @@ def offered(implementation: object) -> dict[str, Function]:
 
 
 def guarded(function: Function) -> Function:
-    """`function` with its refusals and crashes told apart."""
+    """Return `function` with its refusals and crashes told apart."""
 
     def call(*arguments: Any) -> Any:
         try:

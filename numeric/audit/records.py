@@ -47,7 +47,8 @@ class Demand(StrEnum):
 
 
 class Severity(StrEnum):
-    """What a failure does: a wrong answer without a warning, a wrong one in some uses, or trouble that is seen at once."""
+    """The severity says what a failure does: a wrong answer without a warning, a wrong one in some uses, or trouble that is seen at
+    once."""
 
     SILENT = "silently wrong"
     SOMETIMES = "wrong in some uses"
@@ -55,7 +56,7 @@ class Severity(StrEnum):
 
 
 class Status(StrEnum):
-    """PASS; FAIL: measured beyond the bound, or an answer where none can be; REFUSED: no answer where one is due; BROKEN; NOT_OFFERED."""
+    """A check has this status; FAIL is beyond the bound, or an answer where none can be, and REFUSED is none where one is due."""
 
     PASS = "pass"
     FAIL = "fail"
@@ -66,7 +67,7 @@ class Status(StrEnum):
 
 @dataclass(frozen=True)
 class Measurement:
-    """A distance `got` >= 0 from the exact answer beside its `bound`; a bound of 0 asks for equality."""
+    """A measurement is a distance `got` >= 0 from the exact answer beside its `bound`; a bound of 0 asks for equality."""
 
     quantity: str
     got: float
@@ -95,7 +96,7 @@ class Named:
 
     @property
     def full_name(self) -> str:
-        """slug[vector]-function: no other check has it."""
+        """The name is slug[vector]-function; no other check has it."""
         return f"{self.name}-{self.function}"
 
     @property
@@ -120,7 +121,7 @@ class Check(Named):
 
 @dataclass(frozen=True)
 class CheckResult(Named):
-    """The outcome of one check; got, bound, ratio are those of the worst measurement (None where nothing was measured)."""
+    """This is the outcome of one check; got, bound, ratio are those of the worst measurement (None where nothing was measured)."""
 
     claim: str | None
     effect: str

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..count.hankel_ranks import rounding_ranks
 from ..count.rank_gap import fault_dimension as count
 from ..count.windows import EPS, channel_sizes
@@ -41,7 +42,7 @@ def residual(y: Array, u: Array, A: Array, B: Array, C: Array, D: Array) -> Arra
 def window_ranks(r: Array, windows: int) -> tuple[int, ...]:
     """Return the ranks at the rounding threshold, channels in unit mean square."""
     data = signal(r, "r")
-    enough_samples(len(data), (data.shape[1] + 1) * windows - 1, f"a window of {windows} block rows", data.shape)
+    enough_samples(len(data), (data.shape[1] + 1) * windows - 1, f"a window of {counted(windows, 'block row')}", data.shape)
     return rounding_ranks(data / channel_sizes(data), windows, unit=EPS).ranks
 
 
@@ -51,7 +52,7 @@ def fault_dimension(r: Array) -> int | None:
 
 
 def fault_space(r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Array:
-    """From the exact ranks of the windows, as the data have no noise."""
+    """The space is from the exact ranks of the windows, as the data have no noise."""
     found = space(r, A, C, n_v=n_v, block_rows=block_rows)
     if not found.meaningful:
         raise InvalidData(found.reason)
@@ -67,7 +68,7 @@ def reconstruct(r: Array, A: Array, F: Array, C: Array, G: Array, x0: Array) -> 
 
 
 def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
-    """Orders of infinite zeros from #{order <= k} = rank T_(k+1) - rank T_k; finite zeros those of the pencil."""
+    """The orders of infinite zeros are from #{order <= k} = rank T_(k+1) - rank T_k; the finite zeros are those of the pencil."""
     if not all(np.all(np.isfinite(matrix)) for matrix in (A, F, C, G)):
         raise InvalidData("A, F, C, G: got entries that are NaN or infinite")
     orders = _infinite_zero_orders(A, F, C, G)

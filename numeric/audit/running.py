@@ -95,7 +95,7 @@ def audit(
 def parametrize_with_checks(
     adapter: object, *, expected: Sequence[ExpectedFailure] = (), seconds: float = SECONDS, gibibytes: float = GIBIBYTES
 ) -> Callable[[Test], Test]:
-    """A pytest decorator: the test gets `check`, a function to call, once for each check; ids are slug[vector]-function.
+    """Return a pytest decorator: the test gets `check`, a function to call, once for each check; ids are slug[vector]-function.
 
     An adapter given by name (a string) runs in a process of its own under the limits, an object in this one without.
     """
@@ -113,7 +113,7 @@ def parametrize_with_checks(
 
 
 def _todo(subject: Auditee, only: Sequence[str], expected: Sequence[ExpectedFailure]) -> list[Check]:
-    """The checks to run; that there are checks of the expected names is seen first."""
+    """Return the checks to run; that there are checks of the expected names is seen first."""
     if expected:
         chosen((), [one.name for one in expected])
     return chosen(subject.functions, only)

@@ -33,6 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ...base.threads import one_thread
 from ..count.windows import ObservedCoordinates, observed_coordinates
 from ..data.validation import positive
@@ -111,13 +112,16 @@ def _fault_columns(model: StateSpaceModel, F: ArrayLike, G: ArrayLike) -> Array:
     if [part.shape for part in parts] != [(model.n, n_v), (model.p, n_v)] or n_v == 0:
         raise InvalidData(f"F, G: got shapes {parts[0].shape}, {parts[1].shape}; needed ({model.n}, n_v), ({model.p}, n_v), n_v at least 1")
     if n_v >= model.p:
-        raise InvalidData(f"{n_v} faults in {model.p} outputs leave no kernel row: every column is a solution, and there is no bound")
+        raise InvalidData(
+            f"no kernel row is left by {counted(n_v, 'fault')} in "
+            f"{counted(model.p, 'output')}: every column is a solution, and there is no bound"
+        )
     return np.vstack(parts)
 
 
 @dataclass(frozen=True)
 class _Tied:
-    """The model, the fault transfer and its kernel rows, in observed coordinates, with the spectra in these units."""
+    """This holds the model, the fault transfer and its kernel rows, in observed coordinates, with the spectra in these units."""
 
     driven: StateSpaceModel
     faulty: StateSpaceModel
@@ -221,7 +225,7 @@ def _tied(model: StateSpaceModel, columns: Array, spectra: FaultSpectra) -> _Tie
 
     values = np.linalg.svd(half_transfers(system_matrix(faulty), n, angles)[0], compute_uv=False)
     if np.all(values[:, -1] <= RANK * values[:, 0]):
-        raise InvalidData(f"the {n_v} faults are dependent: their transfer function has a lower rank at every angle")
+        raise InvalidData(f"the faults are dependent: the rank of their transfer function is below {n_v} at every angle")
 
     def scaled(at: Array) -> NDArray[np.complex128]:
         return np.asarray(spectra.noise(at) / np.outer(sizes, sizes))

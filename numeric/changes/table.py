@@ -84,7 +84,7 @@ class Changes(Shown):
 
     >>> import numpy as np
     >>> from faultspace.numeric import changes_since_healthy
-    >>> draw = np.random.default_rng(1)
+    >>> draw = np.random.default_rng(2)
     >>> y, u = draw.standard_normal((600, 2)), draw.standard_normal((600, 1))
     >>> y[300:, 1] += 2.0
     >>> found = changes_since_healthy(y, y, u, healthy=300)

@@ -89,7 +89,7 @@ def changes_within(
 
     Asked are only a mean that has moved and sensors that are stuck, by freezing or by a loss of variance, each in units as of
     `changes_since_healthy`; all else would take the fault for the noise. A fault that acts alike in both halves is not seen. Raises
-    InvalidData as that does. Source: as of `changes_since_healthy`.
+    InvalidData as that does. Source: [C60], [LLSW18], as of `changes_since_healthy`.
 
     >>> import numpy as np
     >>> from faultspace.numeric import changes_within

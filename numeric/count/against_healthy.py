@@ -214,14 +214,17 @@ def fault_dimension_against_healthy(
             break
     visible = float(np.median(thresholds[:, 0]))
     places = (
-        f"{found} direction(s) beyond the healthy record at {int(np.sum(counts == found))} of {len(counts)} frequencies; "
+        f"{counted(found, 'direction')} beyond the healthy record at {int(np.sum(counts == found))} of {len(counts)} frequencies; "
         f"by chance alone more than there are with probability {level:g} at most; one whose direction turns may count twice"
     )
     n_v: int | None = found
     if found == 0:
         reason = f"nothing beyond the healthy record; a fault of less than {visible:.1f} times its noise would not be seen"
     elif found == healthy.p:
-        n_v, reason = None, f"every direction of the {found} outputs is louder than in the healthy record: {found} faults, or more noise"
+        n_v, reason = (
+            None,
+            f"every direction of {counted(found, 'output')} is louder than in the healthy record: {counted(found, 'fault')}, or more noise",
+        )
     elif kept is not None and kept < needed:
         n_v, reason = None, f"{places}; but at half the width the last keeps {kept:.2f} of its excess: a fault whose direction turns?"
     else:
@@ -288,7 +291,8 @@ def fault_direction_against_healthy(
 
 @dataclass(frozen=True, eq=False)
 class _Whitened:
-    """The transforms x (len, p) of a record at `frequencies` (len,), whitened, and the `effect` (len, p, size) of each column on them."""
+    """This holds the transforms x (len, p) of a record at `frequencies` (len,), whitened, and the `effect` (len, p, size) of each column
+    on them."""
 
     frequencies: Array
     effect: Complex
@@ -343,7 +347,7 @@ def _columns(A: Array, C: Array, frequencies: Array, p: int) -> Complex:
     """Return [C (zI - A)^-1, I] at z = exp(2 pi i f): (len, p, n + p)."""
     n = A.shape[0]
     if A.shape != (n, n) or C.shape != (p, n):
-        raise InvalidData(f"A, C: got shapes {A.shape}, {C.shape}; needed (n, n), ({p}, n) for a residual of {p} channels")
+        raise InvalidData(f"A, C: got shapes {A.shape}, {C.shape}; needed (n, n), ({p}, n) for a residual of {counted(p, 'channel')}")
     schur, turn = scipy.linalg.schur(A, output="complex")
     turned = C @ turn
     states = np.empty((len(frequencies), p, n), dtype=complex)

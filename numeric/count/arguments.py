@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..data.validation import enough_samples, positive, signal
 
 
@@ -74,9 +75,11 @@ def arguments(r: ArrayLike, A: ArrayLike, C: ArrayLike, n_v: int | None, block_r
     N, p = residual.shape
     n = A.shape[0]
     if n_v is not None and positive(n_v, "n_v") > p:
-        raise InvalidData(f"n_v: got {n_v} with {p} outputs; needed 1 <= n_v <= p (more faults than outputs cannot be told apart)")
+        raise InvalidData(
+            f"n_v: got {n_v} with {counted(p, 'output')}; needed 1 <= n_v <= p (more faults than outputs cannot be told apart)"
+        )
     window = n + 1 if block_rows is None else positive(block_rows, "block_rows")
     # Fewer columns than rows would make null rows that are shortage of data, not behaviour.
-    enough_samples(N, (p + 1) * window - 1, f"a window of {window} block rows with {p} channels", residual.shape)
+    enough_samples(N, (p + 1) * window - 1, f"a window of {counted(window, 'block row')} with {counted(p, 'channel')}", residual.shape)
     longest = max(window, min(n + 1, (N + 1) // (p + 1)))
     return Arguments(residual, A, C, n_v, window, longest)

@@ -169,12 +169,14 @@ class HealthyReference(Shown):
         residual, inputs = residual_and_inputs(r, u)
         if residual.shape[1] != self.p or inputs.shape[1] != len(self.input_scales):
             raise InvalidData(
-                f"the record has {residual.shape[1]} channels and {inputs.shape[1]} inputs, the healthy one {self.p} and "
+                f"the record has {counted(residual.shape[1], 'channel')} and "
+                f"{counted(inputs.shape[1], 'input')}, the healthy one {self.p} and "
                 f"{len(self.input_scales)}; they must be of the same plant: give the same channels, and u for both or for neither"
             )
         if len(residual) < self.lags + 4 * self.tapers:
             raise InvalidData(
-                f"r has {len(residual)} samples; at least {self.lags + 4 * self.tapers} are needed against this healthy record: record more"
+                f"r has {counted(len(residual), 'sample')}; at least {self.lags + 4 * self.tapers} "
+                f"are needed against this healthy record: record more"
             )
         return residual, inputs
 
@@ -265,7 +267,9 @@ def healthy_reference(healthy: ArrayLike, u: ArrayLike | None = None, *, level: 
     samples, p = residual.shape
     if samples < LEAST_SAMPLES * max(p, 4):
         hint = "it looks transposed, pass healthy.T" if p > samples else "record more, or take fewer channels"
-        raise InvalidData(f"healthy has {samples} samples of {p} channels; at least {LEAST_SAMPLES * max(p, 4)} are needed: {hint}")
+        raise InvalidData(
+            f"healthy has {counted(samples, 'sample')} of {counted(p, 'channel')}; at least {LEAST_SAMPLES * max(p, 4)} are needed: {hint}"
+        )
     half = samples // 2
     reference = _learnt(residual, inputs)
     strains = {}
@@ -327,7 +331,9 @@ def residual_and_inputs(r: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array
     residual = signal(r, "r")
     inputs = np.zeros((len(residual), 0)) if u is None else signal(u, "u")
     if len(inputs) != len(residual):
-        raise InvalidData(f"u has {len(inputs)} samples and r has {len(residual)}; equal numbers are needed: cut both to those they share")
+        raise InvalidData(
+            f"u has {counted(len(inputs), 'sample')} and r has {len(residual)}; equal numbers are needed: cut both to those they share"
+        )
     return residual, inputs
 
 

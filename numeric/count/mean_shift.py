@@ -32,6 +32,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from .healthy_model import LEVEL, lagged, number_of_lags, residual_and_inputs
 from .windows import channel_sizes
 
@@ -125,7 +126,10 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
     X, now = _regressors(r, inputs, lags)
     freedom = int(COSINES * len(now) ** (2 / 3))
     if freedom < p + 2 or len(now) <= X.shape[1] + freedom:
-        raise InvalidData(f"{K} samples without fault are too few to say what the means of {p} outputs are worth: state more of them")
+        raise InvalidData(
+            f"{counted(K, 'sample')} without fault {'is' if K == 1 else 'are'} too few to say what the "
+            f"means of {counted(p, 'output')} are worth: state more of them"
+        )
     factor, triangle = np.linalg.qr(X)
     root = np.asarray(np.linalg.inv(triangle)).T
     coefficients = root.T @ (factor.T @ now)
@@ -161,7 +165,9 @@ def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u:
     except InvalidData as error:
         return MeanShift(None, str(error), level)
     if len(after) < reference.lags + 1:
-        return MeanShift(None, f"{len(after)} samples are fewer than the {reference.lags + 1} that the healthy noise remembers", level)
+        return MeanShift(
+            None, f"there are {counted(len(after), 'sample')}, fewer than the {reference.lags + 1} that the healthy noise remembers", level
+        )
     found = _tested(reference, after, inputs, level)
     if reference.nearest * reference.samples < UNIT_ROOT:
         reason = "the healthy residual wanders: its mean says nothing (an integrating plant, a drift, a fault in it?)"

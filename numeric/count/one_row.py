@@ -29,6 +29,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..data.validation import signal
 
 BANDS = 64
@@ -105,7 +106,7 @@ def window_moments(r: Array, degree: int, *, u: Array | None = None, bands: int 
     needed = 2 * p * (degree + 1) + 2 * inputs.shape[1] * (before + degree + 1)
     if windows < needed:
         raise InvalidData(
-            f"r has {samples} samples of {p} channels: a kernel row of degree {degree} needs at least "
+            f"r has {counted(samples, 'sample')} of {counted(p, 'channel')}: a kernel row of degree {degree} needs at least "
             f"{needed + degree + before}; give more samples or a lower degree (smaller block_rows)"
         )
 
@@ -206,7 +207,7 @@ def _rounding(data: Array, gains: Array, g: Array) -> float:
 
 
 def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
-    """Levenberg-Marquardt on sum_b (g' S_b g) / (g' Q_b g) over the unit sphere; the Jacobian includes the denominator.
+    """Descend by Levenberg and Marquardt on sum_b (g' S_b g) / (g' Q_b g) over the unit sphere; the Jacobian includes the denominator.
 
     Invariant: the cost never rises.
     """

@@ -37,7 +37,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted, decibels
 from ...base.threads import one_thread
 from ..count.hankel_ranks import HankelRanks, ranks_at, rounding_ranks
 from ..count.residual_laws import LawLevel, kernel_row_test
@@ -104,7 +104,7 @@ class FaultDimension(Shown):
             yield "rank R_s", " ".join(map(str, self.ranks))
             yield "rank R_(s+1) - rank R_s", " ".join(map(str, self.gaps))
         for level in self.levels:
-            yield f"level of {level.outputs} mixed outputs", f"{level.least:.3g} to {level.largest:.3g} nats"
+            yield f"level of {counted(level.outputs, 'mixed output')}", f"{decibels(level.least, '')} to {decibels(level.largest)}"
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict: the answer, its reason, and what belongs to each window."""
@@ -177,7 +177,9 @@ def _inputs(u: ArrayLike, samples: int) -> Array:
     """Return u with unit mean square in each channel."""
     inputs = signal(u, "u")
     if len(inputs) != samples:
-        raise InvalidData(f"u has {len(inputs)} samples and r has {samples}; equal numbers are needed: cut both to the samples they share")
+        raise InvalidData(
+            f"u has {counted(len(inputs), 'sample')} and r has {samples}; equal numbers are needed: cut both to the samples they share"
+        )
     peaks = np.max(np.abs(inputs), axis=0)
     inputs = inputs / np.where(peaks > 0.0, peaks, 1.0)
     levels = np.sqrt(np.mean(inputs**2, axis=0))
@@ -206,14 +208,15 @@ def _block_rows(r: Array, block_rows: int | None, n_u: int) -> int:
         if wanted > most:
             hint = "r has more channels than samples: is it transposed (it must be (N, p))? " if p > samples else ""
             raise InvalidData(
-                f"r has {samples} samples of {p} channels: windows of {wanted} + 1 samples need at least {(wanted + 1) * width}; "
+                f"r has {counted(samples, 'sample')} of {counted(p, 'channel')}: windows of "
+                f"{wanted} + 1 samples need at least {(wanted + 1) * width}; "
                 f"{hint}try block_rows <= {max(most, 0)} or more samples"
             )
         return wanted
     if most < LEAST_RUN:
         hint = "r has more channels than samples: pass it as (N, p), r.T; otherwise " if p > samples else ""
         raise InvalidData(
-            f"r has {samples} samples of {p} channels: at least {(LEAST_RUN + 1) * width} samples are needed to see "
+            f"r has {counted(samples, 'sample')} of {counted(p, 'channel')}: at least {(LEAST_RUN + 1) * width} samples are needed to see "
             f"{LEAST_RUN} gaps; {hint}give more samples or fewer channels"
         )
     return min(DEFAULT_BLOCK_ROWS, most, max(2 * LEAST_RUN, LARGEST_HANKEL // (p + n_u) - 1))
@@ -259,7 +262,7 @@ def _from_gaps(exact: HankelRanks, scaled: Array) -> tuple[int | None, str]:
         return None, f"the gap still changes over the last {run} windows, {tail}{blur}: the lag may be longer; try larger block_rows"
     gap = tail[0]
     if gap >= p:
-        return None, f"the gap is {p}, as many as outputs, at every clear window{blur}: {p} faults, or a lag beyond block_rows"
+        return None, f"the gap is {p}, as many as outputs, at every clear window{blur}: {counted(p, 'fault')}, or a lag beyond block_rows"
     if gap == 0:
         half = len(scaled) // 2
         early, late = np.linalg.norm(scaled[:half]), np.linalg.norm(scaled[half:])

@@ -39,6 +39,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.chi_squared import chi_squared_quantile
+from ...base.sheets import counted, decibels
 from .one_row import WindowMoments, kernel_row, window_moments
 
 ALARM = 1.0
@@ -100,8 +101,9 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
 
     if floor.drop > bound:
         return undecided(
-            f"no noise floor: the best law on all {p} outputs still improves by {floor.drop:.2f} nats over the last two degrees "
-            f"(at most {bound:.2f} allowed); there may be {p} faults, or an order that needs larger block_rows"
+            f"no noise floor: the best law on {'the one output' if p == 1 else f'all {p} outputs'} still "
+            f"improves by {decibels(floor.drop)} over the last two degrees "
+            f"(at most {decibels(bound)} allowed); there may be {counted(p, 'fault')}, or an order that needs larger block_rows"
         )
     # Invariant: `high` mixtures are at the floor, `low` are not (none at all, to begin with).
     high, low = p, 0
@@ -119,31 +121,35 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
     above, below = levels[high], levels[low]
     rise, before = below.least - above.largest, above.middle - floor.middle
     needed = CLEAR if low < p - 1 else CLEAR_LAST if p > 2 else CLEAR_SINGLE
-    step = f"from {high} mixed outputs to {low} the noise left by the best law rises by at least {rise:.2f} nats"
+    step = f"from {high} mixed outputs to {low} the noise left by the best law rises by at least {decibels(rise)}"
     if below.middle - floor.middle <= ALARM:
         return undecided(
-            f"on {low} mixed outputs the best law still improves by {below.drop:.2f} nats over the last two degrees (at most {bound:.2f} "
-            f"allowed): an order that needs larger block_rows"
+            f"on {counted(low, 'mixed output')} the best law still improves by {decibels(below.drop)} over the last two degrees (at most "
+            f"{decibels(bound)} allowed): an order that needs larger block_rows"
         )
     if rise < needed:
-        return undecided(f"{step}: too much for the same floor, too little for a missing law (at least {needed:g})")
+        return undecided(f"{step}: too much for the same floor, too little for a missing law (at least {decibels(needed)})")
     if low == p - 1 and floor.drop > SLACK_LAST + chance:
         return undecided(
-            f"only all {p} outputs together obey a law, and it still improves by {floor.drop:.2f} nats over the last two degrees "
-            f"(at most {SLACK_LAST + chance:.2f} allowed here): {p} faults of unequal strength look like this"
+            f"only all {p} outputs together obey a law, and it still improves by {decibels(floor.drop)} over the last two degrees "
+            f"(at most {decibels(SLACK_LAST + chance)} allowed here): {p} faults of unequal strength look like this"
         )
     if before > STEEP * rise:
-        return undecided(f"{step}, but it had risen by {before:.2f} before: weak faults, or outputs of very unequal noise")
+        return undecided(f"{step}, but it had risen by {decibels(before)} before: weak faults, or outputs of very unequal noise")
     if below.drop > SETTLED * rise:
-        return undecided(f"{step}, of which the last two degrees took back {below.drop:.2f}: larger block_rows may settle it")
+        return undecided(f"{step}, of which the last two degrees took back {decibels(below.drop)}: larger block_rows may settle it")
     chosen = _loaded(moments, low)
     alone = law_level(moments, (np.eye(p)[:, chosen],)).least - floor.middle
     if alone < SPARSE * rise:
         return undecided(
-            f"{step}, but {low} outputs as they are, unmixed, obey a law nearly as good ({alone:.2f} nats above the floor): noise that is "
+            f"{step}, but {counted(low, 'output')}, not mixed, {'obeys' if low == 1 else 'obey'} a law "
+            f"nearly as good ({decibels(alone)} above the floor): noise that is "
             "louder, beside the faults, at other outputs looks like this"
         )
-    reason = f"{high} mixed outputs obey a common law up to the noise floor, {low} do not: {step} ({needed:g} needed)"
+    reason = (
+        f"{high} mixed outputs obey a common law up to the noise floor, {low} "
+        f"{'does' if low == 1 else 'do'} not: {step} ({decibels(needed)} needed)"
+    )
     return KernelRowTest(low, _walk(levels), noise_power, reason)
 
 

@@ -1,7 +1,9 @@
 """This recognises the time of a record: a column of seconds or dates, its step, and what is odd about it.
 
 Clock             what a time column says: the step dt, and where steps differ
-clock_of          the Clock of times in seconds
+clock_from        the Clock of a column; clock_of: of times in seconds
+first_clock       the Clock of the first column that holds times
+whole_clock       that of a stretch without gaps
 time_name         which of some names is that of a time column
 seconds_in        how many seconds the unit of a name has: "t [ms]" -> 0.001
 seconds_of        times of any kind (numbers, dates, texts) in seconds
@@ -14,7 +16,7 @@ whole multiples of them, rows are missing. All else is jitter. With steps of one
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -22,11 +24,15 @@ import numpy as np
 
 from ...base.arrays import Array
 
-NAMES = ("time", "t", "timestamp", "date", "datetime", "date_time", "zeit", "temps", "tiempo", "tempo", "clock", "elapsed")
+NAMES = (
+    "time", "t", "timestamp", "date", "datetime", "date_time", "date time", "time stamp", "time_stamp", "clock", "elapsed",
+    "zeit", "datum", "uhrzeit", "zeitstempel", "temps", "tiempo", "fecha", "tempo",
+)  # fmt: skip
 UNITS = {
-    "ns": 1e-9, "us": 1e-6, "µs": 1e-6, "μs": 1e-6, "ms": 1e-3, "s": 1.0, "sec": 1.0, "seconds": 1.0,
+    "ns": 1e-9, "us": 1e-6, "\u00b5s": 1e-6, "\u03bcs": 1e-6, "ms": 1e-3, "s": 1.0, "sec": 1.0, "seconds": 1.0,
     "min": 60.0, "minutes": 60.0, "h": 3600.0, "hours": 3600.0, "d": 86400.0, "days": 86400.0,
 }  # fmt: skip
+WORDS = ("dates", "durations")  # units that need no name
 ODD = 0.25
 """The share of longer steps from which they are put down to rounding and not to rows that are missing."""
 DIGITS_TRIED = range(10)
@@ -39,7 +45,8 @@ class Clock:
 
     `name` is the column's, and its numbers were taken as `unit`, a word. `least` and `greatest` are steps in seconds, `resolution` is what
     the digits of the times can tell apart. `regular` says that all steps are dt to that; `missing` counts rows that are not there,
-    `backwards` steps that do not go on, and `first_odd` is the first sample that is not where it should be.
+    `backwards` steps that do not go on, `first_odd` is the first sample that is not where it should be, and `gaps` are those with rows
+    missing before them.
     """
 
     name: str
@@ -52,6 +59,12 @@ class Clock:
     missing: int = 0
     backwards: int = 0
     first_odd: int | None = None
+    gaps: tuple[int, ...] = ()
+
+    @property
+    def source(self) -> str:
+        """Return what the times were taken for, in words."""
+        return f"{self.unit} in {self.name}" if self.unit in WORDS else f"column {self.name}, its unit taken as {self.unit}"
 
 
 def time_name(names: Iterable[str]) -> str | None:
@@ -62,6 +75,16 @@ def time_name(names: Iterable[str]) -> str | None:
         unit = ((found["bracket"] or found["tail"]) if found else None) or "s"
         if bare in NAMES and unit.strip().lower() in UNITS:
             return name
+    return None
+
+
+def first_clock(names: Iterable[str], column: Callable[[str], Any], units: Mapping[str, str] | None = None) -> Clock | None:
+    """Return the Clock of the first of these names that is a time's and whose `column` holds times that move; `units` may have its unit."""
+    for name in names:
+        if time_name([name]) is not None:
+            clock = clock_from(column(name), name, (units or {}).get(name, ""))
+            if clock is not None:
+                return clock
     return None
 
 
@@ -89,7 +112,7 @@ def seconds_of(values: Any, name: str) -> tuple[Array, str] | None:
         whole = array.astype(kind)
         if np.any(np.isnat(whole)):
             return None
-        return (whole - whole[0]).astype(np.int64) * 1e-9, "dates" if kind[0] == "d" else "durations"
+        return (whole - whole[0]).astype(np.int64) * 1e-9, WORDS[kind[0] != "d"]
     if array.dtype.kind not in "fiu" or not np.all(np.isfinite(array.astype(np.float64))):
         return None
     factor, unit = seconds_in(name)
@@ -98,20 +121,40 @@ def seconds_of(values: Any, name: str) -> tuple[Array, str] | None:
 
 
 def _plain_date(text: Any) -> str:
-    """Return an ISO date as numpy reads it: with a T, and without a zone, which is the same for all where steps are regular."""
-    word = str(text).strip().replace(" ", "T", 1)
-    if not re.match(r"\d{4}-\d{2}-\d{2}", word):
+    """Return a date as numpy reads it: with a T, and without a zone, which is the same for all where steps are regular. Days come as
+    2024-03-01, 2024/03/01 or 01.03.2024, with or without a time of the day, or are left out."""
+    word = str(text).strip().replace(" ", "T", 1).replace("/", "-")
+    if re.match(r"\d{2}:\d{2}", word):
+        word = f"1970-01-01T{word}"
+    if day := re.match(r"(\d{2})\.(\d{2})\.(\d{4})", word):
+        word = f"{day[3]}-{day[2]}-{day[1]}{word[day.end() :]}"
+    if not re.match(r"\d{4}-\d{2}-\d{2}(T\d{2}:\d{2}|$)", word):
         raise ValueError(word)
+    word = re.sub(r"(?<=:\d{2}),(?=\d)", ".", word)
     return re.sub(r"(?:Z|[+-]\d{2}:?\d{2})$", "", word) if "T" in word else word
 
 
-def clock_of(times: Array, name: str, unit: str = "seconds", *, factor: float = 1.0) -> Clock | None:
-    """Return what times (N,) in seconds say, N >= 2; `factor` seconds make one unit of the numbers that were written. None where they do
-    not move at all."""
+def clock_from(values: Any, name: str, unit: str = "") -> Clock | None:
+    """Return the Clock of a column's values (N,), numbers, dates or texts of dates; `unit` is that of a line of units, where there is one.
+    None for what is no time."""
+    titled = f"{name} [{unit}]" if unit.strip().lower() in UNITS else name
+    found = seconds_of(values, titled)
+    if found is None:
+        return None
+    times, unit_word = found
+    factor, array = seconds_in(titled)[0], np.asarray(values)
+    # What a float has lost of a large starting time.
+    rounding = float(np.spacing(np.abs(array).max())) * factor if array.dtype.kind == "f" else 0.0
+    return clock_of(times, name, unit_word, factor=factor, rounding=rounding)
+
+
+def clock_of(times: Array, name: str, unit: str = "seconds", *, factor: float = 1.0, rounding: float = 0.0) -> Clock | None:
+    """Return what times (N,) in seconds say, N >= 2; `factor` seconds make one unit of the numbers that were written, and `rounding`
+    seconds are what each has lost. None where they do not move at all."""
     steps = np.diff(times)
     if not len(steps) or not np.any(steps):
         return None
-    resolution = _resolution(times / factor) * factor
+    resolution = max(_resolution(times / factor) * factor, 2 * rounding)
     mean = float(times[-1] - times[0]) / len(steps)
     found = Clock(name, mean, float(steps.min()), float(steps.max()), resolution, unit)
     typical = float(np.median(steps))
@@ -123,10 +166,18 @@ def clock_of(times: Array, name: str, unit: str = "seconds", *, factor: float = 
     longer = multiples > 1
     if longer.any() and longer.mean() < ODD and np.all(multiples >= 1) and np.all(np.abs(steps - multiples * typical) <= resolution + tiny):
         gone = int(np.sum(multiples - 1))
-        return replace(found, dt=typical, regular=False, missing=gone, first_odd=int(np.flatnonzero(longer)[0]) + 1)
+        gaps = tuple(int(k) + 1 for k in np.flatnonzero(longer))
+        return replace(found, dt=typical, regular=False, missing=gone, first_odd=gaps[0], gaps=gaps)
     line = times - times[0] - mean * np.arange(len(times))
     odd = np.flatnonzero(np.abs(line - (line.max() + line.min()) / 2) > resolution + tiny)
     return replace(found, regular=not len(odd), first_odd=int(odd[0]) if len(odd) else None)
+
+
+def whole_clock(clock: Clock) -> Clock | None:
+    """Return the clock of a stretch between the gaps of this one, None where its steps are odd in other ways."""
+    if clock.regular:
+        return clock
+    return replace(clock, regular=True, missing=0, first_odd=None, gaps=(), greatest=clock.dt) if clock.gaps else None
 
 
 def _resolution(numbers: Array) -> float:

@@ -1,9 +1,11 @@
 """This reads measured data from files: named columns of CSV, Parquet, NPZ, NPY and MAT files as inputs and outputs.
 
 read_record     the chosen channels of a file, as a Record
+read_stretches  the stretches of a file between rows that are not whole, as Records
 split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate
 named_once      the refusal of a channel that is named more than once
 FORMATS         suffix -> format
+READERS         format -> the function that reads it, at the end of the file
 
 A channel is chosen by its column's name. For matrices (NPZ, NPY, MAT, and text without a line of names; in NPY and text the matrix is
 called `data`): NAME is all columns, NAME[:,j] or NAME[j] column j, NAME[:,i:j] several, NAME[i,:] row i, NAME[i,j] channel (i, j) of an
@@ -12,7 +14,10 @@ what is needed, what to try.
 
 No more of a file than a piece is held in memory: text goes by lines, Parquet by the pages of its columns, NPY by a memory map, large
 arrays of an NPZ by a memory map of what is unpacked among the temporary files. MAT is the exception: its variables are compressed as a
-whole, so that each one asked for is read as a whole.
+whole, so that each one asked for is read as a whole; so are the times of a record.
+
+Times. A column, or an array, that is named as `clocks` knows it (time, t, "time [ms]", timestamp, date, ..) and is not chosen as a channel
+tells the sample time; nothing else is done with it, and one that holds no times is left alone.
 """
 
 from __future__ import annotations
@@ -25,8 +30,8 @@ import shutil
 import tempfile
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack
-from dataclasses import dataclass
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -37,6 +42,9 @@ from numpy.typing import NDArray
 from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
+from ...base.sheets import counted
+from .clocks import Clock, first_clock, whole_clock
+from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
 from .text_tables import TextTable
 from .validation import first_not_finite
@@ -57,12 +65,13 @@ _SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
 
 @dataclass(frozen=True)
 class _Opened:
-    """This is what a reader found: the channels of each selector, whether an output is known to float32 only, and rows (any, sum of
-    widths) in time's order."""
+    """This is what a reader found: the channels of each selector, whether an output is known to float32 only, rows (any, sum of widths) in
+    time's order, and what a time column says of them."""
 
     widths: tuple[int, ...]
     single: bool
     rows: Iterator[Array]
+    clock: Clock | None = None
 
 
 def split_names(given: str | Sequence[str]) -> list[str]:
@@ -83,7 +92,8 @@ def read_record(
 
     `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the
     names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas. Rows are samples, in the order of
-    time and in the file's units, and every number must be finite. `on_progress(stage, done, total)` hears how much of how much has been
+    time and in the file's units, and every number must be finite. A column of times or dates that is none of them gives the `clock` of the
+    record: its sample time, and what is odd about it. `on_progress(stage, done, total)` hears how much of how much has been
     read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and need not fit into memory (a MAT
     file must).
 
@@ -96,40 +106,95 @@ def read_record(
     >>> len(record), record.inputs, record.outputs
     (2, ('valve',), ('level',))
     """
-    heard, path = on_progress or silent, os.fspath(path)
+    path = os.fspath(path)
     with in_file(path), ExitStack() as stack:
-        chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
-        for option, names in chosen.items():
-            if not names:
-                raise InvalidInput(f"got no {option}, expected at least one channel: try --{option} NAME,NAME")
-        names = [*chosen["inputs"], *chosen["outputs"]]
-        named_once(chosen["inputs"], chosen["outputs"])
-        try:
-            with open(path, "rb"):
-                pass
-        except OSError as error:
-            reason = error.strerror or str(error)
-            raise InvalidInput(f"cannot be read ({reason[:1].lower()}{reason[1:]}), expected a data file: {', '.join(FORMATS)}") from None
-        read_as = FORMATS.get(Path(path).suffix.lower())
-        if read_as is None:
-            suffix = shorten(Path(path).suffix)
-            raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
-        try:
-            reader = {"text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat}[read_as]
-            found = reader(Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
-            labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
-            u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
-            y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
-            named_once(u_names, y_names)
-            writer = RecordWriter(len(u_names) + len(y_names))
+        read_as, found, u_names, y_names = _opened(path, inputs, outputs, on_progress or silent, stack)
+        writer = RecordWriter(len(u_names) + len(y_names))
+        with _readable(read_as):
             for rows in found.rows:
                 _finite([*u_names, *y_names], rows, len(writer.store))
                 writer.append(rows)
-        except (OSError, EOFError) as error:
-            reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-            raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None
         _some(len(writer.store))
-        return writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single)
+        return writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single, clock=found.clock)
+
+
+def read_stretches(
+    path: str | os.PathLike[str], *, inputs: str | Sequence[str], outputs: str | Sequence[str], on_progress: Progress | None = None
+) -> list[Record]:
+    """Return the whole stretches of a file in which samples are missing: what lies between rows with a cell that is no finite number, and
+    between times at which rows are missing.
+
+    The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
+    one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments(parts)`;
+    the longest of them is a record for `identify`, with the sample time where a column tells it. Raises InvalidInput as `read_record`
+    does, but for numbers that are not finite, and where no row is whole.
+
+    >>> import faultspace as fs, pathlib, tempfile
+    >>> from faultspace.numeric import read_stretches
+    >>> path = pathlib.Path(tempfile.mkdtemp(), "small.csv")
+    >>> _ = path.write_text("valve,level\\n0.0,1.0\\n1.0,0.5\\n1.0,\\n0.0,0.2\\n")
+    >>> [len(part) for part in read_stretches(path, inputs="valve", outputs="level")]
+    [2, 1]
+    """
+    path = os.fspath(path)
+    with in_file(path), ExitStack() as stack:
+        read_as, found, u_names, y_names = _opened(path, inputs, outputs, on_progress or silent, stack)
+        writers: list[RecordWriter] = []
+        clock = None if found.clock is None else whole_clock(found.clock)
+        gaps = np.array([] if found.clock is None else found.clock.gaps, dtype=int)
+        going, start = False, 0
+        with _readable(read_as):
+            for rows in found.rows:
+                whole = np.asarray(np.isfinite(rows).all(axis=1))
+                ends = np.union1d(np.flatnonzero(np.diff(whole)) + 1, gaps[(gaps > start) & (gaps < start + len(rows))] - start)
+                for part in np.split(np.arange(len(rows)), ends):
+                    if len(part) and whole[part[0]]:
+                        if not going or start + part[0] in gaps:
+                            writers.append(RecordWriter(len(u_names) + len(y_names)))
+                        writers[-1].append(rows[part])
+                    going = bool(len(part) and whole[part[0]])
+                start += len(rows)
+        _some(len(writers))
+        return [writer.record(outputs=y_names, inputs=u_names, format=read_as, single=found.single, clock=clock) for writer in writers]
+
+
+def _opened(
+    path: str, inputs: str | Sequence[str], outputs: str | Sequence[str], heard: Progress, stack: ExitStack
+) -> tuple[str, _Opened, list[str], list[str]]:
+    """Return the format, the chosen channels of a file, open until the stack closes, and the names of inputs and outputs."""
+    chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
+    for option, names in chosen.items():
+        if not names:
+            raise InvalidInput(f"got no {option}, expected at least one channel: try --{option} NAME,NAME")
+    names = [*chosen["inputs"], *chosen["outputs"]]
+    named_once(chosen["inputs"], chosen["outputs"])
+    try:
+        with open(path, "rb"):
+            pass
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise InvalidInput(f"cannot be read ({reason[:1].lower()}{reason[1:]}), expected a data file: {', '.join(FORMATS)}") from None
+    read_as = FORMATS.get(Path(path).suffix.lower())
+    if read_as is None:
+        suffix = shorten(Path(path).suffix)
+        raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
+    with _readable(read_as):
+        found = READERS[read_as](Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
+    labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
+    u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
+    y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
+    named_once(u_names, y_names)
+    return read_as, found, u_names, y_names
+
+
+@contextmanager
+def _readable(read_as: str) -> Iterator[None]:
+    """Raise InvalidInput where what is read turns out to be damaged."""
+    try:
+        yield
+    except (OSError, EOFError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None
 
 
 def named_once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
@@ -156,13 +221,13 @@ def _labels(selector: str, count: int) -> list[str]:
 
 
 def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
-    """Refuses what is no finite number; the rows begin with sample `first`."""
+    """Refuse what is no finite number; the rows begin with sample `first`."""
     if wrong := first_not_finite(rows):
         k, j = wrong
         what = "no number (NaN or empty)" if np.isnan(rows[k, j]) else "infinite"
         raise InvalidInput(
             f"channel {shorten(labels[j])} is {what} at sample {first + k} (counted from 0), expected finite numbers: cut the record "
-            "before or after, or fill the samples in"
+            "before or after, fill the samples in, or read the stretches between with read_stretches"
         )
 
 
@@ -191,7 +256,10 @@ def _text(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -
                 raise InvalidInput(f"got {shorten(name)}, expected columns {MATRIX}[:,j] of a file without a line of names")
             wanted.append([int(j) for j in np.atleast_1d(picked[0])])
     places = [place for group in wanted for place in group]
-    return _Opened(tuple(map(len, wanted)), False, table.pieces(places, on_read))
+    there = table.names or ()
+    units = dict(zip(there, table.units or (), strict=False))
+    clock = first_clock([name for name in there if name not in names], lambda name: table.column(there.index(name)), units)
+    return _Opened(tuple(map(len, wanted)), False, table.pieces(places, on_read), clock)
 
 
 def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
@@ -232,7 +300,8 @@ def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack
             raise refused(error) from None
 
     single = any(file.schema_arrow.field(name).type == arrow.float32() for name in names)
-    return _Opened((1,) * len(names), single, rows())
+    clock = first_clock([name for name in there if name not in names], lambda name: file.read(columns=[name]).column(0).to_numpy())
+    return _Opened((1,) * len(names), single, rows(), clock)
 
 
 def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
@@ -244,7 +313,7 @@ def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
         members = {name.removesuffix(".npy"): name for name in archive.namelist()}
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="faultspace-")))
         arrays = _Lazily(list(members), lambda name: _member(archive, members[name], folder))
-        return _side_by_side([_signal(_picked(arrays, name, "array"), name) for name in names], names, on_read)
+        return _timed(_side_by_side([_signal(_picked(arrays, name, "array"), name) for name in names], names, on_read), arrays, names)
     except ValueError as error:
         if isinstance(error, InvalidInput):
             raise
@@ -290,14 +359,15 @@ def _mat(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
 
     try:
         there = [name for name, _, _ in whosmat(path)]
-        arrays = _Lazily(there, lambda name: loadmat(path, variable_names=[name])[name])
-        return _side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read)
+        arrays: Mapping[str, Any] = _Lazily(there, lambda name: loadmat(path, variable_names=[name])[name])
+        return _timed(_side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
     except NotImplementedError:
-        raise InvalidInput("got a MAT file of version 7.3 (HDF5), expected version 7 or older: save it with the option '-v7'") from None
+        arrays = hdf5_arrays(path, stack)
+        return _timed(_side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
     except (MatReadError, ValueError, TypeError, KeyError, IndexError) as error:
         if isinstance(error, InvalidInput):
             raise
-        raise InvalidInput(f"cannot be read as MAT data ({_first_line(error)}), expected a MAT file of version 7 or older") from None
+        raise InvalidInput(f"cannot be read as MAT data ({_first_line(error)}), expected a MAT file as MATLAB saves it") from None
 
 
 def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read: OnRead) -> _Opened:
@@ -319,8 +389,15 @@ def _side_by_side(signals: Sequence[NDArray[Any]], names: Sequence[str], on_read
     return _Opened(tuple(values.shape[1] for values in signals), single, rows())
 
 
+def _timed(opened: _Opened, arrays: Mapping[str, Any], names: Sequence[str]) -> _Opened:
+    """Return what was opened with the clock of an array of times, where there is one of as many numbers as there are samples."""
+    chosen = {name.partition("[")[0] for name in names}
+    clock = first_clock([name for name in arrays if name not in chosen], lambda name: np.ravel(np.asarray(arrays[name])))
+    return replace(opened, clock=clock)
+
+
 def _forget(values: Any) -> None:
-    """Gives the pages of a memory map back, which would else count as memory used as long as there is enough."""
+    """Give the pages of a memory map back, which would else count as memory used as long as there is enough."""
     while isinstance(values, np.ndarray):
         values = values.base
     if isinstance(values, mmap.mmap) and hasattr(mmap, "MADV_DONTNEED"):
@@ -398,7 +475,7 @@ def _signal(values: Any, name: str) -> NDArray[Any]:
     if array.shape[1] > len(array):
         rows, columns = array.shape
         advice = f"{name}[i,:] is row i" if "[" not in name else "write it transposed"
-        looks = f"{rows} samples of {columns} channels and looks transposed"
+        looks = f"{counted(rows, 'sample')} of {counted(columns, 'channel')} and looks transposed"
         raise InvalidInput(f"{shorten(name)} has {looks}, expected a row a sample: {advice}")
     return array
 
@@ -410,3 +487,8 @@ def _some(samples: int) -> None:
 
 def _first_line(error: Exception) -> str:
     return (str(error).strip().splitlines() or [type(error).__name__])[0]
+
+
+READERS: dict[str, Callable[[Path, Sequence[str], OnRead, ExitStack], _Opened]] = {
+    "text": _text, "Parquet": _parquet, "NPZ": _npz, "NPY": _npy, "MAT": _mat,
+}  # fmt: skip

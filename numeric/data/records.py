@@ -148,7 +148,7 @@ class Record(Shown):
         """Yield one line a channel, inputs before outputs."""
         yield "read from", self.format
         if self.clock is not None:
-            yield "sample time", f"{self.clock.dt:.6g} s, by {self.clock.name} (its unit taken as {self.clock.unit})"
+            yield "sample time", f"{self.clock.dt:.6g} s, by {self.clock.source}"
         yield "", "".join(f"{name:>10}" for name in ("least", "greatest", "mean", "deviation"))
         known = self.channels
         for j, name in enumerate(self.names):

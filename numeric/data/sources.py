@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import ArrayLike
 from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress
 from ...base.sheets import counted
+from .clocks import Clock, clock_from, first_clock, time_name
 from .files import named_once, read_record, split_names
 from .records import Record, RecordWriter
 from .validation import checked_pieces, two_dimensional
@@ -36,7 +38,8 @@ def record_from(
 ) -> Record:
     """Return the Record of whatever holds one: arrays, data frames, a file, pieces or a Record.
 
-    y (N, p) and u (N, n_u) are arrays or data frames, whose columns give the names, one row a sample, in any units. Without u, y holds
+    y (N, p) and u (N, n_u) are arrays or data frames, whose columns give the names, one row a sample, in any units. An index of dates, of
+    durations, or that is named as a time, and a column of times in a frame of both, give the `clock` of the record. Without u, y holds
     both: a Record, the path of a file (`inputs` and `outputs` then choose its channels), a frame (likewise), or pieces (y, u) in the order
     of time, which are read once and have any number of samples.
 
@@ -55,7 +58,7 @@ def record_from(
             raise InvalidData(f"u: got one beside y of type {type(y).__name__}, which holds the inputs already: leave u out")
         names = _columns(y) if outputs is None else outputs, _columns(u) if inputs is None else inputs
         single = two_dimensional(_values(y), "y").dtype == np.float32
-        return _written([(_values(y), _values(u))], names, single)
+        return _written([(_values(y), _values(u))], names, single, _one_clock(y, u))
     if isinstance(y, Record):
         if inputs is not None or outputs is not None:
             raise InvalidData("inputs, outputs: a record has its channels' names already: leave them out")
@@ -67,14 +70,18 @@ def record_from(
     if _columns(y) is not None:
         if inputs is None or outputs is None:
             raise InvalidData("u is missing: pass it, or name the columns of the frame that are inputs and outputs")
-        return record_from(_chosen(y, outputs), _chosen(y, inputs))
+        record = record_from(_chosen(y, outputs), _chosen(y, inputs))
+        return record if record.clock is not None else replace(record, clock=_column_clock(y, [*outputs, *inputs]))
     if isinstance(y, np.ndarray) or not isinstance(y, Iterable):
         raise InvalidData(f"u is missing: got y of type {type(y).__name__} alone; pass u, or pieces (y, u), a path or a record")
     return _written(cast(Iterable[tuple[ArrayLike, ArrayLike]], y), (outputs, inputs), False)
 
 
 def _written(
-    chunks: Iterable[tuple[ArrayLike, ArrayLike]], names: tuple[Sequence[str] | None, Sequence[str] | None], single: bool
+    chunks: Iterable[tuple[ArrayLike, ArrayLike]],
+    names: tuple[Sequence[str] | None, Sequence[str] | None],
+    single: bool,
+    clock: Clock | None = None,
 ) -> Record:
     writer, widths = None, (0, 0)
     for y, u in checked_pieces(_pairs(chunks)):
@@ -97,11 +104,12 @@ def _written(
     for what, given, width in (("outputs", outputs, widths[0]), ("inputs", inputs, widths[1])):
         if len(given) != width:
             raise InvalidData(
-                f"{what}: got {len(given)} names for {width} channels: one name a channel is needed, in the order of the columns; got "
+                f"{what}: got {counted(len(given), 'name')} for {counted(width, 'channel')}: one name "
+                f"a channel is needed, in the order of the columns; got "
                 f"{', '.join(map(shorten, given[:12])) or 'none'}"
             )
     named_once(inputs, outputs)
-    return writer.record(outputs=outputs, inputs=inputs, format="arrays", single=single)
+    return writer.record(outputs=outputs, inputs=inputs, format="arrays", single=single, clock=clock)
 
 
 def _pairs(chunks: Iterable[Any]) -> Iterable[tuple[ArrayLike, ArrayLike]]:
@@ -119,6 +127,30 @@ def _listed(given: str | Sequence[str] | None) -> list[str] | None:
     if wrong:
         raise InvalidData(f"inputs, outputs: got {shorten(wrong[0])} as the name of a channel, which is no text")
     return list(given)
+
+
+def _one_clock(y: Any, u: Any) -> Clock | None:
+    """Return what the indexes of two frames say of time. Raises InvalidData where they are of two minds: frames are read row by row."""
+    clocks = [_index_clock(values) for values in (y, u)]
+    if None not in clocks and len(y) == len(u) and not np.array_equal(np.asarray(y.index), np.asarray(u.index)):
+        raise InvalidData("y and u: their indexes have unequal times; rows of one time are needed: join the frames first")
+    return clocks[0] or clocks[1]
+
+
+def _index_clock(values: Any) -> Clock | None:
+    """Return what the index of a frame or series says of time, where it holds dates or durations, or is named as a time."""
+    index = getattr(values, "index", None) if hasattr(values, "to_numpy") else None
+    if index is None or not hasattr(index, "to_numpy"):
+        return None
+    name = index.name if isinstance(index.name, str) else ""
+    times = np.asarray(index.to_numpy())
+    return clock_from(times, name or "the index") if times.dtype.kind in "Mm" or time_name([name]) else None
+
+
+def _column_clock(frame: Any, chosen: Sequence[str]) -> Clock | None:
+    """Return what a column of times, or else the index, of a frame says."""
+    by_name = dict(zip(_columns(frame) or [], frame.columns, strict=True))
+    return first_clock([name for name in by_name if name not in chosen], lambda name: frame[by_name[name]].to_numpy())
 
 
 def _columns(values: Any) -> list[str] | None:

@@ -2,10 +2,14 @@
 
 TextTable          an opened table: separator, names, width, first line of values; `pieces` reads chosen columns, `row` those of a line
 SEPARATORS         the separators that are tried, with the names they have in messages
+DECIMALS           what stands before the decimals
 PIECE              lines parsed at once
 
 The separator is the one that splits every line of the beginning into equally many fields, more than one; lines that begin with # and empty
-lines do not count. The first line names the columns where one of its fields is no number.
+lines do not count. The first line names the columns where one of its fields is no number; the second one has their units where none of its
+fields is a number in a column of numbers. Where the separator is no comma and numbers of the beginning have one, decimals stand behind
+a comma throughout, and a number with a point is refused then, for it could be a thousand. Text is UTF-8, or UTF-16 with its mark;
+bytes that are neither are read as those of Windows (code page 1252), which only names and units have.
 
 pandas.read_csv in chunks and pyarrow.csv.open_csv were tried instead: both take a column with a word, 1,5 or 1_000 in it for text, without
 a complaint or the line's number, and "NA" for a missing value; pandas renames a name that stands twice and fills short lines with NaN, and
@@ -15,6 +19,7 @@ call, so the reader would not become shorter, and neither package need be instal
 
 from __future__ import annotations
 
+import codecs
 import csv
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -29,6 +34,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidInput, shorten
 from ...base.sheets import counted
 
+DECIMALS = {".": "a point", ",": "a comma"}
 SEPARATORS = {",": "comma", ";": "semicolon", "\t": "tab", " ": "blanks"}
 PIECE = 1 << 15
 LOOKED_AT = 50
@@ -37,13 +43,16 @@ LONGEST_LINE = 1 << 22
 
 @dataclass(frozen=True)
 class TextTable:
-    """The table has `width` columns with these `names`, or None where no line names them; `skipped` lines stand before the values."""
+    """The table has `width` columns with these `names`, or None where no line names them, and their `units`, or None; `skipped` lines stand
+    before the values, and `decimal` before the decimals of a number."""
 
     path: Path
     separator: str
     names: tuple[str, ...] | None
     width: int
     skipped: int
+    units: tuple[str, ...] | None = None
+    decimal: str = "."
 
     @property
     def separator_name(self) -> str:
@@ -57,7 +66,8 @@ class TextTable:
             with _stream(path) as stream:
                 beginning = list(islice(_lines(stream), LOOKED_AT))
         except UnicodeDecodeError as error:
-            raise InvalidInput(f"got byte {error.object[error.start]:#04x}, expected text in UTF-8: save the table as UTF-8 CSV") from None
+            got = f"{error.object[error.start]:#04x}"
+            raise InvalidInput(f"got byte {got} in UTF-16, expected text: save the table as UTF-8 CSV") from None
         return cls.of_lines(path, beginning)
 
     @classmethod
@@ -72,11 +82,29 @@ class TextTable:
         separator = _separator(lines)
         _quotes_closed(beginning, separator)
         fields = _fields(lines[0], separator)
-        named = any(_number(field) is None for field in fields)
-        names = tuple(fields) if named else None
-        if named:
-            _names_once(fields)
-        return cls(path, separator, names, len(fields), beginning[0][0] if named else beginning[0][0] - 1)
+        decimal = _decimal(lines[1:] or lines, separator)
+        named = any(_number(field, decimal) is None for field in fields)
+        names = tuple(map(_windows, fields)) if named else None
+        if not named:
+            return cls(path, separator, names, len(fields), beginning[0][0] - 1, None, decimal)
+        _names_once(fields)
+        units = _units(lines, separator, decimal)
+        return cls(path, separator, names, len(fields), beginning[0 if units is None else 1][0], units, decimal)
+
+    def column(self, place: int) -> list[str] | Array:
+        """Return one column as numbers, or as texts where one of them is no number."""
+        try:
+            parts = [self._parsed(piece, [place])[:, 0] for piece in self._pieces()]
+            return np.concatenate(parts) if parts else np.zeros(0)
+        except InvalidInput:
+            return [fields[place] for piece in self._pieces() for _, line in piece if len(fields := _fields(line, self.separator)) > place]
+
+    def _pieces(self) -> Iterator[list[tuple[int, str]]]:
+        """Yield the numbered lines of values, PIECE at a time."""
+        with _stream(self.path) as stream:
+            numbered = (pair for pair in _lines(stream) if pair[0] > self.skipped)
+            while piece := list(islice(numbered, PIECE)):
+                yield piece
 
     def pieces(self, columns: Sequence[int], on_read: Callable[[int, int], None]) -> Iterator[Array]:
         """Yield the chosen columns, (any, len(columns)), PIECE lines at a time; NaN where a line says so. `on_read` hears bytes read and
@@ -97,6 +125,10 @@ class TextTable:
         delimiter = None if self.separator == " " else self.separator
         lines = [line for _, line in piece]
         try:
+            if self.decimal == ",":
+                if any("." in line for line in lines):
+                    raise ValueError
+                lines = [line.replace(",", ".") for line in lines]
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 values = np.loadtxt(lines, delimiter=delimiter, usecols=list(columns), ndmin=2, comments=None, quotechar='"')
@@ -118,18 +150,52 @@ class TextTable:
             )
         row = []
         for column in columns:
-            value = float("nan") if fields[column] == "" else _number(fields[column])
+            value = float("nan") if fields[column] == "" else _number(fields[column], self.decimal)
             if value is None:
                 name = shorten(self.names[column]) if self.names else str(column)
-                comma = _number(fields[column].replace(",", ".")) is not None
-                advice = "write decimals with a point" if comma else "mend it, or cut the record before it"
+                other = "," if self.decimal == "." else "."
+                decimals = _number(fields[column], other) is not None
+                advice = f"write decimals with {DECIMALS[self.decimal]}" if decimals else "mend it, or cut the record before it"
                 raise InvalidInput(f"line {number}, column {name}: got {shorten(fields[column])}, expected a number: {advice}")
             row.append(value)
         return row
 
 
 def _stream(path: Path) -> TextIO:
-    return open(path, encoding="utf-8-sig", newline=None)
+    with open(path, "rb") as stream:
+        wide = stream.read(2) in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+    # Bytes of other encodings are kept as they are: `_windows` reads them where they stand in a name.
+    return open(path, encoding="utf-16") if wide else open(path, encoding="utf-8-sig", errors="surrogateescape")
+
+
+def _windows(name: str) -> str:
+    """Return the name with the bytes in it that are not UTF-8 as those of Windows."""
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        return name.encode("utf-8", "surrogateescape").decode("cp1252", "replace")
+    return name
+
+
+def _decimal(lines: Sequence[str], separator: str) -> str:
+    """Return what stands before the decimals of these lines: a comma where no number has a point, some have a comma, and it separates
+    nothing."""
+    if separator == ",":
+        return "."
+    fields = [field for line in lines for field in _fields(line, separator)]
+    if any("." in field and _number(field) is not None for field in fields):
+        return "."
+    return "," if any("," in field and _number(field, ",") is not None for field in fields) else "."
+
+
+def _units(lines: Sequence[str], separator: str, decimal: str) -> tuple[str, ...] | None:
+    """Return the fields of the second line where they are no numbers in any column that has numbers in the third, None otherwise."""
+    if len(lines) < 3:
+        return None
+    second, third = (_fields(line, separator) for line in lines[1:3])
+    numbers = [place for place, field in enumerate(third) if _number(field, decimal) is not None]
+    words = numbers and len(second) == len(third) and all(_number(second[place], decimal) is None for place in numbers)
+    return tuple(map(_windows, second)) if words and any(second[place] for place in numbers) else None
 
 
 def _lines(stream: TextIO) -> Iterator[tuple[int, str]]:
@@ -157,7 +223,7 @@ def _separator(lines: Sequence[str]) -> str:
     sound = [separator for separator in tables if _numeric_share(lines[1:] or lines, separator) > 0.0]
     for separator in SEPARATORS:
         if separator in sound and (separator != " " or len(sound) == 1):
-            if separator == "," and ";" in sound:
+            if separator == "," and (";" in sound or "\t" in sound):
                 continue  # 1,5;2,5: the semicolon separates, the comma is a decimal comma
             return separator
     if all(_number(line) is not None for line in lines[1:] or lines):
@@ -207,7 +273,12 @@ def _quotes_closed(numbered: Sequence[tuple[int, str]], separator: str) -> None:
             )
 
 
-def _number(field: str) -> float | None:
+def _number(field: str, decimal: str = ".") -> float | None:
+    """Return the number in a field, None where there is none, or one of other decimals."""
+    if decimal == ",":
+        if "." in field:
+            return None
+        field = field.replace(",", ".")
     try:
         return None if "_" in field else float(field)
     except ValueError:

@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
+from ...base.sheets import counted
 
 PIECE = 1 << 14  # samples converted and checked at once
 
@@ -124,7 +125,9 @@ def _same_length(y: NDArray[Any], u: NDArray[Any]) -> None:
         hint = "u looks transposed: pass u.T"
     elif y.shape[1] == len(u):
         hint = "y looks transposed: pass y.T"
-    raise InvalidData(f"y has {len(y)} samples (shape {y.shape}) and u has {len(u)} (shape {u.shape}); equal numbers are needed: {hint}")
+    raise InvalidData(
+        f"y has {counted(len(y), 'sample')} (shape {y.shape}) and u has {len(u)} (shape {u.shape}); equal numbers are needed: {hint}"
+    )
 
 
 def signals(y: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
@@ -140,7 +143,7 @@ def enough_samples(samples: int, needed: int, why: str, shape: tuple[int, ...] =
         return
     transposed = len(shape) == 2 and shape[1] > shape[0]
     hint = f"y of shape {shape} looks transposed: pass y.T and u.T" if transposed else "record more, or take fewer block_rows or past_rows"
-    raise InvalidData(f"{samples} samples are too few: {why} needs at least {needed}; {hint}")
+    raise InvalidData(f"{counted(samples, 'sample')} {'is' if samples == 1 else 'are'} too few: {why} needs at least {needed}; {hint}")
 
 
 def pieces(y: ArrayLike, u: ArrayLike, size: int = PIECE) -> Iterator[tuple[Array, Array]]:

@@ -62,16 +62,21 @@ def doubts(
     >>> y = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]]).simulate(u) + 0.1 * noise
     >>> len(doubts(record_from(y, u)))
     0
-    >>> [row.kind for row in doubts(record_from(np.clip(y, -1, 1), u))]
-    ['non-linearity', 'limits']
+    >>> [row.kind for row in doubts(record_from(np.minimum(y, 1.0), u))]
+    ['non-linearity', 'outliers', 'limits']
     """
     if not isinstance(record, Record):
         raise InvalidData(f"record: got one of type {type(record).__name__}; a Record is needed, as record_from(y, u) gives it")
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what no float holds is asked nothing
+        return _asked(record, model, residual, dt, means_removed)
+
+
+def _asked(record: Record, model: object, residual: ArrayLike | None, dt: float | None, means_removed: bool) -> Doubts:
+    record = record.about(np.zeros(len(record.names)))
     y, u = record.stretch(0, HEARD)
     rest = None if residual is None else _residual(residual, record)
     samples = np.hstack([u, y])
-    known = record.about(np.zeros(len(record.names))).channels
-    rows = [*channel_doubts(samples, known, record.names, record.n_u, means_removed=means_removed)]
+    rows = [*channel_doubts(samples, record.channels, record.names, record.n_u, means_removed=means_removed)]
     rows += limit_doubts(samples, record.names, record.n_u)
     rows += held_doubts(u, record.inputs)
     rows += clock_doubts(record.clock, dt)
@@ -88,7 +93,10 @@ def doubts(
     else:
         unasked |= dict.fromkeys(OF_MODEL, "it needs a model with standard errors, as arx_reduction gives it")
     arx, why = _arx(record, model)
-    found = None if arx is None else _of_errors(y, u, arx, record)
+    try:
+        found = None if arx is None else _of_errors(y, u, arx, record)
+    except np.linalg.LinAlgError:
+        found, why = None, "numbers of the record are too unequal to compute with"
     if found is not None:
         rows += found
         asked += OF_ERRORS
@@ -117,7 +125,8 @@ def _arx(record: Record, model: object) -> tuple[Arx | None, str]:
     try:
         if lags < 1:
             raise InvalidData("the record is too short for an ARX model")
-        return fitted_arx(arx_windows([record.stretch(0, HEARD)], lags), 1), ""
+        windows = arx_windows([record.stretch(0, HEARD)], lags)
+        return fitted_arx(windows, 1).scaled(*windows.scales), ""
     except (InvalidData, np.linalg.LinAlgError) as error:
         return None, f"no ARX model can be had: {error}"
 
@@ -128,6 +137,8 @@ def _of_errors(y: Array, u: Array, arx: Arx, record: Record) -> list[Doubt] | No
     about_y, about_u = y - y.mean(axis=0), u - u.mean(axis=0)
     e = one_step_errors(about_y, about_u, arx, h)
     e = e - e.mean(axis=0)
+    if not np.all(np.isfinite(e)):
+        raise np.linalg.LinAlgError
     if len(e) < 2 or np.all(np.sum(e**2, axis=0) <= EPS * np.sum(about_y**2, axis=0)):
         return None
     rows = list(rounding_doubts(y, e.std(axis=0), record.outputs))

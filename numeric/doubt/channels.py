@@ -51,7 +51,9 @@ def _copies(samples: Array, names: Sequence[str], moving: Sequence[int], n_u: in
     """Yield channels that are sums of multiples of earlier ones of the same kind, sample by sample, outputs also of inputs."""
     if len(samples) <= len(moving) or len(moving) < 2:
         return
-    about = samples[:, moving] - samples[:, moving].mean(axis=0)
+    # In units of the largest value, whose squares overflow nowhere.
+    about = samples[:, moving] / np.abs(samples[:, moving]).max(axis=0).clip(np.finfo(np.float64).tiny)
+    about -= about.mean(axis=0)
     sizes = np.linalg.norm(about, axis=0)
     unit = about / np.where(sizes > 0, sizes, 1.0)
     kept: list[int] = []
@@ -163,16 +165,18 @@ def _visits(there: NDArray[np.bool_]) -> int:
 def rounding_doubts(samples: Array, errors: Array, names: Sequence[str]) -> Iterator[Doubt]:
     """Yield the channels (N, p) that are written in steps so wide that most of the variance of their `errors` (p,), deviations of one-step
     errors, is that of rounding to such steps, step^2 / 12."""
-    for name, values, error in zip(names, samples.T, errors, strict=True):
-        step = written_step(values)
-        if step is not None and step**2 / 12 > error**2 / 2:
-            yield Doubt(
-                "rounding",
-                (name,),
-                f"{name} comes in steps of {step:.3g}, where what the model cannot predict has a deviation of {error:.3g}",
-                "most of the noise is rounding, which is not independent of the signal where that moves slowly",
-                "write more digits, or use a finer converter",
-            )
+    found = [(name, written_step(values), error) for name, values, error in zip(names, samples.T, errors, strict=True)]
+    coarse = [(name, step, error) for name, step, error in found if step is not None and step**2 / 12 > error**2 / 2]
+    if coarse:
+        name, step, error = coarse[0]
+        yield Doubt(
+            "rounding",
+            tuple(one for one, _, _ in coarse),
+            f"{named([one for one, _, _ in coarse])} {'comes' if len(coarse) == 1 else 'come'} in steps, {name} of {step:.3g}, where what "
+            f"the model cannot predict has a deviation of {error:.3g}",
+            "most of the noise is rounding, which is not independent of the signal where that moves slowly",
+            "write more digits, or use a finer converter",
+        )
 
 
 def written_step(values: Array) -> float | None:

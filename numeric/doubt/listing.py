@@ -58,9 +58,10 @@ class Doubt:
 class Doubts(Shown):
     """These are the doubts that `doubts` found in a record.
 
-    `rows` has one Doubt for each reason, and may be empty; iterating gives them. Each of the kinds of TESTED that stands in `asked` is
+    `rows` is a list of Doubt, one a reason, and may be empty; iterating gives them. Each of the kinds of TESTED that stands in `asked` is
     raised in a clean record with a probability of LEVEL at most, and `unasked` says of the other kinds why they could not be asked. Look at
-    `rows` first, then at `unasked`: what was not asked is no evidence of anything. It holds what was found, and raises nothing.
+    `rows` first, then at `unasked`: what was not asked is no evidence of anything. Evidence is in the units of the record's channels.
+    Raises nothing of its own: it holds what was found.
 
     Source: [H76], [LB78] for the test of a closed loop, [L99, ch. 16] for the others; each module of the folder says what it adds.
 

@@ -5,9 +5,10 @@ mode_doubts     modes so slow that the record holds few of their time constants,
 delay_doubts    outputs that answer an input late
 held_doubts     inputs that change at every h-th sample alone
 
-A mode of modulus r dies out as r^k, with the time constant -1 / ln r in samples. A record of N samples holds N over that number of them;
-below LEAST_CONSTANTS the record is told to be short for the mode. The rule of thumb for sampling is ten samples to the time constant of the
-fastest mode that matters [L99, ch. 13]; where all modes are slower than TOO_FAST samples, sampling is called fast.
+A pole z is exp(s) of a pole s of the plant, in samples: the mode dies out with the time constant -1 / Re s, and its course, turning
+included, takes 1 / |s|. A record of N samples holds N over its time constant of a mode; below LEAST_CONSTANTS it is told to be short for
+the mode. The rule of thumb for sampling is ten samples to the course of the fastest mode that matters [L99, ch. 13]; where all modes take
+more than TOO_FAST samples, sampling is called fast.
 
 A delay is told where Markov parameters k = 0 .. d - 1 of one output to one input, d >= 2, are none of them seen, and are all surely smaller
 than the next: their sizes and FAR standard errors together stay below what is left of the next without FAR of its own. FAR is such that the
@@ -32,10 +33,10 @@ LEAST_CONSTANTS = 10
 """Time constants of a mode that a record should hold: with T of them the relative error of an autoregression's time constant is about
 sqrt(2 / T), 45 % here."""
 TOO_FAST = 100
-"""Samples to the time constant of the fastest mode from which sampling is called fast: ten times the rule of thumb of ten."""
+"""Samples that the fastest mode takes, from which sampling is called fast: ten times the rule of thumb of ten."""
 MOST_MARKOV = 20
 SAME = 1e-6  # relative difference of sample times that are called equal
-ROUTE = "cut the record there and give its parts as experiments (arx_reduction_experiments), or fill in what is missing"
+ROUTE = "cut the record there and give its parts as experiments (read_stretches, arx_reduction_experiments), or fill in what is missing"
 
 
 def clock_doubts(clock: Clock | None, stated: float | None) -> Iterator[Doubt]:
@@ -57,31 +58,35 @@ def clock_doubts(clock: Clock | None, stated: float | None) -> Iterator[Doubt]:
         effect = "the model takes them as equal, so that the plant seems to change from sample to sample, which looks like noise"
         yield Doubt("sampling time", (column,), evidence, effect, "interpolate all channels to equal steps, or record with a fixed clock")
     if stated is not None and abs(stated - clock.dt) > max(SAME * clock.dt, clock.resolution):
-        evidence = f"dt={stated:g} s was stated, the time in {column} steps by {clock.dt:.6g} s (its unit taken as {clock.unit})"
+        evidence = f"dt={stated:g} s was stated, the times step by {clock.dt:.6g} s ({clock.source})"
         effect = "frequencies and damping in physical units are those of the stated time"
         yield Doubt("sampling time", (column,), evidence, effect, "leave dt out where the column is right")
 
 
 def mode_doubts(model: ReducedModel, samples: int, dt: float | None) -> Iterator[Doubt]:
     """Yield a doubt where the slowest mode outlasts the record, and one where even the fastest takes very many samples."""
-    sizes = np.abs(model.model.poles)
+    poles = model.model.poles
+    sizes = np.abs(poles)
     if not sizes.size or sizes.max() >= 1.0 or sizes.max() == 0.0:
         return
-    constants = -1.0 / np.log(np.maximum(sizes, np.finfo(np.float64).tiny))
-    slow, fast = float(constants.max()), float(constants.min())
+    slowest = poles[int(np.argmax(sizes))]
+    slow = float(-1.0 / np.log(sizes.max()))
     if samples < LEAST_CONSTANTS * slow:
+        turns = slowest.imag != 0 or slowest.real < 0
         yield Doubt(
             "slow modes",
             (),
-            f"the slowest mode has a time constant of {_long(slow, dt)}, of which the record holds {samples / slow:.2g}",
-            "its pole is hardly told from an integration or a drift, and its standard error, which is of first order, is too small",
-            "a longer record, or the mode taken for an offset that drifts",
+            f"the mode of least damping dies out with a time constant of {_long(slow, dt)}, of which the record holds {samples / slow:.2g}",
+            ("its damping is little known" if turns else "its pole is hardly told from an integration or a drift")
+            + ", the standard error, which is of first order, is too small, and the state at the start is felt throughout",
+            "a longer record",
         )
+    fast = float(1.0 / np.max(np.abs(np.log(np.maximum(sizes, np.finfo(np.float64).tiny)) + 1j * np.angle(poles))))
     if fast > TOO_FAST:
         yield Doubt(
             "fast sampling",
             (),
-            f"the fastest mode has a time constant of {_long(fast, dt)}",
+            f"even the fastest mode takes {_long(fast, dt)}",
             "all poles crowd at 1, where rounding and small errors of a sample move them most, and windows see little of a mode's course",
             f"take every {int(fast // 10)}-th sample behind a low-pass filter",
         )
@@ -125,16 +130,22 @@ def _delay(sizes: Array, errors: Array, far: float) -> int:
 
 def held_doubts(u: Array, inputs: Sequence[str]) -> Iterator[Doubt]:
     """Yield the inputs (N, n_u) that change at every h-th sample alone, h >= 2, though they change often."""
-    for name, values in zip(inputs, u.T, strict=True):
-        changes = np.flatnonzero(np.diff(values)) + 1
-        if len(changes) < 3 or len(np.unique(values)) < 3:
-            continue
-        step = int(np.gcd.reduce(np.diff(changes)))
-        if step >= 2:
-            yield Doubt(
-                "held input",
-                (name,),
-                f"{name} changes at every {step}-th sample alone",
-                f"it excites little beyond 1/{2 * step} of the sampling rate, where the model rests on few data, as its errors say",
-                "an input that may change at every sample, or slower sampling",
-            )
+    found = [(name, step) for name, values in zip(inputs, u.T, strict=True) if (step := held_step(values)) >= 2]
+    if found:
+        names = [name for name, _ in found]
+        least = min(step for _, step in found)
+        yield Doubt(
+            "held input",
+            tuple(names),
+            f"{named(names)} {'changes' if len(names) == 1 else 'change'} at every {least}-th sample alone",
+            f"little is excited beyond 1/{2 * least} of the sampling rate, where the model rests on few data, as its errors say",
+            "an input that may change at every sample, or slower sampling",
+        )
+
+
+def held_step(values: Array) -> int:
+    """Return h where the values (N,) change at every h-th sample alone, 1 where they change anywhere or hardly ever."""
+    changes = np.flatnonzero(np.diff(values)) + 1
+    if len(changes) < 3 or len(np.unique(values)) < 3:
+        return 1
+    return int(np.gcd.reduce(np.diff(changes)))

@@ -25,6 +25,7 @@ from scipy.linalg import lapack, lstsq, solve_triangular
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from .arx_windows import ArxWindows
 from .compression import EPS
 from .sequential_qr import triangular
@@ -180,7 +181,10 @@ def _best(factor: Array, sizes: Sequence[int], targets: int, rows: int) -> tuple
         if criterion < best:
             best, chosen, covariance = criterion, k, errors * rows / (rows - k)
     if chosen < 0:
-        raise InvalidData(f"{rows} windows are too few for an autoregression of {targets} channels on {sizes[0]} regressors: record more")
+        raise InvalidData(
+            f"{counted(rows, 'window')} {'is' if rows == 1 else 'are'} too few for an autoregression of "
+            f"{counted(targets, 'channel')} on {counted(sizes[0], 'regressor')}: record more"
+        )
     return chosen, covariance + _floor(covariance), _solved(factor[:chosen, :chosen], factor[:chosen, last:]).T
 
 

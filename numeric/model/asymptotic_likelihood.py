@@ -32,7 +32,9 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
+from ...base.sheets import counted
 from ...base.threads import one_thread
+from ..data.records import Record
 from ..data.validation import experiment, positive
 from .arx_windows import about_zero, arx_windows, longest_lag, merge_windows
 from .compression import EPS, Pieces
@@ -82,15 +84,19 @@ def arx_reduction(
 
 @one_thread()
 def arx_reduction_experiments(
-    experiments: Sequence[tuple[ArrayLike, ArrayLike]], *, order: int | None = None, lags: int | None = None, offset: bool = True
+    experiments: Sequence[tuple[ArrayLike, ArrayLike] | Record],
+    *,
+    order: int | None = None,
+    lags: int | None = None,
+    offset: bool = True,
 ) -> ReducedModel:
     """Estimate one model from several experiments (y, u) with the same channels and units [W89].
 
     Each has a length, an initial state and an offset of its own: their operating points may differ. Experiments no longer than the lags
     have no part in the model; their offset and state are NaN, and a note tells how many there are.
 
-    `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u); the other arguments and the result are those of
-    `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
+    `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u), or of Records, as `read_stretches` gives them; the
+    other arguments and the result are those of `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
 
     >>> import numpy as np
     >>> from faultspace.numeric import StateSpaceModel, arx_reduction_experiments
@@ -101,7 +107,8 @@ def arx_reduction_experiments(
     """
     if len(experiments) == 0:
         raise InvalidData("no experiment: give at least one pair (y, u)")
-    return _from_experiments([experiment(y, u) for y, u in experiments], order, lags, offset)
+    sources = [experiment(one, None) if isinstance(one, Record) else experiment(*one) for one in experiments]
+    return _from_experiments(sources, order, lags, offset)
 
 
 def _from_experiments(sources: Sequence[Pieces], order: int | None, lags: int | None, offset: bool) -> ReducedModel:
@@ -155,7 +162,8 @@ def lengths_and_lags(sources: Sequence[Pieces], n: int, lags: int | None) -> tup
     least = max(1, -(-n // p)) if n else 0
     if carried < least:
         raise InvalidData(
-            f"{sum(lengths)} samples of {p} outputs and {n_u} inputs carry {max(carried, 0)} lags, order {n} needs {least} or more: record "
+            f"{counted(sum(lengths), 'sample')} of {counted(p, 'output')} and {counted(n_u, 'input')} carry "
+            f"{counted(max(carried, 0), 'lag')}, order {n} needs {least} or more: record "
             "more" + ("" if lags is None else ", or pass more lags")
         )
     return lengths, carried

@@ -48,7 +48,8 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int, of
     rows = []
     for n, (one, (one_step, free_run)) in enumerate(zip(found, fits, strict=True)):
         gap = float(gaps[n - 1]) if 0 < n <= len(gaps) else float("nan")
-        rows.append(OrderRow(n, one.cost / inflation, n * a_state + whole.p * whole.n_u, 0.0, one_step, free_run, gap))
+        poles = _poles(one.matrix[:n, :n])
+        rows.append(OrderRow(n, one.cost / inflation, n * a_state + whole.p * whole.n_u, 0.0, one_step, free_run, gap, poles))
     evidence = weighed(rows)
     best = evidence.best
     ended = Found(*descend(problem, found[best].matrix, best, *LAST))
@@ -70,8 +71,17 @@ def _joined(data: Iterator[tuple[Array, Array]]) -> tuple[Array, Array]:
     return y, u
 
 
+def _poles(A: Array) -> tuple[complex, ...]:
+    """Return the eigenvalues of A by falling modulus, the one above the real axis first of a pair."""
+    values = np.linalg.eigvals(A)
+    return tuple(complex(value) for value in values[np.lexsort((-values.imag, -values.real, -np.abs(values)))])
+
+
 def _gaps(arx: Arx, rows: int) -> Array:
+    """Return the ratios of neighbouring singular values of the Hankel matrix, but for those among its last block of columns or rows, where
+    the least values of any matrix are far apart, whatever is in it."""
     values = hankel_factors(arx, rows, weighted=True)[2]
+    values = values[: max(len(values) - min(arx.inputs.shape[1:]), 0)]
     with np.errstate(divide="ignore", invalid="ignore"):
         ratios: Array = values[:-1] / values[1:]
     return ratios

@@ -43,7 +43,8 @@ class OrderRow:
     than that of the choice where this order is right, and is one from the choice on.
     `one_step` and `free_run` are 1 - |error| / |y| on samples held back, with channels scaled to equal size, of the one-step prediction and
     of the simulation with fitted initial state, NaN where there were too few. `gap` is the ratio of singular value n to the next of the
-    weighted Hankel matrix of the ARX plant, NaN for order 0.
+    weighted Hankel matrix of the ARX plant, NaN for order 0 and where the matrix ends, whose size alone makes the last ones small. `poles`
+    are those of the model of this order from the whole record, by falling modulus.
     """
 
     order: int
@@ -53,6 +54,7 @@ class OrderRow:
     one_step: float
     free_run: float
     gap: float
+    poles: tuple[complex, ...] = ()
 
     @property
     def akaike(self) -> float:
@@ -62,7 +64,7 @@ class OrderRow:
 
 @dataclass(frozen=True, repr=False)
 class OrderEvidence(Shown):
-    """What the data say of the order of the model, where it was left open.
+    """This is what the data say of the order of the model, where it was left open.
 
     `rows` is a list of OrderRow, one an order; `best` is the order chosen, by Akaike's criterion [A74], and `least` to `most` are the
     orders that the data leave open: `least` is the least that is not refused at a level of 1 %, and `most` is `best`. More states than
@@ -85,7 +87,7 @@ class OrderEvidence(Shown):
 
     @property
     def decided(self) -> bool:
-        """Whether one order alone is left."""
+        """This tells whether one order alone is left."""
         return self.least == self.most
 
     @property
@@ -108,7 +110,10 @@ class OrderEvidence(Shown):
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict: the choice, the range left open and the rows; null stands for a fit or gap that there is not."""
         names = ("cost", "parameters", "akaike", "chance", "one_step", "free_run", "gap")
-        rows = [{"order": row.order} | {name: plain(getattr(row, name)) for name in names} for row in self.rows]
+        rows = [
+            {"order": row.order} | {name: plain(getattr(row, name)) for name in names} | {"poles": [plain(pole) for pole in row.poles]}
+            for row in self.rows
+        ]
         return {"best": self.best, "least": self.least, "most": self.most, "decided": self.decided, "rows": rows}
 
     def plot(self, ax: Any = None) -> Any:

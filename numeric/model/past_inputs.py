@@ -35,6 +35,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ...base.threads import one_thread
 from ..data.validation import constant_channels, experiment, positive
 from ..model.compression import EPS, Compression, Pieces, compress, compress_chunks, merge
@@ -193,7 +194,8 @@ def check_compression(compression: Compression) -> None:
         lags = compression.past_rows + compression.block_rows
         needed = rows + compression.samples - compression.columns
         raise InvalidData(
-            f"{compression.samples} samples are too few: they give {compression.columns} windows of {lags} samples for {rows} rows of "
+            f"{compression.samples} samples are too few: they give "
+            f"{counted(compression.columns, 'window')} of {lags} samples for {rows} rows of "
             "inputs and outputs; "
             f"at least {needed} samples are needed, or fewer block_rows and past_rows"
         )

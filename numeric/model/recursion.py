@@ -22,7 +22,8 @@ EPS = float(np.finfo(np.float64).eps)
 
 
 class Recursion:
-    """s(k+1) = H s(k) + e(k) for H (d, d); states and pushes are the rows of arrays (any, w, d), w of them side by side."""
+    """The recursion is s(k+1) = H s(k) + e(k) for H (d, d); states and pushes are the rows of arrays (any, w, d), w of them side by
+    side."""
 
     def __init__(self, H: Array) -> None:
         self._step = H.T.copy()
@@ -67,7 +68,7 @@ class Recursion:
 
 
 class PowerBasis(NamedTuple):
-    """A V_m = sum_i H[i, m] V_i with `matrices` V (d, n, n) and H (d, d); `identity` (d,) are the coordinates of I."""
+    """The basis has A V_m = sum_i H[i, m] V_i with `matrices` V (d, n, n) and H (d, d); `identity` (d,) are the coordinates of I."""
 
     matrices: Array
     H: Array

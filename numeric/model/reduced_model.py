@@ -28,7 +28,7 @@ import numpy as np
 from ...base.arrays import Array
 from ...base.chi_squared import chi_squared_tail
 from ...base.errors import InvalidData
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ..data.plain import plain
 from .arx import Arx, adjoint, fitted_arx, input_spectrum
 from .arx_windows import ArxWindows
@@ -49,15 +49,17 @@ AMPLIFICATION = 1e6  # growth over the windows from which an ARX model is called
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ReducedModel(Identified, Shown):
-    """The model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
+    """This is the model of order n that `arx_reduction` gives, with what it rests on, in the units of the data [W89].
 
     `model` has A of the shape (n, n), B (n, n_u), C (p, n) and D (p, n_u). `innovation_covariance` (p, p) is that of the one-step errors
     of the ARX model, `arx`, whose `disturbance(angles)` is the spectrum (M, p, p) of faults and noise together. `uncertainty` has the
     standard deviations of Markov parameters, transfer function and poles. `cost` is the weighted sum of squares that the reduction left,
-    which is the likelihood ratio of the ARX plant against this one. `offsets` has what the outputs are at rest with u = 0, of the shape
-    (p,), for each experiment: sensors' zeros, the operating point and the means of the faults, which nothing in the data tells apart.
-    `initial_states` has one of the shape (n,) an experiment, by least squares, and none where the data are not there any more. `orders`
-    is the evidence where the order was left open, and `notes` say what a user must know. Look at `notes` first, then at `orders` where
+    which is the likelihood ratio of the ARX plant against this one. `likelihood` is what was minimised, in the units of the data and for
+    as many samples as the estimated weight is worth: differences of its `cost` are twice those of log likelihoods. `offsets` has what
+    the outputs are at rest with u = 0, of the shape (p,), for each experiment: sensors' zeros, the operating point and the means of the
+    faults, which nothing in the data tells apart. `initial_states` has one of the shape (n,) an experiment, by least squares, and none
+    where the data are not there any more. `orders` is the evidence where the order was left open, and `notes` say what a user must know.
+    Look at `notes` first, then at `orders` where
     the order was left open, then at the poles with their deviations. Raises ImportError in `plot()` and `to_control()` where the package
     that they need is not installed.
 
@@ -75,6 +77,7 @@ class ReducedModel(Identified, Shown):
     uncertainty: Uncertainty
     arx: Arx
     cost: float
+    likelihood: Reduction
     offsets: tuple[Array, ...] = ()
     initial_states: tuple[Array, ...] = ()
     orders: OrderEvidence | None = None
@@ -98,7 +101,7 @@ class ReducedModel(Identified, Shown):
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield the notes, what the model rests on, its poles and Markov parameters with deviations, and the evidence for the order."""
         yield from (("note", note) for note in self.notes)
-        yield "ARX model", f"{self.arx.order} lags, {self.arx.rows} windows of the data"
+        yield "ARX model", f"{counted(self.arx.order, 'lag')}, {counted(self.arx.rows, 'window')} of the data"
         yield "misfit against the ARX model", f"{self.cost:.4g}"
         yield "deviation of the innovations", ", ".join(f"{size:.4g}" for size in np.sqrt(np.diag(self.innovation_covariance)))
         if self.offset is not None:
@@ -145,7 +148,8 @@ def described(windows: ArxWindows, arx: Arx, problem: Reduction, found: Found, n
     model = state_space(found.matrix * rows[:, None] * columns, n)
     uncertainty = Uncertainty(model, scaled.root * np.outer(rows, columns).ravel()[:, None])
     inner = arx.scaled(y, u)
-    return ReducedModel(model, inner.covariance, uncertainty, inner, found.cost, _offsets(model, inner, windows))
+    likelihood = problem.scaled(y, u, problem.samples / weight_inflation(arx))
+    return ReducedModel(model, inner.covariance, uncertainty, inner, found.cost, likelihood, _offsets(model, inner, windows))
 
 
 def weight_inflation(arx: Arx) -> float:

@@ -7,13 +7,14 @@ No single one is near the minimum in all data: PI-MOESP suffers from few instrum
 the noise of high lags. B and D follow linearly.
 
 starts          system matrices T with a stable A, one a method that gives one
+realisations    those of them that need the ARX model alone
 one_state_less  system matrices out of one with a state more
 hankel_factors  the realisation's singular vectors and values
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -36,9 +37,20 @@ def starts(windows: ArxWindows, arx: Arx, problem: Reduction, n: int) -> Iterato
         return
     least = max(-(-n // p) + 1, -(-n // n_u))
     half = (windows.lags + 1) // 2
-    pairs = [_by_past_inputs(windows, n, rows) for rows in (half, half // 2) if rows >= least]
-    for rows in (max(half, least), max(windows.lags, least)):
-        pairs += [_realised(arx, n, rows, weighted) for weighted in (False, True)]
+    yield from _completed((_by_past_inputs(windows, n, rows) for rows in (half, half // 2) if rows >= least), problem)
+    yield from realisations(arx, problem, n, windows.lags)
+
+
+def realisations(arx: Arx, problem: Reduction, n: int, lags: int) -> Iterator[Array]:
+    """Yield system matrices out of the ARX model alone, for n > 0, from Hankel matrices of half the `lags` and of all."""
+    p, n_u = problem.plant.shape[1:]
+    least = max(-(-n // p) + 1, -(-n // n_u))
+    sizes = (max((lags + 1) // 2, least), max(lags, least))
+    yield from _completed((_realised(arx, n, rows, weighted) for rows in sizes for weighted in (False, True)), problem)
+
+
+def _completed(pairs: Iterable[tuple[Array, Array] | None], problem: Reduction) -> Iterator[Array]:
+    """Yield system matrices of those A and C that there are, with stable A and the best B and D."""
     for pair in pairs:
         if pair is not None and np.all(np.isfinite(pair[0])) and np.all(np.isfinite(pair[1])):
             yield problem.input_matrices(_reflected(pair[0]), pair[1])

@@ -220,7 +220,8 @@ def _with_given_state(source: Iterable[tuple[Array, Array]], model: StateSpaceMo
     _check((samples, model.p), (samples, u_width or model.n_u), model)
     if growing := growing_modes(model, samples):
         raise InvalidData(
-            f"the model has {growing} mode(s) that grow by more than {FORWARD:g} over {samples} samples: simulating from a given x0 would "
+            f"the model has {counted(growing, 'mode')} growing by more than {FORWARD:g} over "
+            f"{counted(samples, 'sample')}: simulating from a given x0 would "
             f"amplify rounding as much; leave x0 out (the growing modes are then run backward), or cut the record into shorter experiments"
         )
     return ResidualSignal(store, state, False, squares / samples, np.zeros((model.n, model.n)), model.n, 0, ())

@@ -32,7 +32,7 @@ COUNT = 20  # Markov parameters that the JSON form holds
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Uncertainty(Shown):
-    """How sure a model is: standard deviations of what does not depend on the basis of the state, by the delta method [L99].
+    """Standard deviations say how sure a model is, of what does not depend on the basis of the state, by the delta method [L99].
 
     `root` has the shape (K, K - n^2), and root @ root.T is the covariance of the entries of T = [[A, B], [C, D]] in row order, in the
     gauge orthogonal to changes of basis. Standard deviations are in the units of what they belong to. Those of complex numbers are

@@ -13,7 +13,8 @@ W has a range of 40 to 60 dB between fault and noise: descent from any start sti
 by and by: a ladder of weights (Phi + e I)^-1, e falling by RUNG from the mean power of the spectrum Phi of the disturbance to below its
 least eigenvalue, and then W. Each rung starts where the last one ended.
 
-Reduction            what is minimised: angles, plant, weight, input spectrum, N; `cost`, `normal_equations`, `input_matrices`
+Reduction            what is minimised: angles, plant, weight, input spectrum, N; `cost`, `normal_equations`, `input_matrices`,
+                     `output_matrices`
 circle               M angles between 0 and pi
 ladder               the reductions from the flat weight to the true one
 descend              the damped Gauss-Newton method
@@ -93,6 +94,23 @@ class Reduction:
         solution = scipy.linalg.lstsq(_kronecker_sum(weighted @ left, self.spectrum), slope.ravel(), check_finite=False)[0]
         matrix[:, n:] = solution.reshape(n + p, n_u)
         return matrix
+
+    def output_matrices(self, A: Array, B: Array) -> Array:
+        """Return T with these A, B and the best C and D, which solve a linear problem."""
+        n, p, n_u = len(A), self.plant.shape[1], B.shape[1]
+        matrix = np.zeros((n + p, n + n_u))
+        matrix[:n] = np.hstack([A, B])
+        _, _, right = half_transfers(matrix, n, self.angles)
+        driven = self.spectrum @ adjoint(right)
+        slope = np.sum((self.weight @ self.plant @ driven).real, axis=0)
+        solution = scipy.linalg.lstsq(_kronecker_sum(self.weight, right @ driven), slope.ravel(), check_finite=False)[0]
+        matrix[n:] = solution.reshape(p, n + n_u)
+        return matrix
+
+    def scaled(self, y: Array, u: Array, samples: float) -> Reduction:
+        """Return the same for outputs and inputs times these factors (p,) and (n_u,), and for so many samples."""
+        weight, spectrum = self.weight / np.outer(y, y), self.spectrum * np.outer(u, u)
+        return Reduction(self.angles, self.plant * y[:, None] / u, weight, spectrum, samples)
 
 
 def _kronecker_sum(left: ComplexArray, right: ComplexArray) -> Array:

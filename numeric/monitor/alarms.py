@@ -16,6 +16,7 @@ from ..data.plain import plain
 from .statistics import TESTS
 
 MISSING = "missing"
+MOST_NAMED = 2  # outputs in a title
 
 
 @dataclass(frozen=True, repr=False)
@@ -31,7 +32,7 @@ class Alarm(Shown):
     without any fault. Raises nothing. Source: [BN93] for the estimates of the onset.
 
     >>> from faultspace.numeric import Alarm
-    >>> print(Alarm(90, "cusum", 15.0, 13.8, ("level",), 85, 0, ()).title)
+    >>> print(Alarm(90, "cusum", 15.0, 13.8, ("level",), 85, 0, ()).line)
     sample 90: cusum 15 > 13.8, outputs level, since about sample 85
     """
 
@@ -46,7 +47,13 @@ class Alarm(Shown):
 
     @property
     def title(self) -> str:
-        """Return the alarm on one line."""
+        """Return which test alarms where."""
+        more = f" and {len(self.outputs) - MOST_NAMED} more" if len(self.outputs) > MOST_NAMED else ""
+        return f"{self.test} at sample {self.sample}, {', '.join(name[:20] for name in self.outputs[:MOST_NAMED])}{more}"
+
+    @property
+    def line(self) -> str:
+        """Return the alarm with what it rests on, on one line."""
         if self.test == MISSING:
             return f"sample {self.sample}: {', '.join(self.outputs)} missing since sample {self.onset}; what it would show is not seen"
         beyond = f"; inputs beyond the healthy record: {', '.join(self.inputs_beyond)}" if self.inputs_beyond else ""
@@ -96,7 +103,7 @@ class Watched(Shown):
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield the alarms."""
         yield "alarms", ", ".join(f"{sum(alarm.test == test for alarm in self.alarms)} {test}" for test in (*TESTS, MISSING))
-        yield from (("", alarm.title) for alarm in self.alarms)
+        yield from (("", alarm.line) for alarm in self.alarms)
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict; null stands for NaN."""

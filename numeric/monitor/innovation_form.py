@@ -35,6 +35,9 @@ from ..model.models import StateSpaceModel, observability_matrix
 CANDIDATES = (1e-6, 1e-4, 1e-2, 1.0, 1e2)  # for q, beside 0
 FOLDS = 4  # parts of the healthy record, each judged by what the others taught
 FADED = 1e-2  # what may be left of the first state where the errors of an observer begin to count
+ELSEWHERE = 10.0  # times farther than on the healthy record may the plant be where its state is not known
+WILD = 1e3  # deviations at which the error of a forecast is cut off, so that a wild number is forgotten; an input of WILD^2 is missing
+ROUNDING = 1e-10  # deviation of an error, in that of its output, below which there is no noise
 KNOWN = 1e-10  # variance of the states, in units of the channels, below which they count as known
 
 
@@ -109,19 +112,30 @@ def innovation_form(model: StateSpaceModel, y: Array, u: Array, *, with_inputs: 
     Without `with_inputs` the whitening leaves the inputs out, as it must where they are not those of the plant.
     Raises InvalidData for too few samples, and for outputs without noise.
     """
+    still = np.flatnonzero(np.ptp(y, axis=0) == 0)
+    if len(still):
+        raise InvalidData(
+            f"healthy: output {still[0] + 1} of the model is constant ({y[0, still[0]]:g}), so that there is no noise to hold a stream "
+            "against: leave that output out, or give a record in which its sensor is alive"
+        )
     units = Units(y.mean(axis=0), _sizes(y), u.mean(axis=0), _sizes(u))
     outputs, inputs = (y - units.centre) / units.scale, (u - units.input_centre) / units.input_scale
     in_y, in_u = units.scale[:, None], units.input_scale
     inner = StateSpaceModel(model.A, model.B * in_u, model.C / in_y, model.D * in_u / in_y)
     gain, first = _gain(inner, outputs, inputs)
-    left = _observed(inner, gain, outputs, inputs)
+    left = _settled(inner, gain, _observed(inner, gain, outputs, inputs), first)
     e, pushed = left[first:], inputs[first:] if with_inputs else inputs[first:, :0]
+    if np.any(e[len(e) // 2 :].std(axis=0) < ROUNDING):
+        raise InvalidData(
+            "healthy: the model explains an output to rounding, so that there is no noise to hold a stream against: give a record of the "
+            "plant, with the noise of its sensors"
+        )
     try:
         lags = number_of_lags(e - e.mean(axis=0), pushed - pushed.mean(axis=0))
     except InvalidData:
         raise InvalidData(
-            "healthy: an output is constant, or an exact combination of others and of their past, so that there is no noise to hold a "
-            "stream against: leave that output out, or give a record with noise"
+            "healthy: an output is an exact combination of others and of their past, so that there is no noise to hold a stream "
+            "against: leave that output out"
         ) from None
     past, now = lagged(e, pushed, lags)
     X = np.hstack([np.ones((len(now), 1)), past])
@@ -173,7 +187,7 @@ def _gain(model: StateSpaceModel, y: Array, u: Array) -> tuple[Array, int]:
         if not radius < 1:
             continue
         first = int(min(np.ceil(np.log(FADED) / np.log(max(radius, 1e-3))), len(y) // 4))
-        e = _observed(model, gain, y, u)[max(first, len(y) // 4) :]
+        e = _settled(model, gain, _observed(model, gain, y, u), first)[max(first, len(y) // 4) :]
         size = float(np.linalg.slogdet(np.cov(e.T, ddof=0).reshape(p, p))[1])
         if size < best:
             best, chosen = size, (gain, first)
@@ -194,6 +208,20 @@ def _observed(model: StateSpaceModel, gain: Array, y: Array, u: Array) -> Array:
         np.hstack([-model.D, np.eye(model.p)]),
     )
     return closed.simulate(np.hstack([u, y]))
+
+
+def _settled(model: StateSpaceModel, gain: Array, e: Array, first: int) -> Array:
+    """Return e_o (N, p) without the response to the first state, which is fitted to the samples that it lasts by least squares."""
+    if model.n == 0:
+        return e
+    span = min(len(e), 4 * first + model.n + 1)
+    closed = StateSpaceModel(model.A - gain @ model.C, np.zeros((model.n, 1)), -model.C, np.zeros((model.p, 1)))
+    free = np.stack([closed.simulate(np.zeros((span, 1)), x0) for x0 in np.eye(model.n)], axis=2)
+    level = np.tile(np.eye(model.p), (span, 1))  # the means of a record with a transient are not those of the plant at rest
+    start = np.linalg.lstsq(np.hstack([free.reshape(-1, model.n), level]), e[:span].ravel(), rcond=None)[0][: model.n]
+    settled = e.copy()
+    settled[:span] -= free @ start
+    return settled
 
 
 def _regression(X: Array, now: Array) -> tuple[Array, Array]:
@@ -257,9 +285,9 @@ def _moments(model: StateSpaceModel, gain: Array, whitening: _Whitening, y: Arra
 class Predictor:
     """This is the Kalman filter of a form [AM79]: it gives the innovations of samples y (p,) and u (n_u,), in the units of the data.
 
-    The state is known up to a covariance, `unknown` of the form at first. An innovation then has the covariance S(k) = S + C P C', and the
-    gain is the optimal one; a missing output (NaN) is left out of both. P fades as samples come, and where it is nothing the filter is the
-    predictor x+ = A x + B u + K e.
+    The state is known up to a covariance P, at first that of the healthy record ten times as wide. An innovation then has the covariance
+    S + C P C', and the gain is the optimal one; a missing output (NaN) is left out of both. P fades as samples come, and where it is
+    nothing the filter is the predictor x+ = A x + B u + K e.
     """
 
     def __init__(self, form: Form) -> None:
@@ -272,34 +300,38 @@ class Predictor:
     def restart(self) -> None:
         """Forget the state."""
         self._state = np.zeros(len(self.form.A))
-        self._spread: Array | None = self.form.unknown.copy()
+        self._spread: Array | None = ELSEWHERE**2 * self.form.unknown
 
-    def step(self, y: Array, u: Array) -> tuple[Array, Array]:
+    def step(self, y: Array, u: Array) -> tuple[Array, Array] | None:
         """Return the innovation (p,) of one sample, uncorrelated and of deviation one, and output by output over its deviation.
 
-        Zero stands for what is missing. Where an input is missing, no output of the sample can be judged, and the state is unknown again.
+        Zero stands for an output that is missing. None is returned where all are, and where an input is missing: no output of the sample
+        can be judged then, and the state is unknown again.
         """
         form, units = self.form, self.form.units
         pushed, there = (u - units.input_centre) / units.input_scale, np.isfinite(y)
-        if not np.all(np.isfinite(pushed)):
+        if not np.all(np.abs(pushed) < WILD**2):  # NaN is not, either
             self.restart()
-            return np.zeros(form.p), np.zeros(form.p)
+            return None
         forecast = form.C @ self._state + form.D @ pushed + form.level
-        e = np.where(there, (np.where(there, y, 0.0) - units.centre) / units.scale - forecast, 0.0)
+        with np.errstate(over="ignore"):
+            e = np.where(there, (np.where(there, y, 0.0) - units.centre) / units.scale - forecast, 0.0)
         after = form.A @ self._state + form.B @ pushed + form.push
         if self._spread is None and np.all(there):
+            e = np.clip(e, -WILD * self._sizes, WILD * self._sizes)
             self._state = after + form.K @ e
             return self._inverse @ e, e / self._sizes
         return self._filtered(e, there, after)
 
-    def _filtered(self, e: Array, there: Array, after: Array) -> tuple[Array, Array]:
+    def _filtered(self, e: Array, there: Array, after: Array) -> tuple[Array, Array] | None:
         """Take the step with a state that is not known, or with outputs missing; `after` is the next state by the forecast alone."""
         form, seen = self.form, np.flatnonzero(there)
         spread = np.zeros_like(form.A) if self._spread is None else self._spread
         S = form.covariance + form.C @ spread @ form.C.T
         cross = form.A @ spread @ form.C.T + form.K @ form.covariance
         left = form.A @ spread @ form.A.T + form.K @ form.covariance @ form.K.T
-        expected = np.zeros(form.p)
+        sizes, expected = np.sqrt(np.diag(S)), np.zeros(form.p)
+        e = np.clip(e, -WILD * sizes, WILD * sizes)
         if len(seen):
             weighted = np.linalg.solve(S[np.ix_(seen, seen)], np.column_stack([e[seen], cross[:, seen].T]))
             expected = S[:, seen] @ weighted[:, 0]
@@ -307,5 +339,7 @@ class Predictor:
             left = left - cross[:, seen] @ weighted[:, 1:]
         self._state = after
         self._spread = None if np.abs(left).max(initial=0.0) < KNOWN else (left + left.T) / 2
+        if not len(seen):
+            return None
         z = scipy.linalg.solve_triangular(np.linalg.cholesky(S), expected, lower=True)
-        return np.asarray(z), e / np.sqrt(np.diag(S))
+        return np.asarray(z), e / sizes

@@ -6,6 +6,7 @@ Monitor     calibrated on a healthy record; `update` for one sample, `extend` fo
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -158,12 +159,13 @@ class Monitor(Shown):
         self.missing += missing
         self._absent = np.where(missing, self._absent + 1, 0)
         self._beyond[(u < self._bounds[0]) | (u > self._bounds[1])] = number
-        z, s = self._predictor.step(y, u)
+        judged = self._predictor.step(y, u)
         begun = [self._gone(number, int(i)) for i in np.flatnonzero(self._absent == self._settings.window)]
-        if np.all(missing) or not np.all(np.isfinite(u)):
+        if judged is None:
             self.untested += 1
             self.statistics = np.full(len(TESTS), np.nan)
             return tuple(begun), np.full(len(y), np.nan)
+        z, s = judged
         self._numbers[:-1], self._recent[:-1] = self._numbers[1:], self._recent[1:]
         self._numbers[-1], self._recent[-1] = number, z
         self.statistics = self._bank.update(z[None], s[None])[0]
@@ -231,7 +233,7 @@ class Monitor(Shown):
         """Yield notes, what the predictor and the thresholds rest on, and what has been seen so far."""
         yield from (("note", note) for note in self.notes)
         found = self.calibration
-        yield "healthy errors, lags of the whitening", f"{found.samples}, {self._form.lags}"
+        yield "healthy errors, lags", f"{found.samples}, {self._form.lags}"
         for test, threshold, ideal, alarms in zip(TESTS, found.threshold, found.ideal, found.healthy_alarms, strict=True):
             yield f"threshold of {test}", f"{threshold:.4g} ({ideal:.4g} for Gaussian errors), {counted(alarms, 'healthy alarm')}"
         yield "samples seen, not judged", f"{self.samples}, {self.untested}"
@@ -287,7 +289,7 @@ def _healthy(
         return record_from(y, u, inputs=inputs, outputs=outputs)
     record, healthy = getattr(model, "record", None), getattr(model, "healthy", None)
     if isinstance(record, Record) and isinstance(healthy, int):
-        return record.beginning(healthy)
+        return replace(record, offset=np.zeros_like(record.offset)).beginning(healthy)  # a stream comes as it is measured
     if isinstance(_reduced(model), ReducedModel):
         return None
     raise InvalidData("healthy: got no record without fault, and the model does not tell what its errors are like: give y and u")

@@ -12,7 +12,8 @@ output by output, each over its own deviation. What comes out is one number a te
                   signals the faults have: their rank gap
 
 Each costs the same at every sample, whatever came before: the first is of one sample, the second has a ring of `window` numbers, the others
-are recursions. A CUSUM is cut off at a length, `ceiling`, so that it comes back in finite time when a fault goes.
+are recursions. A CUSUM is cut off at a length, `ceiling`, and z is shortened to 30 deviations beyond its usual length, so that all of them
+come back soon when a fault goes, and one wild sample is forgotten.
 
 Settings     window, shift, block rows, memory
 Bank         the state of the four statistics
@@ -28,6 +29,7 @@ from ...base.arrays import Array
 
 TESTS = ("residual", "chi-square", "cusum", "hankel")
 MEMORY = 5  # windows that the moments remember
+LONGEST = 30.0  # deviations, beside the usual root of p, to which an innovation is shortened
 HEIGHT, MOST_ROWS = 30, 10  # numbers in a Hankel column, and block rows, at most; two rows at least
 
 
@@ -60,6 +62,7 @@ class Bank:
         self._energies = np.full((streams, settings.window), float(p))
         self._scores = np.zeros((streams, settings.window, p))
         self._place = 0
+        self._longest = np.sqrt(p) + LONGEST
         self._column = np.zeros((streams, height))
         self.moments = np.tile(np.eye(height), (streams, 1, 1))
         self._change = np.empty_like(self.moments)
@@ -72,6 +75,7 @@ class Bank:
 
     def update(self, z: Array, s: Array) -> Array:
         """Return the statistics (R, 4) at this sample."""
+        z = z * np.minimum(1.0, self._longest / np.maximum(np.sqrt(np.sum(z * z, axis=1)), 1.0))[:, None]
         window, memory, p = self.settings.window, self.settings.memory, self.settings.p
         self._energies[:, self._place] = np.sum(z * z, axis=1)
         self._scores[:, self._place] = s * s

@@ -37,6 +37,7 @@ STREAMS, BLOCKS, SEED = 128, 20, 20250519  # streams simulated, blocks of each, 
 TAIL = 0.1  # share of the maxima from which a tail is extrapolated
 SEEN = 10  # alarms that a healthy record must be long enough to show
 LEAST_BLOCKS = 3  # blocks of `memory` healthy samples without which nothing is calibrated
+TOLD = 1.5  # times by which a threshold is raised before a note says so
 SURPRISING = 0.01  # probability of as many healthy alarms below which a note is due
 
 
@@ -119,6 +120,12 @@ def calibrate(settings: Settings, level: float, errors: Array, sizes: Array) -> 
         notes.append(
             f"{counted(samples, 'healthy sample')} cannot show {level:g} false alarms a sample, {needed} could: beyond what they show "
             "the tail of the statistics is taken to be that of Gaussian noise"
+        )
+    raised = threshold / ideal
+    if np.any(raised > TOLD):
+        notes.append(
+            f"the healthy record has larger errors than Gaussian noise has, so that thresholds are raised, that of "
+            f"{TESTS[int(np.argmax(raised))]} to {np.max(raised):.2g} times: outliers, a drift, or an error of the model, which hide faults"
         )
     if sum(alarms) and scipy.stats.poisson.sf(sum(alarms) - 1, expected) < SURPRISING:
         notes.append(

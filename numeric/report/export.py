@@ -3,16 +3,19 @@
 to_control   control.StateSpace with the names of the channels
 to_scipy     scipy.signal.dlti
 to_mat       a MAT file with A, B, C, D, F, G, names and sample time
+to_pandas    a data frame with the channels, the residual and the fault signal, by time
 """
 
 from __future__ import annotations
 
 import os
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...base.errors import InvalidData, InvalidInput, quote_path
+from .causes import stretches
 
 if TYPE_CHECKING:
     from ..findings import Findings
@@ -51,3 +54,28 @@ def to_mat(answer: Findings, path: str | os.PathLike[str]) -> None:
         savemat(path, content | names | {"dt": UNKNOWN if answer.dt is None else answer.dt}, appendmat=False, oned_as="column")
     except OSError as error:
         raise InvalidInput(f"{quote_path(os.fspath(path))}: cannot be written ({error.strerror or error}), expected another path") from None
+
+
+def to_pandas(answer: Findings) -> Any:
+    """Return a DataFrame, a row a sample, with columns ("input", name), ("output", name), ("residual", name of the output),
+    ("onset", "before"), how many onsets came before, and ("fault", v1, ..): NaN where the signal is not determined."""
+    try:
+        pandas: Any = import_module("pandas")
+    except ImportError:
+        raise ImportError("to_pandas() needs pandas: pip install pandas") from None
+    record = answer.record.about(np.zeros(len(answer.record.names)))
+    y, u = record.stretch(0, len(record))
+    columns = {("input", name): values for name, values in zip(record.inputs, u.T, strict=True)}
+    columns |= {("output", name): values for name, values in zip(record.outputs, y.T, strict=True)}
+    if answer.residual is not None:
+        rest = answer.residual.store.read(0, len(record))
+        columns |= {("residual", name): values for name, values in zip(record.outputs, rest.T, strict=True)}
+        columns |= {("onset", "before"): stretches(answer, 0, len(record))}
+    if answer.signal is not None:
+        first, last = answer.signal.trusted
+        v = np.full((len(record), answer.signal.store.width), np.nan)
+        v[first:last] = answer.signal.store.read(first, last)
+        columns |= {("fault", f"v{j + 1}"): values for j, values in enumerate(v.T)}
+    samples = np.arange(len(record))
+    index = pandas.Index(samples, name="sample") if answer.dt is None else pandas.Index(samples * answer.dt, name="time [s]")
+    return pandas.DataFrame(columns, index=index)

@@ -26,8 +26,10 @@ from ..model.reduced_model import ReducedModel
 from ..model.weighted_reduction import circle
 from ..rows.joint import even_split
 from ..space.distances import containment_distance
+from .causes import RESIDUAL, residual_table, told
 from .folders import refuse, replace
 from .page import report
+from .physical import physical
 from .pictures import PICTURES, pictures
 from .summary import MODEL_FILE, advice, fit, markdown, summary
 
@@ -36,7 +38,7 @@ if TYPE_CHECKING:
 
 MODEL, SPACE, SIGNAL, SUMMARY, PAGE = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md", "report.html"
 FREQUENCIES = 32  # of the transfer function with standard errors
-NAMES = (MODEL, SPACE, SIGNAL, SUMMARY, PAGE, *PICTURES)
+NAMES = (MODEL, SPACE, SIGNAL, RESIDUAL, SUMMARY, PAGE, *PICTURES)
 
 
 def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str) -> dict[str, Any]:
@@ -63,9 +65,11 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "healthy_until": answer.healthy,
         "healthy_record": answer.healthy_record,
         "noise_level": plain(answer.noise_level),
+        "doubts": None if answer.doubts is None else _worded(answer.doubts.to_json(), worded),
         "notes": [worded(note) for note in answer.notes],
         "next": [worded(line) for line in advice(answer)],
     }
+    result |= physical(answer)
     if model:
         result |= {
             "poles": plain(model.model.poles),
@@ -112,6 +116,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
     if answer.healthy is not None and mean:
         result["visible"] = {"power": POWER, "level": mean.level, "constant": plain(mean.visible), "white": plain(answer.visible)}
     result["fault_space"] = _space(answer)
+    result |= told(answer)
     result["explained"] = plain(answer.explained)
     result["explained_by_noise"] = plain(answer.by_noise)
     signal = answer.signal
@@ -124,6 +129,11 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "reason": signal.reason,
     }
     return result
+
+
+def _worded(found: dict[str, Any], worded: Callable[[str], str]) -> dict[str, Any]:
+    """Return the doubts with their advice, which names arguments, reworded."""
+    return found | {"rows": [row | {"evidence": worded(row["evidence"]), "advice": worded(row["advice"])} for row in found["rows"]]}
 
 
 def _of_past_inputs(model: MoespModel) -> dict[str, Any]:
@@ -187,6 +197,8 @@ def _tables(answer: Findings, folder: Path, on_progress: Progress) -> None:
         _json(folder / MODEL, model)
     if (space := _space(answer)) is not None:
         _json(folder / SPACE, space)
+    if answer.residual is not None:
+        residual_table(answer, folder / RESIDUAL, on_progress)
     if answer.signal is not None:
         _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, on_progress)
 

@@ -48,6 +48,16 @@ CAPTIONS = {
         "What the best law on k mixed outputs leaves: it jumps behind the number of faults.",
         "Power that the best law leaves over the number of mixed outputs.",
     ),
+    "residual.png": (
+        "Onset",
+        "The residual of each output over the whole record; dashed lines are onsets, within intervals of probability 0.95.",
+        "Curves of the residual of each output with the onsets marked.",
+    ),
+    "isolation.png": (
+        "Which sensor or actuator",
+        "The angle of each single cause to the fault space, with the angle that chance stays below were it the cause.",
+        "Bars of angles, one for each sensor and each actuator, with marks at their bounds.",
+    ),
     "fault-signal.png": (
         "Fault signal",
         "The reconstructed fault signal over the whole record, and in detail where the residual is loudest.",

@@ -9,6 +9,7 @@ PICTURES     the names of the files
     noise-levels      where noise fills every window: what the best law on k mixed outputs leaves, which jumps at k = n_v
     zeros-and-poles   poles of the model and finite zeros of the faults
     outputs           the last samples, measured against simulated
+    residual, isolation    of causes.py: the residual of the whole record with its onsets, the angles of single causes
     fault-signal      the whole record, and a detail of it where the residual is loudest
 """
 
@@ -24,6 +25,7 @@ import numpy as np
 from ...base.errors import InvalidData
 from .. import drawing
 from ..signal.residual_sizes import loudest
+from .causes import CAUSES_DRAWN, causes_drawn
 
 if TYPE_CHECKING:
     from ..findings import Findings
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
     from ..signal.reconstruction import Reconstruction
 
 PICTURES = (
-    "singular-values.png", "window-ranks.png", "noise-levels.png", "zeros-and-poles.png", "outputs.png", "fault-signal.png",
+    "singular-values.png", "window-ranks.png", "noise-levels.png", "zeros-and-poles.png", "outputs.png", "fault-signal.png", *CAUSES_DRAWN,
 )  # fmt: skip
 PICTURED = 300  # samples of a detail
 WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)
@@ -74,7 +76,7 @@ def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable
     """Return name, size and what to do with a figure."""
     model, dimension, rest, signal = answer.model, answer.dimension, answer.residual, answer.signal
     order = model.order if model else None
-    spectrum, ranks, levels, plane, outputs, faults = PICTURES
+    spectrum, ranks, levels, plane, outputs, faults = PICTURES[:6]
     drawings: list[tuple[str, tuple[float, float], Callable[[Any], Any]]] = [
         (spectrum, WIDE, lambda figure: drawing.plot_singular_values(answer.singular_values, order=order, ax=figure.add_subplot()))
     ]
@@ -93,7 +95,7 @@ def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable
     if answer.sizes and signal:
         near = loudest(answer.sizes.energies, len(signal.store), PICTURED)
         drawings.append((faults, TALL, lambda figure: draw_signal(signal, near, figure)))
-    return drawings
+    return [*drawings, *causes_drawn(answer)]
 
 
 def draw_signal(signal: Reconstruction, near: tuple[int, int], figure: Any) -> None:

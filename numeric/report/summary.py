@@ -20,6 +20,8 @@ from ...base.sheets import counted
 from ..count.mean_shift import POWER
 from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
+from .causes import isolation_lines, onset_lines
+from .physical import mode_lines
 
 if TYPE_CHECKING:
     from ..findings import Findings
@@ -30,6 +32,7 @@ MODEL_FILE = "model.json"
 MOST_ROWS = 12
 DIGITS = 4
 CANDIDATES = 3
+MOST_POLES = 3
 
 
 def fit(answer: Findings) -> Array | None:
@@ -57,6 +60,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield f"from {answer.way}, since {NO_NOISE if answer.exact else NOISE}"
         yield from _orders(answer)
         yield from _certainty(answer)
+        yield from mode_lines(answer)
         explained = fit(answer)
         if explained is not None:
             pairs = [f"{name} {value:.4g} %" for name, value in zip(record.outputs, explained, strict=True)]
@@ -67,15 +71,16 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
                 left = "what is left is noise and the model's error"
             yield f"fit of the simulated outputs, from the fitted initial state: {_several(pairs)}; {left}"
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
+        yield from onset_lines(answer)
         yield ""
         yield "## Faults"
-        yield f"number of independent faults n_v: **{_count(answer)}**{_condition(answer)}"
+        yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"
         yield f"why: {answer.reason}"
         said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
-        if any(" nats" in reason for reason in said):
+        if any(word in reason for reason in said for word in (" law", " row")):
             yield (
-                "law: an equation that the last few samples of these outputs obey up to noise; nats: the natural logarithm of a ratio of "
-                "powers, so that 1 nat is a factor of 2.72 (4.34 dB)"
+                "law, or row: an equation that the last few samples of the channels obey up to noise, whatever the faults do; dB: of the "
+                "power of what it leaves"
             )
         yield from _law_lines(answer)
         yield from _healthy_lines(answer)
@@ -86,7 +91,12 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         if answer.dimension and answer.dimension.regime == "rounding":
             yield f"gaps rank R_(s+1) - rank R_s beyond the inputs, s = 1, 2, ...: {' '.join(map(str, answer.dimension.gaps))}"
         yield from _space_lines(answer)
+        yield from isolation_lines(answer)
         yield from _signal_lines(answer)
+    if answer.doubts:
+        yield ""
+        yield "## Doubts"
+        yield from (f"- {worded(row.line)}" for row in answer.doubts)
     if answer.notes:
         yield ""
         yield "## Notes"
@@ -121,13 +131,25 @@ def _orders(answer: Findings) -> Iterator[str]:
     if orders is None:
         return
     yield "fits on the last third, held back from models of the rest (1: perfect, 0: no better than zero):"
-    yield "    order  one-step  free run  chance"
+    largest_gap = max((row.gap for row in orders.rows if np.isfinite(row.gap)), default=np.nan)
+    yield "    order  one-step  free run  chance      gap   poles"
     for row in orders.rows:
         mark = "  <- taken" if row.order == orders.best else ""
-        yield f"    {row.order:>5}  {row.one_step:>8.4f}  {row.free_run:>8.4f}  {row.chance:>6.2g}{mark}"
+        star = "*" if row.gap == largest_gap else " "
+        gap = f"{row.gap:.3g}" if np.isfinite(row.gap) else "-"
+        fits = f"{row.one_step:>8.4f}  {row.free_run:>8.4f}  {row.chance:>6.2g}"
+        yield f"    {row.order:>5}  {fits}  {gap:>7}{star}  {_pairs(row.poles) or 'none'}{mark}"
     yield "chance: the probability of so much worse an explanation than that of the order taken, were this order right"
+    yield "gap: singular value n over the next, * the largest; poles: those of the model of this order, a pair once"
     if not orders.decided:
         yield "the number of faults, the fault space and the signal rest on the order taken"
+
+
+def _pairs(poles: Sequence[complex]) -> str:
+    """Return the first poles in short, one of each pair."""
+    upper = [pole for pole in poles if pole.imag >= 0]
+    texts = [f"{pole.real:.3g}+-{pole.imag:.3g}i" if pole.imag else f"{pole.real:.3g}" for pole in upper[:MOST_POLES]]
+    return " ".join(texts) + (" .." if len(upper) > MOST_POLES else "")
 
 
 def _certainty(answer: Findings) -> Iterator[str]:
@@ -181,8 +203,7 @@ def _law_lines(answer: Findings) -> Iterator[str]:
     if asked:
         yield f"rows asked whether they are laws of outputs and inputs (probability): {_several(asked)}"
     if count.noise_power is not None:
-        sizes = zip(answer.record.outputs, np.sqrt(count.noise_power), strict=True)
-        yield f"noise that the laws leave, deviation: {_several([f'{name} {size:.3g}' for name, size in sizes])}"
+        yield f"noise that the laws leave, deviation: {_by_output(answer, np.sqrt(count.noise_power))}"
     if ranks is not None:
         yield f"from the ranks of the residual, for comparison: {_said(ranks.n_v)} ({ranks.reason})"
 
@@ -192,8 +213,12 @@ def _condition(answer: Findings) -> str:
     count = answer.count
     if answer.n_v != 0 or answer.n_v_given or answer.noise_level is not None or count is None or count.noise_power is None:
         return ""
-    sizes = zip(answer.record.outputs, np.sqrt(count.noise_power), strict=True)
-    return f", if this is the noise of each output: {_several([f'{name} {size:.3g}' for name, size in sizes])} (deviation)"
+    return f", if this is the noise of each output: {_by_output(answer, np.sqrt(count.noise_power))} (deviation)"
+
+
+def _by_output(answer: Findings, sizes: Array) -> str:
+    """Return one size (p,) for each output, beside its name."""
+    return _several([f"{name} {size:.3g}" for name, size in zip(answer.record.outputs, sizes, strict=True)])
 
 
 def _count(answer: Findings) -> str:
@@ -221,14 +246,13 @@ def _mean_lines(answer: Findings) -> Iterator[str]:
 
 def _visible_lines(answer: Findings) -> Iterator[str]:
     """Yield what would have been seen, where little or nothing was."""
-    mean, outputs = answer.mean, answer.record.outputs
+    mean = answer.mean
     if answer.healthy is None or mean is None:
         return
     kinds = [("a constant at one output", mean.visible), ("a white signal at one output, deviation", answer.visible)]
     for kind, sizes in kinds:
         if sizes is not None:
-            listed = _several([f"{name} {size:.3g}" for name, size in zip(outputs, sizes, strict=True)])
-            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {listed}"
+            yield f"seen with a chance of {POWER:g} (level {mean.level:g}), {kind}: {_by_output(answer, sizes)}"
 
 
 def _said(number: int | None) -> str:
@@ -248,7 +272,9 @@ def _space_lines(answer: Findings) -> Iterator[str]:
     if space.uncertainty is not None:
         angle = np.degrees(space.uncertainty.angle())
         if isinstance(answer.model, ReducedModel) and space.method == "kernel rows":
-            taken = "n_z taken as right; to first order in the model's error, which in short records fails more often than that"
+            count = len(space.uncertainty.valleys)
+            others = f", over {count} models that explain the data about as well" if count > 1 else ""
+            taken = f"n_z and the order taken as right{others}"
         else:
             taken = "n_z, A and C taken as right"
         yield f"angle to the true space: below {angle:.2g} degrees with probability 0.95, {taken}"

@@ -93,8 +93,11 @@ def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, mo
     levels = np.array([fit.level for fit in fits])
     degree = next((d for d in range(least, most + 1) if probabilities[d] >= ENOUGH), None)
     if degree is None:
-        reason = f"degree {most} leaves what higher degrees explain (probability {probabilities[most]:.1g}): the order is too low"
-        return LeastDegree(most, levels, probabilities, 0.0, False, reason)
+        # The likeliest stands for an answer, the highest of equals: where the order is too low all probabilities are zero.
+        degree = max(range(least, most + 1), key=lambda d: (probabilities[d], d))
+        cause = "the order is too low" if degree == most else "the order is too low, or a higher degree fits what is no law"
+        reason = f"degree {degree} leaves what higher degrees explain (probability {probabilities[degree]:.1g}): {cause}"
+        return LeastDegree(degree, levels, probabilities, 0.0, False, reason)
     # By small steps the same must come out: noise of another colour than assumed gains by many degrees at once. Steps of one degree and of
     # two, for a descent that has stuck makes the one step nothing and the next one twice as large.
     steps = (

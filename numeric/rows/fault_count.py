@@ -28,7 +28,7 @@ were chosen. The constants that decide whether rows are laws stand in `laws.py`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -37,31 +37,36 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
-from ...base.sheets import Shown, counted
+from ...base.sheets import Shown, counted, decibels
 from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
 from ..data.validation import constant_channels, noise_deviations, positive, signals
+from ..model.reduced_model import ReducedModel
+from .evidence import EXTRA, Evidence
 from .joint import ROUNDING, JointMoments
-from .laws import EXTRA, FAILS, SUFFICES, Evidence, Laws, bootstrapped, longer_are_laws, tested
+from .laws import FAILS, SUFFICES, Laws, bootstrapped, longer_are_laws, step_to_two, tested
+from .remainder import unrelated
 
 # Nats (13 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
 FAINTEST = 3.0
-# Factor of power to which a stated noise level is taken at its word, and beyond which it is taken for a fault although it may be wrong by
-# two, which is four in power.
-KNOWN_TO, KNOWN_FAR = 2.0, 8.0
+# What a stated noise level means, as the docstring of `count_faults` says. Its power is right to 3 dB, a factor of 1.4 in deviation; and
+# where the deviation is wrong by two, four in power, what is louder than both together is a fault in any case.
+KNOWN_TO = 2.0
+KNOWN_FAR = 4.0 * KNOWN_TO
 # Singular values of the scaled outputs below which a channel is a combination of others.
 DEPENDENT = 1e-10
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FaultCount(Shown):
-    """The number of faults that `count_faults` finds, with what it rests on [W91].
+    """This is the number of faults that `count_faults` finds, with what it rests on [W91].
 
     `n_v` is None where it is undecided; `possible` are the numbers that remain; `reason` says why. `tests`: what was asked of k rows, by
     falling k; empty where there was no noise. `noise_power`, of shape (p,): what the rows leave of each output, in its own units, squared;
-    None where no rows are laws. Look at `n_v` first, and where it is None at `reason`, which says what would settle it. Raises nothing
-    itself.
+    None where no rows are laws. `condition`: what the number rests on and no record can show; it is part of the title and of the reason,
+    and empty where nothing is taken for granted. Look at `n_v` first, and where it is None at `reason`, which says what would settle it.
+    Raises nothing itself.
 
     >>> from faultspace.numeric import FaultCount
     >>> FaultCount(None, (2, 3), "2 or 3: a fainter fault would look the same", ()).decided
@@ -73,17 +78,18 @@ class FaultCount(Shown):
     reason: str
     tests: tuple[Laws, ...]
     noise_power: Array | None = None
+    condition: str = ""
 
     @property
     def decided(self) -> bool:
-        """Whether there is one answer."""
+        """This tells whether there is one answer."""
         return self.n_v is not None
 
     @property
     def title(self) -> str:
         """Return the answer, on one short line."""
         if self.n_v is not None:
-            return f"number of faults n_v: {self.n_v}"
+            return f"number of faults n_v: {self.n_v}" + (f", if {self.condition}" if self.condition else "")
         return f"number of faults n_v: undecided, of {', '.join(map(str, self.possible))}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
@@ -107,14 +113,24 @@ class FaultCount(Shown):
 
 
 @one_thread()
-def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLike | None = None, draws: int = 0) -> FaultCount:
+def count_faults(
+    y: ArrayLike,
+    u: ArrayLike,
+    *,
+    order: int,
+    noise_level: ArrayLike | None = None,
+    draws: int = 0,
+    model: ReducedModel | None = None,
+) -> FaultCount:
     """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
 
-    `noise_level` is the standard deviation of the noise in each output, (p,) or one number for all, in units of y. `draws` is the number
-    of records of the parametric bootstrap for each k that is tried, by which the misfit of the stated laws is measured for this very record
-    (20 will do, a quarter of a second each). Units of y and u do not matter. Raises InvalidData for shapes that do not fit, records
-    too short for rows of degree order + 3, constant outputs, and outputs that are combinations of others up to rounding. Source: [W91] for
-    the rows, [M82] and [W38] for the ratios.
+    `noise_level` is the standard deviation of the noise in each output, (p,) or one number for all, in units of y: it is taken as right
+    to a factor of 1.4, and may be wrong by 2. `draws` is the number of records of the parametric bootstrap for each k that is tried, by
+    which the misfit of the stated laws is measured for this very record (20 will do, a quarter of a second each). `model` is what
+    `arx_reduction` found in these same data, where it has been asked already: it saves time. Units of y and u do not matter.
+
+    Raises InvalidData for shapes that do not fit, records too short for rows of degree order + 3, constant outputs, and outputs that are
+    combinations of others up to rounding. Source: [W91] for the rows, [M82] and [W38] for the ratios.
 
     >>> import numpy as np
     >>> from faultspace.numeric import count_faults
@@ -127,7 +143,7 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
     outputs, inputs = signals(y, u)
     p, n = outputs.shape[1], positive(order, "order")
     _measured(outputs)
-    evidence = Evidence(outputs, inputs, n)
+    evidence = Evidence(outputs, inputs, n, model)
     data = evidence.data
     known = None if noise_level is None else noise_deviations(noise_level, p) / data.scale[:p]
     shares = None if known is None else known**2 / np.exp(np.mean(np.log(known**2)))
@@ -146,34 +162,38 @@ def count_faults(y: ArrayLike, u: ArrayLike, *, order: int, noise_level: ArrayLi
 
     # Invariant: `some` rows may be laws, `more` are not. Where more of them are laws, a doubt about fewer does not matter.
     some, more = 0, p + 1
+    # That no fault acts is asked first, for it takes no rows: a model tells.
+    if p > 1:
+        some, more = (0, p) if _holds(laws(p), known) is False else (p, p + 1)
     # A single row is asked last, when two are none: flatness alone judges it.
     while more - some > 1 and more > 2:
-        k = max((some + more) // 2, 2)
+        k = max(_next(some, more, evidence.apparent), 2)
         some, more = (some, k) if _holds(laws(k), known) is False else (k, more)
     if not some:
-        answer = _last(p, laws, tests, data, known)
+        answer = _last(evidence, laws, tests, known)
     elif _holds(tests[some], known) is None:
         answer = _undecided(p, some, tests[some], tests)
     else:
         answer = _answer(p - some, tests[some], tests, data)
     if known is not None and answer.n_v is not None:
-        answer = _believed(answer, tests, known)
+        answer = _believed(answer, evidence, tests, known)
+    answer = _of_one_colour(answer, evidence, tests, known)
     # Of too low an order fewer rows than there are may be laws, and would count as more faults.
     refused = 0 if answer.n_v is None else p + 1 - answer.n_v
     if not 2 <= refused <= p:
         return answer
     if n + EXTRA >= evidence.longest:
         reason = f"the record is too short for rows of {EXTRA} degrees more, which would tell whether the order is too low"
-    elif longer_are_laws(evidence, refused, shares):
+    elif longer_are_laws(evidence, laws(refused), shares):
         reason = f"{refused} rows of {EXTRA} degrees more have about the shape of noise: the order may be too low"
     else:
         return answer
     return FaultCount(None, tuple(range(p + 2 - refused)), reason, answer.tests)
 
 
-def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: JointMoments, known: Array | None) -> FaultCount:
+def _last(evidence: Evidence, laws: Callable[[int], Laws], tests: dict[int, Laws], known: Array | None) -> FaultCount:
     """Answer where no two rows are laws: p - 1, p, or either."""
-    one = laws(1)
+    data, p, one = evidence.data, evidence.data.p, laws(1)
     if known is not None:
         longest = one.fit if one.longest is None else one.longest
         loud = _loudness(longest.level, longest.spectrum, known)
@@ -192,28 +212,31 @@ def _last(p: int, laws: Callable[[int], Laws], tests: dict[int, Laws], data: Joi
     if found is None:
         return _undecided(p, 1, one, tests)
     if not found:
-        reason = f"{p} faults, or an order above the one given: no row of its degree leaves noise alone (probability {one.probability:.1g})"
+        reason = (
+            f"{counted(p, 'fault')}, or an order above the one given: no row of its degree "
+            f"leaves noise alone (probability {one.probability:.1g})"
+        )
         return FaultCount(None, (p,), reason, _walk(tests))
     if known is not None:
         return _answer(p - 1, one, tests, data)
     if p == 1:
         reason = "0 or 1: of one output a fault cannot be told from noise of its colour; a noise_level would settle it"
         return FaultCount(None, (0, 1), reason, _walk(tests))
-    step = laws(2).level - one.level
+    step = step_to_two(evidence, one, laws(2))
     if step < FAINTEST:
         reason = (
-            f"{p - 1} or {p}: one row leaves {step:.2g} nats less than two, and a fault fainter than {FAINTEST:g} beside the others would "
-            "look the same; a noise_level would settle it"
+            f"{p - 1} or {p}: one row leaves {decibels(step)} less than two, and a fault fainter than {decibels(FAINTEST)} beside the "
+            "others would look the same; a noise_level would settle it"
         )
         return FaultCount(None, (p - 1, p), reason, _walk(tests))
     return _answer(p - 1, one, tests, data)
 
 
-def _believed(answer: FaultCount, tests: dict[int, Laws], known: Array) -> FaultCount:
+def _believed(answer: FaultCount, evidence: Evidence, tests: dict[int, Laws], known: Array) -> FaultCount:
     """Return the answer, undecided where only the stated level speaks against rows that are laws by all else that is asked of them."""
     p, refuted = len(known), [laws for laws in tests.values() if laws.holds and _holds(laws, known) is False]
     # Of a single row, what would decide without a level: that it stands far below two.
-    single = 1 in tests and 2 in tests and tests[2].level - tests[1].level >= FAINTEST
+    single = 1 in tests and 2 in tests and step_to_two(evidence, tests[1], tests[2]) >= FAINTEST
     most = max((laws for laws in refuted if laws.count > 1 or single), key=lambda laws: laws.count, default=None)
     if most is None:
         return answer
@@ -225,6 +248,33 @@ def _believed(answer: FaultCount, tests: dict[int, Laws], known: Array) -> Fault
         "many more faults look like noise"
     )
     return FaultCount(None, tuple(range(p - least + 1, p + 1)), reason, answer.tests)
+
+
+def _of_one_colour(answer: FaultCount, evidence: Evidence, tests: dict[int, Laws], known: Array | None) -> FaultCount:
+    """Say what the answer takes for granted of the noise. That no fault acts rests on the powers that the noise is found to have. That one
+    acts rests on the colour of the noise, the same in all outputs, where what disturbs them is unrelated between them: noise of unlike
+    colours is so too, and where the count is undecided anyway it may be all that there is."""
+    p = evidence.data.p
+    if answer.n_v == 0:
+        condition = "" if known is not None else "what is left of each output is noise, and no fault of single outputs like it"
+    elif p > 1 and p in tests and _unrelated(evidence):
+        condition = "the noise has one colour in all outputs"
+    else:
+        return answer
+    if not condition:
+        return answer
+    if answer.n_v is not None:
+        return replace(answer, condition=condition, reason=f"{answer.reason}, if {condition}")
+    reason = f"{answer.reason}; what disturbs the outputs is unrelated between them: noise of unlike colours, or faults in single sensors"
+    return replace(answer, possible=tuple(range(p + 1)), reason=reason)
+
+
+def _unrelated(evidence: Evidence) -> bool:
+    """Return whether what disturbs the outputs is unrelated between them; where the ARX model says clearly no, it is not reduced."""
+    seen, left = evidence.disturbance, None
+    if seen is not None and unrelated(seen) > FAILS:
+        left = evidence.unexplained
+    return left is not None and unrelated(left) >= SUFFICES
 
 
 def _answer(n_v: int, found: Laws, tests: dict[int, Laws], data: JointMoments) -> FaultCount:
@@ -246,11 +296,11 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
     possible = tuple(range(max(p - least + 1, 0), p - most + 1))
     if near.sphericity is not None and near.sphericity.level >= SUFFICES:
         reason = (
-            f"{k} rows leave what has the shape of noise, but rows of {EXTRA} degrees more gain {near.gain:.2g} nats: try a higher order"
+            f"{k} rows leave what has the shape of noise, but rows of {EXTRA} degrees more gain {decibels(near.gain)}: try a higher order"
         )
     else:
         limits = f"accepted from {SUFFICES:g}; refused, of a single row below {FAILS:g}, of several far from the shape of noise"
-        reason = f"{k} rows may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
+        reason = f"{counted(k, 'row')} may or may not leave noise alone (probability {near.probability:.1g}, {limits})"
     return FaultCount(None, possible, reason, _walk(tests))
 
 
@@ -264,6 +314,15 @@ def _holds(laws: Laws, known: Array | None) -> bool | None:
 def _loudness(level: float, spectrum: Array, known: Array) -> float:
     """Return the ratio of the noise power that rows leave to the known one, whose deviations (p,) are in units of the moments."""
     return float(np.exp(level - np.mean(np.log(known**2))) * spectrum.mean())
+
+
+def _next(some: int, more: int, guess: int) -> int:
+    """Return the number of rows to ask of next: the guess, then its neighbours, then half way."""
+    if some < guess < more:
+        return guess
+    if some == guess:
+        return some + 1
+    return more - 1 if more == guess else (some + more) // 2
 
 
 def _exciting(data: JointMoments) -> bool:

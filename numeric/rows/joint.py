@@ -31,7 +31,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..count.windows import channel_sizes
 from ..data.validation import signals
-from ..space.basis import KernelBasis, kernel_basis, refined_basis
+from ..space.basis import FLAT, KernelBasis, kernel_basis, refined_basis
 from ..space.tapered_moments import BANDS, CrossMoments, tapered_moments
 
 # Turns of colour and rows: the level moves by less than a thousandth of a nat afterwards.
@@ -137,18 +137,25 @@ def fitted(
     *,
     shares: Array | None = None,
     rounds: int = ROUNDS,
+    flat: float = FLAT,
 ) -> KernelBasis:
     """Fit rows of these ascending degrees, from `starts` and from the least vectors of the moments."""
     moments = data.moments.of_degree(max(degrees))
-    return kernel_basis(moments, _free(data, degrees), starts, rounds=rounds, shares=data.noise(shares))
+    return kernel_basis(moments, _free(data, degrees), starts, rounds=rounds, shares=data.noise(shares), flat=flat)
 
 
 def refitted(
-    data: JointMoments, degrees: Sequence[int], start: Sequence[Array], *, shares: Array | None = None, rounds: int = ROUNDS
+    data: JointMoments,
+    degrees: Sequence[int],
+    start: Sequence[Array],
+    *,
+    shares: Array | None = None,
+    rounds: int = ROUNDS,
+    flat: float = FLAT,
 ) -> KernelBasis:
     """Fit rows of these ascending degrees, from rows of no higher degrees alone."""
     moments = data.moments.of_degree(max(degrees))
-    return refined_basis(moments, _free(data, degrees), padded(start, degrees), rounds=rounds, shares=data.noise(shares))
+    return refined_basis(moments, _free(data, degrees), padded(start, degrees), rounds=rounds, shares=data.noise(shares), flat=flat)
 
 
 def course(data: JointMoments, rows: int, most: int, *, shares: Array | None = None, rounds: int = ROUNDS) -> list[KernelBasis]:

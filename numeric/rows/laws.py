@@ -12,6 +12,7 @@ a determinant that changes within a band.
 
     Laws         k rows with their level, shares, both ratios with their probabilities, and `holds`: True, False, or None in between
     Evidence     what a record says to rows: the moments, those for long single rows, and the model with its residual where there is one
+    step_to_two  what a single row leaves less than two: how far a last fault must stand above the noise
     tested       the test; with draws > 0 the misfit of the ratios is measured by the parametric bootstrap
 
 What the constants rest on. `benchmarks/counting_at_the_bound.py laws --trials 60 --seed 82000` (N = 1001) gives, where rows are laws, means
@@ -26,34 +27,28 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ...base.arrays import Array
 from ...base.chi_squared import chi_squared_tail
-from ...base.errors import InvalidData
 from ..data.plain import plain
-from ..model.asymptotic_likelihood import arx_reduction
-from ..model.models import StateSpaceModel
-from ..model.reduced_model import ReducedModel
-from ..model.residuals import residual
-from ..space.basis import KernelBasis, colour_of
-from ..space.tapered_moments import BANDS, tapered_moments
+from ..space.basis import ROUGH, KernelBasis, colour_of
 from .bootstrap import redrawn
-from .joint import JointMoments, course, even_split, fitted, joint_moments, padded, refitted
-from .model_rows import in_units_of, model_rows
+from .evidence import EXTRA, Evidence
+from .joint import JointMoments, course, even_split, fitted, padded, refitted
+from .model_rows import model_rows
 from .remainder import Remainder, Sphericity, noise_shares, remainder, sphericity, whitened
 
-# Degrees beyond the order by which flatness is seen: one more could still be explained by a single root of the colour of a fault.
-EXTRA = 3
-# And of a single row, which flatness alone judges: the remainder of a fault that is smooth over frequency gains slowly.
-LONG = 10
-# Samples up to which the usual number of bands does.
-SHORT = 2000
 # Turns of noise shares and rows, among the rows that a model admits and among all.
 TURNS = 4
+# Nats that a descent under the first shares gains at last, and its most repetitions.
+ARRIVED, ARRIVALS = 0.1, 10
+# Of the expected sphericity, what a turn gains at least for another one to follow.
+SETTLED = 0.05
+# Share of the unit of a likelihood ratio that the last step of a descent may still gain.
+PRECISION = 0.02
 # Mean of the ratio of sphericity over what it should have, where the rows are laws.
 SHAPE_MISFIT = 1.3
 # Mean of the ratio of flatness over its degrees of freedom: of several rows, and of one for EXTRA and for LONG.
@@ -66,62 +61,6 @@ SUFFICES, FAILS = 0.01, 1e-12
 # elsewhere leaves of laws.
 FAR, FAR_LONGER = 8.0, 25.0
 SEED = 20251122
-
-
-@dataclass(frozen=True, eq=False)
-class Evidence:
-    """What y (N, p) and u (N, n_u) say to rows of total degree `order` and more."""
-
-    y: Array
-    u: Array
-    order: int
-
-    @cached_property
-    def data(self) -> JointMoments:
-        """The moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
-        return joint_moments(self.y, self.u, self.order + max(1, min(EXTRA, self.longest - self.order)), self.bands)
-
-    @property
-    def bands(self) -> int:
-        """So many bands that what changes within one stays below the noise of the record: its power falls with the square of the width."""
-        return int(BANDS * max(1.0, len(self.y) / SHORT) ** 0.5)
-
-    @property
-    def narrow(self) -> float:
-        """How much larger the misfits of flatness are for narrower bands, which let narrower roots in."""
-        return float((len(self.data.moments.angles) / BANDS) ** 0.5) if self.bands > BANDS else 1.0
-
-    @property
-    def longest(self) -> int:
-        """The highest degree for which there are twice as many windows as a window has entries."""
-        channels = int(self.y.shape[1] + self.u.shape[1])
-        return (len(self.y) - 2 * channels) // (2 * channels + 1)
-
-    @cached_property
-    def single(self) -> JointMoments:
-        """The moments for a single row, of degree order + LONG or as much of it as the record is long for."""
-        return joint_moments(self.y, self.u, self.order + max(1, min(LONG, self.longest - self.order)), self.bands)
-
-    @cached_property
-    def reduction(self) -> ReducedModel | None:
-        """A model of this order, or None where the record gives none."""
-        try:
-            return arx_reduction(self.y, self.u, order=self.order)
-        except InvalidData:
-            return None
-
-    @cached_property
-    def model(self) -> StateSpaceModel | None:
-        """The same in units of the moments."""
-        return None if self.reduction is None else in_units_of(self.reduction.model, self.data)
-
-    @cached_property
-    def unexplained(self) -> JointMoments | None:
-        """The moments of what the model leaves of y, with the initial state fitted."""
-        if self.reduction is None:
-            return None
-        r = residual(self.y, self.u, self.reduction.model).r / self.data.scale[: self.data.p]
-        return JointMoments(tapered_moments(r - r.mean(axis=0), 0), self.data.scale[: self.data.p], self.data.p)
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,49 +130,44 @@ def tested(evidence: Evidence, count: int, shares: Array | None = None) -> Laws:
     """Test `count` rows; `shares` (p,) are those of the channels where they are known."""
     if count == 1:
         return _single(evidence, np.ones(evidence.data.p) if shares is None else shares)
-    if count == evidence.data.p and evidence.unexplained is not None:
+    if count == evidence.data.p and evidence.disturbance is not None:
+        laws = _all(evidence, evidence.disturbance, shares, Misfits())
+        if _hopeless(laws) or evidence.unexplained is None:
+            return laws
         return _all(evidence, evidence.unexplained, shares, Misfits())
     best: Laws | None = None
-    for fit, found in _descents(evidence, count, shares):
+    for number, (fit, found) in enumerate(_descents(evidence, count, shares)):
         laws = _several(evidence, fit, found, Misfits())
         best = laws if best is None else max(best, laws, key=lambda each: (each.probability, -each.farness))
-        if best.holds or _hopeless(best):
+        # One descent may end elsewhere. Where the disturbance, too, shows fewer laws, it is enough; else a second one must confirm it.
+        if best.holds or (_hopeless(best) and (number > 0 or count > evidence.apparent)):
             break
     assert best is not None
     return best
 
 
-def _all(evidence: Evidence, unexplained: JointMoments, known: Array | None, misfits: Misfits) -> Laws:
-    """Return all p rows, those of the model, by the residual that it leaves, of which one of so many signals has the stated level."""
-    moments, data, p = unexplained.moments, evidence.data, unexplained.p
-    gains = np.broadcast_to(np.eye(p, dtype=complex), (len(moments.angles), p, p))
-    rest = Remainder(moments.moments / moments.weights[:, None, None], gains, moments.weights, moments.samples)
+def _all(evidence: Evidence, rest: Remainder, known: Array | None, misfits: Misfits) -> Laws:
+    """Return all p rows, those of a model, by what it leaves of the outputs, of which one of so many signals has the stated level."""
+    data, p = evidence.data, evidence.data.p
     shares = noise_shares(rest, np.ones(p)) if known is None else known
     shape = sphericity(rest, shares, misfits.shape)
     power = np.einsum("bii->b", whitened(rest, shares)).real / p
-    colour = colour_of(power, moments.angles, moments.weights)
-    level = float(np.log(np.sum(power / colour * moments.weights)))
-    assert evidence.model is not None
-    fit = replace(model_rows(data, evidence.model, even_split(evidence.order, p), shares), level=level, spectrum=colour)
-    return Laws(p, fit, shares, shape, 0.0, 1.0, shape.level)
+    colour = colour_of(power, rest.angles, rest.weights)
+    level = float(np.log(np.sum(power / colour * rest.weights)))
+    degrees, model = even_split(evidence.order, p), evidence.quick
+    fit = fitted(data, degrees, shares=shares, rounds=1, flat=ROUGH) if model is None else model_rows(data, model, degrees, shares)
+    return Laws(p, replace(fit, level=level, spectrum=colour), shares, shape, 0.0, 1.0, shape.level)
 
 
 def _descents(evidence: Evidence, count: int, known: Array | None) -> Iterator[tuple[KernelBasis, Array]]:
-    """Yield rows with their shares: from the model, from lower degrees, and step by step from degree zero, until one holds."""
+    """Yield rows with their shares: from a model, from lower degrees, and step by step from degree zero, until one holds."""
     data, degrees = evidence.data, even_split(evidence.order, count)
-    shares = np.ones(data.p) if known is None else known
-    if evidence.model is not None:
-        fit = model_rows(data, evidence.model, degrees, shares)
-        if known is None:
-            for _ in range(TURNS - 1):
-                shares = noise_shares(remainder(data, fit), shares)
-                fit = model_rows(data, evidence.model, degrees, shares)
-        fit = refitted(data, degrees, fit.rows, shares=shares, rounds=2)
-        fit, shares = _with_shares(data, fit, shares, known is not None)
-        yield fit, shares
     equal = np.ones(data.p) if known is None else known
-    short = fitted(data, even_split(evidence.order // 2 + 1, count), shares=equal, rounds=3).rows
-    fit = fitted(data, degrees, [padded(short, degrees), padded(short, degrees, below=True)], shares=equal, rounds=3)
+    if evidence.quick is not None:
+        fit = model_rows(data, evidence.quick, degrees, equal)
+        yield _with_shares(data, fit, equal, known is not None)
+    short = fitted(data, even_split(evidence.order // 2 + 1, count), shares=equal, rounds=1, flat=ROUGH).rows
+    fit = fitted(data, degrees, [padded(short, degrees), padded(short, degrees, below=True)], shares=equal, rounds=1, flat=ROUGH)
     fit, shares = _with_shares(data, fit, equal, known is not None)
     yield fit, shares
     fit = course(data, count, evidence.order, shares=shares, rounds=3)[-1]
@@ -248,15 +182,30 @@ def _hopeless(laws: Laws) -> bool:
 def _with_shares(data: JointMoments, fit: KernelBasis, shares: Array, known: bool) -> tuple[KernelBasis, Array]:
     """Estimate rows and shares in turns, as long as the remainder becomes more spherical; shares that are known stay."""
     degrees = [len(row) - 1 for row in fit.rows]
-    best = sphericity(remainder(data, fit), shares).nats
+    # Shares of what is not yet near the noise run away from those of the noise.
+    for _ in range(ARRIVALS):
+        before, fit = fit.level, refitted(data, degrees, fit.rows, shares=shares, rounds=2, flat=ROUGH)
+        if before - fit.level < ARRIVED:
+            break
+    best = sphericity(remainder(data, fit), shares)
     for _ in range(0 if known else TURNS):
         found = noise_shares(remainder(data, fit), shares)
-        trial = refitted(data, degrees, fit.rows, shares=found, rounds=2)
-        nats = sphericity(remainder(data, trial), found).nats
-        if not nats < best:
+        trial = refitted(data, degrees, fit.rows, shares=found, rounds=1, flat=ROUGH)
+        shape = sphericity(remainder(data, trial), found)
+        if not shape.nats < best.nats:
             break
-        fit, shares, best = trial, found, nats
-    return fit, shares
+        settled = shape.nats > best.nats - SETTLED * shape.expected
+        fit, shares, best = trial, found, shape
+        if settled:
+            break
+    if best.nats > HOPELESS * FAR * best.expected:
+        return fit, shares
+    return refitted(data, degrees, fit.rows, shares=shares, rounds=3, flat=_flat(data)), shares
+
+
+def _flat(data: JointMoments) -> float:
+    """Return the nats below which a step changes no ratio, whose unit is 1 / samples."""
+    return PRECISION / data.samples
 
 
 def _several(evidence: Evidence, fit: KernelBasis, shares: Array, misfits: Misfits) -> Laws:
@@ -266,7 +215,7 @@ def _several(evidence: Evidence, fit: KernelBasis, shares: Array, misfits: Misfi
     if shape.nats > HOPELESS * FAR * shape.expected:
         return Laws(count, fit, shares, shape, 0.0, 1.0, min(1.0, 2 * shape.level))
     extra = data.degree - evidence.order
-    longer = refitted(data, even_split(evidence.order + extra, count), fit.rows, shares=shares, rounds=2)
+    longer = refitted(data, even_split(evidence.order + extra, count), fit.rows, shares=shares, rounds=2, flat=_flat(data))
     gain = fit.level - longer.level
     ratio = data.samples * count * max(gain, 0.0)
     freedom = extra * data.moments.channels
@@ -279,17 +228,17 @@ def _single(evidence: Evidence, shares: Array, misfits: Misfits = Misfits(), sta
     """Return a single row, refitted from `start` where there is one, with its ratio for EXTRA and for LONG more degrees."""
     data, order = evidence.single, evidence.order
     if start is None:
-        short = fitted(data, (order // 2 + 1,), shares=shares, rounds=3).rows
+        short = fitted(data, (order // 2 + 1,), shares=shares, rounds=1, flat=ROUGH).rows
         starts = [padded(short, (order,)), padded(short, (order,), below=True)]
-        if evidence.model is not None:
-            starts.append(list(model_rows(data, evidence.model, (order,), shares).rows))
-        fit = fitted(data, (order,), starts, shares=shares, rounds=3)
+        if evidence.quick is not None:
+            starts.append(list(model_rows(data, evidence.quick, (order,), shares).rows))
+        fit = fitted(data, (order,), starts, shares=shares, rounds=3, flat=_flat(data))
     else:
-        fit = refitted(data, (order,), start.rows, shares=shares, rounds=3)
+        fit = refitted(data, (order,), start.rows, shares=shares, rounds=3, flat=_flat(data))
     longest, probability, gains, ratios = fit, 1.0, list[float](), list[float]()
     steps = [EXTRA, data.degree - order] if data.degree > order + EXTRA else [data.degree - order]
     for degrees, misfit in zip(steps, misfits.single, strict=False):
-        longest = refitted(data, (order + degrees,), longest.rows, shares=shares, rounds=3)
+        longest = refitted(data, (order + degrees,), longest.rows, shares=shares, rounds=3, flat=_flat(data))
         gains.append(max(fit.level - longest.level, 0.0))
         freedom = degrees * data.moments.channels
         ratios.append(data.samples * gains[-1] / (freedom * evidence.narrow))
@@ -319,12 +268,36 @@ def _again(evidence: Evidence, laws: Laws, misfits: Misfits) -> Laws:
     return _several(evidence, refitted(evidence.data, degrees, laws.fit.rows, shares=laws.shares, rounds=3), laws.shares, misfits)
 
 
-def longer_are_laws(evidence: Evidence, count: int, known: Array | None) -> bool:
-    """Return whether `count` >= 2 rows of degree order + EXTRA have about the shape of noise: then the order is too low for fewer."""
-    higher = replace(evidence, order=evidence.order + EXTRA)
-    if count == evidence.data.p and higher.unexplained is not None:
-        shape = _all(higher, higher.unexplained, known, Misfits()).sphericity
-    else:
-        fit, shares = next(_descents(higher, count, known))
-        shape = sphericity(remainder(higher.data, fit), shares)
-    return shape is not None and shape.nats <= FAR * shape.expected
+def longer_are_laws(evidence: Evidence, refused: Laws, known: Array | None) -> bool:
+    """Return whether as many rows as those refused, of degree order + EXTRA, have about the shape of noise: then the order is too low for
+    fewer."""
+    data, count = evidence.data, refused.count
+    if count == data.p and evidence.disturbance is not None:
+        shape = sphericity(evidence.disturbance, noise_shares(evidence.disturbance, refused.shares) if known is None else known)
+        return shape.nats <= FAR * shape.expected
+    degrees = even_split(evidence.order + EXTRA, count)
+    starts = [refitted(data, degrees, refused.fit.rows, shares=refused.shares, rounds=1, flat=ROUGH)]
+    if evidence.higher is not None:
+        starts.append(model_rows(data, evidence.higher, degrees, refused.shares))
+    for start in starts:
+        fit, shares = _with_shares(data, start, refused.shares, known is not None)
+        shape = sphericity(remainder(data, fit), shares)
+        if shape.nats <= FAR * shape.expected:
+            return True
+    return False
+
+
+def step_to_two(evidence: Evidence, one: Laws, two: Laws) -> float:
+    """Return by how many nats a single row leaves less than two: the least step of the shares of the single one and of any that make the
+    two more spherical, each at the end of a descent."""
+    data, degrees = evidence.data, even_split(evidence.order, 2)
+    fit = refitted(data, degrees, two.fit.rows, shares=one.shares, rounds=3, flat=_flat(data))
+    least, shares = fit.level, two.shares
+    best = np.inf
+    for _ in range(TURNS):
+        fit = refitted(data, degrees, fit.rows, shares=shares, rounds=2, flat=_flat(data))
+        nats = sphericity(remainder(data, fit), shares).nats
+        if not nats < best:
+            break
+        least, best, shares = min(least, fit.level), nats, noise_shares(remainder(data, fit), shares)
+    return least - one.level

@@ -17,11 +17,11 @@ import numpy as np
 
 from ...base.arrays import Array
 from ..model.models import StateSpaceModel, observability_matrix
-from ..space.basis import KernelBasis, kernel_basis
+from ..space.basis import ROUGH, KernelBasis, kernel_basis
 from .joint import JointMoments
 
 # Turns of colour and rows; what follows has more.
-ROUNDS = 2
+ROUNDS = 1
 
 
 def model_within(model: StateSpaceModel, degrees: Sequence[int]) -> list[Array]:
@@ -48,4 +48,4 @@ def in_units_of(model: StateSpaceModel, data: JointMoments) -> StateSpaceModel:
 def model_rows(data: JointMoments, model: StateSpaceModel, degrees: Sequence[int], shares: Array | None = None) -> KernelBasis:
     """Fit rows of these degrees that the model, in the units of the moments, admits."""
     moments = data.moments.of_degree(max(degrees))
-    return kernel_basis(moments, model_within(model, degrees), rounds=ROUNDS, shares=data.noise(shares))
+    return kernel_basis(moments, model_within(model, degrees), rounds=ROUNDS, shares=data.noise(shares), flat=ROUGH)

@@ -6,6 +6,7 @@ channels can be estimated, and whether the remainder has that shape can be teste
     Remainder     E (bands, k, k), the cross spectrum of N [y; u]; N_y (bands, k, p) at the middle of each band
     noise_shares  lam of maximum likelihood given the rows, by minorisation and maximisation, mean logarithm zero
     whitened      W^1/2 E W^(1/2)*, W = (N_y diag(lam) N_y*)^-1: phi I of a law
+    unrelated     probability that nothing relates the signals of a remainder
     sphericity    likelihood ratio of "one colour, k equal rows" against "any cross spectrum" [M82], smooth over each band
     Sphericity    its value, degrees of freedom and level
 
@@ -27,6 +28,7 @@ from scipy.special import digamma, polygamma
 from ...base.arrays import Array
 from ...base.chi_squared import chi_squared_tail
 from ..space.basis import KernelBasis
+from ..space.tapered_moments import CrossMoments
 from .joint import JointMoments
 
 ComplexArray = NDArray[np.complex128]
@@ -43,12 +45,20 @@ TINY = float(np.finfo(float).tiny)
 
 @dataclass(frozen=True, eq=False)
 class Remainder:
-    """`powers` (bands, k, k) are those per sample, `gains` are (bands, k, p), `weights` (bands,) and `samples` are those of the moments."""
+    """`powers` (bands, k, k) are those per sample, `gains` (bands, k, p); `weights`, `angles` (bands,) and `samples` are of the moments."""
 
     powers: ComplexArray
     gains: ComplexArray
     weights: Array
+    angles: Array
     samples: float
+
+
+def as_signals(powers: ComplexArray, moments: CrossMoments) -> Remainder:
+    """Return p signals of these spectra (bands, p, p) as what p rows leave, each of one output."""
+    p = powers.shape[1]
+    gains = np.broadcast_to(np.eye(p, dtype=complex), (len(powers), p, p))
+    return Remainder(powers, gains, moments.weights, moments.angles, moments.samples)
 
 
 def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
@@ -60,7 +70,7 @@ def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
     gains = np.einsum("bj,kjc->bkc", powers, N)[:, :, : data.p]
     flat = N.reshape(len(N), (degree + 1) * channels)
     E = flat @ moments.moments @ flat.T / moments.weights[:, None, None]
-    return Remainder(np.asarray(E), np.asarray(gains, dtype=complex), moments.weights, moments.samples)
+    return Remainder(np.asarray(E), np.asarray(gains, dtype=complex), moments.weights, moments.angles, moments.samples)
 
 
 def noise_shares(rest: Remainder, start: Array) -> Array:
@@ -99,6 +109,27 @@ def whitened(rest: Remainder, shares: Array) -> ComplexArray:
     values, vectors = np.linalg.eigh(shape)
     root = vectors / np.sqrt(np.maximum(values, 1e-12 * values[:, -1:] + TINY))[:, None, :]
     return np.asarray(root.conj().transpose(0, 2, 1) @ rest.powers @ root)
+
+
+def unrelated(rest: Remainder) -> float:
+    """Return the probability of a likelihood ratio of "diagonal cross spectra" against "any" as large as that of these p >= 2 signals, if
+    nothing relates them, whatever their colours.
+
+    In one band n_b complex normal samples have log det(W) - sum log W_cc with the moments of a ratio of gamma functions: its mean is
+    sum psi(n_b - j) - p psi(n_b), its variance sum psi'(n_b - j) - p psi'(n_b), j = 0 .. p - 1 [M82].
+    """
+    p = rest.powers.shape[1]
+    mean, variance, ratio, j = 0.0, 0.0, 0.0, np.arange(p)
+    for group in _groups(rest):
+        share = float(rest.weights[group].sum())
+        count = max(rest.samples * share / 2, p + 1.0)
+        # The colours may change within the band: each signal is whitened first.
+        sizes = np.sqrt(np.maximum(np.einsum("bii->bi", rest.powers[group]).real, TINY))
+        pooled = np.tensordot(rest.weights[group] / share, rest.powers[group] / (sizes[:, :, None] * sizes[:, None]), 1)
+        ratio -= 2 * count * float(np.linalg.slogdet(pooled)[1] - np.log(np.diag(pooled).real).sum())
+        mean += 2 * count * float(p * digamma(count) - np.sum(digamma(count - j)))
+        variance += 4 * count**2 * float(np.sum(polygamma(1, count - j)) - p * polygamma(1, count))
+    return chi_squared_tail(ratio / (variance / (2 * mean)), 2 * mean**2 / variance)
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..count.healthy_model import MANY_TAPERS, spectra
 from ..data.validation import signal
 
@@ -28,7 +29,7 @@ def noise_share(r: ArrayLike, n_v: int, units: Array, *, healthy: bool) -> float
     """
     residual = signal(r, "r") / units
     if len(residual) < 4 * MANY_TAPERS:
-        raise InvalidData(f"r has {len(residual)} samples; at least {4 * MANY_TAPERS} are needed for its spectra: record more")
+        raise InvalidData(f"r has {counted(len(residual), 'sample')}; at least {4 * MANY_TAPERS} are needed for its spectra: record more")
     x = spectra(residual - residual.mean(axis=0), MANY_TAPERS).transforms
     alone = np.sort(np.sum(np.abs(x) ** 2, axis=1), axis=1)
     powers = np.linalg.eigvalsh(x.conj().transpose(0, 2, 1) @ x) if healthy else alone

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.progress import Progress, silent
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
 from ..count.arguments import not_zero
 from ..data.plain import plain
@@ -37,7 +37,7 @@ COMPARED = 64
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Reconstruction(Solution, Shown):
-    """A fault signal v (N, n_v), kept in `store`, with x(k+1) = A x + F v and `simulated` = C x + G v.
+    """This is a fault signal v (N, n_v), kept in `store`, with x(k+1) = A x + F v and `simulated` = C x + G v.
 
     delay            samples until v(k) is seen, from a known x(0), or from an unknown one if such a delay exists; None where the system
                      is not left-invertible, so that v is not determined at all
@@ -90,12 +90,12 @@ class Reconstruction(Solution, Shown):
         """Return what the signal is, on one short line."""
         first, last = self.trusted
         determined = "no sample is determined" if first >= last else f"samples {first} to {last - 1} are determined"
-        return f"fault signal of {len(self.store)} samples, n_v {self.store.width}: {determined}"
+        return f"fault signal of {counted(len(self.store), 'sample')}, n_v {self.store.width}: {determined}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield what there is to say of it, as pairs of a name and a value."""
         yield "why", self.reason
-        yield "delay until it is seen", "not determined by the outputs" if self.delay is None else f"{self.delay} samples"
+        yield "delay until it is seen", "not determined by the outputs" if self.delay is None else counted(self.delay, "sample")
         yield "moduli of the finite zeros", ", ".join(f"{size:.4g}" for size in np.abs(self.zeros)) or "none"
         yield "|r - simulated| / |r|, all outputs", f"{100 * self.misfit:.2g} %"
         if self.mismatch:

@@ -28,6 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..count.arguments import shaped
 from ..count.windows import ObservedCoordinates, observed_coordinates
 from .zeros import FaultZeros, fault_zeros
@@ -122,12 +123,17 @@ def _faults(n: int, p: int, F: ArrayLike, G: ArrayLike, x0: ArrayLike | None) ->
     if not (np.all(np.isfinite(F)) and np.all(np.isfinite(G))):
         raise InvalidData("F, G: got entries that are NaN or infinite")
     if not 1 <= m <= p:
-        raise InvalidData(f"F, G: got {m} faults for {p} outputs; needed 1 <= n_v <= p. Choose n_v columns of a fault space, as [F P; G P]")
+        raise InvalidData(
+            f"F, G: got {counted(m, 'fault')} for {counted(p, 'output')}; needed 1 <= n_v <= "
+            f"p. Choose n_v columns of a fault space, as [F P; G P]"
+        )
     if x0 is None:
         return F, G, None
     start = np.array(x0, dtype=float).reshape(-1)
     if start.shape != (n,) or not np.all(np.isfinite(start)):
-        raise InvalidData(f"x0: got {start.shape[0]} entries; needed {n} finite ones, or None if the initial state is not known")
+        raise InvalidData(
+            f"x0: got {counted(start.shape[0], 'entry', 'entries')}; needed {n} finite ones, or None if the initial state is not known"
+        )
     return F, G, start
 
 
@@ -251,18 +257,24 @@ def _limits(N: int, m: int, limits: FaultZeros, delay: int | None, known: bool) 
     """Return the samples that nothing disturbs, and the sentence about the others."""
     zeros, tail = limits.zeros, limits.delay_known_state
     if delay is None or tail is None:
-        return (0, 0), f"not left-invertible: other signals of {m} faults give the same residual; v is one, a small one"
+        return (0, 0), f"not left-invertible: other signals of {counted(m, 'fault')} give the same residual; v is one, a small one"
     if delay >= N:
-        return (0, 0), f"{N} samples are no more than the delay of {delay}: v is not determined"
+        return (0, 0), f"the record is no longer than the delay of {counted(delay, 'sample')}: v is not determined"
     sizes = np.abs(zeros)
     moduli = ", ".join(f"{size:.4g}" for size in sizes)
     # At the end of a long record the state is known from the past, so that the shorter delay counts there.
     first, last = 0, N - tail
-    sentences = [f"v is seen after {delay} samples" + (f", the last {tail} are not determined" if tail else "")]
+    sentences = [
+        f"v is seen after {counted(delay, 'sample')}"
+        + (f", {'the last is' if tail == 1 else f'the last {tail} are'} not determined" if tail else "")
+    ]
     inside, outside = sizes[sizes < 1], sizes[sizes > 1]
     if inside.size and not known:
         first = min(_fading(float(inside.max()), N), N)
-        sentences.append(f"zeros inside the unit circle leave the first {first} samples to the unknown initial state")
+        sentences.append(
+            f"zeros inside the unit circle leave "
+            f"{'the first sample' if first == 1 else f'the first {first} samples'} to the unknown initial state"
+        )
     if outside.size:
         lost = min(_fading(1 / float(outside.min()), N), N)
         last = max(last - lost, 0)

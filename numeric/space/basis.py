@@ -21,8 +21,9 @@ the power lam_c phi in channel c, N N* reads N diag(lam) N*: a channel measured 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import scipy.linalg
@@ -37,6 +38,8 @@ NOISE_ORDER = 10
 ROUNDS = 12
 # Nats a sample: a descent that gains less is at its end; a round of colours that gains less is the last one.
 FLAT, SETTLED = 1e-6, 1e-4
+# And of a descent that is only compared with others, and goes on where it is the best.
+ROUGH = 1e-3
 STEPS = 80
 # Least noise spectrum beside its geometric mean: below it a null of the noise would claim all the weight.
 COLOUR_FLOOR = 1e-4
@@ -49,7 +52,7 @@ class KernelBasis:
 
     `rows` are k arrays (eta_i + 1, p) of unit norm with N_i(q) = sum_j rows[i][j] q^j, `level` is in nats, `noise_colour` is the monic
     autoregression of the noise, `spectrum` (bands,) is the phi that follows from it, of mean logarithm zero, `within` is as it was given,
-    and `covariance` is that of h, which is zero along the gauge.
+    and `covariance` is that of h, which is zero along the gauge; it is made when it is first asked for.
     """
 
     rows: tuple[Array, ...]
@@ -57,7 +60,12 @@ class KernelBasis:
     noise_colour: Array
     spectrum: Array
     within: tuple[Array, ...]
-    covariance: Array
+    made: Callable[[], Array] = field(repr=False, compare=False)
+
+    @cached_property
+    def covariance(self) -> Array:
+        """Return the covariance of h."""
+        return self.made()
 
 
 def kernel_basis(
@@ -68,15 +76,16 @@ def kernel_basis(
     noise_order: int = NOISE_ORDER,
     rounds: int = ROUNDS,
     shares: Array | None = None,
+    flat: float = FLAT,
 ) -> KernelBasis:
     """Find the likeliest basis; row i combines the orthonormal rows of within[i] (q_i, p (eta_i + 1)).
 
     `starts`: bases, each k arrays (eta_i + 1, p), tried beside the rows that the moments make least. `shares` (p,): the power of the noise
-    in each channel, relative to the colour; equal ones where it is None.
+    in each channel, relative to the colour; equal ones where it is None. `flat`: nats that the last step of a descent gains.
     """
     problem = _problem(moments, within, shares)
     starting = [_coefficients(within, start) for start in starts]
-    return _likeliest(moments, problem, within, starting + _plain(problem, within), noise_order, rounds)
+    return _likeliest(moments, problem, within, starting + _plain(problem, within), noise_order, rounds, flat)
 
 
 def refined_basis(
@@ -87,11 +96,12 @@ def refined_basis(
     noise_order: int = NOISE_ORDER,
     rounds: int = ROUNDS,
     shares: Array | None = None,
+    flat: float = FLAT,
 ) -> KernelBasis:
     """Find the same from one start alone, k arrays (eta_i + 1, p): for moments, or shares, that differ little from those it was fitted
     to."""
     problem = _problem(moments, within, shares)
-    return _likeliest(moments, problem, within, [_coefficients(within, start)], noise_order, rounds)
+    return _likeliest(moments, problem, within, [_coefficients(within, start)], noise_order, rounds, flat)
 
 
 def _coefficients(within: Sequence[Array], rows: Sequence[Array]) -> Array:
@@ -100,36 +110,37 @@ def _coefficients(within: Sequence[Array], rows: Sequence[Array]) -> Array:
 
 
 def _likeliest(
-    moments: CrossMoments, problem: _Problem, within: Sequence[Array], guesses: list[Array], noise_order: int, rounds: int
+    moments: CrossMoments, problem: _Problem, within: Sequence[Array], guesses: list[Array], noise_order: int, rounds: int, flat: float
 ) -> KernelBasis:
     """Return the best descent of all guesses with a white colour, then colour and rows in turns."""
     colour = np.ones(len(moments.angles))
-    fits = [_descend(problem, colour, _normed(problem, h)) for h in guesses]
-    h, cost = min(fits, key=lambda fit: max(fit[1], _rounding(problem, colour, fit[0])))
+    first = max(ROUGH, flat) if noise_order and rounds else flat
+    ends = [_descend(problem, colour, _normed(problem, h), first) for h in guesses]
+    end = min(ends, key=lambda end: max(end.cost(colour), _rounding(problem, colour, end)))
     regression = np.ones(1)
     before = np.inf
     for _ in range(rounds if noise_order else 0):
-        spectrum = _whitened_power(problem, h) / problem.weights
-        regression = _autoregression(spectrum, moments.angles, problem.weights, noise_order)
+        regression = _autoregression(end.power / problem.weights, moments.angles, problem.weights, noise_order)
         colour = _colour(regression, moments.angles, problem.weights)
-        h, cost = _descend(problem, colour, h)
-        if abs(before - np.log(max(cost, TINY))) < SETTLED:
+        end = _descend(problem, colour, end.h, flat)
+        now = np.log(max(end.cost(colour), TINY))
+        if abs(before - now) < SETTLED:
             break
-        before = np.log(max(cost, TINY))
-    k = len(within)
-    level = float(np.log(max(cost / k, TINY)) + np.log(problem.size))
+        before = now
+    h, power = end.h, max(end.cost(colour) / len(within), TINY)
+    level = float(np.log(power) + np.log(problem.size))
     rows = tuple((part @ basis).reshape(-1, moments.channels) for part, basis in zip(np.split(h, problem.cuts), within, strict=True))
-    covariance = _covariance(problem, colour, h, max(cost / k, TINY), moments.samples)
-    return KernelBasis(rows, level, regression, colour, tuple(within), covariance)
+    return KernelBasis(rows, level, regression, colour, tuple(within), lambda: _covariance(problem, colour, h, power, moments.samples))
 
 
 @dataclass(frozen=True)
 class _Problem:
-    """This holds the moments in units of their mean (bands, w, w), the gains of white noise alike, and the map `spread` (q, k, w) from h to
-    rows padded to the same degree."""
+    """This holds the moments in units of their mean (bands, w, w), the powers of the angles (bands, degree + 1), the shares (p,), and the
+    map `spread` (q, k, w) from h to rows padded to the same degree."""
 
     data: ComplexArray
-    gains: ComplexArray
+    powers: ComplexArray
+    shares: Array
     weights: Array
     spread: Array
     cuts: Array
@@ -141,11 +152,31 @@ class _Problem:
         """Return the rows (k, w) that h stands for."""
         return np.asarray(np.tensordot(h, self.spread, axes=1))
 
+    @cached_property
+    def flat(self) -> Array:
+        """The map `spread` as a matrix (q, k w)."""
+        return self.spread.reshape(len(self.spread), -1)
+
+    @cached_property
+    def traces(self) -> Array:
+        """The power (bands,) of the windows."""
+        return np.asarray(np.einsum("bii->b", self.data).real)
+
+    def noise(self, factors: ComplexArray | Array) -> ComplexArray:
+        """Return the sum (.., w, w) over bands of factors (bands, ..) times the second moments of white noise, whose entries depend on the
+        difference of their lags alone."""
+        lags = len(self.powers[0])
+        ahead = np.tensordot(factors, self.powers, axes=(0, 0))
+        back = np.tensordot(factors, self.powers.conj(), axes=(0, 0))
+        shifts = np.concatenate([back[..., :0:-1], ahead], axis=-1)
+        steps = shifts[..., np.subtract.outer(np.arange(lags), np.arange(lags)) + lags - 1]
+        width = lags * self.channels
+        return np.asarray((steps[..., :, None, :, None] * np.diag(self.shares)[:, None, :]).reshape(*factors.shape[1:], width, width))
+
 
 def _problem(moments: CrossMoments, within: Sequence[Array], shares: Array | None = None) -> _Problem:
     p, width = moments.channels, moments.channels * (moments.degree + 1)
     powers = np.exp(1j * np.outer(moments.angles, np.arange(moments.degree + 1)))
-    gains = np.einsum("bi,bj,kl->bikjl", powers, powers.conj(), np.eye(p) if shares is None else np.diag(shares), optimize=True)
     size = float(np.trace(moments.moments.sum(axis=0)).real) / width or 1.0
     counts = [len(basis) for basis in within]
     spread = np.zeros((sum(counts), len(within), width))
@@ -153,16 +184,8 @@ def _problem(moments: CrossMoments, within: Sequence[Array], shares: Array | Non
     for i, basis in enumerate(within):
         spread[cuts[i] - counts[i] : cuts[i], i, : basis.shape[1]] = basis
     degrees = tuple(basis.shape[1] // p - 1 for basis in within)
-    return _Problem(
-        moments.moments / size,
-        gains.reshape(len(powers), width, width),
-        moments.weights,
-        spread,
-        cuts[:-1],
-        degrees,
-        p,
-        size,
-    )
+    lam = np.ones(p) if shares is None else np.asarray(shares, dtype=np.float64)
+    return _Problem(moments.moments / size, powers, lam, moments.weights, spread, cuts[:-1], degrees, p, size)
 
 
 def _plain(problem: _Problem, within: Sequence[Array]) -> list[Array]:
@@ -192,48 +215,67 @@ def _normed(problem: _Problem, h: Array) -> Array:
     return np.concatenate(parts)
 
 
-def _parts(problem: _Problem, h: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
-    """Return X = S N', Y = Q N' (bands, w, k), E = N X and W = (N Y)^-1 (bands, k, k) for the rows N."""
+@dataclass(frozen=True)
+class _Point:
+    """What the rows N of an h make of the moments S and of white noise Q: X = S N', Y = Q N' (bands, w, k), E = N X and
+    W = (N Y)^-1 (bands, k, k), and tr[W E] a row in each band, `power` (bands,)."""
+
+    h: Array
+    X: ComplexArray
+    Y: ComplexArray
+    E: ComplexArray
+    W: ComplexArray
+    power: Array
+
+    def cost(self, colour: Array) -> float:
+        """Return the cost under this colour (bands,)."""
+        return float(np.sum(self.power / colour) * self.E.shape[1])
+
+
+def _point(problem: _Problem, h: Array) -> _Point:
     N = problem.rows(h)
-    X, Y = problem.data @ N.T, problem.gains @ N.T
-    return X, Y, N @ X, np.asarray(np.linalg.inv(N @ Y + 1e-12 * np.eye(len(N))), dtype=complex)
-
-
-def _whitened_power(problem: _Problem, h: Array) -> Array:
-    """Return tr[(N N*)^-1 N r r* N*] a row, in each band: (bands,)."""
-    _, _, E, W = _parts(problem, h)
-    return np.asarray(np.maximum(np.einsum("bij,bji->b", W, E).real, 0.0) / len(problem.degrees))
+    k, lags = len(N), len(problem.powers[0])
+    bands, width = problem.data.shape[:2]
+    X = (problem.data.reshape(-1, width) @ N.T.astype(complex)).reshape(bands, width, k)
+    gains = (problem.powers @ N.reshape(k, lags, -1).transpose(1, 0, 2).reshape(lags, -1)).reshape(bands, k, -1)
+    weighted = gains.conj() * problem.shares
+    Y = (problem.powers[:, :, None, None] * weighted.transpose(0, 2, 1)[:, None]).reshape(bands, width, k)
+    E = N @ X
+    W = np.linalg.inv(gains @ weighted.transpose(0, 2, 1) + 1e-12 * np.eye(k))
+    power = np.maximum((W * E.transpose(0, 2, 1)).real.sum(axis=(1, 2)), 0.0) / k
+    return _Point(h, X, Y, E, np.asarray(W, dtype=complex), power)
 
 
 def _cost(problem: _Problem, colour: Array, h: Array) -> float:
-    return float(np.sum(_whitened_power(problem, h) / colour)) * len(problem.degrees)
+    return _point(problem, h).cost(colour)
 
 
-def _rounding(problem: _Problem, colour: Array, h: Array) -> float:
+def _rounding(problem: _Problem, colour: Array, at: _Point) -> float:
     """Return how wrong rounding may make the cost: each N S N', a sum of w terms, by w eps |S| |N|^2, weighted as the cost is."""
-    W = _parts(problem, h)[3]
-    sizes = np.einsum("bii->b", problem.data).real * np.einsum("bii->b", W).real
+    sizes = problem.traces * np.einsum("bii->b", at.W).real
     return float(problem.data.shape[1] * np.finfo(float).eps * np.sum(sizes / colour))
 
 
-def _derivatives(problem: _Problem, colour: Array, h: Array) -> tuple[Array, Array, Array]:
+def _derivatives(problem: _Problem, colour: Array, at: _Point) -> tuple[Array, Array, Array]:
     """Return half the gradient of the cost, half its second derivatives, and the part of these that the scores' variance is made of."""
-    X, Y, E, W = _parts(problem, h)
+    X, Y, E, W = at.X, at.Y, at.E, at.W
     if len(problem.degrees) == 1:
         return _derivatives_of_one(problem, colour, X[:, :, 0], Y[:, :, 0], E[:, 0, 0].real, W[:, 0, 0].real)
     bleach = 1 / colour[:, None, None]
     XW, YW = (X * bleach) @ W, Y @ W
     M = W @ (E * bleach) @ W
     YM, Yh = Y @ M, Y.conj().transpose(0, 2, 1)
-    crossed = XW @ Yh
-    left = problem.data * bleach - crossed - crossed.conj().transpose(0, 2, 1) + YM @ Yh
+    # -X W Y' - Y W X' + Y M Y' as two products: half of the last joins each of the first.
+    half = (YM / 2 - XW) @ Yh
     # Indices (row, coefficient) of both factors of every product of two matrices, one (row, row), one (w, w).
-    scores = np.tensordot(W, left, axes=(0, 0)).real.transpose(1, 2, 0, 3)
-    second = scores + np.tensordot(M, YW @ Yh - problem.gains, axes=(0, 0)).real.transpose(1, 2, 0, 3)
+    scores = np.tensordot(W * bleach, problem.data, axes=(0, 0)).real
+    scores = scores + np.tensordot(W, half + half.conj().transpose(0, 2, 1), axes=(0, 0)).real
+    second = scores + np.tensordot(M, YW @ Yh, axes=(0, 0)).real - problem.noise(M).real
+    scores, second = scores.transpose(1, 2, 0, 3), second.transpose(1, 2, 0, 3)
     # The others bind each row of one factor to the coefficients of the other.
     mixed = np.tensordot(YW, YM - XW, axes=(0, 0)).real
     second = second + mixed.transpose(3, 0, 1, 2) + mixed.transpose(1, 2, 3, 0)
-    spread = problem.spread.reshape(len(h), -1)
+    spread = problem.flat
     gradient = spread @ (XW - YM).sum(axis=0).real.T.ravel()
     width = spread.shape[1]
     second = spread @ second.reshape(width, width) @ spread.T
@@ -251,7 +293,8 @@ def _derivatives_of_one(
     power = W**2 * E / colour
     change = Y.T * power - X.T * weight
     mixed = _real_product(Y.T * W, change.T)
-    second = scores + _real_product(Y.T * (power * W), Y.conj()) - np.tensordot(power, problem.gains.real, axes=1) + mixed + mixed.T
+    second = scores + _real_product(Y.T * (power * W), Y.conj()) - problem.noise(power).real
+    second = second + mixed + mixed.T
     spread = problem.spread[:, 0]
     gradient = -spread @ change.sum(axis=1).real
     second = spread @ second @ spread.T
@@ -263,8 +306,8 @@ def _real_product(A: ComplexArray, B: ComplexArray) -> Array:
     return np.asarray(A.real @ B.real - A.imag @ B.imag)
 
 
-def _free(problem: _Problem, h: Array) -> Array:
-    """Return orthonormal columns (q, q - gauge): the changes of h that change the span."""
+def _gauge(problem: _Problem, h: Array) -> Array:
+    """Return the changes (gauge, q) of h that leave the span as it is."""
     N = problem.rows(h)
     p = problem.channels
     shifts = []
@@ -273,54 +316,62 @@ def _free(problem: _Problem, h: Array) -> Array:
             for a in range(degree - other + 1):
                 shifted = np.zeros_like(N)
                 shifted[i, a * p :] = N[j, : N.shape[1] - a * p]
-                shifts.append(problem.spread.reshape(len(h), -1) @ shifted.ravel())
-    return np.asarray(scipy.linalg.null_space(np.array(shifts), rcond=1e-10))
+                shifts.append(shifted.ravel())
+    return np.asarray(np.array(shifts) @ problem.flat.T)
 
 
-def _descend(problem: _Problem, colour: Array, h: Array) -> tuple[Array, float]:
-    """Descend by Levenberg and Marquardt off the gauge. The cost never rises, and what is left of it at the level of rounding, as without
-    noise, is not descended: steps would follow rounding there and turn h by its root."""
-    damping, cost = 1e-3, _cost(problem, colour, h)
+def _descend(problem: _Problem, colour: Array, h: Array, flat: float) -> _Point:
+    """Descend by Levenberg and Marquardt off the gauge, along which the curvature is made as large as it is on average, until a step gains
+    less than `flat` nats. The cost never rises, and what is left of it at the level of rounding, as without noise, is not descended: steps
+    would follow rounding there and turn h by its root."""
+    at = _point(problem, h)
+    damping, cost = 1e-3, at.cost(colour)
     for _ in range(STEPS):
-        if cost <= _rounding(problem, colour, h):
+        if cost <= _rounding(problem, colour, at):
             break
-        gradient, second, scores = _derivatives(problem, colour, h)
-        free = _free(problem, h)
-        if free.shape[1] == 0:
+        gradient, second, scores = _derivatives(problem, colour, at)
+        ridge = np.maximum(np.diag(scores), TINY)
+        gauge = _gauge(problem, at.h)
+        if len(gauge) >= len(at.h):
             break
-        gradient, second = free.T @ gradient, free.T @ second @ free
-        ridge = np.maximum(np.einsum("ij,ji->i", free.T @ scores, free), TINY)
+        fixed = float(ridge.mean()) * gauge.T @ gauge
+        second, scores = second + fixed, scores + fixed
         new = np.inf
         while damping < 1e10:
-            try:
-                # An indefinite matrix would climb: more damping until it has a Cholesky factor.
-                factor = scipy.linalg.cho_factor(second + damping * np.diag(ridge))
-                trial = _normed(problem, h - free @ scipy.linalg.cho_solve(factor, gradient))
-                new = _cost(problem, colour, trial)
-            except np.linalg.LinAlgError:
-                new = np.inf
+            # An indefinite matrix would climb; that of the scores, whose part of the curvature is never negative, leads past saddles.
+            factor, failed = scipy.linalg.lapack.dpotrf(second + damping * np.diag(ridge), lower=1)
+            if failed:
+                factor, failed = scipy.linalg.lapack.dpotrf(scores + damping * np.diag(ridge), lower=1)
+            if not failed:
+                step = scipy.linalg.lapack.dpotrs(factor, gradient, lower=1)[0]
+                try:
+                    trial = _point(problem, _normed(problem, at.h - step))
+                    new = trial.cost(colour)
+                except np.linalg.LinAlgError:
+                    new = np.inf
             if new < cost:
                 break
             damping *= 8.0
         if not new < cost:
             break
         drop = np.log(cost / max(new, TINY))
-        h, cost, damping = trial, new, max(damping / 8.0, 1e-12)
-        if drop < FLAT:
+        at, cost, damping = trial, new, max(damping / 8.0, 1e-12)
+        if drop < flat:
             break
-    return h, cost
+    return at
 
 
 def _covariance(problem: _Problem, colour: Array, h: Array, power: float, samples: float) -> Array:
     """Return the covariance of h off the gauge, H^-1 J H^-1 with J = power / samples times the scores, these weighted by the noise that the
     bands hold in fact: what the autoregression misses widens the answer."""
-    free = _free(problem, h)
+    free = scipy.linalg.null_space(_gauge(problem, h), rcond=1e-10)
     if free.shape[1] == 0:
         return np.zeros((len(h), len(h)))
-    second = _derivatives(problem, colour, h)[1]
+    at = _point(problem, h)
+    second = _derivatives(problem, colour, at)[1]
     # The scores are proportional to 1 / colour, band by band.
-    found = np.maximum(_whitened_power(problem, h) / (power * problem.weights * colour), COLOUR_FLOOR)
-    scores = _derivatives(problem, colour / found, h)[2]
+    found = np.maximum(at.power / (power * problem.weights * colour), COLOUR_FLOOR)
+    scores = _derivatives(problem, colour / found, at)[2]
     second, scores = free.T @ second @ free, free.T @ scores @ free
     inverse = np.asarray(scipy.linalg.pinvh(second))
     return np.asarray(free @ inverse @ scores @ inverse @ free.T) * power / samples

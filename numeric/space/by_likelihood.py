@@ -36,6 +36,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..count.arguments import Arguments, arguments
 from ..count.one_row import kernel_row
 from ..count.rank_gap import fault_dimension
@@ -186,7 +187,8 @@ def _faults(data: Arguments) -> tuple[int | None, str]:
     if faults >= data.p:
         return (
             faults,
-            f"{faults} faults in {data.p} outputs leave no relation between the outputs: every column is a solution",
+            f"{counted(faults, 'fault')} in {counted(data.p, 'output')} "
+            f"{'leaves' if faults == 1 else 'leave'} no relation between the outputs: every column is a solution",
         )
     return faults, source
 
@@ -194,8 +196,8 @@ def _faults(data: Arguments) -> tuple[int | None, str]:
 def _too_short(data: Arguments, faults: int, zeta: int, lag: int, window: int) -> str:
     rows = max((data.p - faults) * window - (data.n - zeta), 0)
     return (
-        f"too few equations: with n = {data.n}, p = {data.p}, n_v = {faults} and {zeta} zeros a window of {window} has "
-        f"{rows} null rows, "
+        f"too few equations: with n = {data.n}, p = {data.p}, n_v = {faults} and {counted(zeta, 'zero')} a window of {window} has "
+        f"{counted(rows, 'null row')}, "
         f"where a window longer than the lag, {lag}, is needed; take block_rows >= {lag + 1}"
     )
 
@@ -278,7 +280,7 @@ def _zeros_by_rank(data: Arguments, faults: int, s: int) -> tuple[int, float]:
     possible = [rank for rank in ranks if 0 < rank < P.shape[0]]
     if not possible:
         raise InvalidData(
-            f"r has {len(data.r)} samples, too few for a window longer than the lag: record more, or take a model of lower order"
+            f"r has {counted(len(data.r), 'sample')}, too few for a window longer than the lag: record more, or take a model of lower order"
         )
     rank, drop = gap_rank(values, possible, EPS * float(values[0]))
     return ranks[rank], drop

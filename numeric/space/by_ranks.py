@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
+from ...base.sheets import counted
 from ...base.threads import one_thread
 from ..count.arguments import Arguments, arguments
 from ..count.windows import EPS, channel_sizes, gap_rank, hankel_factor, leading_factor, observed_coordinates
@@ -214,7 +215,7 @@ def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int, 
     if n_z != expected:
         return (
             True,
-            f"undecided: the conditions leave {n_z} columns, the ranks {expected}; A and C may not fit the residual ({ranks})",
+            f"undecided: the conditions leave {counted(n_z, 'column')}, the ranks {expected}; A and C may not fit the residual ({ranks})",
         )
     doubt = "" if margin >= CONVINCING else f"undecided: the weakest rank decision has a drop of only {margin:.2g}; "
     return True, f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}, lag {lag}, window {s} ({ranks})"

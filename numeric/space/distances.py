@@ -21,6 +21,7 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ...base.threads import one_thread
 
 # Columns of unit length with a singular value below this are taken for dependent.
@@ -143,7 +144,10 @@ def _orthonormal(matrix: object, name: str) -> Array:
     if columns.shape[1] == 0:
         return columns
     if columns.shape[1] > columns.shape[0] or lengths.min() == 0:
-        raise InvalidData(f"{name}: {columns.shape[1]} columns in dimension {columns.shape[0]} are dependent; pass a basis")
+        raise InvalidData(
+            f"{name}: {counted(columns.shape[1], 'column')} in dimension {columns.shape[0]} "
+            f"{'is' if columns.shape[1] == 1 else 'are'} dependent; pass a basis"
+        )
     left, values, _ = np.linalg.svd(columns / lengths, full_matrices=False)
     if values[-1] <= DEPENDENT * values[0]:
         raise InvalidData(f"{name}: columns are dependent (singular values down to {values[-1]:.1e}); pass a basis")

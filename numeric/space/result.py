@@ -1,7 +1,8 @@
 """This is what every estimate of the fault space answers, and what a kernel row asks of a fault column.
 
     FaultSpaceEstimate   basis of the columns [f; g], its dimension, how it was found, whether it means anything and why
-    SpaceUncertainty     the estimate's error to first order, linear in standard normal numbers: an angle, a distance
+    SpaceUncertainty     the estimate's error, to first order in each valley of the likelihood: an angle, a distance
+    SpaceOfValley        the space in one valley, with its probability
     everything           the answer where nothing can be said: the whole space, not meaningful
     kernel_conditions    for rows N_0 .. N_(s-1) at once: the conditions [X_(k+1), N_k] z = 0, X_k = N_k C + X_(k+1) A
     condition_maps       the same as linear maps of the row, for carrying the row's uncertainty over
@@ -29,12 +30,24 @@ DRAWS = 4000
 _SEED = 20250519
 
 
+@dataclass(frozen=True, eq=False)
+class SpaceOfValley:
+    """The true space is near the span of `basis` (n + p, n_z) with probability `weight`, off it by `root` (q, n + p, n_z) times standard
+    normal numbers."""
+
+    weight: float
+    basis: Array
+    root: Array
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class SpaceUncertainty(Shown):
-    """How far a fault space may be off, as a linear map of standard normal numbers, which is honest while errors are small [MN89].
+    """A fault space may be off by this linear map of standard normal numbers, which is honest while errors are small [MN89].
 
     `root` has the shape (q, n + p, n_z): to first order the orthonormal basis (n + p, n_z) of the space is off its span by the sum of
-    root[i] times standard normal numbers. Every call gives the same figures. Raises InvalidData for a confidence outside (0, 1).
+    root[i] times standard normal numbers. Where the likelihood of a model has several valleys, `valleys` are the spaces in all of them,
+    which may lie far from one another, the estimate's own one first; it is empty where only one is known. Every call gives the same
+    figures. Raises InvalidData for a confidence outside (0, 1).
 
     >>> import numpy as np
     >>> from faultspace.numeric import SpaceUncertainty
@@ -44,37 +57,63 @@ class SpaceUncertainty(Shown):
     """
 
     root: Array
+    valleys: tuple[SpaceOfValley, ...] = ()
 
     @property
     def title(self) -> str:
         """Return what it is about, on one short line."""
-        return f"a fault space is within {self.angle():.2g} rad of the true one with probability 0.95, to first order"
+        return f"a fault space is within {self.angle():.2g} rad of the true one with probability 0.95, {self.order}"
+
+    @property
+    def order(self) -> str:
+        """Return how far the figures can be trusted, in words."""
+        count = len(self.valleys)
+        return f"over {count} valleys of the likelihood" if count > 1 else "to first order"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
-        """Yield the angle and the distance that the error stays below, each with its probability."""
+        """Yield the angle and the distance that the error stays below, each with its probability, and the valleys where there are more."""
         yield "angle, probability 0.95", f"{self.angle():.4g} rad"
         yield "distance, probability 0.5", f"{self.distance():.4g}, of 1 at most"
+        if len(self.valleys) > 1:
+            weights = ", ".join(f"{valley.weight:.2g}" for valley in self.valleys)
+            yield "valleys of the likelihood", f"{len(self.valleys)} with probabilities {weights}, that of the estimate first"
 
     def to_json(self) -> dict[str, Any]:
-        """Return a JSON-ready dict: the linear map `root`, and the angle and the distance that `summary` tells."""
-        return {"root": plain(self.root), "angle": self.angle(), "distance": self.distance()}
+        """Return a JSON-ready dict: the linear map `root`, the valleys, and the angle and the distance that `summary` tells."""
+        valleys = [{"weight": one.weight, "basis": plain(one.basis), "root": plain(one.root)} for one in self.valleys]
+        return {"root": plain(self.root), "valleys": valleys, "angle": self.angle(), "distance": self.distance()}
 
     def angle(self, confidence: float = 0.95) -> float:
         """Return the radians that the largest principal angle to the true space stays below with this probability."""
-        return self._quantile(confidence, lambda tangents: np.arctan(tangents[:, 0]))
+        return self._quantile(confidence, lambda angles: angles[:, 0])
 
     def distance(self, confidence: float = 0.5) -> float:
         """Return what the two-sided distance of the spaces, between 0 and 1, stays below with this probability."""
-        return self._quantile(confidence, lambda tangents: np.sqrt(np.mean(np.arctan(tangents) ** 2, axis=1)) / (np.pi / 2))
+        return self._quantile(confidence, lambda angles: np.sqrt(np.mean(angles**2, axis=1)) / (np.pi / 2))
 
     def _quantile(self, confidence: float, size: Callable[[Array], Array]) -> float:
         if not 0 < confidence < 1:
             raise InvalidData(f"confidence: got {confidence}; a number between 0 and 1 is needed, for example 0.95")
         if 0 in self.root.shape:
             return 0.0
-        normal = np.random.default_rng(_SEED).standard_normal((DRAWS, len(self.root)))
-        tangents = np.asarray(np.linalg.svd(np.tensordot(normal, self.root, axes=1), compute_uv=False), dtype=np.float64)
-        return float(np.quantile(size(tangents), confidence))
+        return float(np.quantile(size(self._angles()), confidence))
+
+    def _angles(self) -> Array:
+        """Return the principal angles (DRAWS, n_z) to drawn spaces, descending."""
+        rng = np.random.default_rng(_SEED)
+        if len(self.valleys) < 2:
+            normal = rng.standard_normal((DRAWS, len(self.root)))
+            return np.asarray(np.arctan(np.linalg.svd(np.tensordot(normal, self.root, axes=1), compute_uv=False)), dtype=np.float64)
+        Q = self.valleys[0].basis
+        # As many draws as the weights say, and the whole of them DRAWS.
+        counts = np.diff(np.rint(DRAWS * np.cumsum([0.0, *(valley.weight for valley in self.valleys)])).astype(int))
+        angles = []
+        for valley, count in zip(self.valleys, counts, strict=True):
+            normal = rng.standard_normal((count, len(valley.root)))
+            drawn = np.linalg.qr(valley.basis + np.tensordot(normal, valley.root, axes=1))[0]
+            sines = np.linalg.svd(drawn - Q @ (Q.T @ drawn), compute_uv=False)
+            angles.append(np.arcsin(np.minimum(sines, 1.0)))
+        return np.concatenate(angles)
 
 
 @dataclass(frozen=True, repr=False)
@@ -154,7 +193,7 @@ class FaultSpaceEstimate(Shown):
         if self.uncertainty is not None:
             yield (
                 "angle to the true space",
-                f"below {np.degrees(self.uncertainty.angle()):.2g} degrees with probability 0.95, to first order",
+                f"below {np.degrees(self.uncertainty.angle()):.2g} degrees with probability 0.95, {self.uncertainty.order}",
             )
 
     def to_json(self) -> dict[str, Any]:

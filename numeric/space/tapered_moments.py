@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..count.one_row import WindowMoments
 
 ComplexArray = NDArray[np.complex128]
@@ -85,7 +86,7 @@ def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
     windows, size = N - degree, p * (degree + 1)
     if windows < 2 * size:
         raise InvalidData(
-            f"r has {N} samples of {p} channels: kernel rows of degree {degree} need at least {2 * size + degree}; "
+            f"r has {counted(N, 'sample')} of {counted(p, 'channel')}: kernel rows of degree {degree} need at least {2 * size + degree}; "
             "record more, or take a model of lower order"
         )
     bands = max(4, min(most, windows // 8))

@@ -7,7 +7,7 @@
     Errors                                       the same angles in three metrics
     PAPER                                        the published factorisation, which is told the rank of R_s and n_z
     LIKELIHOOD                                   `fault_space_by_likelihood`, which is told n_v and counts the zeros itself
-    LAWS                                         A, B, C, D by `arx_reduction`, told the order, and `identified_fault_space`, told n_v:
+    LAWS                                         A, B, C, D by `arx_reduction`, told the order, and `fault_space_by_rows`, told n_v:
                                                  what `identify` does; it has a model of its own, and no other estimator's
 
 A case is a function of its index and seed alone.
@@ -28,7 +28,7 @@ from ..model.models import StateSpaceModel, observability_matrix
 from ..model.past_inputs import pi_moesp
 from ..model.residuals import residual
 from ..model.toeplitz_factorisation import toeplitz_factorisation
-from ..rows.space import identified_fault_space
+from ..rows.space import fault_space_by_rows
 from ..space.by_likelihood import fault_space_by_likelihood
 from ..space.distances import containment_error, two_sided_error
 from ..space.result import orthonormal
@@ -178,7 +178,7 @@ class _Drawn:
         y, u = self.run.y, self.run.u
         try:
             model = arx_reduction(y, u, order=N_X)
-            found = identified_fault_space(y - y.mean(axis=0), u - u.mean(axis=0), model, n_v=N_V)
+            found = fault_space_by_rows(y - y.mean(axis=0), u - u.mean(axis=0), model.model.A, model.model.C, n_v=N_V)
         except (InvalidData, np.linalg.LinAlgError) as error:
             return Estimate(None, None, str(error))
         return self._judged(found.basis, _aligned(self.system.model, model.model))

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ...base.sheets import counted
 from .cases import LAWS, LIKELIHOOD, PAPER, Case
 from .groups import Group, StudyCases, by_phase, by_zeros, cases_by_phase, cases_by_zeros
 
@@ -210,7 +211,7 @@ def _remark(group: Group) -> str:
 
 
 def _zeros(k: int) -> str:
-    return f"{k} zero" if k == 1 else f"{k} zeros"
+    return counted(k, "zero")
 
 
 def _percent_axis(axis: Any) -> None:

@@ -33,6 +33,7 @@ from scipy.linalg import lapack
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..model.models import StateSpaceModel
 
 ComplexArray = NDArray[np.complex128]
@@ -101,7 +102,7 @@ def study_system(n_zeros: int, seed: np.random.SeedSequence | int) -> StudySyste
         if _as_intended(A, F, C, G, np.sort(zeros)):
             model = StateSpaceModel(A, B, C, D)
             return StudySystem(model, F, G, np.sort(zeros), _fault_space(A, F, C, G, W), attempt)
-    raise InvalidData(f"no system with exactly {n_zeros} zeros in {ATTEMPTS} attempts: the seed is more than unlucky")
+    raise InvalidData(f"no system with exactly {counted(n_zeros, 'zero')} in {ATTEMPTS} attempts: the seed is more than unlucky")
 
 
 def with_zeros(
@@ -120,7 +121,10 @@ def with_zeros(
         equations[i, :, height + n * i : height + n * (i + 1)] = np.vstack([A - z * np.eye(n), C])
     solutions = _null_space(equations.reshape(count * (n + p), -1)) if count else np.eye(height)
     if solutions.shape[1] == 0:
-        raise InvalidData(f"{count} zeros are too many for {n} states, {p} outputs and {n_v} faults in these directions")
+        raise InvalidData(
+            f"{counted(count, 'zero')} {'is' if count == 1 else 'are'} too many for {counted(n, 'state')}, "
+            f"{counted(p, 'output')} and {counted(n_v, 'fault')} in these directions"
+        )
     # An orthonormal basis of the [F; G] alone, so that normal coefficients make a normal draw there.
     basis, sizes, right = np.linalg.svd(solutions[:height], full_matrices=False)
     kept = sizes > 1e-10 * sizes[0]

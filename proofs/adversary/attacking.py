@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ...base.progress import Progress
+from ...base.sheets import counted
 from ..evidence.attacks import Attacked
 from .catalogue import WITHOUT, attacks_on, catalogue
 from .results import AttackRecord, checked_again, run_attacks
@@ -80,7 +81,7 @@ def _absent(target: str, found: tuple[Attacked, ...]) -> str | None:
     if not known or found:
         return None
     command = "python -m faultspace.proofs.adversary --stale --out proofs/adversary/results.json"
-    return f"{known} attacks on this are known, and the file of results has none; run {command}"
+    return f"{counted(known, 'attack')} on this {'is' if known == 1 else 'are'} known, and the file of results has none; run {command}"
 
 
 def _against(found: tuple[Attacked, ...]) -> str | None:

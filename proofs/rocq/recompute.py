@@ -30,6 +30,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ...base.progress import Progress, silent
+from ...base.sheets import counted
 from ..trust import checker
 from .build import CLOSED, BrokenTheory, NotProved, compile_file, compiled_theory, kept_theory
 from .export import HEAD, MODULES, Terms, exported, written
@@ -92,7 +93,7 @@ def decided(terms: Sequence[Terms], compiled: Path, seconds: float = SECONDS) ->
     said = compile_file(compiled, "Recomputed.v", HEAD + "".join(parts), seconds=seconds)
     verdicts = [word == "true" for word in re.findall(r"= (true|false)\s+: bool", said)]
     if len(verdicts) != len(terms):
-        raise BrokenTheory(f"Rocq gave {len(verdicts)} answers to {len(terms)} checks")
+        raise BrokenTheory(f"Rocq gave {counted(len(verdicts), 'answer')} to {counted(len(terms), 'check')}")
     return verdicts
 
 

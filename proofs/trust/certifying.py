@@ -8,10 +8,11 @@ Nothing here is trusted: `certify` may be wrong, and the checker then rejects wh
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ...base.errors import InvalidInput, shorten
+from ...exact.algebra.matrices import Matrix
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.structure.fault_columns import fault_space
@@ -66,6 +67,13 @@ def _fault_space(system: ResidualSystem, window: int | None = None) -> Certifica
     return structure.fault_space(kernel, fault_space(kernel, window))
 
 
+def _first_column_only(system: ResidualSystem, window: int, column: Sequence[Any]) -> Certificate:
+    if isinstance(column, str) or not isinstance(column, Sequence) or len(column) != system.n + system.p:
+        raise InvalidInput(f"column: got {shorten(column)}, expected the n + p = {system.n + system.p} entries of [f; g], as a list")
+    z = Matrix.of([[entry] for entry in column], system.field, where="column")
+    return structure.first_column_only(kernel_representation(system), window, z)
+
+
 def _window_equality(system: ResidualSystem, other: ResidualSystem, window: int) -> Certificate:
     return structure.window_equality(kernel_representation(system), kernel_representation(other), window)
 
@@ -79,6 +87,7 @@ MAKERS: dict[str, _Kind] = {
     "fault-space": _Kind((), ("window",), _fault_space),
     "finite-zeros": _Kind((), (), structure.finite_zeros),
     "infinite-zeros": _Kind((), (), structure.infinite_zeros),
+    "first-column-only": _Kind(("window", "column"), (), _first_column_only),
     "input-limit": _Kind(("regression",), (), _input_limit),
     "inversion-delay": _Kind(("initial_state",), (), _inversion_delay),
     "left-invertible": _Kind((), (), lambda s: _left_invertible(s, "left-invertible")),
@@ -99,9 +108,10 @@ def certify(subject: System | Experiment | Mapping[str, Any], kind: str, **optio
     `subject` is an exact system (its inputs play no part), or, for "moesp-limit" and "input-limit", an Experiment or the dict of an
     experiment's file. Some kinds take options: `other`, a second system, for "behaviour-difference", "behaviour-equality",
     "behaviour-inclusion", "left-invertible-line" and "window-equality"; `window`, a number of samples, for "window-equality", "fault-space"
-    (none: the limit) and "matrix-rank"; `matrix`, one of "observability", "reachability", "toeplitz" and "window", for "matrix-rank";
-    `initial_state`, "known" or "unknown", for "inversion-delay"; `instruments`, "past-inputs" or "past-inputs-and-outputs", for
-    "moesp-limit"; `regression`, "true-AC" or "moesp", for "input-limit". The kinds "finite-zeros", "infinite-zeros", "left-invertible",
+    (none: the limit), "first-column-only" and "matrix-rank"; `column`, the n + p entries of [f; g], for "first-column-only"; `matrix`, one
+    of "observability", "reachability", "toeplitz" and "window", for "matrix-rank"; `initial_state`, "known" or "unknown", for
+    "inversion-delay"; `instruments`, "past-inputs" or "past-inputs-and-outputs", for "moesp-limit"; `regression`, "true-AC" or "moesp",
+    for "input-limit". The kinds "finite-zeros", "infinite-zeros", "left-invertible",
     "not-left-invertible", "schur-stable" and "window-ranks" take none. What each states is written in proofs/trust/FORMAT.md.
 
     Raises InvalidInput for an unknown kind (the message names the kinds), for options that do not go with it and for a subject of the wrong

@@ -15,6 +15,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz
 
+from ...base.sheets import counted
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, beside, rank, row_profile, solve_left, stacked
 from ...exact.algebra.stability import rational_characteristic_polynomial
@@ -223,7 +224,7 @@ def _integral(entries: list[Any]) -> list[object]:
 def _prime(covariance: Matrix, seen: Matrix) -> int:
     """Return a prime modulo which both have full column rank; Unprovable where they have not."""
     if rank(covariance) < covariance.ncols:
-        raise Unprovable(f"the covariance of {covariance.nrows} rows of inputs is singular")
+        raise Unprovable(f"the covariance of {counted(covariance.nrows, 'row')} of inputs is singular")
     return _prime_of_ranks([(covariance, covariance.ncols), (seen, seen.ncols)])
 
 

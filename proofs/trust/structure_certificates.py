@@ -19,6 +19,7 @@ from typing import Any
 
 from flint import fmpz, fmpz_poly, nmod_poly
 
+from ...base.sheets import counted
 from ...exact.algebra.fields import Field, NumberField, PrimeField
 from ...exact.algebra.matrices import Matrix, beside, rank, row_profile, solve_left, stacked
 from ...exact.algebra.polynomials import Poly, PolyMatrix, SmithDiagonal, monic, multiply, written
@@ -27,7 +28,7 @@ from ...exact.pairs.linear_determinants import linear_determinant
 from ...exact.structure.behavior import Separation, separation
 from ...exact.structure.fault_columns import FaultSpace
 from ...exact.structure.inversion import ambiguous_word, delay_known_state, delay_unknown_state, left_inverse
-from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow
+from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow, column_conditions
 from ...exact.structure.pencil import finite_diagonal, infinite_diagonal, right_null_polynomial
 from ...exact.structure.signals import excitation_matrix, hankel, simulate
 from ...exact.structure.zero_output import zero_output_chain
@@ -134,7 +135,7 @@ def window_equality(first: KernelRepresentation, second: KernelRepresentation, w
     for maker, other in ((first.system, second), (second.system, first)):
         found = separation(maker, other)
         if found is not None and found.window <= window:
-            raise Unprovable(f"the behaviours differ on {found.window} samples")
+            raise Unprovable(f"the behaviours differ on {counted(found.window, 'sample')}")
     statement = {"first": first.system.to_json(), "second": second.system.to_json(), "window": window}
     rows = {"kernel": _written_rows(first.rows_within(window))}
     return _certificate("window-equality", statement, _common_image(second.system, first, window) | rows)
@@ -157,7 +158,15 @@ def fault_space(kernel: KernelRepresentation, space: FaultSpace) -> Certificate:
 
 
 def first_column_only(kernel: KernelRepresentation, window: int, column: Matrix) -> Certificate:
-    """Return the certificate that N_s annihilates the first block column of T_s(z), z = column ((n + p) x 1), but not all of T_s(z)."""
+    """Return the certificate that N_s annihilates the first block column of T_s(z), z = column ((n + p) x 1), but not all of T_s(z).
+
+    Raises Unprovable where that is not so."""
+    # The first condition of a row, X_1 f + N_0 g, is that of the first block column, and the others are those of the columns behind it.
+    conditions = [column_conditions(row.coefficients, kernel.system.A, kernel.system.C) @ column for row in kernel.rows_within(window)]
+    if not all(found.rows([0]).is_zero() for found in conditions):
+        raise Unprovable("the first block column is not annihilated")
+    if all(found.is_zero() for found in conditions):
+        raise Unprovable("every block column is annihilated")
     statement = {"system": kernel.system.to_json(), "window": window, "column": _column(column)}
     return _certificate("first-column-only", statement, _kernel_witness(kernel, kernel.rows_within(window)))
 

@@ -11,12 +11,14 @@ The verdict itself is never in the ledger: it is computed by each run and compar
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, fields
 from importlib import resources
 from typing import Any
 
 from ...base.sheets import Shown
+
+FILE = "ledger.toml"
 
 
 @dataclass(frozen=True, repr=False)
@@ -132,13 +134,30 @@ def expected_without() -> dict[str, dict[str, str]]:
 
 
 def _contents() -> dict[str, Any]:
-    return tomllib.loads(resources.files(__package__).joinpath("ledger.toml").read_text(encoding="utf-8"))
+    text = resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8")
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"proofs/verdict/{FILE}: {error}") from None
+
+
+def _known(entry: Mapping[str, object], where: str, record: type, *more: str) -> None:
+    """Raise ValueError for a key of the ledger that no field of the record has the name of, and for one that lacks."""
+    names = [one.name for one in fields(record) if one.name != "id"]
+    unknown = [key for key in entry if key not in names]
+    lacking = [name for name in ("statement", "expected", *more) if name not in entry]
+    if unknown or lacking:
+        what = f"unknown key {unknown[0]!r}, expected {', '.join(names)}" if unknown else f"key {lacking[0]!r} is missing"
+        raise ValueError(f"proofs/verdict/{FILE}: {where}: {what}")
 
 
 def _claim(name: str, entry: dict[str, object]) -> Claim:
+    _known(entry, f"claim.{name}", Claim, "reference", "readings")
     readings = entry["readings"]
     if not isinstance(readings, dict):
-        raise ValueError(f"ledger: claim {name} has no readings")
+        raise ValueError(f"proofs/verdict/{FILE}: claim.{name} has no readings")
+    for key, value in readings.items():
+        _known(value, f"claim.{name}.readings.{key}", Reading)
     return Claim(
         id=name,
         reference=str(entry["reference"]),

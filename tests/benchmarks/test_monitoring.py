@@ -6,7 +6,7 @@ import numpy as np
 import scipy.stats
 
 from benchmarks.monitoring import BLOCK, Plant, block_threshold, delay_cell, first_run
-from benchmarks.monitoring_methods import components, parity_space, principal
+from benchmarks.monitoring_methods import averaged, components, parity_space, principal
 from faultspace.numeric import StateSpaceModel
 
 
@@ -37,6 +37,8 @@ def test_principal_components_split_what_they_keep_from_what_they_leave() -> Non
     y, u = record(2000)
     kept, left = method.of(y, u).T
     assert scipy.stats.kstest(kept, scipy.stats.chi2(2).cdf).pvalue > 1e-3
+    mean = averaged(principal(y, u, lags=2), 20).of(y, u)
+    assert np.isnan(mean[1]).all() and np.allclose(mean[100], principal(y, u, lags=2).of(y, u)[81:101].mean(axis=0))
     y[:, 0] += 1.0  # breaks the relation of the channels
     assert np.median(method.of(y, u)[:, 1]) > 10 * np.median(left)
     assert method.names == ("PCA T2", "PCA Q") and principal(y, u, lags=2).of(y, u).shape == (2000, 2)

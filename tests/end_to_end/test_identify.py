@@ -383,10 +383,10 @@ def test_means_far_from_zero_are_told_and_removed(tmp_path: Path, record: made.F
     np.savez(path, u=record.u + 20, y=record.y - 100)
     channels = ("--inputs", "u", "--outputs", "y")
     plain = identified(path, tmp_path / "a", "--json", "--order", "3", channels=channels)
-    assert plain.code == 0 and any("--remove-means" in note for note in plain.json["notes"])
+    assert plain.code == 0 and any("--remove-means" in row["advice"] for row in plain.json["doubts"]["rows"])
     run = identified(path, tmp_path / "b", "--json", "--remove-means", channels=channels)
     assert (run.code, run.json["order"], run.json["n_v"]) == (0, 3, 1)
-    assert not any("--remove-means" in note for note in run.json["notes"])
+    assert not any("--remove-means" in row["advice"] for row in run.json["doubts"]["rows"])
 
 
 def test_as_given_is_said_of_what_was_given_only(csv_file: Path, tmp_path: Path) -> None:
@@ -440,7 +440,7 @@ def test_the_hair_dryer(tmp_path: Path) -> None:
     assert run.json["n_v"] is None and run.json["fault_space"] is None  # one output: a fault cannot be told from noise
     assert run.json["n_v_reason"]
     remembered = identified(path, tmp_path / "means", "--json", "--order", "4", channels=channels)
-    assert any("--remove-means" in note for note in remembered.json["notes"])
+    assert any("--remove-means" in row["advice"] for row in remembered.json["doubts"]["rows"])
 
 
 def test_examples_write_the_record(tmp_path: Path, record: made.FaultyRecord) -> None:

@@ -93,7 +93,7 @@ def test_no_fault_is_counted_as_zero(name: str, means: bool) -> None:
     units = np.array([1e-6, 1.0, 1e6])
     answer, document, words = answered(y * units + 100.0 * units * means, u, remove_means=means)
     assert answer.n_v != 0 and answer.at_least >= 1, words
-    assert document["n_v_at_least"] >= 1 and "n_v: **0**" not in words
+    assert document["n_v_at_least"] >= 1 and "n_v: **0" not in words
 
 
 def _plain(draw: np.random.Generator) -> tuple[Array, Array]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import inspect
 import os
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,7 @@ from scipy.io import savemat
 
 from faultspace import example_data as made
 from faultspace.base.errors import InvalidInput
-from faultspace.cli import identifying
+from faultspace.cli import command_line, identifying
 from faultspace.numeric.data import files as data_files
 from faultspace.numeric.data.files import read_record, split_names
 from faultspace.numeric.model.models import StateSpaceModel
@@ -84,6 +85,17 @@ def test_every_way_of_writing_a_record_reads_the_same(tmp_path: Path, record: ma
         assert path.read_bytes() == before
 
 
+def test_every_format_is_tried_here_and_told_to_users(tmp_path: Path, record: made.FaultyRecord) -> None:
+    """A reader that is added has a way of writing in `write_tables` (Parquet has a test of its own), and stands where people look."""
+    tried = {data_files.FORMATS[path.suffix] for path, _, _ in write_tables(tmp_path, record.u[:9], record.y[:9]).values()}
+    assert tried | {"Parquet"} == set(data_files.READERS) == set(data_files.FORMATS.values())
+    assert [suffix for suffix in data_files.FORMATS if suffix not in (read_record.__doc__ or "")] == [], "the docstring of read_record"
+    names = {"CSV" if name == "text" else name for name in data_files.READERS}
+    page = (Path(__file__).parents[2] / "docs" / "your-data.md").read_text("utf-8")
+    for place, text in ("docs/your-data.md", page), ("the help of DATA in command_line.py", inspect.getsource(command_line.identify)):
+        assert [name for name in names if name not in text] == [], place
+
+
 def test_labels_of_a_range_select_the_channels_themselves(tmp_path: Path, record: made.FaultyRecord) -> None:
     np.savez(tmp_path / "d.npz", all=np.hstack([record.u, record.y])[:50])
     got = read_record(str(tmp_path / "d.npz"), inputs=["all[:,0:2]"], outputs=["all[:,2:]"])
@@ -144,7 +156,8 @@ TABLES: dict[str, tuple[str, tuple[str, ...]]] = {
     "missing column": ("u,z\n1,2\n3,4\n", ("no column", "'y'", "u, z")),
     "other case": ("U,y\n1,2\n3,4\n", ("did you mean 'U'?",)),
     "wrong delimiter": ("u|y\n1|2\n3|4\n", ("comma, semicolon, tab, blanks", "u|y")),
-    "decimal comma": ("u;y\n1,5;2\n3;4\n", ("line 2", "'1,5'", "point")),
+    "decimal comma, later a point": ("u;y\n1,5;2\n" + "3;4\n" * 60 + "1.5;2\n", ("line 63", "'1.5'", "comma")),
+    "decimal point, later a comma": ("u;y\n1.5;2\n" + "3;4\n" * 60 + "1,5;2\n", ("line 63", "'1,5'", "point")),
     "word": ("u,y\n1,2\n3,four\n", ("line 3", "'y'", "'four'", "number", "mend it")),
     "empty field": ("u,y\n1,2\n3,\n5,6\n", ("'y'", "sample 1", "NaN or empty")),
     "NaN": ("u,y\n1,2\nnan,4\n5,6\n", ("'u'", "sample 1")),
@@ -217,8 +230,9 @@ def test_bad_selectors_are_reported_in_one_line(name: str, tmp_path: Path) -> No
         ("d.mat", b"MATLAB 5.0 MAT-file" + bytes(40), ("MAT",)),
         ("d.mat", b"", ("MAT",)),
         ("d.xlsx", b"PK", ("'.xlsx'", ".csv", ".parquet")),
-        ("d.csv", "é,y\n1,2\n".encode("latin-1"), ("0xe9", "UTF-8")),
-        ("d.csv", "u,y\n1,2\n".encode("utf-16"), ("0xff", "UTF-8")),
+        ("d.csv", "é,y\n1,2\n".encode("latin-1"), ("no column", "expected one of: é, y")),
+        ("d.csv", "u,y\n1,2\n".encode("utf-16") + b"\x00\xd8", ("UTF-16",)),
+        ("d.csv", "u,y\n1,2\n".encode("utf-16-le"), ("zero byte", "UTF-16")),
     ],
 )
 def test_files_that_are_something_else(name: str, content: bytes, parts: tuple[str, ...], tmp_path: Path) -> None:

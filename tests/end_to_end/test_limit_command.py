@@ -100,7 +100,7 @@ def test_columns_that_are_missing_are_told(tmp_path: Path) -> None:
         ({"u_filter": "white"}, ("u_filter", "'white'")),
         ({"u_filter": [[["1", "0"], ["1", "0"]]]}, ("u_filter[0]", "got 2 rows", "expected 1")),
         ({"u_filter": [[["1", "0"]], [["1"]]]}, ("u_filter[1]", "1 x 1", "1 x 2")),
-        ({"v_filter": [[["1"]]]}, ("v_filter", "1 columns", "2 as in u_filter", "same white noise")),
+        ({"v_filter": [[["1"]]]}, ("v_filter", "1 column,", "2 as in u_filter", "same white noise")),
         ({"v_filter": [[["0", 0.5]]]}, ("v_filter[0][0][1]", "0.5", "--floats-exactly")),
         ({"w_filter": [[["1"], ["1"]]]}, ("w_filter[0]", "got 2 rows", "expected 1")),
         ({"u_filter": [[["1"]]] * 300}, ("u_filter", "300 lags", "256")),

@@ -45,7 +45,7 @@ def test_the_picture_has_every_claim_and_every_reading(make: ModuleType) -> None
 
 def test_the_verdicts_are_explained_in_their_own_words() -> None:
     rows = dict(re.findall(r"^\| ([A-Z]+) \| ([^|]+) \|", (DOCS / "claims.md").read_text("utf-8"), re.MULTILINE))
-    assert rows == {verdict.value: verdict.meaning for verdict in Verdict}
+    assert rows == {verdict.value: verdict.meaning for verdict in Verdict}, "write it in the table of docs/claims.md too, by hand"
 
 
 def links(page: Path) -> list[str]:

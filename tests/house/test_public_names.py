@@ -33,7 +33,7 @@ WITHOUT_SOURCE = {
         *("Matrix", "rank", "left_null_space", "right_null_space"),
         *("System", "ResidualSystem", "FaultySystem", "read_system", "Experiment", "read_experiment", "Filter", "read_filter"),
     },
-    "faultspace.numeric": {"Record", "read_record", "record_from", "StateSpaceModel"},
+    "faultspace.numeric": {"Record", "read_record", "read_stretches", "record_from", "StateSpaceModel"},
     "faultspace.proofs": {"certify", "check", "Checked", "CheckedFile", "check_file", "Verdict"},
 }
 # What goes into a question: numbers, fields, matrices and functions, not answers about something.
@@ -41,7 +41,16 @@ VALUES = {"Rationals", "PrimeField", "NumberField", "Matrix", "RowEchelon", "Fil
 # A command's answer with a page of Markdown for a summary; every other record says it by its sheet.
 WITHOUT_SHEET = {"Identification"}
 PICTURED = {
-    *("FaultDimension", "FaultDirection", "FaultSpaceEstimate", "FaultsAgainstHealthy", "Identification", "MoespModel", "OrderEvidence"),
+    *(
+        "FaultDimension",
+        "FaultDirection",
+        "FaultSpaceEstimate",
+        "FaultsAgainstHealthy",
+        "Identification",
+        "Isolation",
+        "MoespModel",
+        "OrderEvidence",
+    ),
     *("Reconstruction", "ReducedModel", "Report", "ResidualSignal", "StateSpaceModel", "Study", "Uncertainty"),
 }
 HEAVY = ("numpy", "scipy", "sympy", "flint", "mpmath", "pandas", "matplotlib")

@@ -6,6 +6,7 @@ paper_example   the example of the paper: G = 0, F an eigenvector of A, one infi
 simulate        r (N, p) from x0 and v (N, m), by the recursion
 faults          the signals of the paper's study
 coloured        low-pass noise so many decibels below each channel
+joint_record    y and u of a system with inputs, white faults and such noise
 """
 
 from __future__ import annotations
@@ -92,3 +93,13 @@ def coloured(seed: int, r: Any, decibels: float) -> Any:
     white = np.random.default_rng(seed).standard_normal((len(r) + 200, r.shape[1]))
     noise = scipy.signal.lfilter([0.17, 0.5, 0.5, 0.17], [1, 0, 0.33, 0], white, axis=0)[200:]
     return noise / noise.std(axis=0) * r.std(axis=0) * 10 ** (-decibels / 20)
+
+
+def joint_record(system: Planted, seed: int, samples: int, decibels: float | None, *, inputs: int = 1) -> tuple[Any, Any]:
+    """Return y (N, p) and u (N, inputs) of a system with white faults and inputs, and low-pass noise so far below each output."""
+    rng = np.random.default_rng([seed, 77])
+    B, D = rng.standard_normal((len(system.A), inputs)), rng.standard_normal((len(system.C), inputs))
+    u, v = rng.standard_normal((samples, inputs)), rng.standard_normal((samples, system.m))
+    driven = Planted(system.A, np.hstack([system.F, B]), system.C, np.hstack([system.G, D]), system.Z, ())
+    y = simulate(driven, rng.standard_normal(len(system.A)), np.hstack([v, u]))
+    return (y if decibels is None else y + coloured(seed, y, decibels)), u

@@ -83,6 +83,10 @@ def _stuck(y: Array, u: Array, draw: np.random.Generator) -> Array:
     return np.asarray((y[K - 1] - y[K:] + 1e-3 * draw.standard_normal((M, 3))) * [1.0, 0.0, 0.0])
 
 
+def _half_stuck(y: Array, u: Array, draw: np.random.Generator) -> Array:
+    return _stuck(y, u, draw) * (np.arange(M) < M // 2)[:, None]
+
+
 def _freezing(y: Array, u: Array, draw: np.random.Generator) -> Array:
     added = np.zeros((M, 3))
     added[300:312, 2] = np.round(y[K + 300, 2], 6) - y[K + 300 : K + 312, 2]
@@ -98,6 +102,7 @@ ADDED: dict[str, tuple[Adds, str, str, float]] = {
     "output gain": (_output_gain, "output gain", "y2", -0.1),
     "input gain": (_input_gain, "input gain", "u2", 0.1),
     "stuck": (_stuck, "loss of variance", "y1", 1.0),
+    "half stuck": (_half_stuck, "loss of variance", "y1", 0.5),
     "freezing": (_freezing, "freezing", "y3", 12.0),
 }
 
@@ -247,6 +252,24 @@ def test_what_the_healthy_part_does_itself_is_undecided() -> None:
     assert {row.kind for row in found.undecided} & {"mean shift", "drift"}
 
 
+def test_sensors_are_not_stuck_while_nothing_drives_them() -> None:
+    r, _, u = plain(23)
+    u[K:] = 0.0
+    assert not tabled(r, MODEL.simulate(u) + r, u).seen
+
+
+def test_a_sensor_that_holds_its_values_while_healthy_too_is_not_frozen() -> None:
+    """Few values repeat the one before, and those that do go on nine times out of ten."""
+    draw = np.random.default_rng(24)
+    r, y, u = plain(25)
+    held = np.zeros(K + M, dtype=bool)
+    for k in range(1, K + M):
+        held[k] = draw.uniform() < (0.9 if held[k - 1] else 0.02)
+        y[k] = np.where(held[k], y[k - 1], y[k])
+    rows = [row for row in tabled(r, y, u).rows if row.kind == "freezing"]
+    assert all(row.seen is False and (row.visible or 0.0) > 20.0 for row in rows), rows
+
+
 @pytest.mark.parametrize("healthy", [1, 2, 5, 20, 40, K + M - 1, K + M - 3, K + M - 8])
 def test_few_samples_on_either_side_are_answered(healthy: int) -> None:
     found = tabled(*plain(16), healthy=healthy)
@@ -324,7 +347,7 @@ def test_nothing_of_the_model_is_from_the_faulty_part() -> None:
 
 def test_a_healthy_record_of_its_own_says_what_healthy_samples_say(tmp_path: Any) -> None:
     _, y, u = plain(22)
-    y[K:, 1] += 0.1
+    y[K + 300 : K + 307, 0] = y[K + 300, 0]  # nothing that a count or a mean sees
     first = identify(y, u, order=3, healthy=K)
     apart = identify(y[K:], u[K:], order=3, healthy=(y[:K], u[:K]))
     text = "\n".join(["a,b,c,d,e", *(",".join(map(repr, row)) for row in np.hstack([u, y]).tolist()[:K])])
@@ -335,7 +358,8 @@ def test_a_healthy_record_of_its_own_says_what_healthy_samples_say(tmp_path: Any
     assert first.model is not None and apart.model is not None
     assert np.array_equal(first.model.A, apart.model.A)
     for answer in (first, apart):
-        assert answer.changes is not None and answer.changes.seen[0].kind == "mean shift" and answer.n_v != 0
+        assert answer.changes is not None and [row.kind for row in answer.changes.seen] == ["freezing"]
+        assert answer.n_v is None and answer.at_least == 1 and "something has changed (freezing of " in answer.reason
         document = valid("identify", report.document(answer, "record") | {"files": []})
         assert document["healthy_until"] == K and document["changes"]["rows"][0]["kind"] == "mean shift"
     assert (first.healthy_record, apart.healthy_record) == (False, True) and "those of the healthy record" in apart.summary()

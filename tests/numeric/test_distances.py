@@ -122,7 +122,7 @@ def test_no_columns() -> None:
     [
         (np.eye(3), np.eye(4), r"U, V: got 3 and 4 rows"),
         (np.ones((3, 2)), np.eye(3), r"U: columns are dependent"),
-        (np.eye(3), np.zeros((3, 1)), r"V: 1 columns in dimension 3 are dependent"),
+        (np.eye(3), np.zeros((3, 1)), r"V: 1 column in dimension 3 is dependent"),
         (np.ones((2, 3)), np.eye(2), r"U: 3 columns in dimension 2 are dependent"),
         (np.array([[np.nan]]), np.eye(1), r"U: got an array of shape \(1, 1\); a basis is"),
     ],

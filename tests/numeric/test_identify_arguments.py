@@ -31,7 +31,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"n_v": 4}, "n_v: got 4 for 3 outputs; at most as many can be told apart: state fewer"),
     *(({"remove_means": value}, "remove_means: got .*; True or False is needed") for value in ("no", 1, None)),
     *(({"dt": value}, "dt: got .*; the seconds from sample to sample") for value in ("1", True, 1j, [1.0], float("nan"))),
-    ({"inputs": "valve"}, "inputs: got 1 names for 2 channels: one name a channel is needed, in the order of the columns; got 'valve'"),
+    ({"inputs": "valve"}, "inputs: got 1 name for 2 channels: one name a channel is needed, in the order of the columns; got 'valve'"),
     ({"inputs": []}, "inputs: got 0 names for 2 channels.*got none"),
     ({"inputs": ["valve", 2]}, "inputs, outputs: got 2 as the name of a channel"),
     ({"inputs": ["valve", "valve"]}, "channel 'valve' twice"),

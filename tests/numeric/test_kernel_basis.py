@@ -46,12 +46,12 @@ def setting() -> tuple[Any, Any, Any]:
 
 def test_first_and_second_derivatives() -> None:
     problem, h, colour = setting()
-    gradient, second, _ = likelihood._derivatives(problem, colour, h)
+    gradient, second, _ = likelihood._derivatives(problem, colour, likelihood._point(problem, h))
     step = 1e-5
     for i, unit in enumerate(step * np.eye(len(h))):
         up, down = (likelihood._cost(problem, colour, h + sign * unit) for sign in (1, -1))
         assert abs((up - down) / (4 * step) - gradient[i]) < 1e-7 * np.abs(gradient).max()
-        ahead, behind = (likelihood._derivatives(problem, colour, h + sign * unit)[0] for sign in (1, -1))
+        ahead, behind = (likelihood._derivatives(problem, colour, likelihood._point(problem, h + sign * unit))[0] for sign in (1, -1))
         np.testing.assert_allclose((ahead - behind) / (2 * step), second[i], atol=1e-6 * np.abs(second).max())
 
 

@@ -8,7 +8,8 @@ import scipy.signal
 
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
-from faultspace.numeric import StateSpaceModel, arx_reduction, arx_reduction_experiments
+from faultspace.numeric import StateSpaceModel, arx_reduction, arx_reduction_experiments, identify
+from faultspace.numeric.model.held_out_orders import order_left_open
 from faultspace.numeric.model.order_evidence import OrderRow, weighed
 
 PLANT = StateSpaceModel(
@@ -94,3 +95,20 @@ def test_several_experiments() -> None:
     assert all(state.shape == (found.order,) for state in found.initial_states)
     with pytest.raises(InvalidData, match="record more"):
         arx_reduction(y[:3], u[:3])
+
+
+def test_where_nothing_else_tells_the_order_samples_held_back_do() -> None:
+    """An unstable plant of four states under noise: singular values have no gap, and ARX models take no unstable plant."""
+    rng = np.random.default_rng(28)
+    plant = StateSpaceModel(np.diag([1.02, 0.8, -0.6, 0.3]), *(rng.standard_normal(shape) for shape in ((4, 1), (2, 4), (2, 1))))
+    u = rng.standard_normal((120, 1))
+    y = plant.simulate(u)
+    y = y + 0.1 * np.std(y) * rng.standard_normal(y.shape)
+    found = identify(y, u)
+    assert found.model is not None and np.max(np.abs(found.model.model.poles)) > 1
+    (note,) = (note for note in found.notes if "last" in note and "fits best" in note)
+    assert f"{found.model.order} fits best" in note and "not told apart" in note
+    open_ = order_left_open(y, u, found.block_rows)
+    assert open_ is not None and open_.least <= open_.best == found.model.order <= open_.most
+    assert open_.fits[open_.best - 1] == np.nanmax(open_.fits)
+    assert order_left_open(rng.standard_normal((60, 2)), rng.standard_normal((60, 1)), 3) is None

@@ -27,9 +27,9 @@ from faultspace.numeric.model.models import StateSpaceModel
 Array = NDArray[np.float64]
 RESULTS = (
     *("model", "residual", "dimension", "space", "signal", "study", "record", "matrices"),
-    *("reduced", "uncertainty", "orders", "count", "open count", "healthy", "against", "direction", "changes"),
+    *("reduced", "uncertainty", "orders", "count", "open count", "healthy", "against", "direction", "changes", "doubts"),
 )
-DRAWN = (*(name for name in RESULTS if name not in ("record", "count", "open count", "healthy", "changes")), "whole")
+DRAWN = (*(name for name in RESULTS if name not in ("record", "count", "open count", "healthy", "changes", "doubts")), "whole")
 needs_matplotlib = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is None, reason="matplotlib is not installed")
 
 
@@ -52,6 +52,7 @@ def chain() -> dict[str, Any]:
         "reduced": reduced,
         "uncertainty": reduced.uncertainty,
         "orders": reduced.orders,
+        "doubts": numeric.doubts(numeric.record_from(y + 50, u), reduced),
     }
     draw = np.random.default_rng(1)
     noise = draw.standard_normal((1600, 3))

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import scipy.linalg
+import scipy.signal
 import scipy.stats
 
 from faultspace.base.errors import InvalidData
@@ -20,23 +21,15 @@ from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric.rows import bootstrap, laws, remainder
 from faultspace.numeric.rows.degree import least_degree
+from faultspace.numeric.rows.evidence import Evidence
 from faultspace.numeric.rows.fault_count import count_faults
 from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
 from faultspace.numeric.rows.space import fault_space_by_rows
 from faultspace.numeric.space.distances import principal_angles
 from faultspace.numeric.space.largest import largest_fault_space
+from faultspace.numeric.space.tapered_moments import CrossMoments
 from tests.numeric.exact_cases import floats, matrix, stable_state_matrix
-from tests.numeric.planted import Planted, coloured, planted, simulate
-
-
-def joint_record(system: Planted, seed: int, samples: int, decibels: float | None, *, inputs: int = 1) -> tuple[Any, Any]:
-    """Return y (N, p) and u (N, inputs) of a system with white faults and inputs, and low-pass noise so far below each output."""
-    rng = np.random.default_rng([seed, 77])
-    B, D = rng.standard_normal((len(system.A), inputs)), rng.standard_normal((len(system.C), inputs))
-    u, v = rng.standard_normal((samples, inputs)), rng.standard_normal((samples, system.m))
-    driven = Planted(system.A, np.hstack([system.F, B]), system.C, np.hstack([system.G, D]), system.Z, ())
-    y = simulate(driven, rng.standard_normal(len(system.A)), np.hstack([v, u]))
-    return (y if decibels is None else y + coloured(seed, y, decibels)), u
+from tests.numeric.planted import Planted, coloured, joint_record, planted, simulate
 
 
 def of_faults(system: Planted, m: int) -> Planted:
@@ -107,7 +100,7 @@ def test_the_law_of_sphericity() -> None:
     def probability(shares_taken: Any) -> float:
         samples = [complex_normal(rng, count, k) @ root.T for root in roots]
         powers = np.array([part.T @ part.conj() / count for part in samples])
-        rest = remainder.Remainder(powers, gains, np.full(bands, 1 / bands), 2.0 * count * bands)
+        rest = remainder.Remainder(powers, gains, np.full(bands, 1 / bands), np.zeros(bands), 2.0 * count * bands)
         return remainder.sphericity(rest, shares_taken).level
 
     nominal = [probability(shares) for _ in range(200)]
@@ -124,7 +117,7 @@ def test_noise_shares_are_found() -> None:
     roots = np.linalg.cholesky(colour * ((gains * shares) @ gains.conj().transpose(0, 2, 1)))
     samples = [complex_normal(rng, count, k) @ root.T for root in roots]
     rest = remainder.Remainder(
-        np.array([part.T @ part.conj() / count for part in samples]), gains, np.full(bands, 1 / bands), 2.0 * count * bands
+        np.array([part.T @ part.conj() / count for part in samples]), gains, np.full(bands, 1 / bands), np.zeros(bands), 2.0 * count * bands
     )
     found = remainder.noise_shares(rest, np.ones(3))
     np.testing.assert_allclose(np.log(found), np.log(shares), atol=0.25)
@@ -273,6 +266,45 @@ def test_a_noise_level_stated_too_low_by_ten_makes_no_faults_of_the_noise() -> N
     assert found.n_v is None and 1 in found.possible and "the noise_level is too low by" in found.reason, found.reason
 
 
+def test_low_pass_noise_stated_too_low_by_ten_makes_no_faults_either() -> None:
+    y, u = joint_record(of_faults(plant(42, 3, 1), 0), 42, 1000, 20)
+    found = count_faults(y, u, order=3, noise_level=0.01 * y.std(axis=0))
+    assert found.n_v is None and 0 in found.possible and "the noise_level is too low by" in found.reason, found.reason
+    found = count_faults(y, u, order=3)
+    assert found.n_v == 0 and found.condition and found.condition in found.title and found.condition in found.reason
+
+
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow), pytest.param(5, marks=pytest.mark.slow)])
+def test_noise_of_unlike_colours_may_be_all_that_there_is(seed: int) -> None:
+    """It has the shape of no noise of one colour; unrelated between the outputs, it is no sign of two faults."""
+    y, u = joint_record(of_faults(plant(14 + seed, 3, 1), 0), 14 + seed, 1000, None)
+    white = np.random.default_rng(seed).standard_normal((1000, 3))
+    noise = np.stack([scipy.signal.lfilter([1.0], [1.0, -a], e) for a, e in zip((0.9, -0.8, 0.0), white.T, strict=True)], axis=1)
+    found = count_faults(y + 0.05 * noise, u, order=3)
+    assert found.n_v is None and found.possible == (0, 1, 2, 3) and "unrelated" in found.reason, found.reason
+
+
+def test_the_law_of_unrelated_signals() -> None:
+    """Of colours that change within the bands of the test; signals that one fault relates are far from it."""
+    rng = np.random.default_rng(8)
+    bands, count = 64, 40
+    sizes = np.exp(rng.standard_normal((bands, 3)))
+
+    def probability(relation: float) -> float:
+        samples = complex_normal(rng, bands * count, 3).reshape(bands, count, 3)
+        samples = (samples + relation * samples[:, :, :1]) * sizes[:, None]
+        powers = samples.transpose(0, 2, 1) @ samples.conj() / count
+        return remainder.unrelated(remainder.as_signals(powers, _moments(bands, count)))
+
+    assert scipy.stats.kstest([probability(0.0) for _ in range(200)], "uniform").pvalue > 0.01
+    assert probability(0.5) < 1e-6
+
+
+def _moments(bands: int, count: int) -> CrossMoments:
+    """Return moments of which only the bands and the number of samples are asked."""
+    return CrossMoments(np.zeros((bands, 0, 0), dtype=complex), np.full(bands, 1 / bands), np.zeros(bands), 0, 0, 2.0 * count * bands)
+
+
 @pytest.mark.slow
 def test_a_stated_noise_level_that_is_wrong_by_two_makes_no_fault() -> None:
     y, u = joint_record(plant(42, 3, 2), 42, 1000, 20)
@@ -342,7 +374,7 @@ def test_two_hundred_samples() -> None:
 
 def test_the_bootstrap_finds_the_misfit() -> None:
     y, u = joint_record(plant(21, 3, 1), 21, 500, 40)
-    evidence = laws.Evidence(y, u, 3)
+    evidence = Evidence(y, u, 3)
     quick = laws.tested(evidence, 2)
     careful = laws.bootstrapped(evidence, quick, 4)
     assert quick.holds and careful.holds

@@ -23,7 +23,7 @@ from faultspace.numeric.study.workers import in_order
 
 NUMERIC: Any = importlib.import_module("faultspace.numeric")
 # They read and hold data, and multiply no matrices.
-WITHOUT_BLAS = {"read_record", "record_from"}
+WITHOUT_BLAS = {"read_record", "read_stretches", "record_from"}
 ANSWERS = """
 import hashlib, json, sys
 from dataclasses import asdict

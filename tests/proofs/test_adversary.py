@@ -108,7 +108,7 @@ def test_what_is_refuted_is_found_to_be(name: str) -> None:
 
 def test_every_target_is_in_the_ledger_and_what_needs_an_attack_has_one() -> None:
     targets = {one.target for one in catalogue()}
-    assert {target for target in targets if statement_of(target) is None} == set()
+    assert {target for target in targets if statement_of(target) is None} == set(), "an attack on what the ledger does not name"
     wanting = set()
     for claim in load():
         for reading in claim.readings:
@@ -116,13 +116,14 @@ def test_every_target_is_in_the_ledger_and_what_needs_an_attack_has_one() -> Non
             weak = reading.expected == "REFUTED" or not reading.theorems
             if weak and name not in targets and name not in EXISTENTIAL and claim.id not in OF_ONE_SYSTEM:
                 wanting.add(name)
-    assert wanting == set()
+    assert wanting == set(), "these readings have no attack: give each one in proofs/adversary, or name it in EXISTENTIAL"
 
 
 def test_the_file_of_results_is_whole_up_to_date_and_as_expected() -> None:
     schema = json.loads(resources.files("faultspace.proofs").joinpath("schemas/adversary.schema.json").read_text("utf-8"))
     jsonschema.Draft202012Validator(schema).validate({"format": "faultspace-adversary/1", "attacks": list(stored())})
-    assert [record["attack"] for record in stored()] == [one.id for one in catalogue()]
+    stale = "python -m faultspace.proofs.adversary --stale --out proofs/adversary/results.json runs what is missing"
+    assert [record["attack"] for record in stored()] == [one.id for one in catalogue()], stale
     again = "python -m faultspace.proofs.adversary --reading ID --out proofs/adversary/results.json runs an attack again"
     for target in dict.fromkeys(one.target for one in catalogue()):
         found = checked_again(target)

@@ -6,6 +6,8 @@ import ast
 from importlib import import_module
 from pathlib import Path
 
+import pytest
+
 import faultspace.proofs.claims
 from faultspace.proofs.verdict.ledger import load
 from faultspace.proofs.verdict.verdicts import Verdict
@@ -54,3 +56,23 @@ def test_the_claims_of_the_review_are_there() -> None:
     names = {claim.id for claim in load()}
     assert {"theorem-1", "theorem-2", "assumption-4", "proposition-3", "problem-11", "theorem-3-i", "theorem-3-ii"} <= names
     assert {"settle-2", "objection-3", "example-v"} <= names
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("[claim.a\n", "ledger.toml: "),
+        ("[claim.a]\nstatement = 'S'\nexpected = 'PROVED'\nreference = 'ours'\n", "claim.a: key 'readings' is missing"),
+        ("[claim.a]\nstatment = 'S'\n", "claim.a: unknown key 'statment', expected reference, statement"),
+        (
+            "[claim.a]\nstatement = 'S'\nexpected = 'PROVED'\nreference = 'ours'\n[claim.a.readings.b]\nstatement = 'S'\ntheorem = ['x']\n",
+            "claim.a.readings.b: unknown key 'theorem', expected statement",
+        ),
+    ],
+)
+def test_a_slip_in_the_ledger_is_said_with_its_place(text: str, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "ledger.toml").write_text(text, "utf-8")
+    monkeypatch.setattr("faultspace.proofs.verdict.ledger.resources.files", lambda package: tmp_path)
+    with pytest.raises(ValueError, match=r"^proofs/verdict/ledger\.toml: ") as caught:
+        load()
+    assert says in str(caught.value)

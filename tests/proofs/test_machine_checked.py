@@ -100,7 +100,8 @@ def test_only_a_closed_proof_counts() -> None:
 def test_what_holds_without_a_theorem_says_what_is_missing() -> None:
     for claim in load():
         for reading in claim.readings:
-            assert bool(reading.missing) == (reading.expected != "REFUTED" and not reading.theorems), (claim.id, reading.id)
+            wanted = reading.expected != "REFUTED" and not reading.theorems
+            assert bool(reading.missing) == wanted, f"{claim.id}.{reading.id}: `missing` in the ledger says what a proof for all lacks"
 
 
 def test_the_ledger_names_theorems_of_readings_alone() -> None:
@@ -119,4 +120,5 @@ def test_the_readme_of_the_theorems_counts_them() -> None:
     readings = [reading for claim in load() for reading in claim.readings]
     named = sum(bool(reading.theorems) for reading in readings)
     readme = THEORY.joinpath("README.md").read_text("utf-8")
-    assert f"\n{headlines} headlines" in readme and f"They prove {named} of the {len(readings)} readings" in readme
+    for words in f"\n{headlines} headlines", f"They prove {named} of the {len(readings)} readings":
+        assert words in readme, f"the first lines of proofs/theory/README.md should say: {words.strip()}"

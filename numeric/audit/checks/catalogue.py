@@ -23,7 +23,8 @@ def all_checks() -> Iterator[Check]:
 
 
 def chosen(functions: Collection[str], only: Sequence[str] = ()) -> list[Check]:
-    """The checks of these functions, those named by slug or slug[vector] alone if any are. Raises InvalidData for an unknown name."""
+    """Return the checks of these functions, those named by slug or slug[vector] alone if any are. Raises InvalidData for an unknown
+    name."""
     known = list(all_checks())
     for name in only:
         if not any(name in one.names for one in known):

@@ -63,7 +63,7 @@ def _ranks(vector: UnexcitingVector) -> Check:
 
 
 def _count(vector: UnexcitingVector) -> Check:
-    """Free: the data show fewer than there are."""
+    """Yield checks that are free, since the data show fewer faults than there are."""
 
     def measure(function: Function) -> Iterator[Measurement]:
         yield Measurement("n_v, as many as the data show", abs(as_number(function(floats(vector.r))) - vector.visible), 0.0)

@@ -21,6 +21,7 @@ from faultspace.exact.structure.signals import hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.errors import InvalidData
+from ....base.sheets import counted
 from ...space.distances import compare_subspaces
 from ..records import Broken, Check, Demand, Function, Measurement, Severity
 from ..vectors.exact_comparison import lifted
@@ -119,7 +120,7 @@ def ranks_off(answer: Any, due: tuple[int, ...]) -> Iterator[Measurement]:
     """Yield one measurement for each window."""
     ranks = list(answer)
     if len(ranks) != len(due):
-        raise Broken(f"{len(ranks)} ranks for {len(due)} windows")
+        raise Broken(f"{counted(len(ranks), 'rank')} for {counted(len(due), 'window')}")
     for s, (got, exact) in enumerate(zip(ranks, due, strict=True), start=1):
         yield Measurement(f"rank R_{s}", abs(float(got) - exact), 0.0)
 

@@ -64,7 +64,7 @@ def _recovery(
 
 
 def _from_parts(slug: str, effect: str, vector: IdentificationVector, parts: Sequence[str]) -> Check:
-    """Recovery from each of these parts of the record: whatever the initial state, the model is the same."""
+    """Measure the recovery from each of these parts of the record: whatever the initial state, the model is the same."""
 
     def measure(function: Function) -> Iterator[Measurement]:
         p, n_u = vector.C.nrows, vector.B.ncols

@@ -73,7 +73,7 @@ def _of_identify(vector: IdentificationVector) -> Iterator[Check]:
 
 
 def _window_at_the_lag() -> Check:
-    """Two outputs that see the same: O_(s-1) has rank 2 < n = 3 at s = 3, although p (s - 1) = 4 >= n."""
+    """The two outputs of this system see the same: O_(s-1) has rank 2 < n = 3 at s = 3, although p (s - 1) = 4 >= n."""
     system = ResidualSystem.of(
         [["1/2", "1/4", "0"], ["-1/4", "1/2", "1/3"], ["0", "0", "1/5"]],
         [["1"], ["1/2"], ["1"]],

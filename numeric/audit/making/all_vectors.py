@@ -84,7 +84,7 @@ def _long_window() -> IdentificationVector:
 
 
 def _bounded(blank: IdentificationVector) -> IdentificationVector:
-    """With the bounds of the whole record and of those parts of it that are long enough."""
+    """Return the vector with the bounds of the whole record and of those parts of it that are long enough."""
     y, u = floats(blank.y), floats(blank.u)
     N, s, n_u, p = len(y), blank.block_rows, blank.B.ncols, blank.C.nrows
     needed = 2 * (n_u + p + 1) * s - 1  # as many windows as rows of [U; Y], past and future: with past outputs there are more
@@ -98,7 +98,7 @@ def _bounded(blank: IdentificationVector) -> IdentificationVector:
 
 
 def _model_bounds(vector: IdentificationVector, y: Array, u: Array) -> dict[str, Any]:
-    """The largest bound of four routes from these samples."""
+    """Return the largest bound of four routes from these samples."""
     s, n = vector.block_rows, vector.order
     errors: list[ModelError] = []
     for route, backward_error in (("qr", by_qr), ("gram", by_gram)):
@@ -150,7 +150,7 @@ def _doubled(given: Matrix) -> Matrix:
 
 
 def structure_vectors() -> list[StructureVector]:
-    """See the module; those left-invertible in three views as well, whose units are powers of two."""
+    """Yield the vectors that the module describes; those left-invertible come in three views as well, whose units are powers of two."""
     plain = [(slug, system, analyze(system)) for slug, system in structure_systems()]
     result = [_structure(slug, system, known) for slug, system, known in plain]
     for slug, system, known in plain:

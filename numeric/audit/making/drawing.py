@@ -31,5 +31,5 @@ def stable(rng: Random, n: int) -> Matrix:
 
 
 def upward(value: float) -> float:
-    """Two digits, never below the value: a bound needs no more, and equal programs then write equal files."""
+    """Return two digits, never below the value: a bound needs no more, and equal programs then write equal files."""
     return float(f"{value * 1.05:.1e}") if value > 0 else 0.0

@@ -101,7 +101,7 @@ def _faults(slug: str, system: ResidualSystem) -> FaultVector:
 
 
 def _seen(slug: str, view: FaultView, system: ResidualSystem, x0: Matrix, v: Matrix, whole: FaultVector | None) -> FaultVector:
-    """The vector in that view; ranks and singular values are those of `whole` where all samples are there."""
+    """Return the vector in that view; ranks and singular values are those of `whole` where all samples are there."""
     n, windows = system.n, system.n + 2
     known = analyze(system)
     lag, delay = known.kernel.lag, known.delay_known_state
@@ -134,8 +134,8 @@ def _space_bound(r: Matrix, system: ResidualSystem, block_rows: int) -> float:
 
 
 def _residual_bound(r: Matrix, system: ResidualSystem, size: Fraction) -> float:
-    """For y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `checks.faults.with_input`), in channel units:
-    what is computed for an output has its unit as a factor, whoever computes it.
+    """Return the bound for y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `checks.faults.with_input`), in
+    channel units: what is computed for an output has its unit as a factor, whoever computes it.
     """
     units = channel_units(r)
     y, u = with_input(r, system, size)
@@ -221,7 +221,7 @@ def _noisy(slug: str, small: ResidualSystem) -> NoisyVector:
 
 
 def _noise_norm(vector: NoisyVector, s: int) -> float:
-    """Above the spectral norm of the noise's Hankel matrix: its Frobenius norm, for every entry is +-noise."""
+    """Return the Frobenius norm of the noise's Hankel matrix, every entry of which is +-noise: it is above the spectral norm."""
     entries = vector.system.p * s * (vector.samples - s + 1)
     return ceil(float(vector.noise) * sqrt(entries) * 1.001 * 1e3) / 1e3
 

@@ -18,8 +18,8 @@ LONGEST = 100
 
 
 def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
-    """m: two equations an unknown, at most LONGEST, never fewer than eigensys_realization's default Hankel matrix takes (the default m, as
-    many as samples, is right for a single input at rest alone).
+    """The number m of Markov parameters is two equations an unknown, at most LONGEST, never fewer than eigensys_realization's default
+    Hankel matrix takes (the default m, as many as samples, is right for a single input at rest alone).
     """
     n_u, p = u.shape[1], y.shape[1]
     m = max(min(len(u) // (2 * n_u), LONGEST), 4 * order + 1)

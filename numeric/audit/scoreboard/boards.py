@@ -40,7 +40,7 @@ def tallies(results: Iterable[CheckResult]) -> tuple[Tally, ...]:
 
 
 def board(names: Sequence[str], seconds: float, on_progress: Progress) -> Board:
-    """Our reference and these packages, those that are here; a check may take so many seconds."""
+    """Return the board of our reference and of those of these packages that are here; a check may take so many seconds."""
 
     def audited(name: str, title: str, version: str, needs: str, peer: str | None) -> Audited:
         begun = time.perf_counter()
@@ -60,7 +60,7 @@ def merged(new: Board, old: Board) -> Board:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Audits, writes scoreboard.json; returns 0."""
+    """Audit, write scoreboard.json, and return 0."""
     parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.scoreboard", description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where scoreboard.json, README.md and FINDINGS.md are")
     parser.add_argument("--peer", action="append", metavar="NAME", help="only this package, beside our own; may be repeated")

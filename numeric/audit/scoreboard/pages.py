@@ -98,7 +98,7 @@ def _short(text: str) -> str:
 
 
 def write_pages(board: Board, folder: Path) -> None:
-    """README.md between its marks, where it has them, and FINDINGS.md."""
+    """Write README.md between its marks, where it has them, and FINDINGS.md."""
     readme = folder / "README.md"
     if readme.exists() and BEGIN in (text := readme.read_text("utf-8")):
         before, _, rest = text.partition(BEGIN)

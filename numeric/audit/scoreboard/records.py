@@ -17,7 +17,7 @@ FORMAT = "faultspace-audit-scoreboard/1"
 
 @dataclass(frozen=True)
 class Tally:
-    """Of the checks of one slug and function: how many were asked, how many failed, and the first that failed (else the worst).
+    """This says of the checks of one slug and function how many were asked, how many failed, and the first that failed (else the worst).
 
     Infinite numbers are strings.
     """

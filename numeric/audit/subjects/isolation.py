@@ -42,7 +42,7 @@ class Isolated:
         self.close()
 
     def close(self) -> None:
-        """Ends the process and what it started; the next check starts another."""
+        """End the process and what it started; the next check starts another."""
         self._loaded = False
         self._program.close()
 

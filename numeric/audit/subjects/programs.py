@@ -41,7 +41,7 @@ class Program:
         self._family: set[psutil.Process] = set()
 
     def ask(self, line: bytes, seconds: float | None = None) -> bytes:
-        """The line that answers `line` within so many seconds (None: the limit); neither ends with a line feed. Raises Broken."""
+        """Return the line that answers `line` within so many seconds (None: the limit); neither ends with a line feed. Raises Broken."""
         if self._process is None or self._process.poll() is not None:
             self.close()
             self._start()
@@ -52,7 +52,7 @@ class Program:
             raise
 
     def close(self) -> None:
-        """Ends the program and what it started; it may be asked again, and is then started anew."""
+        """End the program and what it started; it may be asked again, and is then started anew."""
         process, self._process, self._pending = self._process, None, b""
         if process is None:
             return

@@ -73,7 +73,7 @@ class Exec:
         self.close()
 
     def close(self) -> None:
-        """Ends the program and what it started; it may be asked again, and is then started anew."""
+        """End the program and what it started; it may be asked again, and is then started anew."""
         self._program.close()
 
     def _call(self, name: str, *arguments: Any) -> Any:
@@ -114,7 +114,7 @@ def _finite(value: Any) -> Any:
 
 
 def _numbers(value: Any) -> Any:
-    """Nested lists with the three strings read as numbers; None as NaN, as some writers have it."""
+    """Return nested lists with the three strings read as numbers; None as NaN, as some writers have it."""
     if isinstance(value, list):
         return [_numbers(one) for one in value]
     if value in ("NaN", "Infinity", "-Infinity"):

@@ -54,7 +54,7 @@ def main(name: str) -> int:
 
 
 def _loaded(name: str, functions: dict[str, Function]) -> dict[str, Any]:
-    """Fills `functions` with what the adapter offers."""
+    """Fill `functions` with what the adapter offers."""
     try:
         functions |= {key: guarded(one) for key, one in offered(load(name)).items()}
     except InvalidData as error:
@@ -63,7 +63,7 @@ def _loaded(name: str, functions: dict[str, Function]) -> dict[str, Any]:
 
 
 class _Copies:
-    """Whether a copy of this process came back to where it should not be; such a copy ends in `seen`."""
+    """This tells whether a copy of this process came back to where it should not be; such a copy ends in `seen`."""
 
     def __enter__(self) -> _Copies:
         self._pid = os.getpid()
@@ -75,7 +75,7 @@ class _Copies:
         self._mark.close()
 
     def seen(self) -> bool:
-        """In the process itself: waits a moment for its new copies. In a copy: does not return."""
+        """Wait a moment for the new copies of the process itself; in a copy this does not return."""
         if os.getpid() != self._pid:
             self._mark[0] = 1
             os._exit(0)

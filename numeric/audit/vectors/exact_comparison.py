@@ -80,7 +80,7 @@ def poles(A: Matrix) -> tuple[complex, ...]:
 
 
 def distances(got: Sequence[Matrix], exact: Sequence[Matrix]) -> Array:
-    """|got - exact| for equally long lists of matrices, (count, rows, columns)."""
+    """Return |got - exact| for equally long lists of matrices, (count, rows, columns)."""
     return np.array(
         [[[_size(x) for x in row] for row in (one - other).elements()] for one, other in zip(got, exact, strict=True)], dtype=float
     )

@@ -32,8 +32,8 @@ CLEAR = 1e3 * 2.0**-53  # of the norm of R_s, channels in their units: a thousan
 
 @dataclass(frozen=True)
 class FaultView:
-    """Samples first .. last - 1, `scale` times the signals, outputs turned round, `units` 10^a, 10^(a - 4), ... for the channels, the
-    state basis T x with T upper triangular of ones.
+    """A view has the samples first .. last - 1, `scale` times the signals, outputs turned round, `units` 10^a, 10^(a - 4), ... for the
+    channels, and the state basis T x with T upper triangular of ones.
     """
 
     slug: str
@@ -120,7 +120,8 @@ class FaultVector:
 
     @property
     def clear(self) -> bool:
-        """Whether every rank stands clear of what rounding of the samples does to singular values: else floats cannot tell it."""
+        """This tells whether every rank stands clear of what rounding of the samples does to singular values: else floats cannot tell
+        it."""
         rows = (self.system.p * s for s in range(1, len(self.gaps) + 1))
         return all(low > CLEAR * high * sqrt(height) for (low, high), height in zip(self.gaps, rows, strict=True))
 
@@ -156,7 +157,7 @@ class FaultVector:
 
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> FaultVector:
-        """The vector that `to_json` wrote; residuals are computed again."""
+        """Return the vector that `to_json` wrote; residuals are computed again."""
         v = matrix(data["v"], len(data["v"][0]))
         whole = FaultVector._read(data["slug"], AS_GIVEN, data, v)
         views = {}
@@ -187,7 +188,7 @@ class FaultVector:
 
 @dataclass(frozen=True, eq=False)
 class UnexcitingVector:
-    """A residual of m faults whose signals show `visible` < m independent ones. ranks, gaps: as of FaultVector."""
+    """This is a residual of m faults whose signals show `visible` < m independent ones. ranks, gaps: as of FaultVector."""
 
     slug: str
     system: ResidualSystem
@@ -214,7 +215,7 @@ class UnexcitingVector:
 
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> UnexcitingVector:
-        """The vector that `to_json` wrote; the residual is computed again."""
+        """Return the vector that `to_json` wrote; the residual is computed again."""
         known, shown = data["expected"], residual_system(data["system"])
         v, x0 = matrix(data["v"], shown.m), matrix(data["x0"], 1)
         return UnexcitingVector(data["slug"], shown, x0, v, tuple(known["window_ranks"]), gaps_from_json(data), known["shown"])

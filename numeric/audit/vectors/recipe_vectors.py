@@ -100,7 +100,7 @@ class NoisyVector:
     gaps: tuple[tuple[float, float], ...]
 
     def drawn(self) -> tuple[Array, Array]:
-        """v (samples, m) and the noise's signs (samples, p)."""
+        """Return v (samples, m) and the noise's signs (samples, p)."""
         m, p = self.system.m, self.system.p
         columns = signs(self.seed, (m + p) * self.samples).reshape(m + p, self.samples).T
         return np.ascontiguousarray(columns[:, :m]), np.ascontiguousarray(columns[:, m:])

@@ -81,11 +81,11 @@ class IdentificationVector:
         return simulate(ResidualSystem(self.A, self.B, self.C, self.D), self.x0, self.u).residuals
 
     def bound(self, name: str, part: str | None = None) -> Array:
-        """The bounds of that name as an array, for the whole record or a part of it."""
+        """Return the bounds of that name as an array, for the whole record or a part of it."""
         return np.array(self.bounds[name] if part is None else self.parts[part][2][name], dtype=float)
 
     def to_json(self) -> dict[str, Any]:
-        """With the exact outputs and answers spelt out for other languages."""
+        """Return the vector in JSON, with the exact outputs and answers spelt out for other languages."""
         from .exact_comparison import markov, poles, polynomial_from_the_top, transfer
 
         parts: dict[str, Any] = {name: getattr(self, name).to_json() for name in ("A", "B", "C", "D", "x0", "u", "y")}
@@ -101,7 +101,7 @@ class IdentificationVector:
 
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> IdentificationVector:
-        """The vector that `to_json` wrote; outputs and answers are computed again from the system."""
+        """Return the vector that `to_json` wrote; outputs and answers are computed again from the system."""
         n, n_u = data["order"], len(data["u"][0])
         width = {"A": n, "B": n_u, "C": n, "D": n_u, "x0": 1, "u": n_u}
         parts = {name: matrix(data[name], columns) for name, columns in width.items()}

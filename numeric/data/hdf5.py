@@ -1,0 +1,55 @@
+"""This reads the variables of a MAT file of version 7.3, which is HDF5, by h5py where it is installed.
+
+hdf5_arrays    the numeric variables by name, each read when it is asked for
+
+MATLAB writes arrays in its own order, columns first, so that HDF5 has their axes the other way around: they are turned back here. What is
+no array of numbers (structures, cells, text) is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.errors import InvalidInput
+
+KINDS = "fiub"
+
+
+class _Variables(Mapping[str, Any]):
+    """The mapping gives the arrays of an open HDF5 file by name."""
+
+    def __init__(self, file: Any) -> None:
+        self._file = file
+        self._names = [name for name, there in file.items() if getattr(there, "dtype", None) is not None and there.dtype.kind in KINDS]
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self._names:
+            raise KeyError(name)
+        return np.asarray(self._file[name][()]).T
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+def hdf5_arrays(path: Path, stack: ExitStack) -> Mapping[str, Any]:
+    """Return the numeric variables of a MAT file of version 7.3, open until the stack closes. Raises InvalidInput without h5py, and for
+    what is no HDF5."""
+    try:
+        h5py: Any = import_module("h5py")
+    except ImportError:
+        advice = "pip install 'faultspace[mat73]', or save it in MATLAB with the option '-v7'"
+        raise InvalidInput(f"got a MAT file of version 7.3 (HDF5), which needs h5py: {advice}") from None
+    try:
+        return _Variables(stack.enter_context(h5py.File(path, "r")))
+    except OSError as error:
+        raise InvalidInput(f"cannot be read as HDF5 ({error}), expected a MAT file as MATLAB saves it") from None

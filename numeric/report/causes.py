@@ -1,0 +1,134 @@
+"""This is what `identify` writes and says of the residual, its onsets and single causes.
+
+onset_lines       the onsets, in lines of Markdown
+isolation_lines   which single cause explains the faults, with the angles in a table
+told              both in JSON
+residual_table    residual.csv: a line a sample
+stretches         for each sample, how many onsets came before
+causes_drawn      the pictures of both, with their names
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...base.progress import Progress
+from ..drawing import plot_onsets
+
+if TYPE_CHECKING:
+    from ..findings import Findings
+
+RESIDUAL = "residual.csv"
+CAUSES_DRAWN = ("residual.png", "isolation.png")
+
+
+def onset_lines(answer: Findings) -> Iterator[str]:
+    """Yield the section on the onset, where one was looked for."""
+    found, outputs = answer.onset, answer.record.outputs
+    if found is None:
+        return
+    yield ""
+    yield "## Onset"
+    if not found.onsets:
+        yield f"**no onset**: {found.reason}"
+        return
+    for onset in found.onsets:
+        first, last = onset.interval
+        begins = answer.healthy_record and onset.sample == found.healthy
+        where = f"sample {onset.sample}" + (", the first of the record after the healthy one" if begins else "")
+        within = f"between {first} and {last} with probability {found.confidence:g}"
+        yield f"onset at **{where}**, {within}; chance without a change: {onset.p_value:.2g}"
+        changed = ", ".join(outputs[j] for j in onset.changed) or "none by itself, all of them together"
+        yield f"outputs that change: {changed}"
+    yield "size of the fault's part in each output after it, in sigmas; how far the mean moves, in sigmas; the factor of the deviation:"
+    width = max(6, *(len(name) for name in outputs))
+    yield f"    {'from sample':>12}  {'output':<{width}}  {'sigmas':>8}  {'mean':>8}  {'deviation':>9}"
+    for onset in found.onsets:
+        rows = zip(outputs, onset.size, onset.shift, onset.growth, strict=True)
+        yield from (f"    {onset.sample:>12}  {name:<{width}}  {a:>8.3g}  {b:>8.3g}  {c:>9.3g}" for name, a, b, c in rows)
+    start, stop = found.reference
+    yield f"one sigma is the deviation of the residual in samples {start} to {stop - 1}: {_sizes(outputs, found.deviation)}"
+    yield f"why: {found.reason}; {RESIDUAL} has the residual, sample by sample"
+
+
+def isolation_lines(answer: Findings) -> Iterator[str]:
+    """Yield the section on single causes, where there is a fault space."""
+    found = answer.isolation
+    if found is None:
+        return
+    yield ""
+    yield "## Which sensor or actuator"
+    yield f"**{found.answer}**"
+    width = max(len(cause.channel) for cause in found.causes)
+    yield f"    {'fault of':<8}  {'':<{width}}  {'degrees':>8}  {'bound':>8}  {'chance':>7}"
+    for cause in found.causes:
+        bound = "" if cause.bound is None else f"{np.degrees(cause.bound):.3g}"
+        chance = "" if cause.p_value is None else f"{cause.p_value:.2g}"
+        yield f"    {cause.kind:<8}  {cause.channel:<{width}}  {np.degrees(cause.angle):>8.3g}  {bound:>8}  {chance:>7}  {cause.answer}"
+    yield (
+        "degrees: angle of the column [0; e_j] or [B_j; D_j] to the fault space, in the coordinates of the model; bound: what it stays "
+        "below with probability 0.95, were this the cause; chance: of so large a deviation then, whatever the coordinates"
+    )
+
+
+def told(answer: Findings) -> dict[str, Any]:
+    """Return both in JSON, null where nothing was asked."""
+    onset, names = answer.onset, answer.record.outputs
+    return {
+        "onset": None if onset is None else onset.to_json() | {"outputs": list(names)},
+        "isolation": None if answer.isolation is None else answer.isolation.to_json(),
+    }
+
+
+def _sizes(names: tuple[str, ...], sizes: Any) -> str:
+    return ", ".join(f"{name} {size:.3g}" for name, size in zip(names, sizes, strict=True))
+
+
+def _bounds(answer: Findings) -> list[int]:
+    return [] if answer.onset is None else [onset.sample for onset in answer.onset.onsets]
+
+
+def residual_table(answer: Findings, path: Path, on_progress: Progress) -> None:
+    """Write a line a sample: its number, how many onsets came before, the residual of each output in digits that give the float back."""
+    rest = answer.residual
+    assert rest is not None
+    N = len(rest.store)
+    with open(path, "w", encoding="utf-8", newline="") as stream:
+        lines = csv.writer(stream, lineterminator="\n")
+        lines.writerow(["sample", "stretch", *answer.record.outputs])
+        k = 0
+        for piece in rest.store.pieces():
+            before = stretches(answer, k, k + len(piece)).tolist()
+            lines.writerows([k + i, before[i], *map(repr, row)] for i, row in enumerate(piece.tolist()))
+            k += len(piece)
+            on_progress("writing the residual", k, N)
+
+
+def stretches(answer: Findings, first: int, until: int) -> Any:
+    """Return how many onsets came before each of the samples from `first` to before `until`."""
+    return np.searchsorted(_bounds(answer), np.arange(first, until), side="right")
+
+
+def causes_drawn(answer: Findings) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
+    """Return name, size and what to do with a figure."""
+    rest, onset, isolation = answer.residual, answer.onset, answer.isolation
+    drawings: list[tuple[str, tuple[float, float], Callable[[Any], Any]]] = []
+    if rest is not None:
+        found = [] if onset is None else [(one.sample, one.interval) for one in onset.onsets]
+        height = 2.2 + 1.1 * min(answer.record.p, 8)
+        drawings.append(
+            (
+                CAUSES_DRAWN[0],
+                (8.0, height),
+                lambda figure: plot_onsets(rest.store, found, healthy=answer.healthy, names=answer.record.outputs, ax=figure.add_subplot()),
+            )
+        )
+    if isolation is not None and isolation.causes:
+        size = (8.0, 1.8 + 0.38 * len(isolation.causes))
+        drawings.append((CAUSES_DRAWN[1], size, lambda figure: isolation.plot(figure.add_subplot())))
+    return drawings

@@ -1,0 +1,138 @@
+"""What a record says to kernel rows of a total degree: its moments, and the models that rows begin from.
+
+    Evidence            the moments of [y; u] for rows of degree order + EXTRA, those for long single rows, and the models
+    quick, higher       models of the order and of EXTRA states more, from the ARX model in milliseconds: starts, no estimates
+    unexplained         the moments of what the model of `arx_reduction` leaves of y
+    disturbance         the spectrum of what disturbs y, by the ARX model alone, whatever the order; `apparent` rows seem to be laws by it
+
+Everything is made when it is first asked for, and once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ...base.arrays import Array
+from ...base.errors import InvalidData
+from ..data.validation import experiment
+from ..model.arx import Arx, fitted_arx
+from ..model.arx_windows import arx_windows
+from ..model.asymptotic_likelihood import arx_reduction, lengths_and_lags
+from ..model.models import StateSpaceModel
+from ..model.quick_reduction import quick_reduction
+from ..model.reduced_model import ReducedModel
+from ..model.residuals import residual
+from ..space.tapered_moments import BANDS, tapered_moments
+from .joint import JointMoments, joint_moments
+from .remainder import Remainder, as_signals
+
+# Degrees beyond the order by which flatness is seen: one more could still be explained by a single root of the colour of a fault.
+EXTRA = 3
+# And of a single row, which flatness alone judges: the remainder of a fault that is smooth over frequency gains slowly.
+LONG = 10
+# Samples up to which the usual number of bands does.
+SHORT = 2000
+TINY = float(np.finfo(np.float64).tiny)
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What y (N, p) and u (N, n_u) say to rows of total degree `order` and more; `given` is a model of such data where there is one."""
+
+    y: Array
+    u: Array
+    order: int
+    given: ReducedModel | None = None
+
+    @cached_property
+    def data(self) -> JointMoments:
+        """The moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
+        return joint_moments(self.y, self.u, self.order + max(1, min(EXTRA, self.longest - self.order)), self.bands)
+
+    @property
+    def bands(self) -> int:
+        """So many bands that what changes within one stays below the noise of the record: its power falls with the square of the width."""
+        return int(BANDS * max(1.0, len(self.y) / SHORT) ** 0.5)
+
+    @property
+    def narrow(self) -> float:
+        """How much larger the misfits of flatness are for narrower bands, which let narrower roots in."""
+        return float((len(self.data.moments.angles) / BANDS) ** 0.5) if self.bands > BANDS else 1.0
+
+    @property
+    def longest(self) -> int:
+        """The highest degree for which there are twice as many windows as a window has entries."""
+        channels = int(self.y.shape[1] + self.u.shape[1])
+        return (len(self.y) - 2 * channels) // (2 * channels + 1)
+
+    @cached_property
+    def single(self) -> JointMoments:
+        """The moments for a single row, of degree order + LONG or as much of it as the record is long for."""
+        return joint_moments(self.y, self.u, self.order + max(1, min(LONG, self.longest - self.order)), self.bands)
+
+    @cached_property
+    def arx(self) -> Arx | None:
+        """The ARX model in units of the moments, or None where the record gives none."""
+        scale, p = self.data.scale, self.data.p
+        if self.given is not None:
+            return self.given.arx.scaled(1 / scale[:p], 1 / scale[p:])
+        source = experiment(self.y, self.u)
+        try:
+            windows = arx_windows(source, lengths_and_lags([source], self.order, None)[1])
+            y, u = windows.scales
+            return fitted_arx(windows, -(-self.order // p)).scaled(y / scale[:p], u / scale[p:])
+        except InvalidData:
+            return None
+
+    @cached_property
+    def quick(self) -> StateSpaceModel | None:
+        """A model of this order to begin from, in units of the moments, or None where there is none."""
+        return self._quick(self.order)
+
+    @cached_property
+    def higher(self) -> StateSpaceModel | None:
+        """A model of EXTRA states more."""
+        return self._quick(self.order + EXTRA)
+
+    def _quick(self, order: int) -> StateSpaceModel | None:
+        try:
+            return None if self.arx is None else quick_reduction(self.arx, order)
+        except (InvalidData, np.linalg.LinAlgError):
+            return None
+
+    @cached_property
+    def reduction(self) -> ReducedModel | None:
+        """The model of this order, or None where the record gives none."""
+        if self.given is not None and self.given.order == self.order:
+            return self.given
+        try:
+            return arx_reduction(self.y, self.u, order=self.order)
+        except InvalidData:
+            return None
+
+    @cached_property
+    def unexplained(self) -> Remainder | None:
+        """What the model leaves of y, with the initial state fitted."""
+        if self.reduction is None:
+            return None
+        r = residual(self.y, self.u, self.reduction.model).r / self.data.scale[: self.data.p]
+        moments = tapered_moments(r - r.mean(axis=0), 0)
+        return as_signals(moments.moments / moments.weights[:, None, None], moments)
+
+    @cached_property
+    def disturbance(self) -> Remainder | None:
+        """What disturbs y by the ARX model."""
+        return None if self.arx is None else as_signals(self.arx.disturbance(self.data.moments.angles), self.data.moments)
+
+    @cached_property
+    def apparent(self) -> int:
+        """So many rows seem to be laws: the widest step between neighbouring powers of the disturbance, on average over frequency. This
+        decides no answer, but what is asked first, and how often."""
+        rest, p = self.disturbance, self.data.p
+        if rest is None or p == 1:
+            return p // 2
+        powers = rest.weights @ np.log(np.maximum(np.linalg.eigvalsh(rest.powers), TINY))
+        return 1 + int(np.argmax(np.diff(powers)))
