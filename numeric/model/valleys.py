@@ -23,7 +23,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import ortho_group
 
 from ...base.arrays import Array
 from ...base.threads import one_thread
@@ -87,7 +86,9 @@ def begun(problem: Reduction, own: Array, n: int) -> list[Array]:
     rungs = list(ladder(coarse, np.asarray(np.linalg.inv(coarse.weight), dtype=np.complex128)))
     rng, n_u, ends = np.random.default_rng(SEED), coarse.plant.shape[2], []
     for _ in range(STARTS):
-        pair = ortho_group.rvs(n + n_u, random_state=rng)[:n]
+        # An orthogonal matrix of no preferred direction, as scipy.stats.ortho_group draws it: from the QR decomposition of a normal one.
+        q, r = np.linalg.qr(rng.normal(size=(n + n_u, n + n_u)))
+        pair = (q * np.sign(np.diag(r)))[:n]
         matrix = rungs[0].output_matrices(pair[:, :n], pair[:, n:])
         for rung in rungs[:-1]:
             matrix, _ = descend(rung, matrix, n, *RUNGS)

@@ -129,7 +129,7 @@ def unrelated(rest: Remainder) -> float:
         ratio -= 2 * count * float(np.linalg.slogdet(pooled)[1] - np.log(np.diag(pooled).real).sum())
         mean += 2 * count * float(p * digamma(count) - np.sum(digamma(count - j)))
         variance += 4 * count**2 * float(np.sum(polygamma(1, count - j)) - p * polygamma(1, count))
-    return float(scipy.stats.chi2.sf(ratio / (variance / (2 * mean)), 2 * mean**2 / variance))
+    return chi_squared_tail(ratio / (variance / (2 * mean)), 2 * mean**2 / variance)
 
 
 @dataclass(frozen=True)

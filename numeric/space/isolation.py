@@ -27,9 +27,9 @@ from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.stats import chi2
 
 from ...base.arrays import Array
+from ...base.chi_squared import chi_squared_tail
 from ...base.errors import InvalidData
 from ...base.sheets import Shown
 from ...base.threads import one_thread
@@ -293,7 +293,7 @@ def _test(off: Array, spread: Array) -> tuple[float, float]:
     least = np.linalg.lstsq(spread.T, off, rcond=None)
     numbers, rank = least[0], int(least[2])
     reached = float(np.linalg.norm(spread.T @ numbers - off)) <= RANK * float(np.linalg.norm(off))
-    chance = float(chi2.sf(float(numbers @ numbers), max(rank, 1))) if reached else 0.0
+    chance = chi_squared_tail(float(numbers @ numbers), max(rank, 1)) if reached else 0.0
     draws = np.random.default_rng(SEED).standard_normal((DRAWS, len(spread))) @ spread
     return float(np.arctan(np.quantile(np.linalg.norm(draws, axis=1), 0.95))), chance
 

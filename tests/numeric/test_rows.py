@@ -32,7 +32,6 @@ from faultspace.numeric.space.largest import largest_fault_space
 from faultspace.numeric.space.tapered_moments import CrossMoments
 from tests.numeric.exact_cases import floats, matrix, stable_state_matrix
 from tests.numeric.planted import Planted, coloured, joint_record, planted, simulate
-from tests.thorough import every
 
 
 def of_faults(system: Planted, m: int) -> Planted:
@@ -457,15 +456,15 @@ def test_never_larger_than_the_structure_allows() -> None:
 
 def test_the_law_of_the_degree() -> None:
     """Where the least degree is true its stated probability is not small, and that of the degree below is none."""
-    small, seeds = 0, range(12)[:: every()]
-    for seed in seeds:
+    small = 0
+    for seed in range(12):
         system = planted(30 + seed, n=2, p=2, m=1)
         y, u = joint_record(system, seed, 600, 40)
         data = joint_moments(y, u, 4)
         chosen = least_degree(data, course(data, 1, 4), 0, 2)
         small += chosen.probabilities[2] < 0.01
         assert chosen.probabilities[1] < 1e-3
-    assert small <= len(seeds) / 6
+    assert small <= 2
 
 
 def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None:
