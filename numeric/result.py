@@ -36,7 +36,7 @@ class Identification(Findings):
 
     order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
     samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
-        ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero where
+    ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero where
     there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of the little that the
     second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained: the healthy samples
     are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output that would be seen;
