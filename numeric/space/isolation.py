@@ -120,7 +120,7 @@ class Isolation(Shown):
     >>> from faultspace.numeric import StateSpaceModel, fault_space, isolate
     >>> model = StateSpaceModel([[0.5]], [[1.0]], [[1.0], [1.0]], [[0.0], [0.0]])
     >>> v = np.random.default_rng(1).standard_normal((200, 1))
-    >>> r = np.hstack([np.zeros((200, 1)), v])
+    >>> r = np.hstack([np.zeros((200, 1)), v]) + model.simulate(np.zeros((200, 1)), x0=[1.0])
     >>> isolate(fault_space(r, model.A, model.C, n_v=1), model)
     <Isolation: a sensor fault on y2 explains it, and no other single sensor or actuator does>
     """
