@@ -146,15 +146,28 @@ def limit_chance(values: Array) -> tuple[float, float]:
     by_visits = _end_chance(_visits(at_top), _visits(second))
     repeats = values[1:] == values[:-1]
     there = at_top[:-1]
-    seen = scipy.stats.hypergeom(len(repeats), int(repeats.sum()), int(there.sum()))
-    by_repeats = float(seen.sf(int(np.sum(repeats & there)) - 1))
+    by_repeats = _hypergeometric_tail(int(np.sum(repeats & there)), len(repeats), int(repeats.sum()), int(there.sum()))
     by_samples = max(_end_chance(int(at_top.sum()), int(second.sum())), by_repeats)
     return min(2 * min(by_visits, by_samples), 1.0), float(np.mean(at_top))
 
 
 def _end_chance(first: int, second: int) -> float:
     """Return the chance of so many in the outermost level, of those in the two outermost."""
-    return float(scipy.stats.binom.sf(first - 1, first + second, TURNING))
+    return float(scipy.special.bdtrc(first - 1, first + second, TURNING)) if first > 0 else 1.0
+
+
+def _hypergeometric_tail(least: int, number: int, marked: int, drawn: int) -> float:
+    """Return the probability of `least` marked ones or more among `drawn` out of `number`, of which so many are marked.
+
+    scipy.stats has it too, and takes half a second to load.
+    """
+    seen = np.arange(max(least, drawn + marked - number, 0), min(marked, drawn) + 1.0)
+
+    def ways(of: int, taken: Array) -> Array:
+        return np.asarray(scipy.special.gammaln(of + 1) - scipy.special.gammaln(taken + 1) - scipy.special.gammaln(of - taken + 1))
+
+    whole = ways(number, np.array([float(drawn)]))
+    return min(float(np.sum(np.exp(ways(marked, seen) + ways(number - marked, drawn - seen) - whole))), 1.0)
 
 
 def _visits(there: NDArray[np.bool_]) -> int:

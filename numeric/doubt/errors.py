@@ -143,7 +143,7 @@ def score_chance(scores: Array, length: int) -> float:
         return 1.0
     # The squared length of the vector of ones in the span of the columns of blocks, over their number.
     share = float(np.sum(left[:, kept].sum(axis=0) ** 2)) / blocks
-    return float(scipy.stats.beta.sf(min(share, 1.0), q / 2, (blocks - q) / 2))
+    return float(scipy.special.betaincc(q / 2, (blocks - q) / 2, min(share, 1.0)))
 
 
 def _beside(shapes: Array, regressors: Array) -> Array:

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-import scipy.stats
+import scipy.special
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
@@ -81,8 +81,8 @@ def ideal_thresholds(settings: Settings, rate: float) -> Array:
     beyond = -np.expm1(-rate * settings.memory)
     return np.array(
         [
-            scipy.stats.norm.isf(rate / (2 * settings.p)),
-            scipy.stats.chi2.isf(rate, settings.p * settings.window),
+            -scipy.special.ndtri(rate / (2 * settings.p)),
+            scipy.special.chdtri(settings.p * settings.window, rate),
             *(_tail(maxima[:, TESTS.index(name)], beyond) for name in ("cusum", "hankel")),
         ]
     )
@@ -127,7 +127,7 @@ def calibrate(settings: Settings, level: float, errors: Array, sizes: Array) -> 
             f"the healthy record has larger errors than Gaussian noise has, so that thresholds are raised, that of "
             f"{TESTS[int(np.argmax(raised))]} to {np.max(raised):.2g} times: outliers, a drift, or an error of the model, which hide faults"
         )
-    if sum(alarms) and scipy.stats.poisson.sf(sum(alarms) - 1, expected) < SURPRISING:
+    if sum(alarms) and scipy.special.pdtrc(sum(alarms) - 1, expected) < SURPRISING:
         notes.append(
             f"the healthy record itself has {counted(sum(alarms), 'alarm')} where {expected:.2g} are due: it is not steady (drift, "
             "outliers, a fault in it?), and more false alarms than stated are to be expected"

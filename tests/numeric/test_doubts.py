@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.special import ndtr
-from scipy.stats import kstest
+from scipy.stats import hypergeom, kstest
 
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import StateSpaceModel, arx_reduction, doubts, identify, pi_moesp, record_from
 from faultspace.numeric.data.clocks import Clock, clock_from
-from faultspace.numeric.doubt.channels import limit_chance, written_step
+from faultspace.numeric.doubt.channels import _hypergeometric_tail, limit_chance, written_step
 from faultspace.numeric.doubt.errors import outlier_chance, outlier_sizes, score_chance
 from faultspace.numeric.doubt.listing import KINDS, LEVEL, TESTED
 
@@ -265,3 +265,13 @@ def test_identify_has_doubts_and_says_them_once() -> None:
     wanted = 2 * np.pi * mode["hertz"] * np.sqrt(1 - mode["damping"] ** 2) * 0.5
     assert wanted == pytest.approx(np.angle(z))
     assert "## Doubts" not in identify(Y, U, order=2).summary() and identify(Y, U, order=2).to_json()["modes"] is None
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_tail_of_the_hypergeometric_law_is_that_of_scipy(seed: int) -> None:
+    rng = np.random.default_rng([seed, 18])
+    number = int(rng.integers(1, 3000))
+    marked, drawn = (int(rng.integers(0, number + 1)) for _ in range(2))
+    for least in {0, 1, int(rng.integers(0, min(marked, drawn) + 2)), min(marked, drawn), min(marked, drawn) + 1}:
+        found = _hypergeometric_tail(least, number, marked, drawn)
+        assert np.isclose(found, hypergeom(number, marked, drawn).sf(least - 1), rtol=1e-7, atol=1e-300)
