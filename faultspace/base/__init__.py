@@ -1,1 +1,1 @@
-"""What every room may import and what imports none: errors, how results and progress are shown, programs under limits, threads, chi-squared."""
+"""What every room may import and what imports none: errors, how results and progress are shown, limits, threads, the law of chi-squared."""
