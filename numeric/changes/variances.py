@@ -50,7 +50,8 @@ def _growth(learnt: Predictor, e: Array, forecast: float, i: int, name: str, lev
     squares = learnt.e[:, i] ** 2
     # Few healthy samples may hide heavy tails, which the others show; how these cluster is part of what is asked.
     spreads = [max(_at_zero(squares)[0], float(np.var(squares))) / float(np.mean(squares)) ** 2]
-    spreads.append(float(np.var(e**2)) / max(float(np.mean(e**2)), TINY) ** 2)
+    shape = (e / max(float(np.max(np.abs(e))), TINY)) ** 2  # fourth powers of an outlier would overflow
+    spreads.append(float(np.var(shape)) / max(float(np.mean(shape)), TINY) ** 2)
     thinned = min(1.0, 2.0 / max(spreads))
     over, under = thinned * (len(e) - 2), thinned * learnt.count * learnt.share
     ratio = own / healthy

@@ -90,7 +90,7 @@ DOCUMENTS: dict[str, tuple[str | bytes, tuple[str, ...]]] = {
     "very long integer": (changed(G=[[0]]).replace("[[0]]", "[[%s]]" % ("9" * 300_000)), ("G[0][0]", "65536 bits")),
     "long float": (changed(G=[[0]]).replace("[[0]]", "[[0.%s]]" % ("3" * 300_000)), ("G[0][0]", "0.333")),
     # shapes
-    "ragged": (changed(A=[["1", "2"], ["3"]]), ("A[1]", "1 entries", "expected 2")),
+    "ragged": (changed(A=[["1", "2"], ["3"]]), ("A[1]", "1 entry", "expected 2")),
     "not square": (changed(A=[["1", "2"]]), ("A", "1 x 2")),
     "F too short": (changed(F=[["1"]]), ("F", "1 x 1", "2 x 1")),
     "C too wide": (changed(C=[["1", "0", "0"]]), ("C", "1 x 3", "1 x 2")),

@@ -188,7 +188,7 @@ def test_the_summary_has_one_measure_of_what_is_explained(csv_file: Path, tmp_pa
         "fit means 100 (1 - |y - simulated y| / |y - mean of y|)",
         "leave noise alone (probability",
         "from the ranks of the residual, for comparison: 1",
-        "1 nat is a factor",
+        "dB: of the power of what it leaves",
     ):
         assert said in text, said
 

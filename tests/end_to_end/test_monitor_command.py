@@ -161,7 +161,10 @@ def test_a_file_grows_is_cut_and_begins_anew(tmp_path: Path) -> None:
 
 
 def test_an_interrupt_is_one_line_after_the_summary(plant: Path) -> None:
-    line = [sys.executable, "-m", "faultspace", "monitor", str(plant), "--healthy", str(plant / "healthy.csv"), *OPTIONS]
+    # A shell that starts the tests in the background may have told all its children to ignore interrupts.
+    heard = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    source = heard + "from faultspace.cli.command_line import main; sys.exit(main(sys.argv[1:]))"
+    line = [sys.executable, "-c", source, "monitor", str(plant), "--healthy", str(plant / "healthy.csv"), *OPTIONS]
     line += ["--follow", str(plant / "stream.csv"), "--json"]
     started = subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, env=environment(), text=True)
     assert started.stdout is not None and "alarm" in json.loads(started.stdout.readline())

@@ -31,8 +31,8 @@ from tests.thorough import examples
 Json = Any
 SCHEMA = json.loads(resources.files("faultspace.exact").joinpath("schemas", "experiment.schema.json").read_text("utf-8"))
 BESIDE = re.compile(
-    of_systems.BESIDE.pattern + r"|got \d+ rows, expected"
-    r"|got matrices with \d+ columns, expected"
+    of_systems.BESIDE.pattern + r"|got \d+ rows?, expected"
+    r"|got matrices with \d+ columns?, expected"
     r"|got no input, expected one|got no output, expected one"
     r"|got eigenvalues on or outside the unit circle"
     r"|got an unstable denominator|den\[0\]: got"

@@ -33,7 +33,7 @@ BESIDE = re.compile(
     r"|n \+ m \+ p: got \d+, at most 512"
     r"|nu: got \d+, at most 512"
     r"|is reducible over Q|the leading coefficient is 0|expected a prime below 2\^64"
-    r"|got a list of \d+ coordinates|got \d+ entries, expected \d+ as in the first row"
+    r"|got a list of \d+ coordinates|got \d+ entr(y|ies), expected \d+ as in the first row"
     r"|every matrix that shows this dimension is empty"
     r"|bits"
 )

@@ -104,7 +104,7 @@ def test_identify_calls_the_functions_that_are_public(data: tuple[Array, Array],
     assert found.A.tobytes() == wanted.model.A.tobytes() and found.B.tobytes() == wanted.model.B.tobytes()
     assert residual(y, u, found.model, x0=found.x0).r.tobytes() == wanted.residual.r.tobytes()
     about = y - y.mean(axis=0), u - u.mean(axis=0)
-    count = count_faults(*about, order=3)
+    count = count_faults(*about, order=3, model=found)
     assert (count.n_v, count.reason) == (wanted.n_v, wanted.reason) and count.noise_power is not None
     space = fault_space_by_rows(*about, found.A, found.C, n_v=1, noise_level=np.sqrt(count.noise_power))
     assert space.basis.tobytes() == wanted.fault_space.basis.tobytes()

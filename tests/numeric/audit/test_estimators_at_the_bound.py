@@ -52,7 +52,8 @@ def test_a_reduction_that_is_off_is_seen() -> None:
 def test_the_faults_of_exact_records_are_counted(vector: object) -> None:
     y, u = vector.record()  # type: ignore[attr-defined]
     system = vector.system.residual  # type: ignore[attr-defined]
-    assert count_faults(y, u, order=system.n).possible == (system.m,)
+    # One fault in one output is noise of its colour to everybody.
+    assert count_faults(y, u, order=system.n).possible == ((system.m,) if system.m < system.p else (0, 1))
 
 
 @pytest.mark.parametrize("zeros", [1, 3])
