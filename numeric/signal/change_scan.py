@@ -43,6 +43,7 @@ from scipy.special import digamma
 
 from ...base.arrays import Array
 from ..data.validation import PIECE
+from ..model.models import StateSpaceModel
 
 Reader = Callable[[int, int], Array]
 Numbers = NDArray[np.intp]
@@ -200,6 +201,7 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
     M, L, q = rows.shape
     lags = (q - 1) // p - 1
     slopes, innovations = _innovations(rows, p, edge)
+    process = _autoregression(slopes, p)
     draw = np.random.default_rng(SEED)
     batch = max(NUMBERS // (M * L * q), 1)
     done = 0
@@ -209,14 +211,19 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
         done += count
         orders = np.array([draw.permutation(M) for _ in range(count)])
         driven = innovations[orders].reshape(count, M * L, p)
-        record, past = np.zeros((count, lags + M * L, p)), np.zeros((count, lags * p))
-        record[:, lags:] = driven
-        for k in range(M * L if lags else 0):
-            now = driven[:, k] + past @ slopes
-            past = np.hstack([now, past[:, : (lags - 1) * p]])
-            record[:, lags + k] = now
+        record = np.zeros((count, lags + M * L, p))
+        for one, errors in zip(record, driven, strict=True):
+            one[lags:] = process.simulate(errors)
         z = [np.ones((count, M * L, 1)), *(record[:, lags - i : lags - i + M * L] for i in range(1, lags + 1)), record[:, lags:]]
         yield from _squares(np.concatenate(z, axis=2).reshape(count, M, L, q))
+
+
+def _autoregression(slopes: Array, p: int) -> StateSpaceModel:
+    """Return the process from innovations to outputs, whose state has the last outputs, the latest first, and begins with zero."""
+    lags = len(slopes) // p
+    A, B = np.eye(lags * p, k=-p), np.eye(lags * p, p)
+    A[:p] = slopes.T[: len(A)]
+    return StateSpaceModel(A, B, slopes.T, np.eye(p))
 
 
 def _innovations(rows: Array, p: int, edge: int) -> tuple[Array, Array]:
