@@ -1,6 +1,6 @@
 """This measures the onset and the isolation of `identify`: how far off, how often the interval holds, how often a cause is named wrongly.
 
-    python benchmarks/onset_and_isolation.py [--trials 20] [--seed 1] [--part onset|isolation|both] [--markdown]
+    python benchmarks/onset_and_isolation.py [--trials 20] [--seed 1] [--part onset|isolation|both] [--shifts] [--markdown]
 
 Onset, on residuals of three outputs as `fault_onset` takes them: noise of a random colour (autoregressive, poles up to 0.9) and of levels 1
 to 30 apart, 1000 samples; a fault in a random direction from a random sample on (a fifth to four fifths of the record), of the size stated:
@@ -19,6 +19,11 @@ of the size stated in deviations of the sensors' noise: at a sensor, at an actua
     wrong         another cause is named alone, or the right one is excluded (elsewhere: any is named)
     several       the right one is named with others
     undecided     nothing is named, and the right one is not excluded
+
+Shifts (`--shifts`, alone), on records of the same plant and length, order told: a step of the size stated, in deviations of the noise in
+the output that it moves most, at a sensor, at an actuator, or elsewhere in a random direction of the outputs, from a random sample on (two
+to four fifths of the record); `identify` with the first three tenths stated to be healthy, and without. The columns are those of the
+isolation; undecided has the records too in which no shift was seen.
 """
 
 from __future__ import annotations
@@ -30,7 +35,16 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from faultspace import example_data as plant
-from faultspace.numeric import Isolation, StateSpaceModel, arx_reduction, fault_onset, identified_fault_space, isolate
+from faultspace.numeric import (
+    Isolation,
+    ShiftIsolation,
+    StateSpaceModel,
+    arx_reduction,
+    fault_onset,
+    identified_fault_space,
+    identify,
+    isolate,
+)
 
 Array = NDArray[np.float64]
 
@@ -38,6 +52,7 @@ SIZES = (3, 10, 30)
 KINDS = ("none", "step", "white", "slow", "sine")
 CAUSES = ("sensor", "actuator", "elsewhere")
 SAMPLES = 1000
+SHIFT = 10
 NOISE = 0.035
 
 
@@ -81,7 +96,25 @@ def isolation_trial(random: np.random.Generator, cause: str, size: float) -> str
     return judged(isolate(identified_fault_space(y, u, model, n_v=1), model, units=y.std(axis=0)), number)
 
 
-def judged(found: Isolation, number: int) -> str:
+def shift_trial(random: np.random.Generator, cause: str, size: float, healthy: int | None) -> str:
+    """Return right, wrong, several or undecided."""
+    number = {"sensor": int(random.integers(3)), "actuator": 3 + int(random.integers(2)), "elsewhere": -1}[cause]
+    gain = plant.C @ np.linalg.solve(np.eye(3) - plant.A, plant.B) + plant.D
+    direction = np.hstack([np.eye(3), gain])[:, number] if number >= 0 else random.standard_normal(3)
+    step = size * NOISE / np.abs(direction).max()
+    at = int(random.integers(2 * SAMPLES // 5, 4 * SAMPLES // 5))
+    u = random.standard_normal((SAMPLES, 2))
+    driving, added = u.copy(), np.zeros((SAMPLES, 3))
+    if number >= 3:
+        driving[at:, number - 3] += step
+    else:
+        added[at:] = step * direction
+    y = StateSpaceModel(plant.A, plant.B, plant.C, plant.D).simulate(driving) + added + NOISE * random.standard_normal((SAMPLES, 3))
+    found = identify(y, u, order=3, healthy=healthy).shift_isolation
+    return "undecided" if found is None else judged(found, number)
+
+
+def judged(found: Isolation | ShiftIsolation, number: int) -> str:
     """Return what the answer is beside the true cause, -1 for none of them."""
     named = [j for j, one in enumerate(found.causes) if one.answer == "consistent"]
     if number < 0:
@@ -98,6 +131,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--part", choices=("onset", "isolation", "both"), default="both")
     parser.add_argument("--markdown", action="store_true", help="print tables in Markdown")
+    parser.add_argument("--shifts", action="store_true", help="measure what explains a shift of the mean, and nothing else")
     arguments = parser.parse_args()
 
     def line(*cells: object) -> None:
@@ -109,6 +143,14 @@ def main() -> None:
             print("|---" * len(names) + "|")
 
     seeds = range(arguments.trials)
+    if arguments.shifts:
+        heads("cause", "sigmas", "healthy", "records", "right", "several", "undecided", "wrong")
+        for healthy in (3 * SAMPLES // 10, None):
+            for cause in CAUSES:
+                randoms = [np.random.default_rng((arguments.seed, CAUSES.index(cause), 7, k)) for k in seeds]
+                answers = [shift_trial(random, cause, SHIFT, healthy) for random in randoms]
+                line(cause, SHIFT, healthy or "", len(answers), *(answers.count(w) for w in ("right", "several", "undecided", "wrong")))
+        return
     if arguments.part != "isolation":
         heads("fault", "sigmas", "records", "found", "error", "held", "more")
         for kind in KINDS:

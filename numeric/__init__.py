@@ -11,7 +11,7 @@ residual              r = y - (response of the model to u), the initial state fi
 fault_dimension       how many faults a residual shows, or "undecided"
 fault_space           all fault columns [f; g] that explain the residual
 fault_onset           the samples from which on a residual is another one, with intervals
-isolate               which single sensor or actuator lies in a fault space
+isolate               which single sensor or actuator lies in a fault space; isolate_shift: which explains a shift of the mean
 reconstruct_fault     the fault signal for a chosen pair (F, G)
 
 The audit's reference calls these very functions, and so does `identify` on records without noise and, but for the model, beside samples

@@ -51,5 +51,7 @@ from .space.isolation import Isolation as Isolation
 from .space.isolation import isolate as isolate
 from .space.result import FaultSpaceEstimate as FaultSpaceEstimate
 from .space.result import SpaceUncertainty as SpaceUncertainty
+from .space.shift_isolation import ShiftIsolation as ShiftIsolation
+from .space.shift_isolation import isolate_shift as isolate_shift
 
 __all__: list[str]

@@ -2,6 +2,7 @@
 
 with_onset       the Findings with the changes of the residual over the whole record
 with_isolation   the Findings with the angle of each sensor and each input to the fault space, where there is one
+with_shift       the Findings with what explains the shift of the mean after the first onset, or after the healthy samples
 """
 
 from __future__ import annotations
@@ -10,10 +11,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..base.errors import InvalidData
 from ..base.progress import Progress
+from .choice import MEANS_FROM
+from .count.mean_shift import MeanShift, mean_shift
+from .count.unlike_healthy import beyond_healthy_inputs
 from .findings import Findings
 from .signal.onset import fault_onset
 from .space.isolation import isolate
+from .space.shift_isolation import isolate_shift, stays
+
+SETTLED = 1e-4  # of the response to a step, what may be left where its mean is taken for the steady one
 
 
 def with_onset(answer: Findings, on_progress: Progress) -> Findings:
@@ -38,3 +46,70 @@ def with_isolation(answer: Findings) -> Findings:
     sizes = np.sqrt(np.mean((y - y.mean(axis=0)) ** 2, axis=0))
     units = np.where(sizes > 0, sizes, 1.0)
     return replace(answer, isolation=isolate(space, model, outputs=record.outputs, inputs=record.inputs, units=units))
+
+
+def with_shift(answer: Findings) -> Findings:
+    """Return the Findings with what single causes are to a shift of the mean of the residual, the fault that no rank shows.
+
+    The mean is that of the samples from the first onset with time for it, where its transient has died out, to the next onset, against
+    those before all onsets, or the healthy ones; without an onset, of all samples after the healthy ones. Where neither has moved, or the
+    residual has a growing mode, nothing is said.
+    """
+    rest, model, onset, healthy = answer.residual, answer.model, answer.onset, answer.healthy
+    if model is None or rest is None or rest.backward or (rest.fitted and healthy):
+        return answer
+    dying = np.abs(model.model.poles[np.abs(model.model.poles) < 1])
+    transient = int(np.ceil(np.log(SETTLED) / np.log(max(float(np.max(dying, initial=0.0)), SETTLED))))
+    stretches: list[tuple[tuple[int, int], tuple[int, int]]] = []
+    if onset is not None and onset.onsets:
+        # A step that dies in slowly has an onset more: the first that leaves time for the transient is taken, else the one with most.
+        times = [one.stretch[1] - one.stretch[0] for one in onset.onsets]
+        enough = [k for k, time in enumerate(times) if time >= 2 * transient]
+        chosen = onset.onsets[enough[0] if enough else int(np.argmax(times))]
+        stretches.append(((0, healthy or onset.onsets[0].interval[0]), chosen.stretch))
+    if healthy and answer.moved:
+        stretches.append(((0, healthy), (healthy, len(rest.store))))
+    for against, (first, last) in stretches:
+        start = min(first + transient, (first + last) // 2)
+        found = _moved(answer, against, (start, last))
+        if found is None or not found.shifted or found.shift is None or found.covariance is None:
+            continue
+        steady = start == first + transient and _steady(answer, against, (start, last))
+        isolated = isolate_shift(
+            found.shift,
+            found.covariance,
+            model,
+            freedom=found.freedom,
+            steady=steady,
+            outputs=answer.record.outputs,
+            inputs=answer.record.inputs,
+        )
+        return replace(answer, shift_isolation=replace(isolated, samples=(start, last), against=against))
+    return answer
+
+
+def _steady(answer: Findings, against: tuple[int, int], samples: tuple[int, int]) -> bool:
+    """Say whether the mean of the residual has moved by the same in both halves of the samples."""
+    middle = sum(samples) // 2
+    early, late = _moved(answer, against, (samples[0], middle)), _moved(answer, against, (middle, samples[1]))
+    if early is None or late is None or early.covariance is None or late.covariance is None or early.shift is None or late.shift is None:
+        return False
+    return stays(early.shift, late.shift, early.covariance + late.covariance, early.freedom)
+
+
+def _moved(answer: Findings, against: tuple[int, int], samples: tuple[int, int]) -> MeanShift | None:
+    """Return the test of the mean of the residual in these samples against that in others before; None where it has no ground, as where the
+    inputs are elsewhere, so that the error of the model is not what the others show."""
+    assert answer.residual is not None
+    before, after = (max(against[0], against[1] - MEANS_FROM), against[1]), (samples[0], min(samples[1], samples[0] + MEANS_FROM))
+    if before[1] <= before[0] or after[1] <= after[0]:
+        return None
+    u, u_before = answer.record.stretch(*after)[1], answer.record.stretch(*before)[1]
+    if beyond_healthy_inputs(u_before, u, answer.record.inputs):
+        return None
+    r = answer.residual.store
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            return mean_shift(r.read(*after), u, r.read(*before), u_before)
+    except (InvalidData, np.linalg.LinAlgError):  # constant channels, exact combinations, numbers too unequal
+        return None

@@ -25,6 +25,7 @@ from .signal.reconstruction import Reconstruction
 from .signal.residual_sizes import ResidualSizes
 from .space.by_ranks import FaultSpaceEstimate
 from .space.isolation import Isolation
+from .space.shift_isolation import ShiftIsolation
 
 COUNTED_BY = ("given", "model", "healthy samples", "residual alone", "outputs and inputs")
 """An n_v rests on one of these: the user, a model that explains everything, or one of the three ways of counting."""
@@ -67,6 +68,7 @@ class Findings:
     onset: FaultOnset | None = None
     fault_space: FaultSpaceEstimate | None = None
     isolation: Isolation | None = None
+    shift_isolation: ShiftIsolation | None = None
     pair: tuple[Array, Array] | None = None
     signal: Reconstruction | None = None
     explained: float | None = None

@@ -38,7 +38,7 @@ from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import counted
 from ..base.threads import one_thread
-from .causes import with_isolation, with_onset
+from .causes import with_isolation, with_onset, with_shift
 from .changing import with_two_parts
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
@@ -196,7 +196,7 @@ def _findings(
     if np.all(sizes.peak <= ROUNDING * largest(record)):
         return replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model")
     answer = with_count(with_onset(answer, on_progress), n_v, on_progress)
-    return with_signal(with_isolation(with_space(answer, on_progress)), on_progress)
+    return with_signal(with_shift(with_isolation(with_space(answer, on_progress))), on_progress)
 
 
 def _residual(record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: Progress) -> ResidualSignal:

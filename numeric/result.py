@@ -29,6 +29,7 @@ class Identification(Findings):
     fault_space      the columns [f; g] that explain the residual: basis (n + p, n_z), orthonormal, and how sure it is
     onset            the samples from which on the residual is another one, with intervals, outputs and sizes in sigmas
     isolation        which single sensor or actuator lies in the fault space
+    shift_isolation  which single sensor or actuator explains a shift of the mean of the residual, as a step or constant fault makes it
     pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
                      the signal explains, by_noise: what it would explain of noise
     doubts           what the record gives reason to doubt: evidence, what it does to the answer, what to do

@@ -370,6 +370,8 @@ def number_of_lags(r: Array, u: Array) -> int:
     best, chosen = np.inf, 0
     for lags in range(most + 1):
         spent = n_u + width * lags
+        if count <= spent + p + 1:  # so few samples say nothing of this many coefficients, nor do they of more
+            break
         left = triangle[spent:, -p:]
         logdet = np.linalg.slogdet(left.T @ left / count)[1]
         # Corrected Akaike criterion for p regressions with a full covariance.

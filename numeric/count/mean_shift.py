@@ -95,8 +95,8 @@ class MeanShift:
 
     `shifted` is None where it is undecided, and `reason` says why. `shift` (p,) is the estimate in units of r, and `deviations` (p,) are
     its standard deviations. `channels` numbers the outputs whose own shift is beyond chance. `statistic` is T^2, held against `threshold`
-    at `level`. `visible` (p,) is the shift of one output alone that would be found with chance POWER. Arrays are None where nothing could
-    be estimated.
+    at `level`. `visible` (p,) is the shift of one output alone that would be found with chance POWER. `covariance` (p, p) is that of the
+    shift, estimated with `freedom` degrees of freedom. Arrays are None where nothing could be estimated.
     """
 
     shifted: bool | None
@@ -108,6 +108,8 @@ class MeanShift:
     channels: tuple[int, ...] = ()
     statistic: float | None = None
     threshold: float | None = None
+    covariance: Array | None = None
+    freedom: int | None = None
 
 
 def mean_reference(healthy: ArrayLike, u: ArrayLike | None = None) -> MeanReference:
@@ -221,7 +223,9 @@ def _judged(reference: MeanReference, e: Array, h: float, level: float) -> MeanS
     shifted = statistic > threshold
     compared = f"T^2 = {statistic:.4g} against {threshold:.4g}, which chance exceeds with probability {level:g}"
     reason = f"the mean has moved: {compared}" if shifted else f"no shift of the mean: {compared}"
-    return MeanShift(shifted, reason, level, shift, deviations, visible, channels if shifted else (), statistic, threshold)
+    found = channels if shifted else ()
+    covariance = V * np.outer(reference.scales, reference.scales)
+    return MeanShift(shifted, reason, level, shift, deviations, visible, found, statistic, threshold, covariance, reference.freedom)
 
 
 def _regressors(r: Array, u: Array, lags: int) -> tuple[Array, Array]:

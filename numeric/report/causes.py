@@ -1,8 +1,8 @@
 """This is what `identify` writes and says of the residual, its onsets and single causes.
 
 onset_lines       the onsets, in lines of Markdown
-isolation_lines   which single cause explains the faults, with the angles in a table
-told              both in JSON
+isolation_lines   which single cause explains a shift of the mean, and which the faults, with the angles in a table
+told              all of it in JSON
 residual_table    residual.csv: a line a sample
 stretches         for each sample, how many onsets came before
 causes_drawn      the pictures of both, with their names
@@ -22,6 +22,7 @@ from ..drawing import plot_onsets
 
 if TYPE_CHECKING:
     from ..findings import Findings
+    from ..space.shift_isolation import ShiftIsolation
 
 RESIDUAL = "residual.csv"
 CAUSES_DRAWN = ("residual.png", "isolation.png")
@@ -58,12 +59,20 @@ def onset_lines(answer: Findings) -> Iterator[str]:
 
 def isolation_lines(answer: Findings) -> Iterator[str]:
     """Yield the section on single causes, where there is a fault space."""
-    found = answer.isolation
-    if found is None:
+    found, shift = answer.isolation, answer.shift_isolation
+    if found is None and shift is None:
         return
     yield ""
     yield "## Which sensor or actuator"
-    yield f"**{found.answer}**"
+    first = shift is not None and shift.decided
+    if shift is not None and first:
+        yield from _shift_lines(shift)
+    if found is not None:
+        yield f"**{found.answer}**" if not first else f"by the fault space: {found.answer}"
+    if shift is not None and not first:
+        yield from _shift_lines(shift)
+    if found is None:
+        return
     width = max(len(cause.channel) for cause in found.causes)
     yield f"    {'fault of':<8}  {'':<{width}}  {'degrees':>8}  {'bound':>8}  {'chance':>7}"
     for cause in found.causes:
@@ -76,12 +85,25 @@ def isolation_lines(answer: Findings) -> Iterator[str]:
     )
 
 
+def _shift_lines(found: ShiftIsolation) -> Iterator[str]:
+    """Yield which cause explains the shift of the mean, and by how much each that may would have to act."""
+    yield f"**{found.answer}**" if found.decided else f"by the shift of the mean: {found.answer}"
+    if found.samples is not None and found.against is not None:
+        (start, stop), (before, until) = found.samples, found.against
+        yield f"the shift: the mean of the residual in samples {start} to {stop - 1} against that in samples {before} to {until - 1}"
+    for cause in found.causes:
+        if cause.size is not None and cause.p_value is not None:
+            size = f"size {cause.size:.4g} +- {cause.deviation:.2g}"
+            yield f"    {cause.kind} {cause.channel}: {cause.answer}, {size}, chance {cause.p_value:.2g}"
+
+
 def told(answer: Findings) -> dict[str, Any]:
-    """Return both in JSON, null where nothing was asked."""
+    """Return all of it in JSON, null where nothing was asked."""
     onset, names = answer.onset, answer.record.outputs
     return {
         "onset": None if onset is None else onset.to_json() | {"outputs": list(names)},
         "isolation": None if answer.isolation is None else answer.isolation.to_json(),
+        "shift_isolation": None if answer.shift_isolation is None else answer.shift_isolation.to_json(),
     }
 
 

@@ -350,12 +350,13 @@ def _words_of_sets(causes: Sequence[Cause], sets: Sequence[Sequence[Cause]], n_v
 
 
 def _and(names: Sequence[str]) -> str:
-    return _joined(names, "and")
+    return joined(names, "and")
 
 
 def _or(names: Sequence[str]) -> str:
-    return _joined(names, "or")
+    return joined(names, "or")
 
 
-def _joined(names: Sequence[str], word: str) -> str:
+def joined(names: Sequence[str], word: str) -> str:
+    """Return the names as one phrase, `word` before the last."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} {word} {names[-1]}"

@@ -27,9 +27,9 @@ from faultspace.numeric.model.models import StateSpaceModel
 Array = NDArray[np.float64]
 RESULTS = (
     *("model", "residual", "dimension", "space", "signal", "study", "record", "matrices"),
-    *("reduced", "uncertainty", "orders", "count", "open count", "healthy", "against", "direction", "changes", "doubts"),
+    *("reduced", "uncertainty", "orders", "count", "open count", "healthy", "against", "direction", "changes", "doubts", "shift"),
 )
-DRAWN = (*(name for name in RESULTS if name not in ("record", "count", "open count", "healthy", "changes", "doubts")), "whole")
+DRAWN = (*(name for name in RESULTS if name not in ("record", "count", "open count", "healthy", "changes", "doubts", "shift")), "whole")
 needs_matplotlib = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is None, reason="matplotlib is not installed")
 
 
@@ -67,7 +67,8 @@ def chain() -> dict[str, Any]:
         "open count": numeric.count_faults(noise[:800, :1], pushed, order=1),
     }
     changes = numeric.changes_since_healthy(noise, noise, noise[:, :1], healthy=800)
-    more = {"healthy": healthy, "changes": changes, "against": against, "direction": direction, **counts, **near}
+    shift = numeric.isolate_shift([0.0, 9.0, 0.0], np.eye(3), reduced)
+    more = {"healthy": healthy, "changes": changes, "shift": shift, "against": against, "direction": direction, **counts, **near}
     return {"y": y, "u": u, **steps, **more, "whole": whole, "study": study}
 
 
