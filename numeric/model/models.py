@@ -4,6 +4,7 @@ StateSpaceModel         the matrices, checked and read-only, with simulation, Ma
 Simulator               the response to inputs that come in pieces, many samples at a time by matrix products
 Identified              what the results of both methods of identification share
 observability_matrix    O_s, the rows C, CA, ..., CA^(s-1)
+lower_toeplitz          the matrix from a window of inputs to that of outputs
 """
 
 from __future__ import annotations
@@ -210,7 +211,7 @@ class Simulator:
         self._model = model
         with np.errstate(over="ignore", invalid="ignore"):
             self._free = observability_matrix(model.A, model.C, BLOCK)
-            self._forced = _toeplitz(model.markov(BLOCK))
+            self._forced = lower_toeplitz(model.markov(BLOCK))
             self._reach = observability_matrix(model.A.T, model.B.T, BLOCK)
             self._step = np.linalg.matrix_power(model.A, BLOCK)
 
@@ -235,7 +236,7 @@ class Simulator:
         return y
 
 
-def _toeplitz(markov: Array) -> Array:
+def lower_toeplitz(markov: Array) -> Array:
     """Return the lower block-triangular Toeplitz matrix T_s (s p, s n_u) of s Markov parameters."""
     count, p, n_u = markov.shape
     blocks = np.zeros((count, p, count, n_u))

@@ -43,7 +43,7 @@ from scipy.special import digamma
 
 from ...base.arrays import Array
 from ..data.validation import PIECE
-from ..model.models import StateSpaceModel
+from ..model.models import StateSpaceModel, lower_toeplitz, observability_matrix
 
 Reader = Callable[[int, int], Array]
 Numbers = NDArray[np.intp]
@@ -59,6 +59,7 @@ LEAST = 1 / (DRAWS + 1)  # the least chance that can be told
 CLEAR = 10  # larger ratios after which no more are tried
 SEED = 20251122
 NUMBERS = 1 << 21  # of the records that are made at a time
+STRETCH = 32  # samples of them that are made by one product of matrices
 FINE = 256  # samples at which the ratio is looked at in each step of closing in
 
 
@@ -202,6 +203,7 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
     lags = (q - 1) // p - 1
     slopes, innovations = _innovations(rows, p, edge)
     process = _autoregression(slopes, p)
+    from_errors, from_past = lower_toeplitz(process.markov(STRETCH)), observability_matrix(process.A, process.C, STRETCH)
     draw = np.random.default_rng(SEED)
     batch = max(NUMBERS // (M * L * q), 1)
     done = 0
@@ -212,8 +214,12 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
         orders = np.array([draw.permutation(M) for _ in range(count)])
         driven = innovations[orders].reshape(count, M * L, p)
         record = np.zeros((count, lags + M * L, p))
-        for one, errors in zip(record, driven, strict=True):
-            one[lags:] = process.simulate(errors)
+        for k in range(0, M * L, STRETCH):
+            errors = driven[:, k : k + STRETCH].reshape(count, -1)
+            past = record[:, k : k + lags][:, ::-1].reshape(count, lags * p)
+            size = errors.shape[1]
+            forced = errors @ from_errors[:size, :size].T + past @ from_past[:size].T
+            record[:, lags + k : lags + k + STRETCH] = forced.reshape(count, -1, p)
         z = [np.ones((count, M * L, 1)), *(record[:, lags - i : lags - i + M * L] for i in range(1, lags + 1)), record[:, lags:]]
         yield from _squares(np.concatenate(z, axis=2).reshape(count, M, L, q))
 

@@ -11,6 +11,7 @@ from scipy.signal import lfilter
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric import fault_onset
+from faultspace.numeric.signal import change_scan
 from faultspace.numeric.signal.change_scan import choose_lags, located, rows_of, scan
 
 Array = NDArray[np.float64]
@@ -160,3 +161,21 @@ def test_bad_arguments_are_refused_in_one_line() -> None:
         with pytest.raises(InvalidData, match=next(iter(arguments))):
             fault_onset(r, **arguments)
     assert json.dumps(fault_onset(r).to_json(), allow_nan=False)
+
+
+@pytest.mark.parametrize(("p", "lags", "parts", "length"), [(2, 3, 6, 11), (1, 0, 4, 5), (3, 1, 5, 40)])
+def test_records_without_a_change_are_those_of_the_plain_recursion(p: int, lags: int, parts: int, length: int) -> None:
+    rows = np.random.default_rng([p, lags]).standard_normal((parts, length, 1 + p * (lags + 1)))
+    rows[..., 0] = 1.0
+    slopes, innovations = change_scan._innovations(rows, p, parts // 2)
+    draw, samples = np.random.default_rng(change_scan.SEED), parts * length
+    made = list(change_scan._without_change(rows, p, parts // 2))
+    assert len(made) == change_scan.DRAWS
+    for sums in made[: 2 * change_scan.CLEAR]:
+        errors = innovations[draw.permutation(parts)].reshape(samples, p)
+        y = np.zeros((lags + samples, p))
+        for k in range(samples):
+            y[lags + k] = errors[k] + sum((y[lags + k - i] @ slopes[p * (i - 1) : p * i] for i in range(1, lags + 1)), np.zeros(p))
+        z = np.hstack([np.ones((samples, 1)), *(y[lags - i : lags - i + samples] for i in range(lags + 1) if i), y[lags:]])
+        parted = z.reshape(parts, length, -1)
+        assert np.allclose(sums, np.swapaxes(parted, 1, 2) @ parted, rtol=1e-10, atol=1e-10)
