@@ -145,7 +145,7 @@ def simulated(plants: int, trials: int, seed: int) -> tuple[dict[float, Array], 
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]], markdown: bool) -> None:
-    """Print a table."""
+    """Print one table of delays or rates, with its title above it."""
     if markdown:
         print("| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|")
         print("\n".join("| " + " | ".join(row) + " |" for row in rows))

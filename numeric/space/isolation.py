@@ -50,19 +50,19 @@ class Matrices(Protocol):
 
     @property
     def A(self) -> Array:
-        """Return A."""
+        """Return the state matrix (n, n)."""
 
     @property
     def B(self) -> Array:
-        """Return B."""
+        """Return the input matrix (n, n_u)."""
 
     @property
     def C(self) -> Array:
-        """Return C."""
+        """Return the output matrix (p, n)."""
 
     @property
     def D(self) -> Array:
-        """Return D."""
+        """Return the direct feedthrough (p, n_u)."""
 
 
 class Identified(Protocol):
@@ -71,6 +71,11 @@ class Identified(Protocol):
     @property
     def model(self) -> Any:
         """Return the model."""
+
+
+def cause_name(kind: str, channel: str) -> str:
+    """Return a single cause in words, of the kind "sensor" or "actuator"."""
+    return f"{'a sensor' if kind == 'sensor' else 'an actuator'} fault on {channel}"
 
 
 @dataclass(frozen=True)
@@ -89,7 +94,7 @@ class Cause:
     @property
     def name(self) -> str:
         """Return what it is, in words."""
-        return f"{'a sensor' if self.kind == 'sensor' else 'an actuator'} fault on {self.channel}"
+        return cause_name(self.kind, self.channel)
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, angles in degrees."""

@@ -34,7 +34,7 @@ from ...base.errors import InvalidData, shorten
 from ...base.sheets import Shown
 from ...base.threads import one_thread
 from ..data.plain import plain
-from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, joined
+from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, cause_name, joined
 
 ANGLES = 720  # of the grid on which the least statistic is looked for
 NO_GAIN = "the model has a pole on the unit circle or outside, as far as its standard errors tell: an offset has no steady response"
@@ -60,7 +60,7 @@ class ShiftCause:
     @property
     def name(self) -> str:
         """Return what it is, in words."""
-        return f"{'a sensor' if self.kind == 'sensor' else 'an actuator'} fault on {self.channel}"
+        return cause_name(self.kind, self.channel)
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, the bound in degrees."""
