@@ -1,7 +1,7 @@
 """This is report.html, the page of one record: the answers as tiles, the summary below them, the pictures in their places.
 
 report      the page as text, from the lines of the summary and the pictures drawn into a folder
-tiles       the answers at its head: model, faults, fault space, signal; what is open says so
+tiles       the answers at its head: model, faults, onset, cause, fault space, signal; what is open says so
 CAPTIONS    for each picture its section, its caption and the words for those who cannot see it
 """
 
@@ -93,9 +93,14 @@ def tiles(answer: Findings) -> Iterator[Tile]:
         least = f"Simulated from the inputs alone it fits each output to {explained.min():.3g} % or more."
     yield Tile("Model", f"order {model.order}{left}", least, not left)
     yield _faults(answer)
+    yield from _causes(answer)
     space = answer.fault_space
     if space is not None and space.meaningful:
-        sure = "" if space.uncertainty is None else f", within {np.degrees(space.uncertainty.angle()):.2g} degrees"
+        sure = (
+            ""
+            if space.uncertainty is None
+            else f", its angle to the true space below {np.degrees(space.uncertainty.angle()):.2g} degrees with probability 0.95"
+        )
         rests = f"Its dimension is n_z = {space.n_z}{sure}."
         yield Tile("Fault space", "found" if space.decided else "undecided", rests if space.decided else space.reason, space.decided)
     if answer.explained is not None and answer.by_noise is not None:
@@ -119,4 +124,24 @@ def _faults(answer: Findings) -> Tile:
         return Tile("Faults", "a constant one acts", f"No other was counted.{shift}", False)
     if answer.n_v == 0 and not answer.n_v_given and answer.noise_level is None and answer.healthy is None and not answer.exact:
         return Tile("Faults", "none told from noise", f"{rests} It takes the noise for granted that the section on faults states.", False)
+    if answer.n_v == 0 and not answer.n_v_given and not answer.exact:
+        return Tile("Faults", "none seen", f"{rests} The section on faults says from which size on one would have been.")
     return Tile("Faults", counted(answer.n_v, "fault"), rests)
+
+
+def _causes(answer: Findings) -> Iterator[Tile]:
+    """Yield when the residual changes, and which single cause explains it, where these were asked."""
+    onset, shift, isolation = answer.onset, answer.shift_isolation, answer.isolation
+    if onset is not None and onset.onsets:
+        first, last = onset.onsets[0].interval
+        more = f" {counted(len(onset.onsets) - 1, 'more onset follows', 'more onsets follow')}." if len(onset.onsets) > 1 else ""
+        yield Tile(
+            "Onset", f"sample {onset.onsets[0].sample}", f"It lies in {first} to {last} with probability {onset.confidence:g}.{more}"
+        )
+    if shift is not None and shift.decided:
+        yield Tile("Cause", shift.answer, "This is told by the direction in which the mean of the residual moved.")
+    elif isolation is not None:
+        if isolation.answer.startswith("undecided"):
+            yield Tile("Cause", "undecided", isolation.answer.removeprefix("undecided: "), False)
+        else:
+            yield Tile("Cause", isolation.answer, "This is told by the fault space.")

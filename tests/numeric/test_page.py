@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from faultspace.base.page import Picture, Tile, page
-from faultspace.numeric import identify
+from faultspace.numeric import fault_onset, identify, isolate_shift
 from faultspace.numeric.data.records import recorded
 from faultspace.numeric.findings import Findings
 from faultspace.numeric.model.models import StateSpaceModel
@@ -95,3 +95,19 @@ def test_a_zero_that_rests_on_the_noise_is_no_bare_zero(found: Findings) -> None
     assert found.mean is not None
     moved = {tile.of: tile for tile in tiles(replace(found, mean=replace(found.mean, shifted=True)))}["Faults"]
     assert moved.answer == "a constant one acts" and not moved.decided
+
+
+def test_onset_and_cause_stand_at_the_head(found: Findings) -> None:
+    rng = np.random.default_rng(5)
+    r = rng.standard_normal((600, 2))
+    r[400:, 1] += 20
+    onset, shift = fault_onset(r), isolate_shift([0.0, 20.0], 0.01 * np.eye(2), PLANT)
+    shown = {tile.of: tile for tile in tiles(replace(found, onset=onset, shift_isolation=shift))}
+    assert shown["Onset"].answer == f"sample {onset.onsets[0].sample}" and "0.95" in shown["Onset"].rests
+    assert "a sensor fault on y2 explains the shift" in shown["Cause"].answer and shown["Cause"].decided
+    assert "Cause" not in {tile.of for tile in tiles(replace(found, shift_isolation=None, isolation=None))}
+
+
+def test_no_healthy_count_of_zero_is_a_bare_zero(found: Findings) -> None:
+    shown = {tile.of: tile for tile in tiles(replace(found, healthy=100))}["Faults"]
+    assert shown.answer == "none seen" and "from which size on" in shown.rests
