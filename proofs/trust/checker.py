@@ -52,6 +52,7 @@ from typing import Any, NamedTuple, NoReturn
 
 Json = Any
 Polynomial = dict[int, "Mat"]  # a polynomial matrix: the nonzero coefficients by their powers
+Vectors = list[list[int]]  # a polynomial row c_0, c_1, ...: the coordinates of its coefficients, or their residues
 MAX_BYTES, MAX_BITS, MAX_DIMENSION, MAX_DEGREE, MAX_WINDOW, MAX_PRIME = 2 * 2**20, 2**16, 512, 16, 4096, 2**64 - 1
 MAX_WORK, MAX_MEMORY = 3 * 10**9, 2**27  # of this checker, for one certificate: in nanoseconds and bytes, by estimates from above
 NUMBER = re.compile(r"(-?[0-9]{1,19730})(?:/([1-9][0-9]{0,19729}))?")
@@ -154,20 +155,99 @@ def is_prime(number: int) -> bool:
     return all(pow(b, odd, number) in (1, number - 1) or number - 1 in (pow(b, odd << i, number) for i in range(1, twos)) for b in bases)
 
 
+def slot(prime: int, terms: int) -> int:
+    """Return the bytes of a slot in which a sum of so many products of two residues fits: terms (prime - 1)^2 < 256^slot."""
+    return (2 * prime.bit_length() + terms.bit_length() + 7) // 8
+
+
+def packed(vector: Iterable[int], size: int) -> int:
+    """Return residues as one number, one in each slot of so many bytes, the first in the lowest.
+
+    A multiple of such a number, or a sum, is that of the vector, slot by slot, as long as what stands in every slot stays below
+    256^size: nothing is carried from one to the next.
+    """
+    return int.from_bytes(b"".join([x.to_bytes(size, "little") for x in vector]), "little")
+
+
+def unpacked(number: int, size: int, count: int, prime: int) -> list[int]:
+    """Return the residues that stand in the slots."""
+    data = number.to_bytes(size * count, "little")
+    return [int.from_bytes(data[i : i + size], "little") % prime for i in range(0, size * count, size)]
+
+
 def echelon(vectors: Iterable[list[int]], prime: int) -> list[tuple[int, list[int]]]:
-    """Row echelon form modulo a prime of lists of residues: [(pivot column, row with leading 1), ...] ascending by pivot."""
-    found = list[tuple[int, list[int]]]()
-    rest = [v for v in vectors if any(v)]
-    for j in range(len(rest[0]) if rest else 0):
-        charge(200 + 60 * len(rest))
-        if lead := next((v for v in rest if v[j]), None):
-            charge((len(rest) + 1) * (500 + (30 + 2 * prime.bit_length()) * len(lead)), 80 * (len(found) + len(rest)) * len(lead))
-            inverse = pow(lead[j], -1, prime)
-            lead = [x * inverse % prime for x in lead]
-            found.append((j, lead))
-            rest = [[(x - c * y) % prime for x, y in zip(v, lead, strict=True)] if (c := v[j]) else v for v in rest]
-            rest = [v for v in rest if any(v)]
+    """Row echelon form modulo a prime of lists of residues: [(pivot column, row with leading 1), ...] ascending by pivot.
+
+    Each vector, packed, is cleared of the pivots so far in the order in which they were found, each of which has zeros at those before it.
+    A slot receives one residue, and one product of two for each of them.
+    """
+    found, leads, rows = list[tuple[int, list[int]]](), list[tuple[int, int]](), [v for v in vectors if any(v)]
+    count = len(rows[0]) if rows else 0
+    size = slot(prime, min(len(rows), count) + 1)
+    mask = (1 << 8 * size) - 1
+    for row in rows:
+        charge(1000 + 500 * count + (1 + len(leads)) * (500 + size * count), (100 + size) * (count + 1))
+        number = packed(row, size)
+        for shift, lead in leads:
+            if c := (number >> shift & mask) % prime:
+                number += (prime - c) * lead
+        rest = unpacked(number, size, count, prime)
+        if (j := next((j for j, x in enumerate(rest) if x), count)) < count:
+            inverse = pow(rest[j], -1, prime)
+            found.append((j, [x * inverse % prime for x in rest]))
+            leads.append((8 * size * j, packed(found[-1][1], size)))
+    return sorted(found)
+
+
+def determinant(rows: list[list[int]], prime: int) -> int:
+    """Return a determinant modulo a prime."""
+    value, rows = 1, rows[:]
+    while rows:
+        lead = next((row for row in rows if row[-1]), None)
+        if lead is None:
+            return 0
+        value = value * lead[-1] * (-1 if (len(rows) - 1 - rows.index(lead)) % 2 else 1) % prime
+        rows.remove(lead)
+        inverse, lead = pow(lead[-1], -1, prime), lead[:-1]
+        rest = ((row[:-1], row[-1] * inverse % prime) for row in rows)
+        rows = [[(x - c * y) % prime for x, y in zip(row, lead, strict=True)] if c else row for row, c in rest]
+    return value
+
+
+def determinant_polynomial(table: list[list[list[int]]], degree: int, prime: int) -> list[int]:
+    """Return det of a square matrix of polynomials modulo a prime above its degree, which is `degree` at most: degree + 1 coefficients.
+
+    A polynomial of that degree is the one that has its values at 0, ..., degree, by divided differences.
+    """
+    size, longest = len(table), max((len(f) for row in table for f in row), default=0)
+    charge((degree + 1) * (2000 + size**2 * (300 + 80 * longest + 40 * size) + 250 * degree), 200 * (degree + size**2 + longest))
+    values = list[int]()
+    for q in range(degree + 1):
+        powers = [*accumulate(repeat(q, longest - 1), lambda power, q: power * q % prime, initial=1)]
+        values.append(determinant([[sum(map(mul, f, powers)) % prime for f in row] for row in table], prime))
+    for k in range(1, degree + 1):
+        inverse = pow(k, -1, prime)
+        values[k:] = [(y - x) * inverse % prime for x, y in zip(values[k - 1 :], values[k:], strict=False)]
+    found = values[degree:]
+    for k in reversed(range(degree)):  # times (q - k), plus the k-th difference
+        found = [(x - k * y) % prime for x, y in zip([values[k], *found], [*found, 0], strict=True)]
     return found
+
+
+def coprime(f: list[int], g: list[int], prime: int) -> bool:
+    """Return whether two polynomials modulo a prime, the first not zero, have no common factor, by Euclid."""
+    while any(g):
+        while not g[-1]:
+            g = g[:-1]
+        charge((1 + abs(len(f) - len(g))) * (1500 + 120 * len(g)))
+        inverse, rest = pow(g[-1], -1, prime), f
+        while len(rest) >= len(g):
+            if c := rest[-1] * inverse % prime:
+                at = len(rest) - len(g)
+                rest[at:] = [(x - c * y) % prime for x, y in zip(rest[at:], g, strict=True)]
+            rest.pop()
+        f, g = g, rest
+    return not any(f[1:])
 
 
 def binary_form(rows: list[list[int]], prime: int) -> list[int]:
@@ -256,7 +336,9 @@ class Mat:
         return Mat(self.field, [[a * x + b * y for x, y in zip(r, s, strict=True)] for r, s in pairs], self.nc, den)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Mat) and not self + other.times(-1)
+        if not isinstance(other, Mat) or (self.den == other.den and self.rows == other.rows):
+            return isinstance(other, Mat)
+        return not self + other.times(-1)
 
     def times(self, top: int, bottom: int = 1) -> Mat:
         """Return the matrix times top / bottom."""
@@ -325,6 +407,7 @@ class Field:
             content = gcd(*multiple) * (1 if multiple[-1] > 0 else -1)
             self.key = self.f = [c // content for c in multiple]
             self.degree, self.bad = len(pairs) - 1, common * multiple[-1]  # usable primes do not divide the latter
+        self.modulus = self.prime, 0
         d, (*low, lead) = self.degree, self.f or [0, 1]
         a = Mat(self, [[lead * (j == i + 1) for j in range(d)] for i in range(d - 1)] + [[-c for c in low]], d, lead)
         self.powers = [*accumulate(repeat(a, max(d - 1, 1)), Mat.__matmul__, initial=self.scalar(1, 1, 1))]  # 1, a, a^2, ...
@@ -429,27 +512,53 @@ class Field:
         require(ranks == [d, d - 1], f"f is reducible modulo {prime}")
         return True
 
-    def triangular_rows(self, given: Json, key: str, size: int, longest: int = 1) -> list[list[Mat]]:
-        """For each {"pivot", key} its vectors ("row": just one): their numbers ascend, the last ones are triangular by the pivots."""
-        rows, pivots, d = list[list[Mat]](), list[int](), self.degree
+    def integer(self, value: Json, where: str) -> list[int]:
+        """Return the d coordinates of an ENTRY that is integral, modulo p over GF(p)."""
+        if type(value) is list and self.f:
+            return [rational(x, where, True)[0] for x in items(value, where, self.degree, self.degree)]
+        found = rational(value, where, True)[0]
+        return [found % self.prime] if self.prime else [found] + [0] * (self.degree - 1)
+
+    def integer_rows(self, given: Json, key: str, size: int, longest: int = 1) -> tuple[list[int], list[Vectors]]:
+        """Return the pivots, and the VECTORs of integers (coordinates one after the other), of each {"pivot", key} ("row": just one).
+
+        The numbers of vectors ascend.
+        """
+        rows, pivots = list[Vectors](), list[int]()
         for a, row in enumerate(items(given, key, max(size, MAX_DIMENSION))):
-            vectors = keys(row, f"pivot {key}", f"{key} {a}")[key]
-            vectors = [vectors] if key == "row" else items(vectors, f"{key} {a}", MAX_WINDOW, 1)
-            charge(3000 + 400 * a * d)
-            rows.append([self.matrix([vector], 1, size, f"{key} {a}", True) for vector in vectors])
-            pivots.append(pivot := index(row["pivot"], f"{key} {a}: pivot"))
+            vectors = keys(row, f"pivot {key}", where := f"{key} {a}")[key]
+            vectors = [vectors] if key == "row" else items(vectors, where, MAX_WINDOW, 1)
+            charge(3000 + len(vectors) * size * self.degree * 500, len(vectors) * size * self.degree * 48)
+            rows.append([[x for entry in items(v, where, size, size) for x in self.integer(entry, where)] for v in vectors])
+            pivots.append(pivot := index(row["pivot"], f"{where}: pivot"))
             require(pivot < size, "a pivot is out of range")
-            entries = [rows[-1][-1].rows[0][pivot * d : pivot * d + d] for pivot in pivots]
-            require(any(entries[-1]) and not any(map(any, entries[:-1])), "the rows are not triangular by their pivots")
             require(len(rows[-2:][0]) <= len(vectors) <= longest, "the degrees of the kernel rows do not ascend, or not below the window")
-        return rows
+        return pivots, rows
+
+    def triangular(self, pivots: list[int], rows: list[Vectors]) -> None:
+        """Reject unless the last vectors are triangular by the pivots: entry (a, pivot b) is zero for b < a, and not for b = a."""
+        d = self.degree
+        for a, row in enumerate(rows):
+            charge(1000 + 400 * a * d)
+            entries = [row[-1][pivot * d : pivot * d + d] for pivot in pivots[: a + 1]]
+            require(any(entries[-1]) and not any(map(any, entries[:-1])), "the rows are not triangular by their pivots")
+
+    def residues(self, rows: list[Vectors]) -> list[Vectors]:
+        """Return the rows modulo the prime, over K: a goes to its root."""
+        d, prime, root = self.degree, *self.modulus
+        charge(sum(map(len, rows)) * 1000 + sum(len(v) for row in rows for v in row) * 400)
+        if d == 1:
+            return [[[x % prime for x in v] for v in row] for row in rows]
+        powers = [pow(root, c, prime) for c in range(d)]
+        return [[[sum(map(mul, v[j : j + d], powers)) % prime for j in range(0, len(v), d)] for v in row] for row in rows]
 
     def ranked(self, built: Mat, size: int, left_null: Json) -> None:
         """Reject unless the matrix has that rank: no more by the rows that vanish on it, no less modulo the prime."""
         height = len(built.rows) // self.degree
-        rows = self.triangular_rows(left_null, "row", height)
+        pivots, rows = self.integer_rows(left_null, "row", height)
+        self.triangular(pivots, rows)
         require(len(rows) == height - size, "the number of left null rows is not the number of rows minus the rank")
-        require(not self.assembled(rows, height) @ built, "a left null row does not vanish on the matrix")
+        require(not Mat(self, [row for (row,) in rows], len(built.rows)) @ built, "a left null row does not vanish on the matrix")
         require(built.rank() >= size, "the rank modulo the prime is smaller")
 
 
@@ -472,6 +581,7 @@ class System:
         blocks = [self.field.matrix(data[name], sizes[nr], sizes[nc], name) for name, nr, nc in self.SHAPES if name in data]
         self.A, self.F, self.C, self.G = blocks[:4]
         self.nu, self.inputs = sizes.get("nu", 0), blocks[4:]
+        self.reduced = Vectors()
         self.key: tuple[Any, ...] = (self.field.key, self.n, self.m, self.p, blocks[:4])
         dimensions = "" if self.n and self.m and self.p else f" (n={self.n}, m={self.m}, p={self.p})"
         over = "" if self.field.key == "Q" else f" over {shorten(data['field'])}"
@@ -510,20 +620,98 @@ class System:
                 return found
             space = after
 
-    def annihilated_by(self, rows: list[list[Mat]]) -> list[list[list[Mat]]]:
-        """Reject unless every row annihilates the system. Returns its condition rows [X_(k+1), N_k], k = mu, ..., 0."""
-        conditions = []
-        for row in rows:
-            state, demands = self.field.scalar(1, self.n), list[list[Mat]]()
-            for coefficient in reversed(row):
-                require(not coefficient @ self.G + state @ self.F, "a row does not annihilate the system (at a fault)")
-                demands.append([state, coefficient])
-                state = coefficient @ self.C + state @ self.A
-            require(not state, "a row does not annihilate the system (at the state)")
-            conditions.append(demands)
-        return conditions
+    def seen(self, rows: list[Vectors], F: Mat, G: Mat) -> list[bool]:
+        """Return whether X_0 of some row is not zero, and, for k = 0, 1, ..., whether N_k G + X_(k+1) F of some row is not.
 
-    def met_by(self, rows: list[list[Mat]], window: int | None = None) -> None:
+        Exact, in integers: with A, F, C, G = A', F', C', G' / e, what X_k and N_k G + X_(k+1) F are, times e^i, i = 1, 2, ... the number of
+        steps so far, are Y_k = e^(i-1) N_k C' + Y_(k+1) A' and likewise. All rows in one number, one in each slot of w bits: no entry is
+        above the largest of the rows times L^i, L the largest of e and of the sums of absolute values of the columns of [C' G'; A' F'],
+        hence all are below 2^(w-1), and sum v_a 2^(w a) is zero iff every v_a is: the rest is less than the highest one that is not zero.
+        Over GF(p) everything is modulo p.
+        """
+        if self.field.prime:
+            columns = [[row[j] for row in [*F.rows, *G.rows]] for j in range(F.nc)]
+            conditions, ends = self.conditions(rows)
+            steps = range(max(map(len, rows), default=0))
+            return [
+                ends,
+                *(any(sum(map(mul, c[k], z)) % self.field.prime for c in conditions if k < len(c) for z in columns) for k in steps),
+            ]
+        den = common_denominator(part.den for part in (self.A, F, self.C, G))
+        A, F_, C, G_ = ([[x * (den // part.den) for x in row] for row in part.rows] for part in (self.A, F, self.C, G))
+        states, faults = list(zip(*C, *A, strict=True)), list(zip(*G_, *F_, strict=True))
+        largest = max((sum(map(abs, column)) for column in states + faults), default=0)
+        steps, most = max(map(len, rows), default=0), max((abs(x) for row in rows for v in row for x in v), default=0)
+        w = most.bit_length() + steps * max(den, largest).bit_length() + 1
+        carried, factor, found = [0] * len(A), 1, list[bool]()
+        for k in reversed(range(steps)):
+            both = [factor * sum(row[k][j] << w * a for a, row in enumerate(rows) if k < len(row)) for j in range(len(C))] + carried
+            found.append(any(sum(map(mul, both, column)) for column in faults))
+            carried, factor = [sum(map(mul, both, column)) for column in states], factor * den
+        return [any(carried), *reversed(found)]
+
+    def annihilated_by(self, rows: list[Vectors]) -> None:
+        """Reject unless every row annihilates the system."""
+        require(not any(self.seen(rows, self.F, self.G)), "a row does not annihilate the system")
+
+    def conditions(self, rows: list[Vectors]) -> tuple[list[Vectors], bool]:
+        """Return [X_(k+1), N_k], k = 0, ..., mu, of every row of residues, modulo the prime; and whether some row does not annihilate.
+
+        A slot of a packed row of [A F; C G] receives n + p products of residues.
+        """
+        prime, n, width = self.field.modulus[0], self.n, self.n + self.m
+        size = slot(prime, n + self.p)
+        table = [packed(row, size) for row in self.pencil()]
+        charge(sum(map(len, rows)) * (2000 + len(table) * (200 + size * width // 2) + 500 * width), 80 * sum(map(len, rows)) * len(table))
+        found, left = list[Vectors](), False
+        for row in rows:
+            state, conditions = [0] * n, Vectors()
+            for coefficient in reversed(row):
+                conditions.append(state + coefficient)
+                after = unpacked(sum(map(mul, conditions[-1], table)), size, width, prime)
+                state, left = after[:n], left or any(after[n:])
+            found.append(conditions[::-1])
+            left = left or any(state)
+        return found, left
+
+    def pencil(self, q: int = 0) -> Vectors:
+        """Return the rows of [[A - qI, F], [C, G]] modulo the prime."""
+        if not self.reduced:
+            A, F, C, G = (part.residues() for part in (self.A, self.F, self.C, self.G))
+            self.reduced = [[*x, *y] for x, y in zip(A + C, F + G, strict=True)]
+        return [
+            [(x - q) % self.field.modulus[0] if i == j < self.n else x for j, x in enumerate(row)] for i, row in enumerate(self.reduced)
+        ]
+
+    def pencil_rank(self, w: Json) -> int:
+        """Return the rank of the pencil modulo the prime at the hinted point, no more than n plus the normal rank."""
+        return len(echelon(self.pencil(index(w["point"], "point", self.field.modulus[0] - 1)), self.field.modulus[0]))
+
+    def minimal(self, pivots: list[int], rows: list[Vectors], w: Json) -> None:
+        """Reject unless the rows, residues that annihilate the system modulo the prime, are seen to be a minimal basis of all that do.
+
+        Then no window has a rank below p s - sum of max(0, s - mu): let k rows N_a with X_a pass. Their minor at the pivots has the degree
+        sum of mu, so that their leading coefficients are independent and they themselves, too. The rank of the pencil leaves no more than
+        k independent [X z] that vanish on it. So what a z with X_0 = 0 is, [X z] = sum of c_a [X_a N_a] with rational c_a. By Cramer a
+        denominator of c divides two determinants: the minor, and that of [X N] times any constant matrix. They are coprime, so the c_a are
+        polynomials, and by the independent leading coefficients no c_a N_a has a degree above that of z. So a z of s samples is one of
+        sum of max(0, s - mu), modulo the prime, where ranks are never above the true ones.
+        """
+        prime, n, degree = self.field.modulus[0], self.n, sum(len(row) - 1 for row in rows)
+        mix, terms = index(w["mix"], "mix", prime - 1), sum(map(len, rows))
+        conditions, left = self.conditions(rows)
+        require(not left, "a row does not annihilate the system")
+        require(degree < prime, "the prime is not above the sum of the left minimal indices")
+        first = determinant_polynomial([[[c[n + j] for c in row] for j in pivots] for row in conditions], degree, prime)
+        require(first[degree], "the leading coefficients of the rows at the pivots are dependent")
+        charge(len(rows) * (n + self.p) * (200 + 80 * terms))
+        powers = [*accumulate(repeat(mix, n + self.p - 1), lambda power, mix: power * mix % prime, initial=mix)]
+        columns = [[pow(power, b + 1, prime) for power in powers] for b in range(len(rows))]
+        mixed = [[[sum(map(mul, c, column)) % prime for c in row] for column in columns] for row in conditions]
+        require(coprime(first, determinant_polynomial(mixed, degree, prime), prime), "the rows may have a common factor")
+        require(self.pencil_rank(w) >= n + self.p - len(rows), "there may be more rows")
+
+    def met_by(self, rows: list[Vectors], window: int | None = None) -> None:
         """Reject unless the rows meet the modular bound on k < window (None: for ever)."""
         found = self.gaps()
         for k in range(max([len(found), *map(len, rows)]) if window is None else window):
@@ -531,24 +719,50 @@ class System:
             above = self.p - sum(1 for row in rows if len(row) <= k + 1)
             require(found[min(k, len(found) - 1)] == above, f"the bounds do not meet at sample {k}: {above} above")
 
-    def kernel(self, w: Json, window: int | None = None) -> tuple[list[list[Mat]], list[list[list[Mat]]]]:
-        """Return the KROWS (coefficients), of degree below any window, once admissible, annihilating and meeting; and their condition
-        rows.
+    def kernel(self, w: Json, window: int | None = None) -> tuple[list[int], list[Vectors]]:
+        """Return pivots and coefficients of KROWS, those of degree below any window: they and their shifts span the left null space of
+        [O_s T_s], on that window or on every one.
         """
-        rows = self.field.triangular_rows(w["kernel"], "coefficients", self.p, MAX_WINDOW if window is None else window)
-        self.met_by(rows, window)
-        return rows, self.annihilated_by(rows)
+        expect(("mix" in w) == ("point" in w), "witness: point and mix go together")
+        short = "mix" in w
+        pivots, rows = self.field.integer_rows(w["kernel"], "coefficients", self.p, MAX_WINDOW if short or window is None else window)
+        if short:
+            self.minimal(pivots, self.field.residues(rows), w)
+        else:
+            self.field.triangular(pivots, rows)
+            self.met_by(rows, window)
+        self.annihilated_by(rows)
+        return pivots, [row for row in rows if window is None or len(row) <= window]
 
     def window_ranks(self, s: Json, w: Json) -> None:
-        r, (rows, _) = index(s["normal_rank"], "normal_rank"), self.kernel(w)
+        r, p = index(s["normal_rank"], "normal_rank"), self.p
+        expect(("kernel" in w) != ("kernel_modulo" in w), "witness: expected one of kernel and kernel_modulo")
+        rows = self.kernel(w)[1] if "kernel" in w else self.kernel_modulo(w)
         etas, ranks = ([index(x, key) for x in items(s.get(key, []), key)] for key in ("left_minimal_indices", "window_ranks"))
         require(etas == [len(row) - 1 for row in rows], "the left minimal indices are not the degrees of the rows")
-        require(r == self.p - len(rows), "the normal rank is not p minus the number of rows")
+        require(r == p - len(rows), "the normal rank is not p minus the number of rows")
         follow = [k * r + sum(min(k, eta) for eta in etas) for k in range(1, len(ranks) + 1)]
         require(ranks == follow, "window_ranks do not follow from the indices")
 
+    def kernel_modulo(self, w: Json) -> list[Vectors]:
+        """Return rows known modulo the prime alone, where no window can have a rank above p s - sum of max(0, s - mu) whatever they are.
+
+        [O_s T_s] has p s rows and n + m s columns. Where there are no rows, p s is the bound. Else let there be p - m, with degrees that
+        add up to n and differ by one at most: for s up to the least the bound is p s, from the largest on it is p s - (p - m) s + n.
+        """
+        expect(not self.field.prime and {"mix", "point"} <= {*w}, "witness: kernel_modulo needs a point and a mix, and no prime field")
+        pivots, rows = self.field.integer_rows(w["kernel_modulo"], "coefficients", self.p, MAX_WINDOW)
+        degrees = [len(row) - 1 for row in rows]
+        generic = not rows or (len(rows) == self.p - self.m and sum(degrees) == self.n and degrees[-1] - degrees[0] <= 1)
+        require(generic, "the indices are not those of windows that have all the rank that their shape allows")
+        self.minimal(pivots, self.field.residues(rows), w)
+        return rows
+
     def left_invertible(self, s: Json, w: Json) -> None:
-        require(self.gaps()[-1] == self.m, "the gap modulo the prime stays below the number of faults")
+        if "point" in w:
+            require(self.pencil_rank(w) >= self.n + self.m, "the pencil modulo the prime has a smaller rank at that point")
+        else:
+            require(self.gaps()[-1] == self.m, "the gap modulo the prime stays below the number of faults")
 
     def left_invertible_line(self, s: Json, w: Json, second: System) -> None:
         n, m, prime, multiples = self.n, self.m, self.field.modulus[0], list[list[int]]()
@@ -595,15 +809,21 @@ class System:
 
     def behaviours(self, s: Json, w: Json, second: System) -> None:
         window = index(s["window"], "window", MAX_WINDOW) if "window" in s else None
-        rows, _ = second.kernel(w, window)
+        pivots, rows = second.kernel(w, window)
         self.annihilated_by(rows)
-        if "inner" not in s:
+        if "inner" in s:
+            return
+        if "mix" in w:
+            self.minimal(pivots, self.field.residues(rows), w)
+        else:
             self.met_by(rows, window)
 
     def behaviour_difference(self, s: Json, w: Json, second: System) -> None:
         window = index(s["window"], "window", MAX_WINDOW)
         row = [self.field.matrix([c], 1, self.p, "row") for c in items(w["row"], "row", window, 1)]
-        second.annihilated_by([row])
+        joined = self.field.assembled([row], self.p * len(row))  # over one denominator, which plays no part
+        width = self.p * self.field.degree
+        second.annihilated_by([[joined.rows[0][k : k + width] for k in range(0, joined.nc, width)]] if joined.rows else [])
         require(reduce(add, map(Mat.__matmul__, row, self.word(w, window)[2])), "the word satisfies the row")
 
     def fault_space(self, s: Json, w: Json) -> None:
@@ -614,18 +834,22 @@ class System:
         require(pivots == sorted({*pivots} - {width}), "the basis is not in row echelon form")
         unit = Mat(field, [[row[j * d + c] for j in pivots for c in range(d)] for row in basis.rows], size * d, basis.den)
         require(unit == field.scalar(size, size, 1), "the basis is not in reduced row echelon form")
-        demands = field.assembled([demand for demands in self.kernel(w, window)[1] for demand in demands], width)
-        columns = field.matrix([[row[j] for row in s["basis"]] for j in range(width)], width, size, "basis")
-        require(not demands @ columns, "a basis column does not solve problem (11)")
-        require(len(echelon(demands.residues(), field.modulus[0])) == width - size, "there are more solutions than the basis spans")
+        _, rows = self.kernel(w, window)
+        columns = [[row[j] for row in s["basis"]] for j in range(width)]
+        F, G = field.matrix(columns[: self.n], self.n, size, "basis"), field.matrix(columns[self.n :], self.p, size, "basis")
+        require(not any(self.seen(rows, F, G)), "a basis column does not solve problem (11)")
+        conditions, _ = self.conditions(field.residues(rows))
+        rank = len(echelon(chain.from_iterable(conditions), field.modulus[0]))
+        require(rank == width - size, "there are more solutions than the basis spans")
 
     def first_column_only(self, s: Json, w: Json) -> None:
-        window, width = index(s["window"], "window", MAX_WINDOW), self.n + self.p
-        (z,) = self.field.columns([s["column"]], width, "column")
-        seen = [[bool(self.field.assembled([demand], width) @ z) for demand in demands] for demands in self.kernel(w, window)[1]]
+        field, window, width = self.field, index(s["window"], "window", MAX_WINDOW), self.n + self.p
+        column = [[x] for x in items(s["column"], "column", width, width)]
+        F, G = field.matrix(column[: self.n], self.n, 1, "column"), field.matrix(column[self.n :], self.p, 1, "column")
+        _, first, *later = [*self.seen(self.kernel(w, window)[1], F, G), False]
         # Shift 0 of a row gives X_1 f + N_0 g on (g, C f, C A f, ...), shift j > 0 gives X_0 A^(j-1) f, and X_0 = 0.
-        require(not any(row[-1] for row in seen), "the first block column is not annihilated")
-        require(any(map(any, seen)), "every block column is annihilated")
+        require(not first, "the first block column is not annihilated")
+        require(any(later), "every block column is annihilated")
 
     def matrix_rank(self, s: Json, w: Json) -> None:
         field, n, name, size = self.field, self.n, s["matrix"], index(s["rank"], "rank")
@@ -811,6 +1035,7 @@ class Experiment(System):
 
 SUBJECTS = ("experiment", "system", "inner", "outer", "first", "second")
 MODULAR, KERNEL, DIAGONAL = "prime? root?", "prime? root? kernel", "diagonal left left_inverse right right_inverse"
+HINTED, RANKED = f"{KERNEL} point? mix?", "prime? root? kernel? kernel_modulo? point? mix?"
 MATRICES = {"observability": "", "reachability": "", "toeplitz": "window", "window": "window"}  # what is stated beside the system
 MATRICES |= {"residual-hankel": "x0 v window", "excitation": "x0 v window"}
 
@@ -826,10 +1051,10 @@ class Kind(NamedTuple):
 
 
 KINDS: dict[str, Kind] = {
-    "window-ranks": Kind(System.window_ranks, "system normal_rank left_minimal_indices window_ranks?", KERNEL,
+    "window-ranks": Kind(System.window_ranks, "system normal_rank left_minimal_indices window_ranks?", RANKED,
         "for every s >= 1: rank [O_s T_s] = {normal_rank} s + sum of min(s, eta), eta the left minimal indices {left_minimal_indices}",
         "The bounds of every gap meet, and gap(0) + ... + gap(s-1) = sum over k < s of p - #{mu <= k} is this formula."),
-    "left-invertible": Kind(System.left_invertible, "system", MODULAR,
+    "left-invertible": Kind(System.left_invertible, "system", f"{MODULAR} point?",
         "left-invertible: x(0) = 0 and zero output for ever imply v = 0",
         "The last gap modulo the prime is m, the true normal rank is no smaller, and more than m there cannot be."),
     "left-invertible-line": Kind(System.left_invertible_line, "first second", f"{MODULAR} minors",
@@ -841,10 +1066,10 @@ KINDS: dict[str, Kind] = {
     "inversion-delay": Kind(System.inversion_delay, "system initial_state delay", "inverse? word?",
         "with x(0) {initial_state} (known: 0), the least l in 0..n such that r(0..l) determines v(0) is {delay} (null: there is none)",
         "The inverse computes v(0) from r(0..l); the word has zero output on one sample less (null: on n + 1) and v(0) other than 0."),
-    "behaviour-inclusion": Kind(System.behaviours, "inner outer", KERNEL,
+    "behaviour-inclusion": Kind(System.behaviours, "inner outer", HINTED,
         "every word of the first is one of the second, on every window",
         "The rows and their shifts span the left null space of the outer [O_s T_s] for every s, and annihilate the inner one."),
-    "behaviour-equality": Kind(System.behaviours, "first second", KERNEL,
+    "behaviour-equality": Kind(System.behaviours, "first second", HINTED,
         "both systems have the same output behaviour, on every window",
         "The rows and their shifts span the left null space of both [O_s T_s], for every s."),
     "window-equality": Kind(System.behaviours, "first second window", KERNEL,
@@ -853,11 +1078,11 @@ KINDS: dict[str, Kind] = {
     "behaviour-difference": Kind(System.behaviour_difference, "first second window", "x0 v row",
         "some word of {window} samples of the first is not one of the second",
         "The row vanishes on every word of the second, and not on this one of the first."),
-    "fault-space": Kind(System.fault_space, "system window basis", KERNEL,
+    "fault-space": Kind(System.fault_space, "system window basis", HINTED,
         "at window {window} (null: beyond all left minimal indices) the solutions [f; g] of problem (11) are the span of {basis}",
         "The rows and their shifts span N_s, so the conditions are all there are; the basis solves them, and their rank modulo the prime "
         "leaves no room for more."),
-    "first-column-only": Kind(System.first_column_only, "system window column", KERNEL,
+    "first-column-only": Kind(System.first_column_only, "system window column", HINTED,
         "at window {window}, N_s annihilates the first block column of T_s(z) but not all of it, for z = {column}",
         "The rows and their shifts span N_s; on the first block column the conditions X_1 f + N_0 g are all that differ from zero ones."),
     "matrix-rank": Kind(System.matrix_rank, "matrix rank system window? x0? v?", f"{MODULAR} left_null",

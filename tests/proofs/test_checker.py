@@ -63,6 +63,7 @@ from tests.proofs.examples import (
     spoiled,
     written,
 )
+from tests.proofs.hint_cases import MALFORMED_HINTS, REJECTED_HINTS
 
 SOURCE = Path(checker.__file__)
 
@@ -147,8 +148,8 @@ REJECTED: dict[str, tuple[str, Certificate]] = {
         spoiled(FLAT_RANKS, (f"{K}.0.coefficients", lambda rows: [["0", "0"], *rows])),
     ),
     "row beyond the window": ("not below the window", spoiled(SAME, ("statement.window", 1))),
-    "row kills no fault": ("(at a fault)", spoiled(RANKS, (f"{K}.0.coefficients.0.1", "0"))),
-    "row kills no state": ("(at the state)", spoiled(RANKS, (f"{K}.0.coefficients.0.0", "1"))),
+    "row kills no fault": ("does not annihilate", spoiled(RANKS, (f"{K}.0.coefficients.0.1", "0"))),
+    "row kills no state": ("does not annihilate", spoiled(RANKS, (f"{K}.0.coefficients.0.0", "1"))),
     "a row is missing": ("the bounds do not meet at sample 1: 2 above", spoiled(EQUAL, (K, []))),
     "unlucky prime": (
         "the bounds do not meet",
@@ -159,6 +160,7 @@ REJECTED: dict[str, tuple[str, Certificate]] = {
         spoiled(EQUAL, ("statement.second.G", [["1"], ["1"]])),
     ),
     "equality with less": ("the bounds do not meet", spoiled(EQUAL, ("statement.first.F", [[0]]), ("statement.first.G", [[0], [0]]))),
+    **REJECTED_HINTS,
     "other indices": ("not the degrees", spoiled(RANKS, ("statement.left_minimal_indices", [0]))),
     "other rank": ("p minus the number of rows", spoiled(RANKS, ("statement.normal_rank", 2))),
     "other window ranks": ("window_ranks do not follow", spoiled(RANKS, ("statement.window_ranks.1", 4))),
@@ -307,6 +309,7 @@ MALFORMED: dict[str, tuple[str, Any]] = {
     "fraction over a prime field": ("expected an integer", spoiled(base("window-ranks", PrimeField(3)), (f"{S}.A.0.0", "1/2"))),
     "row too long": ("expected a list of 1 to 1", spoiled(RANKS, (f"{S}.A.0", ["1", "1"]))),
     "row too short": ("expected a list of 2 to 2", spoiled(RANKS, (f"{K}.0.coefficients.1", ["1"]))),
+    **MALFORMED_HINTS,
     "no coefficients": ("expected a list of 1 to 4096", spoiled(RANKS, (f"{K}.0.coefficients", []))),
     "kernel null": ("expected a list of", spoiled(RANKS, (K, None))),
     "kernel row with a key": ("expected an object", spoiled(RANKS, (f"{K}.0.degree", 1))),
