@@ -217,8 +217,7 @@ def _rows(system: ResidualSystem, picture: Image) -> tuple[KernelRow, ...] | Non
     relations = None if shape is None else integer_relations(system, shape.leads, picture.prime)
     if shape is None or relations is None or not _all_annihilate(relations, system):
         return None
-    leads = shape.leads
-    return tuple(KernelRow(output, coefficients_of(relation, system)) for (_, output), relation in zip(leads, relations, strict=True))
+    return tuple(KernelRow(output, coefficients_of(relation, system)) for (_, output), relation in zip(shape.leads, relations, strict=True))
 
 
 def _all_annihilate(relations: Sequence[list[list[fmpz]]], system: ResidualSystem) -> bool:

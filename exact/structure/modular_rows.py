@@ -70,7 +70,7 @@ def pencil_rank_at(system: ResidualSystem, point: int) -> int:
 def _leads(system: ResidualSystem, s: int) -> dict[Lead, list[list[int]]]:
     """Return (mu, output) of every output that depends on earlier ones from sample mu on, mu < s, and the row that says how."""
     p, prime = system.p, system.field.p  # type: ignore[union-attr]
-    columns = window_columns(*(getattr(system, name).flint for name in "AFCG"), s)
+    columns = window_columns(system.A.flint, system.F.flint, system.C.flint, system.G.flint, s)
     found = dict[Lead, list[list[int]]]()
     ended = sorted((max(i for i, x in enumerate(vector) if x), vector) for vector in null_vectors(columns, p * s, prime))
     outputs = set[int]()

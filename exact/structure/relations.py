@@ -68,9 +68,12 @@ def integer_relations(system: ResidualSystem, leads: Sequence[Lead], prime: int)
     chosen = _independent(above, len(places), prime)
     if len(chosen) < len(places):
         return None
-    target = fmpz_mat([[columns[j][(mu * p + output) * d] for mu, output in leads] for j in chosen]) if chosen else None
-    solution = fmpz_mat([above[j] for j in chosen]).solve(target).numer_denom() if chosen else (fmpz_mat(0, len(leads)), fmpz(1))
-    numerators, bottom = solution[0].tolist(), solution[1]
+    numerators, bottom = list[list[fmpz]](), fmpz(1)
+    if chosen:
+        target = fmpz_mat([[columns[j][(mu * p + output) * d] for mu, output in leads] for j in chosen])
+        solution: Any = fmpz_mat([above[j] for j in chosen]).solve(target)
+        top, bottom = solution.numer_denom()
+        numerators = top.tolist()
     relations = []
     for a, (mu, output) in enumerate(leads):
         rows = [[fmpz(0)] * (p * d) for _ in range(mu + 1)]

@@ -42,8 +42,7 @@ def _reduced(alike: Sequence[tuple[Row, int]], length: int) -> list[Row]:
         if any(values):
             weight = den << count  # the points beside which den times any row lies are reduced to less than that: their last entry is 0
             table = [[*row, weight * x] for row, x in zip(basis.tolist(), values, strict=True)]
-            table.append([0] * count + [weight * den])
-            reduced = fmpz_mat(table).lll().tolist()
+            reduced = fmpz_mat([*table, [0] * count + [weight * den]]).lll().tolist()
             basis = fmpz_mat([row[:count] for row in reduced if row[count] == 0])
     points = basis * full
     short = fmpz_mat(count, full.ncols(), [int(x) // den for x in points.entries()]).lll()

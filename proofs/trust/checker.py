@@ -632,18 +632,17 @@ class System:
         if self.field.prime:
             columns = [[row[j] for row in [*F.rows, *G.rows]] for j in range(F.nc)]
             conditions, ends = self.conditions(rows)
-            steps = range(max(map(len, rows), default=0))
-            return [
-                ends,
-                *(any(sum(map(mul, c[k], z)) % self.field.prime for c in conditions if k < len(c) for z in columns) for k in steps),
-            ]
+            found = [ends] + [False] * max(map(len, rows), default=0)
+            for k, condition in ((k, condition) for row in conditions for k, condition in enumerate(row, 1)):
+                found[k] = found[k] or any(sum(map(mul, condition, column)) % self.field.prime for column in columns)
+            return found
         den = common_denominator(part.den for part in (self.A, F, self.C, G))
         A, F_, C, G_ = ([[x * (den // part.den) for x in row] for row in part.rows] for part in (self.A, F, self.C, G))
         states, faults = list(zip(*C, *A, strict=True)), list(zip(*G_, *F_, strict=True))
         largest = max((sum(map(abs, column)) for column in states + faults), default=0)
         steps, most = max(map(len, rows), default=0), max((abs(x) for row in rows for v in row for x in v), default=0)
         w = most.bit_length() + steps * max(den, largest).bit_length() + 1
-        carried, factor, found = [0] * len(A), 1, list[bool]()
+        carried, factor, found = [0] * len(A), 1, []
         for k in reversed(range(steps)):
             both = [factor * sum(row[k][j] << w * a for a, row in enumerate(rows) if k < len(row)) for j in range(len(C))] + carried
             found.append(any(sum(map(mul, both, column)) for column in faults))
