@@ -41,7 +41,7 @@ def _reduced(alike: Sequence[tuple[Row, int]], length: int) -> list[Row]:
         values = [int(x) % den for x in (basis * fmpz_mat(count, 1, [full[i, j] for i in range(count)])).entries()]
         if any(values):
             weight = den << count  # the points beside which den times any row lies are reduced to less than that: their last entry is 0
-            table = [[*row, weight * x] for row, x in zip(basis.tolist(), values, strict=True)]
+            table = [[*map(int, row), weight * x] for row, x in zip(basis.tolist(), values, strict=True)]
             reduced = fmpz_mat([*table, [0] * count + [weight * den]]).lll().tolist()
             basis = fmpz_mat([row[:count] for row in reduced if row[count] == 0])
     points = basis * full
