@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from random import Random
-from typing import Any
 
 from flint import fmpz_mat, nmod_mat
 
@@ -58,13 +57,15 @@ def rows_modulo(system: ResidualSystem) -> ModularRows | None:
 
 def pencil_rank_at(system: ResidualSystem, point: int) -> int:
     """Return the rank of [[A - qI, F], [C, G]] at a point q, over a prime field."""
-    blocks = [_table(getattr(system, name)) for name in "AFCG"]
-    for i, row in enumerate(blocks[0]):
-        row[i] -= point
-    rows = [*map(list.__add__, blocks[0], blocks[1]), *map(list.__add__, blocks[2], blocks[3])]
-    if not rows or not rows[0]:
-        return 0
-    return int(nmod_mat(fmpz_mat(rows), system.field.p).rank())  # type: ignore[union-attr]
+    n, m, entries = system.n, system.m, list[int]()
+    for left, right in ((system.A, system.F), (system.C, system.G)):
+        states, faults = ([*map(int, block.flint.entries())] for block in (left, right))
+        if left is system.A:
+            states[:: n + 1] = [x - point for x in states[:: n + 1]]
+        for i in range(left.nrows):
+            entries += states[i * n : i * n + n]
+            entries += faults[i * m : i * m + m]
+    return int(nmod_mat(fmpz_mat(n + system.p, n + m, entries), system.field.p).rank())  # type: ignore[union-attr]
 
 
 def _leads(system: ResidualSystem, s: int) -> dict[Lead, list[list[int]]]:
@@ -82,7 +83,3 @@ def _leads(system: ResidualSystem, s: int) -> dict[Lead, list[list[int]]]:
             row = [x * inverse % prime for x in vector[: p * (mu + 1)]]
             found[mu, output] = [row[k : k + p] for k in range(0, len(row), p)]
     return found
-
-
-def _table(matrix: Any) -> list[list[int]]:
-    return [[int(x) for x in row] for row in matrix.flint.tolist()] if matrix.ncols else [[] for _ in range(matrix.nrows)]

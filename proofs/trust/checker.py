@@ -371,6 +371,9 @@ class Mat:
         height = len(self.rows) // d
         charge(self.den.bit_length() + height * (500 + self.nc * (150 + self.bits)), room(height, self.nc // d, 64))
         require(self.den % prime, "the prime divides a denominator")
+        if d == 1:
+            inverse = pow(self.den, -1, prime)
+            return [[x * inverse % prime for x in row] for row in self.rows]
         powers = [pow(self.den, -1, prime) * pow(root, c, prime) for c in range(d)]
         return [[sum(map(mul, row[j : j + d], powers)) % prime for j in range(0, self.nc, d)] for row in self.rows[::d]]
 
@@ -407,7 +410,7 @@ class Field:
             content = gcd(*multiple) * (1 if multiple[-1] > 0 else -1)
             self.key = self.f = [c // content for c in multiple]
             self.degree, self.bad = len(pairs) - 1, common * multiple[-1]  # usable primes do not divide the latter
-        self.modulus = self.prime, 0
+        self.modulus, self.numbers = (self.prime, 0), dict[str | int, tuple[int, int]]()
         d, (*low, lead) = self.degree, self.f or [0, 1]
         a = Mat(self, [[lead * (j == i + 1) for j in range(d)] for i in range(d - 1)] + [[-c for c in low]], d, lead)
         self.powers = [*accumulate(repeat(a, max(d - 1, 1)), Mat.__matmul__, initial=self.scalar(1, 1, 1))]  # 1, a, a^2, ...
@@ -450,10 +453,24 @@ class Field:
             self.known[key] = reduce(add, terms) if terms else self.scalar(1, 1)
         return self.known[key]
 
+    def number(self, value: Json, where: str, i: int, integral: bool) -> tuple[int, int]:
+        """Return numerator and denominator of an ENTRY of row i, not over Q(a); what stands often is read once."""
+        if (found := self.numbers.get(value) if type(value) in (str, int) else None) is None or integral:
+            found = rational(value, f"{where}[{i}]", integral or self.prime > 0)
+            self.numbers[value] = found
+        return found
+
     def matrix(self, value: Json, nr: int, nc: int, where: str, integral: bool = False) -> Mat:
         """Return a MATRIX of that shape; with no entries, [] or the right number of empty rows."""
         charge(1000 + nr * (500 + 600 * nc), 100 * nr * (nc + 1))
         rows, grid = items([[]] * nr if value == [] and nc == 0 else value, where, nr, nr), list[list[Mat]]()
+        if not self.f:
+            table = [[self.number(x, where, i, integral) for x in items(row, where, nc, nc)] for i, row in enumerate(rows)]
+            dens = {bottom for row in table for _, bottom in row}
+            den, bits = common_denominator(dens), max((top.bit_length() for row in table for top, _ in row), default=0)
+            size = den.bit_length()
+            charge(len(dens) * (size**2 >> 8) + nr * nc * (size + bits >> 4) + nr * nc * (size * bits >> 11), room(nr, nc, size + bits))
+            return Mat(self, [[top * (den // bottom) if bottom != den else top for top, bottom in row] for row in table], nc, den)
         for i, row in enumerate(rows):
             line = f"{where}[{i}]"
             grid.append([self.entry(x, line, integral) for x in items(row, line, nc, nc)])

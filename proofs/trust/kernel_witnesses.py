@@ -50,7 +50,7 @@ def point_witness(kernel: KernelRepresentation) -> Witness:
 
 def kernel_witness(kernel: KernelRepresentation, window: int | None = None) -> Witness:
     """Return all rows, shortened, with hints. Where there are no hints: the rows of degree below the window, for the chain."""
-    return _hinted(kernel) or chain_witness(kernel, window)
+    return _hinted(_Same(kernel)) or chain_witness(kernel, window)
 
 
 def chain_witness(kernel: KernelRepresentation, window: int | None = None) -> Witness:
@@ -161,9 +161,22 @@ def _have_gaps(systems: Sequence[ResidualSystem], kernel: KernelRepresentation, 
     return all(chain.gap(k) == kernel.gap(k) for chain in chains for k in range(samples))
 
 
-@lru_cache(maxsize=16)  # a system is asked for several certificates, one after the other
-def _hinted(kernel: KernelRepresentation) -> Witness | None:
-    rows = _short(kernel)
+class _Same:
+    """This is a kernel representation as a key: it is equal to itself alone, which is quick to see."""
+
+    def __init__(self, kernel: KernelRepresentation) -> None:
+        self.kernel = kernel
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.kernel is other.kernel
+
+    def __hash__(self) -> int:
+        return id(self.kernel)
+
+
+@lru_cache(maxsize=4)  # a system is asked for several certificates, one after the other
+def _hinted(same: _Same) -> Witness | None:
+    kernel, rows = same.kernel, _short(same.kernel)
     hints = _hints([kernel.image.system], rows, kernel.image)
     return None if hints is None else image_witness(kernel) | hints | {"kernel": _written(rows)}
 
