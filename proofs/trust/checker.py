@@ -453,10 +453,10 @@ class Field:
             self.known[key] = reduce(add, terms) if terms else self.scalar(1, 1)
         return self.known[key]
 
-    def number(self, value: Json, where: str, i: int, integral: bool) -> tuple[int, int]:
-        """Return numerator and denominator of an ENTRY of row i, not over Q(a); what stands often is read once."""
+    def number(self, value: Json, where: str, integral: bool) -> tuple[int, int]:
+        """Return numerator and denominator of an ENTRY, not over Q(a); what stands often is read once."""
         if (found := self.numbers.get(value) if type(value) in (str, int) else None) is None or integral:
-            found = rational(value, f"{where}[{i}]", integral or self.prime > 0)
+            found = rational(value, where, integral or self.prime > 0)
             self.numbers[value] = found
         return found
 
@@ -465,7 +465,8 @@ class Field:
         charge(1000 + nr * (500 + 600 * nc), 100 * nr * (nc + 1))
         rows, grid = items([[]] * nr if value == [] and nc == 0 else value, where, nr, nr), list[list[Mat]]()
         if not self.f:
-            table = [[self.number(x, where, i, integral) for x in items(row, where, nc, nc)] for i, row in enumerate(rows)]
+            lines = ((row, f"{where}[{i}]") for i, row in enumerate(rows))
+            table = [[self.number(x, line, integral) for x in items(row, line, nc, nc)] for row, line in lines]
             dens = {bottom for row in table for _, bottom in row}
             den, bits = common_denominator(dens), max((top.bit_length() for row in table for top, _ in row), default=0)
             size = den.bit_length()
