@@ -17,7 +17,7 @@ import pytest
 from faultspace.exact.algebra.fields import PrimeField
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.evidence.specimens import specimens
-from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import checker, checker_limits
 from faultspace.proofs.trust import structure_certificates as make
 from tests.oracle import truth
 from tests.proofs.examples import (
@@ -65,7 +65,7 @@ from tests.proofs.examples import (
 )
 from tests.proofs.hint_cases import MALFORMED_HINTS, REJECTED_HINTS
 
-SOURCE = Path(checker.__file__)
+SOURCES = [Path(module.__file__ or "") for module in (checker, checker_limits)]
 
 
 @pytest.mark.parametrize("name", FIELDS)
@@ -433,9 +433,9 @@ def test_without_its_pivots_an_unlucky_prime_would_prove_something_false(monkeyp
 
 
 def reasons(name: str) -> Iterator[str]:
-    """Yield the fixed parts of every reason in the source that a call of this name gives."""
-    for node in ast.walk(ast.parse(SOURCE.read_text("utf-8"))):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == name:
+    """Yield the fixed parts of every reason in the sources that a call of this name gives, by itself or of the core."""
+    for node in (node for source in SOURCES for node in ast.walk(ast.parse(source.read_text("utf-8")))):
+        if isinstance(node, ast.Call) and ast.unparse(node.func) in (name, f"core.{name}"):
             reason = node.args[1]
             parts = reason.values if isinstance(reason, ast.JoinedStr) else [reason]
             texts = [part.value for part in parts if isinstance(part, ast.Constant) and isinstance(part.value, str)]
