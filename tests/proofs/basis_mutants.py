@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from random import Random
 from typing import Any
 
+from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem, read_system
 from faultspace.exact.system.windows import window_matrix
 from faultspace.proofs.trust import checker
@@ -111,7 +112,7 @@ def mutants(rng: Random, count: int) -> Iterator[Certificate]:
     made = 0
     while made < count:
         system = random_system(rng)
-        for certificate in (make.window_ranks_of(system), make.window_ranks(make.kernel_representation(system))):
+        for certificate in (make.window_ranks_of(system), make.window_ranks(kernel_representation(system))):
             for change in CHANGES:
                 if (mutant := _changed(rng, written(certificate), change)) is not None and made < count:
                     made += 1
@@ -147,7 +148,7 @@ def is_true(statement: dict[str, Any]) -> bool:
     """Return whether rank [O_s T_s] is what is stated, s = 1, ..., n + 3: from n + 1 on both grow by a constant."""
     system = read_system(statement["system"]).residual
     built = (window_matrix(system, s).flint.numer_denom()[0] for s in range(1, len(statement["window_ranks"]) + 1))
-    return statement["window_ranks"] == [window.rank() for window in built]
+    return bool(statement["window_ranks"] == [window.rank() for window in built])
 
 
 def tried(rng: Random, count: int) -> tuple[Counts, list[Certificate]]:
