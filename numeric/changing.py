@@ -16,6 +16,7 @@ from dataclasses import replace
 from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
+from ..base.sheets import counted
 from .changes.predictor import LEARNT_FROM, Stretch
 from .changes.testing import LEVEL, changes_within, parameters, responses, table
 from .count.rank_gap import fault_dimension
@@ -58,7 +59,7 @@ def beside_changes(answer: Findings) -> Findings:
         return answer
     if changes.seen:
         rows = "; ".join(f"{row.kind} of {row.channel}: {row.told}" for row in changes.seen[:2])
-        more = f" and {len(changes.seen) - 2} rows more" if len(changes.seen) > 2 else ""
+        more = f" and {counted(len(changes.seen) - 2, 'row')} more" if len(changes.seen) > 2 else ""
         told = f"something has changed ({rows}{more}), whatever its number of independent faults"
     elif changes.doubtful:
         row = changes.doubtful[0]
