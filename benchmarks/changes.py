@@ -195,7 +195,21 @@ def show(cases: Cases, markdown: bool) -> None:
                 seconds = f"{np.mean([case['seconds'] for case in some]):.2f}"
                 what = "the table alone" if kind == "table" else "identify"
                 line(what, "yes" if loop else "no", len(some), hits, chance, told_rows, counted, onsets, seconds)
-        head = ("change", "sigma", "feedback", "records", *OUTCOMES, "right, 95 %", "n_v wrong", "by space", "by shift", "n_z", "onset", "held", "delay")
+        head = (
+            "change",
+            "sigma",
+            "feedback",
+            "records",
+            *OUTCOMES,
+            "right, 95 %",
+            "n_v wrong",
+            "by space",
+            "by shift",
+            "n_z",
+            "onset",
+            "held",
+            "delay",
+        )
         print()
         line(*head, "early", "cpu")
         if markdown:
