@@ -183,7 +183,7 @@ def echelon(vectors: Iterable[list[int]], prime: int) -> list[tuple[int, list[in
     size = slot(prime, min(len(rows), count) + 1)
     mask = (1 << 8 * size) - 1
     for row in rows:
-        charge(1000 + 500 * count + (1 + len(leads)) * (500 + size * count), (100 + size) * (count + 1))
+        charge(1000 + 500 * count + (1 + len(leads)) * (500 + size * count), (1 + len(leads)) * (40 + size) * (count + 1))
         number = packed(row, size)
         for shift, lead in leads:
             if c := (number >> shift & mask) % prime:
@@ -521,7 +521,7 @@ class Field:
     def residues(self, rows: list[Vectors]) -> list[Vectors]:
         """Return the rows modulo the prime, over K: a goes to its root."""
         d, prime, root = self.degree, *self.modulus
-        charge(sum(map(len, rows)) * 1000 + sum(len(v) for row in rows for v in row) * 400)
+        charge(sum(1000 + sum(400 + (x.bit_length() >> 4) for x in v) for row in rows for v in row))
         if d == 1:
             return [[[x % prime for x in v] for v in row] for row in rows]
         powers = [pow(root, c, prime) for c in range(d)]
@@ -611,12 +611,21 @@ class System:
             for k, condition in ((k, condition) for row in conditions for k, condition in enumerate(row, 1)):
                 found[k] = found[k] or any(sum(map(mul, condition, column)) % self.field.prime for column in columns)
             return found
-        den = common_denominator(part.den for part in (self.A, F, self.C, G))
+        parts = (self.A, F, self.C, G)
+        den = common_denominator(part.den for part in parts)
+        cells, bits = sum(len(part.rows) * part.nc for part in parts), max(part.bits for part in parts)
+        charge(
+            cells * (300 + (den.bit_length() * bits >> 11) + (den.bit_length() + bits >> 4)), cells * (80 + (den.bit_length() + bits) // 7)
+        )
         A, F_, C, G_ = ([[x * (den // part.den) for x in row] for row in part.rows] for part in (self.A, F, self.C, G))
         states, faults = list(zip(*C, *A, strict=True)), list(zip(*G_, *F_, strict=True))
         largest = max((sum(map(abs, column)) for column in states + faults), default=0)
         steps, most = max(map(len, rows), default=0), max((abs(x) for row in rows for v in row for x in v), default=0)
         w = most.bit_length() + steps * max(den, largest).bit_length() + 1
+        wide, factors = w * len(rows), steps * den.bit_length()  # bits of a number with all rows, of the last factor
+        entries = sum(x.bit_length() for table in (A, F_, C, G_) for row in table for x in row)
+        charge(steps * (cells * (150 + (wide >> 6)) + (entries * wide >> 10)), (len(A) + len(C)) * wide // 3)
+        charge(steps * len(C) * (len(rows) * (300 + (wide >> 4)) + (wide * factors >> 10)), len(C) * (wide + factors) // 3)
         carried, factor, found = [0] * len(A), 1, []
         for k in reversed(range(steps)):
             both = [factor * sum(row[k][j] << w * a for a, row in enumerate(rows) if k < len(row)) for j in range(len(C))] + carried
@@ -635,6 +644,7 @@ class System:
         """
         prime, n, width = self.field.modulus[0], self.n, self.n + self.m
         size = slot(prime, n + self.p)
+        charge((n + self.p) * width * 500, (n + self.p) * width * (120 + size))
         table = [packed(row, size) for row in self.pencil()]
         charge(sum(map(len, rows)) * (2000 + len(table) * (200 + size * width // 2) + 500 * width), 80 * sum(map(len, rows)) * len(table))
         found, left = list[Vectors](), False
@@ -678,7 +688,7 @@ class System:
         require(degree < prime, "the prime is not above the sum of the left minimal indices")
         first = determinant_polynomial([[[c[n + j] for c in row] for j in pivots] for row in conditions], degree, prime)
         require(first[degree], "the leading coefficients of the rows at the pivots are dependent")
-        charge(len(rows) * (n + self.p) * (200 + 80 * terms))
+        charge(len(rows) * (n + self.p) * (1500 + 80 * terms), 80 * len(rows) * (n + self.p + terms))
         powers = [*accumulate(repeat(mix, n + self.p - 1), lambda power, mix: power * mix % prime, initial=mix)]
         columns = [[pow(power, b + 1, prime) for power in powers] for b in range(len(rows))]
         mixed = [[[sum(map(mul, c, column)) % prime for c in row] for column in columns] for row in conditions]

@@ -234,6 +234,16 @@ def of_kernel_rows() -> Iterator[Flood]:
             yield flood(f"first column {name}", dumped, "first-column-only", column, witness)
             yield flood(f"inclusion {name}", dumped, "behaviour-inclusion", {"inner": about, "outer": about}, witness)
             yield flood(f"equal {name}", dumped, "behaviour-equality", {"first": about, "second": about}, witness)
+            hints = {**witness, "point": 12345, "mix": 678910}
+            yield flood(f"equal by hints {name}", dumped, "behaviour-equality", {"first": about, "second": about}, hints)
+            ranks = {
+                "system": about,
+                "normal_rank": p - len(kernel),
+                "left_minimal_indices": [len(row["coefficients"]) - 1 for row in kernel],
+            }  # type: ignore[arg-type]
+            yield flood(f"ranks by hints {name}", dumped, "window-ranks", ranks, hints)
+            modulo = {key: value for key, value in hints.items() if key != "kernel"} | {"kernel_modulo": kernel}
+            yield flood(f"ranks modulo {name}", dumped, "window-ranks", ranks, modulo)
         for length in (1, 400, 4096):
             if length * (m + p) * 2 < BYTES:
                 word = {"x0": [9] * n, "v": [[9] * m] * length, "row": [[9] * p] * length}
