@@ -22,7 +22,7 @@ from ..evidence.alternatives import AlternativeEvidence, PairEvidence, alternati
 from ..evidence.corpus import Evidence, corpus, describe, examine
 from ..evidence.experiments import LimitEvidence, certified_limits, examine_experiment
 from ..evidence.pairs_by_polynomial import PairByPolynomial, pairs_by_polynomial
-from ..evidence.search import Box, Facts, Flags, Known, chunks, smallest
+from ..evidence.search import Box, Facts, Flags, Known, first_of_orbits, smallest
 from ..trust.structure_certificates import Certificate, accept
 from .verdicts import Outcome, Verdict
 
@@ -72,8 +72,8 @@ class Workbench:
         return self._made[name]
 
     def searched(self, box: Box) -> Iterator[Facts]:
-        """Yield the systems of a box in order, with what earlier searches of this run found out about them."""
-        return chunks(box, self._known)
+        """Yield the systems of a box in order, one of each orbit, with what earlier searches of this run found out about them."""
+        return first_of_orbits(box, self._known)
 
     def examined(self, system: ResidualSystem) -> Evidence:
         """Return the evidence on a system that a search came upon, made the first time: several searches come upon the same."""
