@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import permutations, product
 from math import isqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -190,9 +191,10 @@ def ranks(matrices: Integers) -> Integers:
     return rank
 
 
-def _residues(numbers: Integers) -> Integers:
+def _residues(numbers: NDArray[Any]) -> Integers:
     """Return the numbers modulo the prime; numpy divides by one number several times faster than it takes the remainder."""
-    return numbers - numbers // PRIME * PRIME
+    residues: Integers = numbers - numbers // PRIME * PRIME
+    return residues
 
 
 def chunks(box: Box) -> Iterator[Facts]:
