@@ -22,7 +22,7 @@ from ..numeric.pipeline import identify
 from ..numeric.report import files as report
 from ..numeric.report.folders import refuse
 from ..numeric.report.summary import summary
-from .argument_names import as_options
+from .argument_names import as_options, naming, of_file
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED
 from .reading_files import prepare_folder
@@ -50,6 +50,7 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
     """
     if known.healthy is not None and known.healthy_until is not None:
         raise InvalidInput("--healthy: got --healthy-until as well, expected one of them: a file without fault, or the number of samples")
+    worded = as_options if known.healthy is None else of_file
     taken = [
         name for name in report.NAMES if (out / name).exists() and any(_same(out / name, read) for read in (data, known.healthy) if read)
     ]
@@ -65,7 +66,7 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
             healthy: int | Record | None = known.healthy_until
             if known.healthy is not None:
                 healthy = read_record(known.healthy, inputs=inputs, outputs=outputs, on_progress=tell)
-            with in_file(data):
+            with naming(worded), in_file(data):
                 answer = identify(
                     record,
                     order=known.order,
@@ -78,7 +79,7 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
                     on_progress=tell,
                 )
             tell("writing", 0, 0)
-            written, remarks = report.write(answer, out, data, tell, worded=as_options)
+            written, remarks = report.write(answer, out, data, tell, worded=worded)
     except BaseException:
         for folder in new:
             with suppress(OSError):
@@ -87,10 +88,10 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
     for remark in remarks:
         say(remark)
     if as_json:
-        print_json(report.document(answer, data, worded=as_options) | {"files": written})
+        print_json(report.document(answer, data, worded=worded) | {"files": written})
         return ANSWERED
     console = answers()
-    for line in summary(answer, data, worded=as_options):
+    for line in summary(answer, data, worded=worded):
         paragraph(console, Text(line, style="bold cyan" if line.startswith("#") else ""))
     console.print()
     paragraph(console, f"written into {quote_path(str(out))}: {', '.join(written)}")
