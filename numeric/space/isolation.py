@@ -38,6 +38,10 @@ from ..data.validation import noise_deviations
 from ..drawing import plot_angles
 from .result import FaultSpaceEstimate, SpaceOfValley
 
+NO_ERRORS = (
+    "the model is of PI-MOESP, which does not tell how sure it is, so that no angle to the fault space can be called small or large; a "
+    "longer record of a stable plant, with its noise, has a model that tells it"
+)
 EXCLUDED, CONSISTENT = 0.01, 0.05  # a column whose probability lies between is undecided
 WIDE = 0.5  # radians: above it, the first order says no more than that the space is not known (`identified_fault_space`)
 DRAWS, SEED = 4000, 20251124
@@ -212,7 +216,7 @@ def isolate(
     uncertainty = getattr(model, "uncertainty", None)
     errors = np.zeros((0, n + p, p + n_u)) if uncertainty is None else _column_errors(matrices, uncertainty.root, scale)
     identified = matrices is not model
-    reason = "the model has no standard errors" if identified and uncertainty is None else _refusal(space, identified, len(errors))
+    reason = NO_ERRORS if identified and uncertainty is None else _refusal(space, identified, len(errors))
     labels = [("sensor", name) for name in names[0]] + [("actuator", name) for name in names[1]]
     causes = tuple(
         _cause(kind, name, columns[:, j], errors[:, :, j], space, undecided=bool(reason)) for j, (kind, name) in enumerate(labels)
