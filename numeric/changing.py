@@ -14,6 +14,7 @@ from dataclasses import replace
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData
+from ..base.sheets import counted
 from .changes.predictor import LEARNT_FROM, Stretch
 from .changes.testing import LEVEL, changes_within, parameters, responses, table
 from .count.rank_gap import fault_dimension
@@ -55,7 +56,7 @@ def beside_changes(answer: Findings) -> Findings:
     doubtful = [(row, where) for changes, where in tables for row in changes.doubtful]
     if seen:
         rows = "; ".join(f"{row.kind} of {row.channel}{where}: {row.told}" for row, where in seen[:2])
-        more = f" and {len(seen) - 2} rows more" if len(seen) > 2 else ""
+        more = f" and {counted(len(seen) - 2, 'row')} more" if len(seen) > 2 else ""
         told = f"something has changed ({rows}{more}), whatever its number of independent faults"
     elif doubtful:
         row, where = doubtful[0]

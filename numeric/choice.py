@@ -68,7 +68,8 @@ def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
     record, model, rows = answer.record, answer.model, max(answer.record.p - faults, 1)
     assert model is not None
     if not affordable(record.p + record.n_u, -(-(model.order + BEYOND) // rows)):
-        return f"{record.p} outputs with {counted(faults, 'fault')} at order {model.order} are too many for the laws of outputs and inputs"
+        outputs = f"{counted(record.p, 'output')} with {counted(faults, 'fault')}"
+        return f"order {model.order} is too high for the laws of {outputs} and of the inputs"
     data = about_own_means(record.stretches(*answer.held))
     count, level = answer.count, answer.noise_level
     if level is None and count is not None and count.n_v == faults and count.noise_power is not None:

@@ -111,7 +111,8 @@ def _by_laws(answer: Findings, on_progress: Progress) -> Findings:
     assert model is not None
     order = max(model.order, 1)
     if not affordable(record.p + record.n_u, order + LONG):
-        note = f"{record.p} outputs at order {model.order} are too many for the laws of outputs and inputs: the residual alone is counted"
+        outputs = counted(record.p, "output")
+        note = f"order {model.order} is too high for the laws of {outputs} and of the inputs: the residual alone is counted"
         return replace(answer, notes=(*answer.notes, note))
     on_progress("counting the laws of outputs and inputs", 0, 0)
     data = about_own_means(record.stretches(*answer.held))

@@ -278,7 +278,7 @@ def _estimate(rows: _Rows, solved: _Solved) -> FaultSpaceEstimate:
     lag = max(map(len, rows.fit.rows)) - 1
     words = "; as many as the observability indices of (A, C) allow" if n_z == rows.largest else ""
     doubt = "" if chosen.decided else "undecided: "
-    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; rows of total {chosen.reason}{words}"
+    reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; for the rows total {chosen.reason}{words}"
     return FaultSpaceEstimate(
         solved.basis,
         n_z,
