@@ -62,7 +62,8 @@ class Evidence:
 
     @property
     def narrow(self) -> float:
-        """How much larger the misfits of flatness are for narrower bands, which let narrower roots in."""
+        """How much larger the misfit of flatness of several rows is taken on records longer than SHORT: where faults leave a frequency to
+        the noise it grows with the root of the samples there, as the root of the number of bands does."""
         return float((len(self.data.moments.angles) / BANDS) ** 0.5) if self.bands > BANDS else 1.0
 
     @property

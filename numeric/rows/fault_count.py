@@ -21,11 +21,12 @@ count, which are exact. Of an order that is too low fewer rows than there are ma
 more, where one row more must still be none.
 
 KNOWN_TO and KNOWN_FAR are what a stated level means. FAINTEST is an assumption, and no theory gives it: how faint a last fault may be.
-`benchmarks/counting_at_the_bound.py laws` prints what it rests on, the steps of records with p faults whose single row is accepted beside
-those with p - 1. Flatness, and not the step, refuses p faults as a rule: of 69 such records it accepted one, whose step was 2.96; of 18
-with 3 faults of 4 outputs, 40 dB above the noise, the least step was 3.5. These seeds, 210000 to 210017, were looked at while LONG and
-FAINTEST were chosen. A record of 30001 samples with 3 faults in 3 outputs (seed 261000) is known to which 2 is answered: one row leaves a
-flat remainder 4 nats below two. The constants that decide whether rows are laws stand in `laws.py`.
+It is the step that one in a hundred records with as many faults as outputs reaches while its single row is accepted:
+`benchmarks/counting_at_the_bound.py faintest` prints that quantile, for short records and long ones, and what it costs where there is a
+fault less. Flatness, and not the step, refuses p faults as a rule. It does so on long records, too: what a single row may gain is held
+against the frequencies that this record's faults leave to the noise (`single_misfits`): a record of 30001 samples with 3 faults in 3
+outputs (seed 261000) was answered by 2 while every long record was allowed for such frequencies, and it has none; its single row leaves a
+remainder 4 nats below two, and it is undecided now. The constants that decide whether rows are laws stand in `laws.py`.
 
     count_faults    FaultCount: n_v, or "p - 1 or p", or undecided, the reason, and every test made
 """

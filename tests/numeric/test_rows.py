@@ -392,7 +392,7 @@ def test_two_hundred_samples() -> None:
 
 
 def test_the_bootstrap_finds_the_misfit() -> None:
-    y, u = joint_record(plant(21, 3, 1), 21, 500, 40)
+    y, u = joint_record(plant(22, 3, 1), 22, 500, 40)
     evidence = Evidence(y, u, 3)
     quick = laws.tested(evidence, 2)
     careful = laws.bootstrapped(evidence, quick, 4)
