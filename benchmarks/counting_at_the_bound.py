@@ -185,7 +185,7 @@ def laws(seed: int, trials: int, samples: int, clock: Clock, cells: Sequence[int
     shapes, flats, laws_far, others_far = list[float](), list[float](), list[float](), list[float]()
     for number in clock.range(trials):
         p, n_v, decibels, spread = COUNT_CELLS[cells[number % len(cells)]]
-        evidence = Evidence(*record(seed + number, p, n_v, decibels, spread, samples), N_X)
+        evidence = Evidence([record(seed + number, p, n_v, decibels, spread, samples)], N_X)
         if p - n_v >= 2:
             found = tested(evidence, p - n_v)
             assert found.sphericity is not None
@@ -214,7 +214,7 @@ def single(seed: int, trials: int, clock: Clock) -> None:
     for number in clock.range(trials * len(kinds)):
         place = number % len(kinds)
         p = 3 + number // len(kinds) % 2
-        evidence = Evidence(*record(seed + number, p, p - 1, 40.0, 1.0, kinds[place][0], kinds[place][1]), N_X)
+        evidence = Evidence([record(seed + number, p, p - 1, 40.0, 1.0, kinds[place][0], kinds[place][1])], N_X)
         found, data = tested(evidence, 1), evidence.single
         free = loose_samples(evidence, found.fit, found.shares) ** 0.5
         places.append(place)
@@ -268,7 +268,7 @@ def faintest(seed: int, trials: int, clock: Clock, cells: Sequence[int], jobs: i
 
 def step_of(cell: int, samples: int, seed: int) -> float:
     """Return the step from two rows to one, minus infinity where a single row is not accepted."""
-    evidence = Evidence(*record(seed, *COUNT_CELLS[cell], samples), N_X)
+    evidence = Evidence([record(seed, *COUNT_CELLS[cell], samples)], N_X)
     one = tested(evidence, 1)
     return step_to_two(evidence, one, tested(evidence, 2)) if one.holds else -np.inf
 

@@ -28,14 +28,15 @@ against the frequencies that this record's faults leave to the noise (`single_mi
 outputs (seed 261000) was answered by 2 while every long record was allowed for such frequencies, and it has none; its single row leaves a
 remainder 4 nats below two, and it is undecided now. The constants that decide whether rows are laws stand in `laws.py`.
 
-    count_faults    FaultCount: n_v, or "p - 1 or p", or undecided, the reason, and every test made
+    count_faults    FaultCount: n_v, or "p - 1 or p", or undecided, the reason, and every test made; count_faults_experiments: the same
+                    from several experiments
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import scipy.linalg
@@ -47,9 +48,10 @@ from ...base.sheets import Shown, counted, decibels
 from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
-from ..data.validation import constant_channels, noise_deviations, positive, signals
+from ..data.records import Record
+from ..data.validation import constant_channels, experiment, noise_deviations, positive, signals
 from ..model.reduced_model import ReducedModel
-from .evidence import EXTRA, Evidence
+from .evidence import EXTRA, LONG, Evidence, longest_degree
 from .joint import ROUNDING, JointMoments, even_split
 from .laws import FAILS, SUFFICES, Laws, bootstrapped, longer_are_laws, step_to_two, tested
 from .remainder import unrelated
@@ -123,8 +125,8 @@ class FaultCount(Shown):
 
 @one_thread()
 def count_faults(
-    y: ArrayLike,
-    u: ArrayLike,
+    y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
+    u: ArrayLike | None,
     *,
     order: int,
     noise_level: ArrayLike | None = None,
@@ -133,10 +135,11 @@ def count_faults(
 ) -> FaultCount:
     """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
 
-    `noise_level` is the standard deviation of the noise in each output, (p,) or one number for all, in units of y: it is taken as right
-    to a factor of 1.4, and may be wrong by 2. `draws` is the number of records of the parametric bootstrap for each k that is tried, by
-    which the misfit of the stated laws is measured for this very record (20 will do, a quarter of a second each). `model` is what
-    `arx_reduction` found in these same data, where it has been asked already: it saves time. Units of y and u do not matter.
+    Where u is None, y gives the consecutive pieces (y, u) of one experiment. `noise_level` is the standard deviation of the noise in each
+    output, (p,) or one number for all, in units of y: it is taken as right to a factor of 1.4, and may be wrong by 2. `draws` is the number
+    of records of the parametric bootstrap for each k that is tried, by which the misfit of the stated laws is measured for this very record
+    (20 will do, a quarter of a second each). `model` is what `arx_reduction` found in these same data, where it has been asked already: it
+    saves time. Units of y and u do not matter.
 
     Raises InvalidData for shapes that do not fit, records too short for rows of degree order + 3, constant outputs, and outputs that are
     combinations of others up to rounding. Source: [W91] for the rows, [M82] and [W38] for the ratios.
@@ -148,19 +151,79 @@ def count_faults(
     >>> y = np.hstack([u + v, u - v, 2 * v]) + 0.01 * rng.standard_normal((600, 3))
     >>> count_faults(y, u, order=1).n_v
     1
+    >>> count_faults([(y[:250], u[:250]), (y[250:], u[250:])], None, order=1).n_v
+    1
     """
-    outputs, inputs = signals(y, u)
-    p, n = outputs.shape[1], positive(order, "order")
-    _measured(outputs)
-    evidence = Evidence(outputs, inputs, n, model)
+    return _count([_whole(y, u)], order, noise_level, draws, model)
+
+
+@one_thread()
+def count_faults_experiments(
+    experiments: Sequence[tuple[ArrayLike, ArrayLike] | Record],
+    *,
+    order: int,
+    noise_level: ArrayLike | None = None,
+    draws: int = 0,
+    model: ReducedModel | None = None,
+) -> FaultCount:
+    """Decide the same from several experiments (y, u) of one system with the same channels and units, each from a state of its own [W91].
+
+    y has the shape (N_i, p) and u (N_i, n_u); a Record stands for a pair. The operating points of the experiments may differ where each is
+    given about its own means. Experiments too short for the rows that the longest one carries have no part, and the reason tells how many.
+    The other arguments and the answer are those of `count_faults`; `model` is that of `arx_reduction_experiments`. Raises InvalidData as
+    there, for experiments with unlike channels, and where none is given.
+
+    >>> import numpy as np
+    >>> from faultspace.numeric import count_faults_experiments
+    >>> rng = np.random.default_rng(0)
+    >>> u, v = rng.standard_normal((600, 1)), rng.standard_normal((600, 1))
+    >>> y = np.hstack([u + v, u - v, 2 * v]) + 0.01 * rng.standard_normal((600, 3))
+    >>> count_faults_experiments([(y[:250], u[:250]), (y[300:], u[300:])], order=1).n_v
+    1
+    """
+    if len(experiments) == 0:
+        raise InvalidData("no experiment: give at least one pair (y, u)")
+    pairs = [_whole(one, None) if isinstance(one, Record) else _whole(*one) for one in experiments]
+    return _count(pairs, order, noise_level, draws, model)
+
+
+def _whole(y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLike | None) -> tuple[Array, Array]:
+    """Return checked y (N, p) and u (N, n_u) of one experiment, from arrays or from its pieces."""
+    if u is not None:
+        return signals(cast(ArrayLike, y), u)
+    outputs, inputs = zip(*experiment(y, None), strict=True)
+    return np.concatenate(outputs), np.concatenate(inputs)
+
+
+def _count(
+    experiments: Sequence[tuple[Array, Array]], order: int, noise_level: ArrayLike | None, draws: int, model: ReducedModel | None
+) -> FaultCount:
+    """Count the faults in checked experiments, and say how many of them had no part."""
+    shapes = {(y.shape[1], u.shape[1]) for y, u in experiments}
+    if len(shapes) > 1:
+        raise InvalidData(f"experiments: got {[(y.shape, u.shape) for y, u in experiments]}; all need the same channels")
+    p, n = experiments[0][0].shape[1], positive(order, "order")
+    carried = min(n + LONG, max(longest_degree(*one) for one in experiments))
+    used = [one for one in experiments if longest_degree(*one) >= carried]
+    _measured(np.vstack([y for y, _ in used]))
+    answer = _by_rows(Evidence(used, n, model), p, None if noise_level is None else noise_deviations(noise_level, p), draws)
+    if len(used) == len(experiments):
+        return answer
+    left = f"{len(experiments) - len(used)} of {len(experiments)} experiments are too short for rows of degree {carried} and have no part"
+    return replace(answer, reason=f"{answer.reason}; {left}")
+
+
+def _by_rows(evidence: Evidence, p: int, level: Array | None, draws: int) -> FaultCount:
+    """Count by kernel rows, with the deviations (p,) of the noise where they are stated."""
+    n = evidence.order
     data = evidence.data
-    known = None if noise_level is None else noise_deviations(noise_level, p) / data.scale[:p]
+    known = None if level is None else level / data.scale[:p]
     shares = None if known is None else known**2 / np.exp(np.mean(np.log(known**2)))
     if not _exciting(data):
         reason = f"the inputs excite no more than {n + EXTRA} samples in a row: what they do and what faults do cannot be told apart"
         return FaultCount(None, tuple(range(p + 1)), reason, ())
     if _least_power(data, 0) < ROUNDING:
-        return _by_ranks(outputs, inputs)
+        return _by_ranks(evidence.experiments)
     tests: dict[int, Laws] = {}
 
     def laws(count: int) -> Laws:
@@ -357,8 +420,9 @@ def _least_power(data: JointMoments, first: int) -> float:
     return float(scipy.linalg.eigvalsh(power[np.ix_(chosen, chosen)], subset_by_index=(0, 0))[0])
 
 
-def _by_ranks(y: Array, u: Array) -> FaultCount:
-    """Count by the ranks of windows where no noise is seen."""
+def _by_ranks(experiments: Sequence[tuple[Array, Array]]) -> FaultCount:
+    """Count by the ranks of windows where no noise is seen, of the longest experiment: they are exact, and no window spans two."""
+    y, u = max(experiments, key=lambda one: len(one[0]))
     exact = fault_dimension(y, u=u)
     possible = tuple(range(y.shape[1] + 1)) if exact.n_v is None else (exact.n_v,)
     return FaultCount(exact.n_v, possible, f"no noise beyond rounding: {exact.reason}", ())

@@ -62,7 +62,7 @@ CROWDED, LOOSE = (2.4, 3.7), (0.43, 5.1)
 SUFFICES, FAILS = 0.01, 1e-12
 # Several rows are refuted by a ratio so many times its misfit: beyond what a descent that ended elsewhere leaves of laws. And so many times
 # beyond that they are worth neither another start nor a bootstrap.
-FAR, HOPELESS = 4.3, 2.0
+FAR, HOPELESS = 5.5, 2.0
 SEED = 20251122
 
 
@@ -280,8 +280,12 @@ def bootstrapped(evidence: Evidence, laws: Laws, draws: int) -> Laws:
     if _hopeless(laws):
         return laws
     found = []
-    for record in redrawn(evidence.y, evidence.u, evidence.data, laws.fit, laws.shares, draws, SEED):
-        one = _again(replace(evidence, y=record), laws, Misfits(1.0, 1.0, (1.0, 1.0)))
+    inputs = [u for _, u in evidence.experiments]
+    records = [
+        redrawn(y, u, evidence.data, laws.fit, laws.shares, draws, SEED + number) for number, (y, u) in enumerate(evidence.experiments)
+    ]
+    for outputs in zip(*records, strict=True):
+        one = _again(replace(evidence, experiments=list(zip(outputs, inputs, strict=True))), laws, Misfits(1.0, 1.0, (1.0, 1.0)))
         found.append(([one.sphericity.nats / one.sphericity.expected] if one.sphericity else []) + list(one.ratios))
     means = tuple(np.maximum(np.mean(found, axis=0), 1.0).tolist())
     return _again(evidence, laws, Misfits(single=means) if laws.count == 1 else Misfits(*means))

@@ -27,7 +27,7 @@ def test_three_faults_of_three_outputs_are_not_two_on_a_long_record(seed: int) -
 
 def test_only_faults_that_leave_frequencies_to_the_noise_make_a_row_loose() -> None:
     """A chirp that has not come round leaves the highest and the lowest frequencies; white faults leave none."""
-    chirp, white = (Evidence(*record(3, 3, 2, 40.0, 1.0, 1001, *kind), 5) for kind in ((), (white_faults,)))
+    chirp, white = (Evidence([record(3, 3, 2, 40.0, 1.0, 1001, *kind)], 5) for kind in ((), (white_faults,)))
     samples = []
     for evidence in (chirp, white):
         row = laws.tested(evidence, 1)
