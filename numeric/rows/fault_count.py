@@ -56,8 +56,8 @@ from .joint import ROUNDING, JointMoments, even_split
 from .laws import FAILS, SUFFICES, Laws, bootstrapped, longer_are_laws, step_to_two, tested
 from .remainder import unrelated
 
-# Nats (13 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
-FAINTEST = 3.0
+# Nats (10 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
+FAINTEST = 2.4
 # What a stated noise level means, as the docstring of `count_faults` says. Its power is right to 3 dB, a factor of 1.4 in deviation; and
 # where the deviation is wrong by two, four in power, what is louder than both together is a fault in any case.
 KNOWN_TO = 2.0
