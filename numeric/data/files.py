@@ -126,9 +126,9 @@ def read_stretches(
     They lie between rows with a cell that is no finite number, and between times at which rows are missing.
 
     The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
-    one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments(parts)`;
-    the longest of them is a record for `identify`, with the sample time where a column tells it. Raises InvalidInput as `read_record`
-    does, but for numbers that are not finite, and where no row is whole.
+    one sample, with the sample time where a column tells it. They are experiments of one plant, and go into one answer as such:
+    `identify(parts)`, or `arx_reduction_experiments(parts)` for the model alone. Raises InvalidInput as `read_record` does, but for numbers
+    that are not finite, and where no row is whole.
 
     >>> import faultspace as fs, pathlib, tempfile
     >>> from faultspace.numeric import read_stretches

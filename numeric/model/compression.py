@@ -242,6 +242,8 @@ def merge(*compressions: Compression) -> Compression:
                     f"compressions with {name} = {getattr(first, name)} and {getattr(other, name)} cannot be merged: compress with "
                     "equal settings"
                 )
+    if len(compressions) == 1:
+        return first
     factor = triangular(*(one.factor for one in compressions))
     routes = {one.route for one in compressions}
     return _Shape(first.n_u, first.p, first.past_rows, first.block_rows).compression(

@@ -242,8 +242,8 @@ def _by_rows(evidence: Evidence, p: int, level: Array | None, draws: int) -> Fau
         k = max(_next(some, more, evidence.apparent), 2)
         if k < p and (unknowns := _unknowns(data, n, k)) > MOST:
             reason = (
-                f"{k} rows of {data.moments.channels} channels have {unknowns} unknowns, of which no more than {MOST} are fitted: count "
-                "groups of outputs, each for the faults that reach it"
+                f"{k} rows of {counted(data.moments.channels, 'channel')} have {unknowns} unknowns, of which no more than {MOST} are "
+                "fitted: count groups of outputs, each for the faults that reach it"
             )
             return FaultCount(None, tuple(range(p - more + 1, p - some + 1)), reason, _walk(tests))
         some, more = (some, k) if _holds(laws(k), known) is False else (k, more)
@@ -374,7 +374,8 @@ def _undecided(p: int, k: int, near: Laws, tests: dict[int, Laws]) -> FaultCount
     possible = tuple(range(max(p - least + 1, 0), p - most + 1))
     if near.sphericity is not None and near.sphericity.level >= SUFFICES:
         reason = (
-            f"{k} rows leave what has the shape of noise, but rows of {EXTRA} degrees more gain {decibels(near.gain)}: try a higher order"
+            f"what {counted(k, 'row')} of this degree left has the shape of noise, but rows of {EXTRA} degrees more gain "
+            f"{decibels(near.gain)}: try a higher order"
         )
     else:
         limits = f"accepted from {SUFFICES:g}; refused, of a single row below {FAILS:g}, of several far from the shape of noise"
