@@ -20,7 +20,7 @@ that are stated to be healthy. On all others it calls estimators that come neare
 arx_reduction         A, B, C, D under strong coloured faults, with standard errors; arx_reduction_experiments: from several experiments
 cramer_rao            the least standard deviations that any unbiased estimate of A, B, C, D can have
 fault_space_bound     the least error that any unbiased estimate of the fault space can have
-count_faults          how many faults act on outputs and inputs, without a model; count_faults_experiments: from several experiments
+count_faults          how many faults act on outputs and inputs, without a model
 changes_since_healthy what has changed since a healthy part, whatever its rank; changes_within: the second half against the first
 fault_space_by_rows   all fault columns, from the laws that outputs and inputs obey; identified_fault_space: the model's error in its angle
 

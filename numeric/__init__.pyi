@@ -39,7 +39,6 @@ from .pipeline import identify as identify
 from .result import Identification as Identification
 from .rows.fault_count import FaultCount as FaultCount
 from .rows.fault_count import count_faults as count_faults
-from .rows.fault_count import count_faults_experiments as count_faults_experiments
 from .rows.space import fault_space_by_rows as fault_space_by_rows
 from .rows.space import identified_fault_space as identified_fault_space
 from .signal.onset import FaultOnset as FaultOnset

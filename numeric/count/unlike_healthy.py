@@ -7,7 +7,10 @@ They make an answer undecided and never decide one. What is a spike, or too long
 count: the largest of N values is held against the largest of K healthy ones, where sizes, and lengths of runs, have tails that fall no
 slower than an exponential. For such tails of scale s the largest of K independent values exceeds s (log K - log log(2 / level)) but for a
 probability of level / 2, and the largest of N of p channels stays below s log(2 p N / level) but for as much: so the ratio of the two is
-bounded without knowing s. Normal noise has thinner tails, and dependent values are fewer than K and N: both make the bound a safe one.
+bounded without knowing s. Normal noise has thinner tails, for which the bound is safe even where dependent values count for fewer than K.
+
+How much louder an input may be, and how far away, is calibrated: `benchmarks/identify_healthy.py --inputs` prints how often a record
+without a fault is called faulty for either, while nothing is left undecided on their account.
 """
 
 from __future__ import annotations
@@ -20,8 +23,9 @@ from ...base.arrays import Array
 from ...base.errors import shorten
 from .healthy_model import LEVEL
 
-LOUDER = 1.5  # an input of more than so many times its healthy deviation drives model error that the healthy samples do not show
-AWAY = 10.0  # and so does one that moved by more than so many
+# An input of more than so many times its healthy deviation drives model error that the healthy samples do not show; and so does one that
+# moved by more than so many.
+LOUDER, AWAY = 1.5, 10.0
 # Of less than this share of its healthy size a residual is other noise, or none: what `noise_level` of `count_faults` means, too, may be
 # wrong by two and no more.
 QUIET = 0.5

@@ -28,13 +28,12 @@ against the frequencies that this record's faults leave to the noise (`single_mi
 outputs (seed 261000) was answered by 2 while every long record was allowed for such frequencies, and it has none; its single row leaves a
 remainder 4 nats below two, and it is undecided now. The constants that decide whether rows are laws stand in `laws.py`.
 
-    count_faults    FaultCount: n_v, or "p - 1 or p", or undecided, the reason, and every test made; count_faults_experiments: the same
-                    from several experiments
+    count_faults    FaultCount: n_v, or "p - 1 or p", or undecided, the reason, and every test made
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -49,13 +48,14 @@ from ...base.threads import one_thread
 from ..count.rank_gap import fault_dimension
 from ..data.plain import plain
 from ..data.records import Record
-from ..data.validation import constant_channels, experiment, noise_deviations, positive, signals
+from ..data.validation import constant_channels, noise_deviations, positive, signals
 from ..model.reduced_model import ReducedModel
 from .evidence import EXTRA, LONG, Evidence, longest_degree
 from .joint import ROUNDING, JointMoments, even_split
 from .laws import FAILS, SUFFICES, Laws, bootstrapped, longer_are_laws, step_to_two, tested
 from .remainder import unrelated
 
+Experiments = Sequence[tuple[ArrayLike, ArrayLike]]
 # Nats (10 dB) that the noise floor must lie below the faintest fault where only one row is left to see it.
 FAINTEST = 2.4
 # What a stated noise level means, as the docstring of `count_faults` says. Its power is right to 3 dB, a factor of 1.4 in deviation; and
@@ -125,7 +125,7 @@ class FaultCount(Shown):
 
 @one_thread()
 def count_faults(
-    y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]],
+    y: ArrayLike | Experiments | Record,
     u: ArrayLike | None,
     *,
     order: int,
@@ -135,11 +135,13 @@ def count_faults(
 ) -> FaultCount:
     """Decide how many independent faults act on y (N, p) with inputs u (N, n_u), where the system has this `order` or less.
 
-    Where u is None, y gives the consecutive pieces (y, u) of one experiment. `noise_level` is the standard deviation of the noise in each
-    output, (p,) or one number for all, in units of y: it is taken as right to a factor of 1.4, and may be wrong by 2. `draws` is the number
-    of records of the parametric bootstrap for each k that is tried, by which the misfit of the stated laws is measured for this very record
-    (20 will do, a quarter of a second each). `model` is what `arx_reduction` found in these same data, where it has been asked already: it
-    saves time. Units of y and u do not matter.
+    Where u is None, y is a list of pairs (y, u), each an experiment of the same system with an initial state of its own, or a record, in
+    however many pieces it was read. Operating points may differ where each experiment is given about its own means; those too short for
+    the rows that the longest one carries have no part, and the reason tells how many. `noise_level` is the standard deviation of the
+    noise in each output, (p,) or one number for all, in units of y: it is taken as right to a factor of 1.4, and may be wrong by 2.
+    `draws` is the number of records of the parametric bootstrap for each k that is tried, by which the misfit of the stated laws is
+    measured for this very record (20 will do, a quarter of a second each). `model` is what `arx_reduction` found in these same data,
+    where it has been asked already: it saves time. Units of y and u do not matter.
 
     Raises InvalidData for shapes that do not fit, records too short for rows of degree order + 3, constant outputs, and outputs that are
     combinations of others up to rounding. Source: [W91] for the rows, [M82] and [W38] for the ratios.
@@ -151,48 +153,21 @@ def count_faults(
     >>> y = np.hstack([u + v, u - v, 2 * v]) + 0.01 * rng.standard_normal((600, 3))
     >>> count_faults(y, u, order=1).n_v
     1
-    >>> count_faults([(y[:250], u[:250]), (y[250:], u[250:])], None, order=1).n_v
+    >>> count_faults([(y[:250], u[:250]), (y[300:], u[300:])], None, order=1).n_v
     1
     """
-    return _count([_whole(y, u)], order, noise_level, draws, model)
+    return _count(_experiments(y, u), order, noise_level, draws, model)
 
 
-@one_thread()
-def count_faults_experiments(
-    experiments: Sequence[tuple[ArrayLike, ArrayLike] | Record],
-    *,
-    order: int,
-    noise_level: ArrayLike | None = None,
-    draws: int = 0,
-    model: ReducedModel | None = None,
-) -> FaultCount:
-    """Decide the same from several experiments (y, u) of one system with the same channels and units, each from a state of its own [W91].
-
-    y has the shape (N_i, p) and u (N_i, n_u); a Record stands for a pair. The operating points of the experiments may differ where each is
-    given about its own means. Experiments too short for the rows that the longest one carries have no part, and the reason tells how many.
-    The other arguments and the answer are those of `count_faults`; `model` is that of `arx_reduction_experiments`. Raises InvalidData as
-    there, for experiments with unlike channels, and where none is given.
-
-    >>> import numpy as np
-    >>> from faultspace.numeric import count_faults_experiments
-    >>> rng = np.random.default_rng(0)
-    >>> u, v = rng.standard_normal((600, 1)), rng.standard_normal((600, 1))
-    >>> y = np.hstack([u + v, u - v, 2 * v]) + 0.01 * rng.standard_normal((600, 3))
-    >>> count_faults_experiments([(y[:250], u[:250]), (y[300:], u[300:])], order=1).n_v
-    1
-    """
-    if len(experiments) == 0:
-        raise InvalidData("no experiment: give at least one pair (y, u)")
-    pairs = [_whole(one, None) if isinstance(one, Record) else _whole(*one) for one in experiments]
-    return _count(pairs, order, noise_level, draws, model)
-
-
-def _whole(y: ArrayLike | Iterable[tuple[ArrayLike, ArrayLike]], u: ArrayLike | None) -> tuple[Array, Array]:
-    """Return checked y (N, p) and u (N, n_u) of one experiment, from arrays or from its pieces."""
+def _experiments(y: ArrayLike | Experiments | Record, u: ArrayLike | None) -> list[tuple[Array, Array]]:
+    """Return checked pairs y (N_i, p), u (N_i, n_u), one an experiment."""
     if u is not None:
-        return signals(cast(ArrayLike, y), u)
-    outputs, inputs = zip(*experiment(y, None), strict=True)
-    return np.concatenate(outputs), np.concatenate(inputs)
+        return [signals(cast(ArrayLike, y), u)]
+    if isinstance(y, Record):
+        return list(y.stretches(0, len(y)))
+    if not isinstance(y, Sequence) or not y or not all(isinstance(one, tuple) and len(one) == 2 for one in y):
+        raise InvalidData("u is missing: pass it, or a list of pairs (y, u), one an experiment, or a record")
+    return [signals(*one) for one in y]
 
 
 def _count(

@@ -20,11 +20,12 @@ from faultspace.base.errors import InvalidData
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
+from faultspace.numeric import record_from
 from faultspace.numeric.model.asymptotic_likelihood import arx_reduction
 from faultspace.numeric.rows import bootstrap, laws, remainder
 from faultspace.numeric.rows.degree import least_degree
 from faultspace.numeric.rows.evidence import Evidence
-from faultspace.numeric.rows.fault_count import count_faults, count_faults_experiments
+from faultspace.numeric.rows.fault_count import count_faults
 from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
 from faultspace.numeric.rows.space import fault_space_by_rows
 from faultspace.numeric.space.distances import principal_angles
@@ -88,25 +89,26 @@ def test_units_and_experiments() -> None:
 
 
 def test_faults_are_counted_from_several_experiments() -> None:
-    """One experiment, its pieces and a list of it alone give the same bytes; short ones are left out; a seam belongs to no experiment."""
+    """One experiment, a list of it alone and a record in pieces give the same bytes; short ones are left out; a seam belongs to none."""
     y, u = joint_record(plant(11, 3, 1), 11, 1000, 20)
     alone = count_faults(y, u, order=3)
-    for same in (count_faults([(y[:37], u[:37]), (y[37:], u[37:])], None, order=3), count_faults_experiments([(y, u)], order=3)):
+    in_pieces = record_from([(y[:37], u[:37]), (y[37:], u[37:])])
+    for same in (count_faults([(y, u)], None, order=3), count_faults(in_pieces, None, order=3)):
         assert same.n_v == 1 and [each.level for each in same.tests] == [each.level for each in alone.tests]
     parts = [(y[first:last], u[first:last]) for first, last in ((0, 400), (430, 1000), (400, 430))]
-    found = count_faults_experiments(parts, order=3)
+    found = count_faults(parts, None, order=3)
     assert found.n_v == 1 and found.decided and "1 of 3 experiments are too short" in found.reason, found.reason
     careful = laws.bootstrapped(Evidence(parts[:2], 3), found.tests[-1], 2)
     assert careful.flatness != found.tests[-1].flatness
     with pytest.raises(InvalidData, match="same channels"):
-        count_faults_experiments([(y, u), (y[:, :2], u)], order=3)
-    with pytest.raises(InvalidData, match="no experiment"):
-        count_faults_experiments([], order=3)
+        count_faults([(y, u), (y[:, :2], u)], None, order=3)
+    with pytest.raises(InvalidData, match="u is missing"):
+        count_faults([], None, order=3)
 
 
 def test_experiments_without_noise_are_counted_by_ranks() -> None:
     y, u = joint_record(plant(17, 3, 2), 17, 400, None)
-    assert count_faults_experiments([(y[:150], u[:150]), (y[150:], u[150:])], order=3).n_v == 2
+    assert count_faults([(y[:150], u[:150]), (y[150:], u[150:])], None, order=3).n_v == 2
 
 
 def complex_normal(rng: np.random.Generator, count: int, k: int) -> Any:
