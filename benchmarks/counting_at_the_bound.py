@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
@@ -34,9 +35,11 @@ import joblib
 import numpy as np
 import scipy.optimize
 import scipy.stats
-from fault_dimension import fault_signals, noise, random_plant
 from numpy.typing import NDArray
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
+
+from benchmarks.fault_dimension import fault_signals, noise, random_plant
 from faultspace.numeric.rows import evidence as evidence_module
 from faultspace.numeric.rows import fault_count as count_module
 from faultspace.numeric.rows import laws as law_module

@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 import scipy.stats
-
-# The script is started by its path, and imports its neighbours by their names.
-sys.path.append(str(Path(__file__).parents[2] / "benchmarks"))
 
 from benchmarks.counting_at_the_bound import SETTINGS, one_in_ten, quantile_regression, record, white_faults
 from faultspace.numeric.rows import laws
