@@ -167,7 +167,7 @@ def _experiments(y: ArrayLike | Experiments | Record, u: ArrayLike | None) -> li
         return list(y.stretches(0, len(y)))
     if not isinstance(y, Sequence) or not y or not all(isinstance(one, tuple) and len(one) == 2 for one in y):
         raise InvalidData("u is missing: pass it, or a list of pairs (y, u), one an experiment, or a record")
-    return [signals(*one) for one in y]
+    return [signals(*one) for one in cast(Experiments, y)]
 
 
 def _count(
