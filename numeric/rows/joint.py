@@ -36,8 +36,8 @@ from ..space.tapered_moments import BANDS, CrossMoments, pooled_moments
 
 # Turns of colour and rows: the level moves by less than a thousandth of a nat afterwards.
 ROUNDS = 5
-# Rows of the largest moments that are fitted in an identification: fits take the cube of their number, 1 CPU second a count at 35 rows and
-# some twenty at so many. A rule of thumb for patience, which decides no number.
+# Rows of the largest moments that are fitted in an identification. A budget of time: fits take the cube of their number, 1 CPU second a
+# count at 35 rows, so that so many take some twenty. It decides no number.
 LARGEST = 100
 # Power, beside that of a channel, that moments cannot tell from their rounding: rows that leave less are exact, and not refined further.
 ROUNDING = 1e-12
