@@ -28,6 +28,7 @@ from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
 from .count.healthy_model import healthy_reference
 from .count.mean_shift import POWER, mean_about_zero, mean_shift
+from .count.news import news_beyond_healthy
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .experiments import for_each, looked_at
@@ -207,8 +208,35 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
     answer = replace(answer, counted_against=(start, until), against=against, visible=visible_white_faults(reference, against, POWER))
     if against.n_v is not None:
         answer = replace(answer, n_v=against.n_v, reason=against.reason, counted_by="healthy samples")
+        answer = _beside_news(answer, r, u, healthy, before)
         answer = _beside_laws(answer, healthy, on_progress)
     return _zero_or_not(answer)
+
+
+def _beside_news(answer: Findings, r: Array, u: Array, healthy: Array, before: Array) -> Findings:
+    """Say how many of the faults are more than their own past and the inputs tell, and leave several undecided where fewer are: against
+    healthy samples the direction of one fault, as of a gain that has changed, may turn within a frequency's width and count twice."""
+    assert answer.model is not None and answer.n_v is not None
+    if not answer.n_v:
+        return answer
+    last, (first, stop) = slice(-MEANS_FROM, None), answer.held
+    # Between two jumps, for a predictor that is fitted over one bends all of its coefficients.
+    onsets = [one for one in (answer.onset.onsets if answer.onset is not None else ()) if first <= one.sample < stop]
+    stretches = [(one.stretch[0] - first, min(one.stretch[1], stop) - first) for one in onsets]
+    begin, end = max(stretches, key=lambda part: part[1] - part[0], default=(0, stop - first))
+    found = [
+        news_beyond_healthy(r[a:b], u[a:b], healthy[last], before[last], n_v=answer.n_v, order=answer.model.order)
+        for a, b in ((begin, min(end, begin + MEANS_FROM)), (0, MEANS_FROM))
+    ]
+    news = found[0] if found[0] is not None else found[1]
+    answer = replace(answer, news=news)
+    if news is None or news >= answer.n_v or answer.n_v == 1:
+        return answer
+    reason = (
+        f"{answer.reason}; but {news} of them {'is' if news == 1 else 'are'} more than residual and inputs foretell: one fault whose "
+        "direction turns with the frequency, as of a gain that has changed, counts twice"
+    )
+    return replace(answer, n_v=None, possible=tuple(range(max(news, 1), answer.n_v + 1)), counted_by=None, reason=reason)
 
 
 def _beside_laws(answer: Findings, healthy: Array, on_progress: Progress) -> Findings:
