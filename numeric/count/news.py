@@ -12,7 +12,7 @@ own of degree 2 n + 1 or less.
     directions    those in which the errors of one half are largest beside the healthy ones, tested on the other half, which knows nothing
                   of them, by Fisher's law, and the other way round. A jump, with the lags after it, is in one half only
     news          as many directions as both halves show. The errors of one step of a regular signal have the rank of its spectrum, whatever
-                  the delays, so that a direction that turns with the frequency counts once
+                  the delays, as far as noise lets the past of one output tell the others: never fewer, and now and then one more
 
     news_beyond_healthy
 """
@@ -23,6 +23,7 @@ import numpy as np
 import scipy  # its folders are loaded when they are first used
 
 from ...base.arrays import Array
+from ...base.errors import InvalidData
 from .healthy_model import LEVEL, number_of_lags
 from .windows import channel_sizes
 
@@ -37,7 +38,10 @@ def news_beyond_healthy(r: Array, u: Array, healthy: Array, healthy_u: Array, *,
     scales, width = channel_sizes(healthy - healthy.mean(axis=0)), r.shape[1] + u.shape[1]
     parts = [(values / scales, inputs) for values, inputs in ((r, u), (healthy, healthy_u))]
     fewest = min(len(r), len(healthy))
-    least = number_of_lags(*(values - values.mean(axis=0) for values in parts[1])) + 2 * order + 1
+    try:
+        least = number_of_lags(*(values - values.mean(axis=0) for values in parts[1])) + 2 * order + 1
+    except InvalidData:
+        return None
     still = u.shape[1] + 2
     lags = min((fewest - 2 * still) // (2 * width + 1), max(MOST_LAGS, least))
     if lags < least:
