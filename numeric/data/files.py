@@ -228,7 +228,7 @@ def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
         what = "no number (NaN or empty)" if np.isnan(rows[k, j]) else "infinite"
         raise InvalidInput(
             f"channel {shorten(labels[j])} is {what} at sample {first + k} (counted from 0), expected finite numbers: cut the record "
-            "before or after, fill the samples in, or read the stretches between with read_stretches"
+            "before or after, fill the samples in, or take the parts between as experiments (read_stretches, or --gaps)"
         )
 
 

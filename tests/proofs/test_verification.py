@@ -8,7 +8,7 @@ import pytest
 
 from faultspace.base.errors import InvalidInput
 from faultspace.proofs import verification
-from faultspace.proofs.evidence import corpus
+from faultspace.proofs.evidence.corpus import CORPUS
 from faultspace.proofs.trust import checker
 from faultspace.proofs.verdict import workbench
 from faultspace.proofs.verdict.ledger import Claim, Reading, load
@@ -26,8 +26,7 @@ def quiet(stage: str, done: int, total: int) -> None:
 def bench() -> Workbench:
     """A workbench with a corpus small enough for tests: every fifteenth system of the quick one."""
     made = Workbench("quick", 1, quiet)
-    sources = list(corpus._sources("quick"))[::15]
-    made.corpus = tuple(corpus.examine(*source) for source in sources)
+    made.corpus = tuple(one for item in list(CORPUS.items(made))[::15] for one in CORPUS.make(item))
     return made
 
 
