@@ -58,7 +58,8 @@ DRAWS = 399  # orders of the parts that are tried
 LEAST = 1 / (DRAWS + 1)  # the least chance that can be told
 CLEAR = 10  # larger ratios after which no more are tried
 SEED = 20251122
-NUMBERS = 1 << 21  # of the records that are made at a time
+NUMBERS = 1 << 20  # of the records that are made at a time
+NUMBERS_OF_ROWS = 1 << 18  # of their rows, with all lags, that are multiplied at a time
 STRETCH = 32  # samples of them that are made by one product of matrices
 FINE = 256  # samples at which the ratio is looked at in each step of closing in
 
@@ -205,7 +206,7 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
     process = _autoregression(slopes, p)
     from_errors, from_past = lower_toeplitz(process.markov(STRETCH)), observability_matrix(process.A, process.C, STRETCH)
     draw = np.random.default_rng(SEED)
-    batch = max(NUMBERS // (M * L * q), 1)
+    batch, few = max(NUMBERS // (M * L * p), 1), max(NUMBERS_OF_ROWS // (M * L * q), 1)
     done = 0
     while done < DRAWS:
         # A few at first, which are enough where nothing has changed.
@@ -220,8 +221,10 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
             size = errors.shape[1]
             forced = errors @ from_errors[:size, :size].T + past @ from_past[:size].T
             record[:, lags + k : lags + k + STRETCH] = forced.reshape(count, -1, p)
-        z = [np.ones((count, M * L, 1)), *(record[:, lags - i : lags - i + M * L] for i in range(1, lags + 1)), record[:, lags:]]
-        yield from _squares(np.concatenate(z, axis=2).reshape(count, M, L, q))
+        for some in np.split(record, range(few, count, few)):
+            lagged = (some[:, lags - i : lags - i + M * L] for i in range(1, lags + 1))
+            z = np.concatenate([np.ones((len(some), M * L, 1)), *lagged, some[:, lags:]], axis=2)
+            yield from _squares(z.reshape(len(some), M, L, q))
 
 
 def _autoregression(slopes: Array, p: int) -> StateSpaceModel:
