@@ -214,17 +214,18 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
     damping = 1e-3
     dead = np.finfo(float).tiny
 
-    def cost_of(g: Array) -> float:
-        return float(np.sum(np.maximum(_numerator(data, g), 0.0) / np.maximum(_numerator(gains, g), 1e-12)))
+    def at(g: Array) -> tuple[Array, Array, Array, Array, float]:
+        """Return S_b g and Q_b g of all bands, numerators and denominators, and the cost."""
+        sg, qg = data @ g, gains @ g
+        a, d = np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
+        return sg, qg, a, d, float(np.sum(a / d))
 
-    cost = cost_of(g)
+    sg, qg, a, d, cost = at(g)
     flat = False
     # Of a cost that rounding makes, as without noise, no slope is known: steps would turn g by the root of rounding.
     if cost <= _rounding(data, gains, g):
         return g, cost, True
     for _ in range(_STEPS):
-        sg, qg = data @ g, gains @ g
-        a, d = np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
         gradient = (sg / d[:, None] - qg * (a / d**2)[:, None]).sum(axis=0)
         cross = (sg / (d**2)[:, None]).T @ qg
         hessian = np.tensordot(1.0 / d, data, axes=1) - cross - cross.T + (qg * (a / d**3)[:, None]).T @ qg
@@ -237,14 +238,14 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
                 return g, cost, True
             step -= g * (g @ step)
             trial = (g + step) / np.linalg.norm(g + step)
-            new = cost_of(trial)
-            if new < cost or damping > 1e8:
+            there = at(trial)
+            if there[-1] < cost or damping > 1e8:
                 break
             damping *= 8.0
-        if not new < cost:
+        if not there[-1] < cost:
             return g, cost, True
-        drop = np.log(cost / max(new, dead))
-        g, cost, damping = trial, new, max(damping / 6.0, 1e-10)
+        drop = np.log(cost / max(there[-1], dead))
+        g, (sg, qg, a, d, cost), damping = trial, there, max(damping / 6.0, 1e-10)
         if drop < FLAT:
             flat = True
             break

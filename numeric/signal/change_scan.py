@@ -144,29 +144,33 @@ def scan(read: Reader, first: int, last: int, p: int, lags: int, earliest: int) 
 
 def _counted(edges: Numbers, rows: Array, p: int, at: Numbers, kept: tuple[int, ...]) -> Scan:
     """Return the ratios of the columns `kept` of the rows, and the chance of the largest of them."""
-    (M, held, _), some = rows.shape, np.ix_(np.arange(len(rows)), np.array(kept), np.array(kept))
+    M, held, _ = rows.shape
     scale = _usual(held * np.concatenate([at, M - at, [M]]), len(kept), p)
-    ratios = _ratios(_squares(rows)[some], held, p, at) / scale
-    largest, exceeded = float(ratios.max()), 0
-    for tried, sums in enumerate(_without_change(rows, p, int(at[np.argmax(ratios)])), 1):
-        exceeded += bool((_ratios(sums[some], held, p, at) / scale).max() >= largest)
-        if exceeded == CLEAR:
-            return Scan(edges, rows, p, kept, at, ratios, exceeded / tried)
-    return Scan(edges, rows, p, kept, at, ratios, (exceeded + 1) / (DRAWS + 1))
+
+    def scaled(sums: Array) -> Array:
+        return np.asarray(_ratios(_of_columns(sums, kept), held, p, at) / scale)
+
+    ratios = scaled(_squares(rows))
+    exceeded = np.zeros(0, dtype=np.intp)
+    for sums in _without_change(rows, p, int(at[np.argmax(ratios)])):
+        reached = exceeded[-1] if len(exceeded) else 0
+        exceeded = np.append(exceeded, reached + np.cumsum(scaled(sums).max(axis=-1) >= ratios.max()))
+        if exceeded[-1] >= CLEAR:
+            return Scan(edges, rows, p, kept, at, ratios, CLEAR / (int(np.argmax(exceeded == CLEAR)) + 1))
+    return Scan(edges, rows, p, kept, at, ratios, float(exceeded[-1] + 1) / (DRAWS + 1))
 
 
 def changed_outputs(found: Scan) -> Array:
     """Return for each output alone the chance (p,) of so large a ratio at the best edge without a change."""
     p, held = found.p, found.rows.shape[1]
     at = np.array([found.best])
-    columns = [np.array([c for c in found.kept if c == 0 or (c - 1) % p == j]) for j in range(p)]
-    own = [np.ix_(np.arange(len(found.rows)), kept, kept) for kept in columns]
+    own = [tuple(c for c in found.kept if c == 0 or (c - 1) % p == j) for j in range(p)]
 
     def alone(sums: Array) -> Array:
-        return np.array([_ratios(sums[kept], held, 1, at)[0] for kept in own])
+        return np.concatenate([_ratios(_of_columns(sums, kept), held, 1, at) for kept in own], axis=-1)
 
     seen = alone(_squares(found.rows))
-    exceeded = sum((alone(sums) >= seen for sums in _without_change(found.rows, p, found.best)), np.zeros(p))
+    exceeded = sum(((alone(sums) >= seen).sum(axis=0) for sums in _without_change(found.rows, p, found.best)), np.zeros(p))
     return np.asarray((exceeded + 1) / (DRAWS + 1))
 
 
@@ -197,9 +201,14 @@ def _squares(rows: Array) -> Array:
     return np.asarray(np.swapaxes(rows, -1, -2) @ rows)
 
 
+def _of_columns(sums: Array, kept: Sequence[int]) -> Array:
+    """Return the sums (..., q, q) of these columns of the rows alone."""
+    return np.asarray(sums[..., np.array(kept)[:, None], np.array(kept)])
+
+
 def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
-    """Yield the sums (M, q, q) of DRAWS records like the rows (M, L, q) that have no change: one autoregression, driven
-    by the innovations of both sides of the edge, the parts of which are put in another order."""
+    """Yield the sums (any, M, q, q) of DRAWS records like the rows (M, L, q) that have no change, some at a time: one autoregression,
+    driven by the innovations of both sides of the edge, the parts of which are put in another order."""
     M, L, q = rows.shape
     lags = (q - 1) // p - 1
     slopes, innovations = _innovations(rows, p, edge)
@@ -224,7 +233,7 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
         for some in np.split(record, range(few, count, few)):
             lagged = (some[:, lags - i : lags - i + M * L] for i in range(1, lags + 1))
             z = np.concatenate([np.ones((len(some), M * L, 1)), *lagged, some[:, lags:]], axis=2)
-            yield from _squares(z.reshape(len(some), M, L, q))
+            yield _squares(z.reshape(len(some), M, L, q))
 
 
 def _autoregression(slopes: Array, p: int) -> StateSpaceModel:
@@ -303,12 +312,14 @@ def _log_spread(sums: Array, counts: Numbers, p: int) -> Array:
 
 
 def _ratios(sums: Array, count: int | Numbers, p: int, at: Numbers) -> Array:
-    """Return L at the edges `at` for the sums (M, q, q) of parts of so many samples, one number or (M,)."""
-    counts = np.broadcast_to(count, len(sums))
+    """Return L (..., len(at)) at the edges `at` for the sums (..., M, q, q) of parts of so many samples, one number or (M,)."""
+    M = sums.shape[-3]
+    counts = np.broadcast_to(count, M)
     # Both from their own end: what is small on one side is not the difference of what is large.
-    before, after = np.cumsum(sums, axis=0)[at - 1], np.cumsum(sums[::-1], axis=0)[len(sums) - at - 1]
+    before = np.cumsum(sums, axis=-3)[..., at - 1, :, :]
+    after = np.cumsum(sums[..., ::-1, :, :], axis=-3)[..., M - at - 1, :, :]
     n, n_1 = int(counts.sum()), np.cumsum(counts)[at - 1]
-    whole = _log_spread(sums.sum(axis=0), np.asarray(n), p)
+    whole = _log_spread(sums.sum(axis=-3), np.asarray(n), p)[..., None]
     return np.asarray(n * whole - n_1 * _log_spread(before, n_1, p) - (n - n_1) * _log_spread(after, n - n_1, p))
 
 
