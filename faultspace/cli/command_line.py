@@ -260,7 +260,14 @@ def limit(
 
 @_command()
 def identify(
-    data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ, NPY or MAT file of measurements.")],
+    data: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="DATA...",
+            show_default=False,
+            help="A CSV, Parquet, NPZ, NPY or MAT file of measurements; several are experiments of one plant.",
+        ),
+    ],
     inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
     outputs: Annotated[list[str], typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")],
     out: Annotated[
@@ -304,6 +311,9 @@ def identify(
         ),
     ] = None,
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
+    gaps: Annotated[
+        bool, typer.Option("--gaps", help="Samples are missing: take the parts between them as experiments of one plant.")
+    ] = False,
     dt: Annotated[
         float | None,
         typer.Option(
@@ -320,13 +330,14 @@ def identify(
     That is: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell, which is an answer too: exit 0.
     DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
 
+    Several files of the same channels give one model, one number of faults and one fault space; onset, changes and signal are of each.
     A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
     the matrix is called data.
     """
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, remove_means=remove_means, dt=dt)
+    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, remove_means=remove_means, dt=dt, gaps=gaps)
     return identifying.run(data, known, inputs=inputs, outputs=outputs, out=out, as_json=json)
 
 

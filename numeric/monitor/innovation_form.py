@@ -29,6 +29,7 @@ import scipy.linalg
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData
+from ...base.sheets import counted
 from ..count.healthy_model import lagged, number_of_lags
 from ..model.models import StateSpaceModel, observability_matrix
 
@@ -142,7 +143,7 @@ def innovation_form(model: StateSpaceModel, y: Array, u: Array, *, with_inputs: 
     count, spent = X.shape
     if count < FOLDS * (spent + len(e[0]) + 1):
         raise InvalidData(
-            f"healthy: got {len(y)} samples, of which {count} are left for {spent} parameters an output; at least "
+            f"healthy: got {counted(len(y), 'sample')}, with {count} left for {counted(spent, 'parameter')} an output; at least "
             f"{len(y) - count + FOLDS * (spent + len(e[0]) + 1)} are needed: give a longer record without fault"
         )
     coefficients, covariance = _regression(X, now)

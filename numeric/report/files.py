@@ -19,7 +19,6 @@ from ...base.errors import InvalidData, InvalidInput, quote_path
 from ...base.progress import Progress
 from ..count.mean_shift import POWER
 from ..data.plain import plain
-from ..data.records import SampleStore
 from ..model.invariants import half_transfers, system_matrix
 from ..model.moesp_model import MoespModel
 from ..model.reduced_model import ReducedModel
@@ -28,6 +27,7 @@ from ..monitor.learned import MONITORING
 from ..monitor.monitoring import learned_of
 from ..rows.joint import even_split
 from ..space.distances import containment_distance
+from .by_experiment import experiments, numbered
 from .causes import RESIDUAL, residual_table, told
 from .folders import refuse, replace
 from .page import report
@@ -52,6 +52,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "samples": len(record),
         "inputs": list(record.inputs),
         "outputs": list(record.outputs),
+        "experiments": experiments(answer),
         "means_removed": answer.means_removed,
         "block_rows": answer.block_rows,
         "order": model.order if model else None,
@@ -164,7 +165,7 @@ def _of_reduction(model: ReducedModel) -> dict[str, Any]:
 def write(
     answer: Findings, out: Path, data: str, on_progress: Progress, *, worded: Callable[[str], str] = str
 ) -> tuple[list[str], list[str]]:
-    """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `summary`.
+    """Write the files into the folder `out`; return their names, and remarks on what could not be had. `worded` is as in `summary`.
 
     Files of these names that an earlier run wrote are replaced, or removed where this answer has none. Raises InvalidInput where the folder
     cannot be written into, and, before anything is written, where it has a file of these names that is not ours.
@@ -199,8 +200,8 @@ def _tables(answer: Findings, folder: Path, on_progress: Progress) -> list[str]:
         _json(folder / SPACE, space)
     if answer.residual is not None:
         residual_table(answer, folder / RESIDUAL, on_progress)
-    if answer.signal is not None:
-        _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, on_progress)
+    if any(part.signal is not None for part in answer.experiments):
+        _signal_table(answer, folder / SIGNAL, on_progress)
     return remarks
 
 
@@ -222,19 +223,26 @@ def of_monitor(answer: Findings) -> tuple[dict[str, Any] | None, list[str]]:
         return None, [f"{MODEL}, what `monitor` needs: {str(error).removeprefix('healthy: ')}"]
 
 
-def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, on_progress: Progress) -> None:
-    """Write a line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back."""
-    first, last = trusted
+def _signal_table(answer: Findings, path: Path, on_progress: Progress) -> None:
+    """Write a line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back. Where there are
+    several experiments, the number of each stands first, samples are counted in each, and those without a signal have no lines."""
+    several, done = ["experiment"] if answer.parts else [], 0
     with open(path, "w", encoding="utf-8", newline="\n") as stream:
-        stream.write(",".join(["sample", "determined", *(f"v{j + 1}" for j in range(v.width))]) + "\n")
-        k = 0
-        for piece in v.pieces():
-            lines = []
-            for row in piece.tolist():
-                lines.append(",".join([str(k), str(int(first <= k < last)), *map(repr, row)]))
-                k += 1
-            stream.write("\n".join(lines) + "\n")
-            on_progress("writing the fault signal", k, len(v))
+        width = answer.pair[0].shape[1] if answer.pair else 0
+        stream.write(",".join([*several, "sample", "determined", *(f"v{j + 1}" for j in range(width))]) + "\n")
+        for number, start, _, part in numbered(answer):
+            if part.signal is None:
+                continue
+            (first, last), k = part.signal.trusted, start
+            which = [str(number)] if several else []
+            for piece in part.signal.store.pieces(start):
+                lines = []
+                for row in piece.tolist():
+                    lines.append(",".join([*which, str(k - start), str(int(first <= k < last)), *map(repr, row)]))
+                    k += 1
+                stream.write("\n".join(lines) + "\n")
+                done += len(piece)
+                on_progress("writing the fault signal", done, len(answer.record))
 
 
 def _space(answer: Findings) -> dict[str, Any] | None:

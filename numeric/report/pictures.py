@@ -25,6 +25,7 @@ import numpy as np
 
 from ...base.errors import InvalidData
 from .. import drawing
+from ..experiments import most_moved
 from ..model.reduced_model import ReducedModel
 from ..signal.residual_sizes import loudest
 from . import spectra
@@ -63,6 +64,8 @@ def main_picture(answer: Findings, ax: Any = None) -> Any:
     Raises InvalidData where there is no model to draw anything of."""
     if answer.residual is None:
         raise InvalidData("there is no model, so that there is nothing to draw: state an order")
+    answer = most_moved(answer)
+    assert answer.residual is not None
     if answer.signal is not None:
         return answer.signal.plot(ax)
     y, simulated, first = _last_outputs(answer, answer.residual)
@@ -78,7 +81,8 @@ def _last_outputs(answer: Findings, rest: ResidualSignal) -> tuple[Any, Any, int
 
 
 def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
-    """Return name, size and what to do with a figure."""
+    """Return name, size and what to do with a figure; of several experiments that in which the residual varies most is drawn."""
+    answer = most_moved(answer)
     model, dimension, rest, signal = answer.model, answer.dimension, answer.residual, answer.signal
     order = model.order if model else None
     spectrum, ranks, levels, plane, outputs, faults, frequencies = PICTURES[:7]

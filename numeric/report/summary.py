@@ -20,6 +20,7 @@ from ...base.sheets import counted
 from ..count.mean_shift import POWER
 from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
+from .by_experiment import experiment_lines
 from .causes import isolation_lines, onset_lines
 from .physical import mode_lines
 
@@ -49,7 +50,8 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
     """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
-    yield f"{counted(len(record), 'sample')}, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
+    several = f" of {len(record.lengths)} experiments" if record.lengths else ""
+    yield f"{counted(len(record), 'sample')}{several}, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
     yield f"windows of {answer.block_rows} samples{', means removed' if answer.means_removed else ''}"
     yield ""
     yield "## Model"
@@ -74,6 +76,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
             yield from _below_zero(answer, explained)
         yield from onset_lines(answer)
+        yield from experiment_lines(answer)
         yield ""
         yield "## Faults"
         yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"

@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
 from ..data.plain import plain
 from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, cause_name, joined
@@ -188,7 +188,8 @@ def isolate_shift(
     p, n_u = matrices.D.shape
     d, V = _checked(shift, covariance, p)
     if freedom is not None and not freedom >= p:
-        raise InvalidData(f"freedom: got {shorten(freedom)} for {p} outputs; at least as many are needed, or None where it is known")
+        wanted = "at least as many are needed, or None where it is known"
+        raise InvalidData(f"freedom: got {shorten(freedom)} for {counted(p, 'output')}; {wanted}")
     names = (list(outputs or [f"y{j + 1}" for j in range(p)]), list(inputs or [f"u{j + 1}" for j in range(n_u)]))
     for given, count, what in ((names[0], p, "outputs"), (names[1], n_u, "inputs")):
         if len(given) != count:
@@ -218,7 +219,7 @@ def _checked(shift: ArrayLike, covariance: ArrayLike, p: int) -> tuple[Array, Ar
     """Return shift (p,) and covariance (p, p). Raises InvalidData for what is none."""
     d, V = np.asarray(shift, dtype=np.float64), np.asarray(covariance, dtype=np.float64)
     if d.shape != (p,) or V.shape != (p, p):
-        raise InvalidData(f"shift: got the shapes {d.shape} and {V.shape} of shift and covariance for a model of {p} outputs")
+        raise InvalidData(f"shift: got the shapes {d.shape} and {V.shape} of shift and covariance for a model of {counted(p, 'output')}")
     if not (np.all(np.isfinite(d)) and np.all(np.isfinite(V))):
         raise InvalidData("shift: shift and covariance must be finite")
     sizes = np.sqrt(np.maximum(np.diag(V), 0.0))
