@@ -131,7 +131,7 @@ def test_an_empty_field_is_a_missing_sample(plant: Path, tmp_path: Path) -> None
         (["monitor", "{plant}", "--healthy", "x.csv", "--healthy-until", "9"], "got both, expected one at most"),
         (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--idle", "1"], "--idle: got no --follow"),
         (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--follow", "{plant}/none.csv"], "none.csv: is no file"),
-        (["monitor", "{plant}", "--healthy", "{plant}/short.csv"], "short.csv: --healthy: got 40 samples"),
+        (["monitor", "{plant}", "--healthy", "{plant}/short.csv"], "short.csv: --healthy: 30 samples of errors are too few"),
         (["monitor", "{plant}", "--healthy", "none.csv"], "none.csv: cannot be read"),
         (["monitor", "{plant}/healthy.csv", "--healthy", "x.csv"], "expected JSON"),
         (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--outputs", "flow"], "got 'flow' for 2 outputs of the model"),
