@@ -180,7 +180,7 @@ def plot_zeros_and_poles(poles: ArrayLike, zeros: ArrayLike = (), *, ax: Any = N
     reach = 1.15 * max(1.0, *(float(np.max(np.abs(given), initial=0.0)) for given in sets.values()))
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="real part", ylabel="imaginary part", title="Poles and finite zeros")
     ax.set_aspect("equal")
-    return finished(ax, legend=True, place="upper left")
+    return finished(ax, legend=True, below=True)
 
 
 def plot_uncertain_poles(poles: ArrayLike, roots: ArrayLike, *, zeros: ArrayLike = (), confidence: float = 0.95, ax: Any = None) -> Any:
@@ -210,7 +210,7 @@ def plot_uncertain_poles(poles: ArrayLike, roots: ArrayLike, *, zeros: ArrayLike
     if not np.all(sure):
         ax.plot([], [], " ", label=f"{counted(int(np.sum(~sure)), 'pole')} without: multiple")
     ax.set_title("Poles, and how sure they are")
-    return finished(ax, legend=True, place="upper left")
+    return finished(ax, legend=True, below=True)
 
 
 def plot_criteria(
@@ -407,7 +407,7 @@ def _axes(ax: Any) -> Any:
     return pyplot.subplots(figsize=(7, 4.2), layout="constrained")[1]
 
 
-def finished(ax: Any, *, legend: bool, place: str = "best", outside: bool = False) -> Any:
+def finished(ax: Any, *, legend: bool, place: str = "best", outside: bool = False, below: bool = False) -> Any:
     """Give the axes the grid, the sides and the legend that all pictures have, and return them."""
     ax.grid(True, color="#dddddd", linewidth=0.6, zorder=0)
     ax.set_axisbelow(True)
@@ -417,6 +417,8 @@ def finished(ax: Any, *, legend: bool, place: str = "best", outside: bool = Fals
         ax.set_title(ax.get_title(), loc="left")
         ax.set_title("")
         ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=9)
+    elif legend and below:  # where the picture fills its square
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False, fontsize=9)
     elif legend:
         ax.legend(loc=place, frameon=True, framealpha=0.9, edgecolor="none", fontsize=9)
     return ax

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from html import escape
 
 # Raw HTML in the text, such as a channel's name, is shown as it stands and never becomes part of the page.
+LONG = 30  # letters of an answer, from which on it is set smaller
+WIDE = 1.2  # times as wide as tall a picture is that a phone shows at a size at which it can be read, to be scrolled
 PRESET, OPTIONS = "commonmark", {"html": False}
 
 STYLE = """
@@ -36,10 +38,13 @@ pre { overflow-x: auto; padding: .75rem; background: var(--card); border: 1px so
 .tile.open { border-left-style: dashed; border-left-color: var(--soft); }
 .tile .of { color: var(--soft); font-size: .9rem; }
 .tile .answer { display: block; font-size: 1.3rem; font-weight: 600; line-height: 1.3; }
+.tile .answer.long { font-size: 1.05rem; }
 .tile .rest { font-size: .9rem; }
 figure { margin: 1rem 0; }
 figure img { display: block; max-width: 100%; max-height: 30rem; height: auto; background: #fff;
   border: 1px solid var(--line); border-radius: 6px; }
+.pane { overflow-x: auto; }
+@media screen and (max-width: 36rem) { .pane.wide img { min-width: 38rem; } }
 figcaption { color: var(--soft); font-size: .9rem; margin-top: .3rem; }
 footer { margin-top: 3rem; color: var(--soft); font-size: .85rem; border-top: 1px solid var(--line); padding-top: .75rem; }
 @media print { body { max-width: none; padding: 0; } h2 { break-after: avoid; } figure, .tile, pre { break-inside: avoid; } }
@@ -105,17 +110,23 @@ def page(title: str, text: str, *, tiles: Sequence[Tile] = (), pictures: Iterabl
 
 
 def _tiles(tiles: Sequence[Tile]) -> str:
-    items = "".join(
-        f'<li class="tile{"" if tile.decided else " open"}"><span class="of">{escape(tile.of)}</span>'
-        f'<span class="answer">{escape(tile.answer)}</span><span class="rest">{escape(tile.rests)}</span></li>'
-        for tile in tiles
-    )
+    items = "".join(map(_tile, tiles))
     return f'<ul class="tiles">{items}</ul>' if items else ""
+
+
+def _tile(tile: Tile) -> str:
+    kind, size = "tile" if tile.decided else "tile open", "answer long" if len(tile.answer) > LONG else "answer"
+    return (
+        f'<li class="{kind}"><span class="of">{escape(tile.of)}</span>'
+        f'<span class="{size}">{escape(tile.answer)}</span><span class="rest">{escape(tile.rests)}</span></li>'
+    )
 
 
 def _figure(picture: Picture) -> str:
     data = b64encode(picture.png).decode("ascii")
+    width, height = (int.from_bytes(picture.png[at : at + 4], "big") for at in (16, 20))  # of the PNG's header
+    wide = " wide" if width > WIDE * height else ""
     return (
-        f'<figure><img src="data:image/png;base64,{data}" alt="{escape(picture.words)}">'
+        f'<figure><div class="pane{wide}"><img src="data:image/png;base64,{data}" alt="{escape(picture.words)}"></div>'
         f"<figcaption>{escape(picture.caption)}</figcaption></figure>"
     )

@@ -17,7 +17,7 @@ import numpy as np
 from ...base.errors import quote_path
 from ...base.page import Picture, Tile, page
 from ...base.sheets import counted
-from .summary import fit, markdown
+from .summary import fit, markdown, missed_levels
 
 if TYPE_CHECKING:
     from ..findings import Findings
@@ -98,6 +98,10 @@ def tiles(answer: Findings) -> Iterator[Tile]:
     least = ""
     if explained is not None and np.all(np.isfinite(explained)):
         least = f"Simulated from the inputs alone it fits each output to {explained.min():.3g} % or more."
+        if explained.min() < 0:
+            least = "Simulated from the inputs alone it is worse than the mean for an output."
+        if missed_levels(answer, explained):
+            least = "It misses the level of an output: take the channels about their means."
     yield Tile("Model", f"order {model.order}{left}", least, not left)
     yield _faults(answer)
     yield from _causes(answer)

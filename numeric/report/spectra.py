@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 LONGEST, SHORTEST = 512, 16  # samples of a segment
 SEGMENTS = 8  # at least, where a stretch has room for them
 PIECE = 1 << 14  # samples read at a time
+HEALTHY, ONSET = ("healthy samples", "samples after these"), ("before the onset", "after the onset")
+LEAST_SPAN = 15.0  # dB that a panel shows at least, so that the roughness of an estimate does not look like a peak
 FLOOR = 1e-12  # of the largest power, below which rounding is drawn
 
 
@@ -32,7 +34,7 @@ def welch(store: SampleStore, first: int, until: int, segment: int) -> Array:
     >>> import numpy as np
     >>> from faultspace.numeric.data.records import stored
     >>> r = np.random.default_rng(1).standard_normal((4000, 1))
-    >>> bool(abs(welch(stored(r, "r"), 0, 4000, 64).mean() / 2 - 1) < 0.1)
+    >>> bool(abs(welch(stored(r), 0, 4000, 64).mean() / 2 - 1) < 0.1)
     True
     """
     window = np.hanning(segment + 2)[1:-1, None]
@@ -65,8 +67,8 @@ def panels(answer: Findings) -> list[tuple[str, list[tuple[str, Array]]]]:
         change = answer.onset.onsets[0].sample
     parts = [("whole record", 0, N)]
     if change is not None and min(segment_of(change), segment_of(N - change)):
-        before = "while healthy" if answer.healthy is not None else "before the onset"
-        parts = [(before, 0, change), ("after it", change, N)]
+        before, after = HEALTHY if answer.healthy is not None else ONSET
+        parts = [(before, 0, change), (after, change, N)]
     segment = min(segment_of(until - first) for _, first, until in parts)
     if not segment:
         return []
@@ -89,7 +91,7 @@ def height(count: int) -> float:
 def draw(found: list[tuple[str, list[tuple[str, Array]]]], dt: float | None, figure: Any) -> None:
     """Draw the panels one below the other, over frequency in hertz where `dt` in seconds is known, else in cycles a sample."""
     axes = figure.subplots(len(found), 1, sharex=True, squeeze=False)[:, 0]
-    styles = {"while healthy": (GREY, "--"), "before the onset": (GREY, "--"), "fault signal": (ORANGE, "-")}
+    styles = {HEALTHY[0]: (GREY, "--"), ONSET[0]: (GREY, "--"), "fault signal": (ORANGE, "-")}
     handles: dict[str, Any] = {}
     for ax, (name, curves) in zip(axes, found, strict=True):
         top = max(float(density.max(initial=0.0)) for _, density in curves) or 1.0
@@ -99,9 +101,12 @@ def draw(found: list[tuple[str, list[tuple[str, Array]]]], dt: float | None, fig
             # Frequency 0 says nothing: each segment is about its mean.
             decibels = 10 * np.log10(np.maximum(density[1:], FLOOR * top) * (dt or 1.0))
             handles.setdefault(what, ax.plot(frequency[1:], decibels, style, color=colour, linewidth=1.4)[0])
+        low, high = ax.get_ylim()
+        wider = max(0.0, LEAST_SPAN - (high - low)) / 2
+        ax.set_ylim(low - wider, high + wider)
         ax.set_ylabel(name if len(name) <= 12 else name[:11] + "…")
         finished(ax, legend=False)
     axes[-1].set_xlabel("frequency in Hz" if dt else "frequency in cycles a sample")
     axes[0].set_title(f"Spectra, in dB of power a {'hertz' if dt else 'cycle a sample'}", loc="left")
-    # The legend stands below the title, above all panels, where it hides no curve.
+    # Below all panels it hides no curve.
     figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=len(handles), frameon=False, fontsize=9)

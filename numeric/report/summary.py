@@ -111,24 +111,27 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
     yield from (f"- {worded(line)}" for line in advice(answer))
 
 
-def _below_zero(answer: Findings, explained: Array) -> Iterator[str]:
-    """Yield what a fit below zero means, and whether the level of the output is what is missed."""
-    record, sizes = answer.record, answer.sizes
+def missed_levels(answer: Findings, explained: Array) -> list[str]:
+    """Return the outputs with a fit below zero of which the model misses mostly the level: half of the squares that are left, or more."""
+    sizes, samples = answer.sizes, answer.modelled
     poor = np.flatnonzero(explained < 0)
     if not len(poor) or sizes is None or answer.residual is None:
-        return
-    samples = answer.modelled
-    total, count = np.zeros(record.p), 0
+        return []
+    total = np.zeros(answer.record.p)
     for piece in answer.residual.store.pieces(0, samples):
-        total, count = total + piece.sum(axis=0), count + len(piece)
-    level = np.abs(total / max(count, 1))[poor] * np.sqrt(samples)
-    off = [record.outputs[i] for i, part in zip(poor, level, strict=True) if part > LEVEL_MISSED * sizes.early_norm[i]]
-    names = _several([record.outputs[i] for i in poor])
-    yield f"below zero: the simulated {names} lies farther from the measured one than its mean does, so that this model says little of it"
-    if off:
+        total = total + piece.sum(axis=0)
+    return [answer.record.outputs[i] for i in poor if abs(total[i]) / np.sqrt(samples) > LEVEL_MISSED * sizes.early_norm[i]]
+
+
+def _below_zero(answer: Findings, explained: Array) -> Iterator[str]:
+    """Yield what a fit below zero means, and whether the level of the output is what is missed."""
+    poor = [name for name, value in zip(answer.record.outputs, explained, strict=True) if value < 0]
+    if poor:
+        yield f"below zero: the simulated {_several(poor)} lies farther from the measured than the mean does: the model says little of it"
+    if off := missed_levels(answer, explained):
         yield (
-            f"what is missed of {_several(off)} is mostly its level, not its course: inputs and outputs have means that the model does not "
-            "connect; remove_means=True takes every channel about its mean"
+            f"what is missed of {_several(off)} is mostly its level, not its course: the means of inputs and outputs are those of an "
+            "operating point, which the model does not know, and onsets and faults may be nothing but this"
         )
 
 
@@ -360,6 +363,9 @@ def advice(answer: Findings) -> list[str]:
             "more samples, or an input that excites more: noise moves the singular values together",
         ]
     lines = []
+    explained = fit(answer)
+    if explained is not None and missed_levels(answer, explained):
+        lines.append("remove_means=True, before anything else: the levels of the channels hide what moves, and look like faults")
     if not model.model.is_stable:
         lines.append("the model is not stable: a lower order=, remove_means=True, or a record without drift, unless the plant is unstable")
     if orders is not None and not orders.decided:

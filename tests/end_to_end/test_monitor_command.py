@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 
 import faultspace as fs
+from faultspace.cli.argument_names import as_options, of_file
 from faultspace.numeric import StateSpaceModel
 from faultspace.numeric.data.streams import RESTARTED, TableStream, followed
 from tests.end_to_end.commands import ROOT, Run, call, command, environment
@@ -42,6 +43,7 @@ def plant(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("plant")
     (folder / "model.json").write_text(json.dumps(MODEL.to_json() | {"inputs": ["valve"], "outputs": ["flow", "level"]}))
     (folder / "healthy.csv").write_text(table(1, 400))
+    (folder / "short.csv").write_text(table(1, 40))
     (folder / "stream.csv").write_text(table(2, 250, fault=1.0))
     watch = fs.Monitor(MODEL, folder / "healthy.csv", inputs="valve", outputs=["flow", "level"], level=1e-3, window=5)
     watch.save(folder / "watch.json")
@@ -129,6 +131,7 @@ def test_an_empty_field_is_a_missing_sample(plant: Path, tmp_path: Path) -> None
         (["monitor", "{plant}", "--healthy", "x.csv", "--healthy-until", "9"], "got both, expected one at most"),
         (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--idle", "1"], "--idle: got no --follow"),
         (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--follow", "{plant}/none.csv"], "none.csv: is no file"),
+        (["monitor", "{plant}", "--healthy", "{plant}/short.csv"], "short.csv: --healthy: 30 samples of errors are too few"),
         (["monitor", "{plant}", "--healthy", "none.csv"], "none.csv: cannot be read"),
         (["monitor", "{plant}/healthy.csv", "--healthy", "x.csv"], "expected JSON"),
         (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--outputs", "flow"], "got 'flow' for 2 outputs of the model"),
@@ -198,3 +201,9 @@ def test_an_interrupt_is_one_line_after_the_summary(plant: Path) -> None:
     os.kill(started.pid, signal.SIGINT)
     out, err = started.communicate(timeout=60)
     assert started.returncode == 130 and "summary" in json.loads(out.splitlines()[-1]) and err.endswith("faultspace: interrupted\n")
+
+
+def test_messages_name_the_option_that_was_used() -> None:
+    message = "x.csv: healthy: got 3 samples; try order=2"
+    assert as_options(message) == "x.csv: --healthy-until: got 3 samples; try --order 2"
+    assert as_options(of_file(message)) == of_file(message) == "x.csv: --healthy: got 3 samples; try --order 2"

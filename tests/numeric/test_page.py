@@ -11,12 +11,13 @@ import pytest
 
 from faultspace.base.page import Picture, Tile, page
 from faultspace.numeric import fault_onset, identify, isolate_shift
-from faultspace.numeric.data.records import recorded
+from faultspace.numeric.data.records import recorded, stored
 from faultspace.numeric.findings import Findings
 from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.report import spectra
 from faultspace.numeric.report.page import CAPTIONS, report, tiles
 from faultspace.numeric.report.pictures import PICTURES
-from faultspace.numeric.report.summary import summary
+from faultspace.numeric.report.summary import advice, summary
 
 PLANT = StateSpaceModel([[0.5, 0.2], [0.0, 0.3]], [[1.0], [0.5]], [[1.0, 0.0], [0.3, 1.0]], [[0.0], [0.0]])
 EVIL = "<script>alert('y')</script>"
@@ -74,6 +75,47 @@ def test_the_page_is_well_formed_fetches_nothing_and_runs_nothing(found: Finding
 
 def test_every_picture_has_a_caption_and_its_words() -> None:
     assert set(CAPTIONS) == set(PICTURES)
+
+
+def test_a_wide_picture_can_be_scrolled_on_a_phone_and_a_long_answer_is_set_smaller() -> None:
+    header = b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR"
+    wide, square = (header + width.to_bytes(4, "big") + (500).to_bytes(4, "big") for width in (1000, 500))
+    text = page(
+        "t", "# t", tiles=[Tile("A", "x" * 31, ""), Tile("B", "y", "")], pictures=[Picture(wide, "", "", ""), Picture(square, "", "", "")]
+    )
+    assert text.count('class="pane wide"') == text.count('class="pane"') == 1
+    assert text.count('class="answer long"') == text.count('class="answer"') == 1
+
+
+def test_a_fit_below_zero_is_explained_and_its_advice_comes_first(found: Findings) -> None:
+    draw = np.random.default_rng(1)
+    u = draw.standard_normal((400, 1))
+    y = PLANT.simulate(u) + 0.1 * draw.standard_normal((400, 2)) + [0.0, 500.0]
+    off = identify(y, u, order=2)
+    words = "\n".join(summary(off, "x"))
+    assert "below zero: the simulated y2 lies" in words and "missed of y2 is mostly its level" in words
+    assert advice(off)[0].startswith("remove_means=True, before anything else")
+    assert {tile.of: tile for tile in tiles(off)}["Model"].rests.startswith("It misses the level of an output")
+    for fine in (found, identify(y, u, order=2, remove_means=True)):
+        words = "\n".join(summary(fine, "x"))
+        assert "below zero" not in words and not any(line.startswith("remove_means") for line in advice(fine))
+
+
+def test_spectra_show_the_frequency_of_a_fault_and_are_left_out_of_short_records(found: Findings) -> None:
+    assert found.residual is not None
+    r = np.random.default_rng(5).standard_normal((1200, 2))
+    r[500:, 1] += 2 * np.sin(2 * np.pi * 0.125 * np.arange(700))
+    changed = replace(found, residual=replace(found.residual, store=stored(r)), onset=fault_onset(r), signal=None)
+    (_, quiet), (name, curves) = spectra.panels(changed)
+    assert name == "y|2" and [what for what, _ in curves] == ["before the onset", "after the onset"]
+    before, after = (density for _, density in curves)
+    assert np.argmax(after) == round(0.125 * 2 * (len(after) - 1)) and after.max() > 10 * before.max()
+    assert max(density[1:].max() for _, density in quiet) < 10  # white noise of power one has the density 2
+    whole = spectra.panels(replace(changed, onset=None))[1][1]
+    assert [what for what, _ in whole] == ["whole record"]
+    power = 0.5 * np.mean(whole[0][1]) / np.var(r[:, 1])
+    assert 0.8 < power < 1.2, "the density adds up to the power"
+    assert spectra.panels(replace(changed, residual=replace(found.residual, store=stored(r[:60])), onset=None)) == []
 
 
 def test_pictures_stand_in_their_section_or_last() -> None:
