@@ -42,13 +42,13 @@ def with_isolation(answer: Findings) -> Findings:
     space, model, record = answer.fault_space, answer.model, answer.record
     if space is None or model is None:
         return answer
-    y = record.stretch(*answer.held)[0]
-    # The units that `identified_fault_space` matches states in: it is called with outputs about their means.
-    sizes = np.sqrt(np.mean((y - y.mean(axis=0)) ** 2, axis=0))
+    # The units that `identified_fault_space` matches states in: it is called with outputs about their means, those of each experiment.
+    y = np.vstack([one - one.mean(axis=0) for one, _ in record.stretches(*answer.held)])
+    sizes = np.sqrt(np.mean(y**2, axis=0))
     units = np.where(sizes > 0, sizes, 1.0)
     mix = noise_mix(answer) if space.method == "kernel rows" else None
     if mix is not None:
-        units = state_units(y - y.mean(axis=0), mix)
+        units = state_units(y, mix)
     return replace(answer, isolation=isolate(space, model, outputs=record.outputs, inputs=record.inputs, units=units))
 
 

@@ -13,6 +13,7 @@ covariance can tell. Fault columns are [f; W g] there, and a model has W C and W
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -37,12 +38,13 @@ def whitening(covariance: Array) -> Array | None:
     return np.asarray(np.linalg.inv(np.linalg.cholesky(own)) / sizes)
 
 
-def space_in_known_noise(y: Array, u: Array, model: ReducedModel, mix: Array, *, n_v: int) -> FaultSpaceEstimate:
+def space_in_known_noise(y: Any, u: Array | None, model: ReducedModel, mix: Array, *, n_v: int) -> FaultSpaceEstimate:
     """Return what `identified_fault_space` finds in outputs y W', W = `mix` (p, p), turned back to those of y (N, p).
 
-    Raises InvalidData as that does. Source: [G25] problem (11), [W91].
+    Several experiments are a list of pairs (y, u), with None for u. Raises InvalidData as that does. Source: [G25] problem (11), [W91].
     """
-    found = identified_fault_space(y @ mix.T, u, _mixed(model, mix), n_v=n_v, noise_level=np.ones(len(mix)))
+    outputs = [(one @ mix.T, inputs) for one, inputs in y] if u is None else y @ mix.T
+    found = identified_fault_space(outputs, u, _mixed(model, mix), n_v=n_v, noise_level=np.ones(len(mix)))
     back = scipy.linalg.block_diag(np.eye(model.order), np.linalg.inv(mix))
     known = found.uncertainty
     if known is not None:

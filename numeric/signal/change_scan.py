@@ -143,13 +143,13 @@ def scan(read: Reader, first: int, last: int, p: int, lags: int, earliest: int) 
 
 def _counted(edges: Numbers, rows: Array, p: int, at: Numbers, kept: tuple[int, ...]) -> Scan:
     """Return the ratios of the columns `kept` of the rows, and the chance of the largest of them."""
-    (M, held, _), columns = rows.shape, np.array(kept)
+    (M, held, _), some = rows.shape, np.ix_(np.arange(len(rows)), np.array(kept), np.array(kept))
     scale = _usual(held * np.concatenate([at, M - at, [M]]), len(kept), p)
-    ratios = _ratios(_squares(rows)[:, columns[:, None], columns], held, p, at) / scale
+    ratios = _ratios(_squares(rows)[some], held, p, at) / scale
     largest, exceeded = float(ratios.max()), 0
     tried = 0
     for sums in _without_change(rows, p, int(at[np.argmax(ratios)])):
-        larger = np.flatnonzero((_ratios(sums[..., columns[:, None], columns], held, p, at) / scale).max(axis=1) >= largest)
+        larger = np.flatnonzero((_ratios(sums[:, some[0], some[1], some[2]], held, p, at) / scale).max(axis=1) >= largest)
         if exceeded + len(larger) >= CLEAR:
             return Scan(edges, rows, p, kept, at, ratios, CLEAR / (tried + 1 + int(larger[CLEAR - exceeded - 1])))
         exceeded, tried = exceeded + len(larger), tried + len(sums)
