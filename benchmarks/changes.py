@@ -214,13 +214,17 @@ def show(cases: Cases, markdown: bool) -> None:
         line(*head, "early", "cpu")
         if markdown:
             line(*["---"] * (len(head) + 2))
-        for kind, size, loop in lines():
-            some = [case for case in here if (case["kind"], case["size"], case["loop"]) == (kind, size, loop)]
-            if some and kind != "none":
-                line(kind, f"{size:g}", "yes" if loop else "no", *cells(some))
         faulty = [case for case in here if case["kind"] in KINDS]
+        for kind, size, loop in lines():
+            some = [case for case in faulty if (case["kind"], case["size"], case["loop"]) == (kind, size, loop)]
+            if some:
+                line(kind, f"{size:g}", "yes" if loop else "no", *cells(some))
+        for kind in KINDS:
+            some = [case for case in faulty if case["kind"] == kind]
+            if some:
+                line(kind, "all", "both", *cells(some))
         if faulty:
-            line("all", "", "", *cells(faulty))
+            line("all", "all", "both", *cells(faulty))
 
 
 def main() -> None:
