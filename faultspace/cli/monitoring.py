@@ -19,8 +19,9 @@ from ..base.errors import InvalidInput, in_file, quote_path, shorten
 from ..base.messages import say
 from ..base.progress import evenly, working
 from ..base.sheets import counted
-from ..numeric.data.files import read_record, split_names
+from ..numeric.data.files import read_record
 from ..numeric.data.records import Record, recorded
+from ..numeric.data.selectors import split_names
 from ..numeric.data.streams import RESTARTED, TableStream, followed
 from ..numeric.model.models import FORMAT as MODEL_FORMAT
 from ..numeric.model.models import StateSpaceModel
@@ -29,6 +30,7 @@ from ..numeric.monitor.learned import FORMAT, MONITORING
 from ..numeric.monitor.monitoring import LEVEL, WINDOW, Monitor
 from ..numeric.monitor.saving import refuse
 from ..numeric.report.files import MODEL
+from .argument_names import as_options, naming, of_file
 from .failures import ANSWERED, INTERRUPTED
 from .reading_files import read_json
 
@@ -159,7 +161,8 @@ def _calibrated(ready: _Ready, samples: Iterator[np.ndarray | None], watching: W
     else:
         healthy = _first(samples, watching.healthy_until or 0, ready.inputs, ready.outputs)
     level, window = LEVEL if watching.level is None else watching.level, WINDOW if watching.window is None else watching.window
-    with working("calibrating"), in_file(watching.healthy or watching.follow or STDIN):
+    worded = as_options if watching.healthy is None else of_file
+    with working("calibrating"), naming(worded), in_file(watching.healthy or watching.follow or STDIN):
         watch = Monitor(ready.plant, healthy, level=level, window=window)
     if watching.healthy is None:
         watch.samples = len(healthy)  # samples are numbered as they stand in the stream
