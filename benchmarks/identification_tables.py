@@ -81,8 +81,7 @@ def notes(run: Run) -> list[str]:
     study = run.study
     if study is not None:
         theirs = study.why if study.author is None else f"the author's {study.author:.2g} s (median error {study.author_error:.2g} %)"
-        ours = f"ours {study.one_process:.2g} s in one process, {study.all_cores:.2g} s on all cores (median error {study.error:.2g} %)"
-        lines.append(f"study: {ours}; {theirs}")
+        lines.append(f"study, CPU seconds of one process: ours {study.ours:.2g} s (median error {study.error:.2g} %); {theirs}")
     return lines
 
 

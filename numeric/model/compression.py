@@ -94,6 +94,8 @@ def window_rows(n_u: int, p: int, past_rows: int, block_rows: int) -> NDArray[np
 
 def scaled_condition(upper: Array) -> float:
     """Return the condition of a triangular factor with its columns scaled to equal length; infinite where one vanishes."""
+    # By a power of two, which rounds nothing: squares of large numbers overflow.
+    upper = np.ldexp(upper, -int(np.frexp(np.max(np.abs(upper), initial=0.0))[1]))
     lengths = np.linalg.norm(upper, axis=0)
     return float("inf") if np.any(lengths == 0) else float(np.linalg.cond(upper / lengths))
 

@@ -152,7 +152,7 @@ def test_memory_the_bounds_and_the_cholesky_are_judged(megabytes: float, met: bo
 
 
 def test_the_study_is_judged_and_absent_peers_have_a_row() -> None:
-    study = Comparison(one_process=0.5, all_cores=0.4, error=0.5, author=4.0, author_error=0.7)
+    study = Comparison(ours=0.4, error=0.5, author=4.0, author_error=0.7)
     run = run_of(SETTING, {"ours": done(1.0)}, study)
     assert [aim.met for aim in aims(run, MODELS) if "study" in aim.words] == [False]
     text = markdown(sheets(run), notes(run))

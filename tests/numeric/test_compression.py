@@ -13,7 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.model.compression import HARMLESS, Compression, compress, compress_chunks, merge
+from faultspace.numeric.model.compression import HARMLESS, Compression, compress, compress_chunks, merge, scaled_condition
 from faultspace.numeric.model.sequential_qr import TOGETHER
 
 Array = NDArray[np.float64]
@@ -258,3 +258,11 @@ def test_bad_data_are_refused_with_a_way_out() -> None:
         merge()
     with pytest.raises(InvalidData, match="block_rows = 4 and 5"):
         merge(compress(y, u, block_rows=4), compress(y, u, block_rows=5))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("power", [-1000, 600, 1000])
+def test_the_condition_of_a_factor_knows_no_units(power: int) -> None:
+    upper = np.triu(np.random.default_rng(4).standard_normal((6, 6)))
+    assert scaled_condition(np.ldexp(upper, power)) == scaled_condition(upper)
+    assert scaled_condition(np.zeros((2, 2))) == float("inf")
