@@ -344,7 +344,7 @@ def identify(
 @_command()
 def monitor(
     model: Annotated[
-        str, typer.Argument(metavar="MODEL", show_default=False, help="The model.json of identify, or the folder that it is in.")
+        str, typer.Argument(metavar="MODEL", show_default=False, help="The model.json of identify, its folder, or a saved monitor.")
     ],
     inputs: Annotated[
         list[str] | None, typer.Option("--inputs", metavar="NAME,...", help="Input columns.", show_default="as in the model's file")
@@ -353,7 +353,8 @@ def monitor(
         list[str] | None, typer.Option("--outputs", metavar="NAME,...", help="Output columns.", show_default="as in the model's file")
     ] = None,
     healthy: Annotated[
-        str | None, typer.Option("--healthy", metavar="FILE", help="A record without fault to calibrate by.", show_default=False)
+        str | None,
+        typer.Option("--healthy", metavar="FILE", help="A record without fault to calibrate by.", show_default="the model's own"),
     ] = None,
     healthy_until: Annotated[
         int | None,
@@ -369,19 +370,33 @@ def monitor(
         typer.Option(metavar="SECONDS", parser=_number(float, 0, 60), help="Stop when nothing came for so long.", show_default="never"),
     ] = None,
     level: Annotated[
-        float, typer.Option(metavar="RATE", parser=_number(float, 0, 1e-4), help="False alarms a sample, all tests together.")
-    ] = 1e-4,
-    window: Annotated[int, typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of the chi-square test.")] = 20,
+        float | None,
+        typer.Option(
+            metavar="RATE",
+            parser=_number(float, 0, 1e-4),
+            help="False alarms a sample, all tests together.",
+            show_default="0.0001, or as saved",
+        ),
+    ] = None,
+    window: Annotated[
+        int | None,
+        typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of the chi-square test.", show_default="20, or as in MODEL"),
+    ] = None,
+    save: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write the monitor there at the end, a MODEL that goes on later.", show_default=False),
+    ] = None,
     json: Json = False,
 ) -> int:
     """Watch a plant: a model against a stream.
 
     Lines of a CSV table with a line of names come from standard input or a growing file; an empty field is a missing sample. Each alarm is
-    a line as it comes, with --json a JSON object; the last is the summary. Exit 0 at the end of the stream, whatever the alarms.
+    a line as it comes, with --json a JSON object; the last is the summary. Without --healthy the samples of MODEL's own record that were
+    stated to be healthy say what is usual, else those before its first onset, else all. Exit 0 at the end, whatever the alarms.
     """
     from . import monitoring
 
-    watching = monitoring.Watching(healthy, healthy_until, follow, idle, level, window)
+    watching = monitoring.Watching(healthy, healthy_until, follow, idle, level, window, save)
     return monitoring.run(model, watching, inputs=inputs or [], outputs=outputs or [], as_json=json)
 
 

@@ -23,7 +23,7 @@ from ..numeric.pipeline import identify
 from ..numeric.report import files as report
 from ..numeric.report.folders import refuse
 from ..numeric.report.summary import summary
-from .argument_names import as_options
+from .argument_names import as_options, naming, of_file
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED
 from .reading_files import prepare_folder
@@ -54,6 +54,7 @@ def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: S
     """
     if known.healthy is not None and known.healthy_until is not None:
         raise InvalidInput("--healthy: got --healthy-until as well, expected one of them: a file without fault, or the number of samples")
+    worded = as_options if known.healthy is None else of_file
     read = [*files, *([known.healthy] if known.healthy else [])]
     data = _named(files)
     if any(_same(out / name, path) for name in report.NAMES if (out / name).exists() for path in read):
@@ -68,7 +69,7 @@ def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: S
             healthy: int | Record | None = known.healthy_until
             if known.healthy is not None:
                 healthy = read_record(known.healthy, inputs=inputs, outputs=outputs, on_progress=tell)
-            with in_file(data):
+            with naming(worded), in_file(data):
                 answer = identify(
                     records if len(records) > 1 else records[0],
                     order=known.order,
@@ -81,7 +82,7 @@ def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: S
                     on_progress=tell,
                 )
             tell("writing", 0, 0)
-            written, remarks = report.write(answer, out, data, tell, worded=as_options)
+            written, remarks = report.write(answer, out, data, tell, worded=worded)
     except BaseException:
         for folder in new:
             with suppress(OSError):
@@ -90,10 +91,10 @@ def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: S
     for remark in remarks:
         say(remark)
     if as_json:
-        print_json(report.document(answer, data, worded=as_options) | {"files": written})
+        print_json(report.document(answer, data, worded=worded) | {"files": written})
         return ANSWERED
     console = answers()
-    for line in summary(answer, data, worded=as_options):
+    for line in summary(answer, data, worded=worded):
         paragraph(console, Text(line, style="bold cyan" if line.startswith("#") else ""))
     console.print()
     paragraph(console, f"written into {quote_path(str(out))}: {', '.join(written)}")

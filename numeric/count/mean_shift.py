@@ -54,8 +54,8 @@ class MeanReference:
 
     `coefficients` (1 + q, p), that of the constant first, belong to the predictor with `lags` lags, of r in units of `scales` (p,) and u in
     those of `input_scales` (n_u,). `root` satisfies root' root = (X0' X0)^-1, `still` (p, p) is I - sum A_j, `long_run` (p, p) is the
-    covariance W of `freedom` B, `nearest` is the least |1 - root| of the predictor, and `samples` is K. `ends` (p, lags p) are the a_i side by
-    side, and `past` (lags p, lags p) is S.
+    covariance W of `freedom` B, `nearest` is the least |1 - root| of the predictor, and `samples` is K. `ends` (p, lags p) are the a_i side
+    by side, and `past` (lags p, lags p) is S.
     """
 
     scales: Array
@@ -221,8 +221,8 @@ def _tested(reference: MeanReference, r: Array, u: Array, level: float) -> MeanS
 
 
 def _judged(reference: MeanReference, e: Array, h: float, level: float, ends: Array | None = None, samples: int = 1) -> MeanShift:
-    """Return the verdict on the mean e (p,) of what the predictor leaves, of covariance W h where there is no shift; `ends` is P, none where
-    the lags miss nothing, of so many samples M."""
+    """Return the verdict on the mean e (p,) of what the predictor leaves, of covariance W h where there is no shift; `ends` is P, none
+    where the lags miss nothing, of so many samples M."""
     statistic = float(e @ np.linalg.solve(reference.long_run, e)) / h
     threshold = reference.threshold(level)
     back = np.linalg.inv(reference.still)

@@ -149,7 +149,7 @@ def _counted(edges: Numbers, rows: Array, p: int, at: Numbers, kept: tuple[int, 
     largest, exceeded = float(ratios.max()), 0
     tried = 0
     for sums in _without_change(rows, p, int(at[np.argmax(ratios)])):
-        larger = np.flatnonzero((_ratios(sums[:, *some], held, p, at) / scale).max(axis=1) >= largest)
+        larger = np.flatnonzero((_ratios(sums[:, some[0], some[1], some[2]], held, p, at) / scale).max(axis=1) >= largest)
         if exceeded + len(larger) >= CLEAR:
             return Scan(edges, rows, p, kept, at, ratios, CLEAR / (tried + 1 + int(larger[CLEAR - exceeded - 1])))
         exceeded, tried = exceeded + len(larger), tried + len(sums)

@@ -221,7 +221,7 @@ def _scaled(store: SampleStore, start: int, stop: int) -> tuple[Reader, NDArray[
 def _changes(
     store: SampleStore, first: int, last: int, earliest: int, level: float, confidence: float, found: Scan | None = None
 ) -> list[_Change]:
-    """Return the changes of samples first .. last - 1 at `earliest` or later, in the order of time; `found` is their scan, if it is there."""
+    """Return the changes of samples first .. last - 1 at `earliest` or later, in the order of time; `found` is their scan, if there."""
     read, moving = _scaled(store, first, last)
     p = int(moving.sum())
     if not p:
