@@ -1,6 +1,6 @@
 """This is everything that is known exactly about the population limit of an experiment, as `faultspace limit` prints it.
 
-PopulationLimits   both limits, the regressions for B and D, their bias
+PopulationLimits   both limits, the regressions for B and D, their bias, and the ARX model that `identify` begins with
 limit              from an Experiment, or from what an experiment's file holds
 markov_parameters  D, CB, CAB, ...
 """
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from os import PathLike
 from typing import Any
 
@@ -20,6 +21,7 @@ from ..algebra.matrices import Matrix, beside, stacked
 from ..algebra.notation import matrix_lines, polynomial
 from ..algebra.stability import rational_characteristic_polynomial
 from ..system.windows import observability_matrix
+from .autoregression import ARXLimit, longest_arx_limit
 from .column_space import Limit, past_input_and_output_limit, past_input_limit
 from .experiments import Experiment, read_experiment
 from .inputs import InputLimit, by_moesp, by_output_error
@@ -35,8 +37,9 @@ class PopulationLimits(Shown):
 
     `past_inputs` (PI-MOESP) and `past_outputs` (PO-MOESP) are limits of shape s p x (rows of the instruments), with their ranks beside that
     of O_s. `true_AC` and `moesp` are the limits of B (n x nu) and D (p x nu) in the basis of the true A and C, by output error and by
-    MOESP's own regression, and None where they are not unique; `bias` subtracts the true ones. Source: [G25] Proposition 1; [V93] and
-    [VV07] for the methods. Raises nothing by itself.
+    MOESP's own regression, and None where they are not unique; `bias` subtracts the true ones. `arx` is the limit of the ARX model with s
+    lags, or with fewer where only these have one, and None where none has: `identify` reduces it to n states. Source: [G25] Proposition 1;
+    [V93], [VV07] and [LW92] for the methods. Raises nothing by itself.
 
     >>> import faultspace as fs
     >>> system = {"A": [["1/2"]], "B": [[1]], "C": [[1]], "D": [[0]], "F": [[1]], "G": [[0]]}
@@ -54,6 +57,21 @@ class PopulationLimits(Shown):
     past_outputs: Limit
     true_AC: InputLimit | None
     moesp: InputLimit | None
+
+    @cached_property
+    def arx(self) -> ARXLimit | None:
+        """The limit of the ARX model with s lags, or with the most, below, for which it is unique; None where there is none."""
+        try:
+            return longest_arx_limit(self.experiment, self.experiment.s)
+        except InvalidInput:
+            return None
+
+    def arx_bias(self, found: ARXLimit) -> list[Matrix]:
+        """The result is by what the first 2 n + 1 Markov parameters of the ARX model's plant miss the true ones, p x nu each."""
+        system = self.experiment.system
+        count = 2 * system.residual.n + 1
+        true = markov_parameters(system.residual.A, system.B, system.residual.C, system.D, count)
+        return [one - other for one, other in zip(found.markov(count), true, strict=True)]
 
     @property
     def title(self) -> str:
@@ -76,6 +94,8 @@ class PopulationLimits(Shown):
                 continue
             bias = self.bias(regression)
             yield from _of_regression(regression, bias)
+        yield "an ARX model, which identify reduces to the order", ""
+        yield from _of_arx(self, self.arx)
 
     def to_json(self) -> dict[str, Any]:
         """The result is what `faultspace limit EXPERIMENT --json` prints."""
@@ -88,6 +108,8 @@ class PopulationLimits(Shown):
         }
         for name, found in (("true_AC", self.true_AC), ("moesp", self.moesp)):
             result[name] = None if found is None else {"B": found.B.to_json(), "D": found.D.to_json(), "bias": self._bias(found)}
+        arx = self.arx
+        result["arx"] = None if arx is None else arx.to_json() | {"bias": [matrix.to_json() for matrix in self.arx_bias(arx)]}
         return result
 
     def of_limit(self, found: Limit) -> dict[str, Any]:
@@ -222,6 +244,33 @@ def _of_regression(found: InputLimit, bias: InputLimit) -> Iterator[tuple[str, s
             yield f"its bias for {name}", "none"
         else:
             yield from _lines(f"its bias for {name}", error)
+
+
+def _of_arx(found: PopulationLimits, arx: ARXLimit | None) -> Iterator[tuple[str, str]]:
+    """The lines say how far its plant is from the true one, and how far the reduced one can be."""
+    if arx is None:
+        yield "lags", "none for which it is unique"
+        return
+    asked = found.experiment.s
+    fewer = "" if arx.lags == asked else f"; {asked} leave a combination of outputs exact, for want of noise (w_filter)"
+    yield "lags", f"{arx.lags}{fewer}"
+    bias = found.arx_bias(arx)
+    if all(matrix.is_zero() for matrix in bias):
+        yield "its plant", "the true one: reduced to the order it stays so, whatever colour the input has"
+        return
+    sizes = [abs(float(Fraction(int(x.p), int(x.q)))) for matrix in bias for row in matrix.elements() for x in row]
+    yield "its plant", f"not the true one: its first Markov parameters miss by up to {max(sizes):.3g}"
+    if not arx.open_loop:
+        yield "", "the input follows the faults or leads them: more lags do not help"
+    elif arx.misfit is None:
+        yield "its misfit", "not known: some combination of outputs is predicted exactly, for want of noise (w_filter)"
+    else:
+        share = float(arx.misfit)
+        yield (
+            "its misfit",
+            f"{share:.3g} of the power of what no prediction can know; of the plant reduced to the order at most {4 * share:.3g}",
+        )
+        yield "", "both tend to 0 with more lags, and no state is lost to the colour of the input"
 
 
 def _lines(name: str, matrix: Matrix) -> Iterator[tuple[str, str]]:

@@ -451,7 +451,7 @@ def audit(
     """Put an implementation through checks.
 
     The answers are known exactly; exit 1 if a must is not met. The adapter has some of: identify, residual, window_ranks, fault_dimension,
-    fault_space, reconstruct, structure. It runs in a process of
+    fault_space, reconstruct, structure, count_faults, identified_fault_space. It runs in a process of
     its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
     """
     from . import auditing

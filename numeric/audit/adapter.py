@@ -7,11 +7,14 @@
     fault_space(r, A, C, n_v, block_rows) -> Z            all columns [f; g] that explain r, (n + p, n_z); any basis
     reconstruct(r, A, F, C, G, x0) -> v                   the fault signal (N, m) from the known initial state
     structure(A, F, C, G) -> ZeroStructure                    zeros and ranks of the system from v to r
+    count_faults(y, u, order) -> n_v                      the number of faults in outputs and inputs, without a residual
+    identified_fault_space(y, u, order, n_v) -> A, C, Z   a model and all columns [f; g] in its states
 
 Arrays are time-major float64. The `block_rows` of `identify` are those of past and future, and bind: where that window is too short, to
 refuse is right. The `block_rows` of `fault_space` is a window that suffices, longer than the lag (in `fault-space-at-the-lag`
-it is not: that may be refused); whether it is used is the
-implementation's own affair. To refuse is to raise ValueError or ArithmeticError, or to return None; any other exception is a crash.
+it is not: that may be refused); whether it is used is the implementation's own affair. To refuse is to raise ValueError or
+ArithmeticError, or to return None; any other exception is a crash. The last two functions ask what `identify` of the library answers from a
+record; under noise a refusal stands for "undecided", and is no failure.
 
     FUNCTIONS    the names above
     offered      the functions that an object or module has
@@ -35,7 +38,17 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from .records import Broken, Function, Refused
 
-FUNCTIONS = ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct", "structure")
+FUNCTIONS = (
+    "identify",
+    "residual",
+    "window_ranks",
+    "fault_dimension",
+    "fault_space",
+    "reconstruct",
+    "structure",
+    "count_faults",
+    "identified_fault_space",
+)
 
 
 @dataclass(frozen=True)
@@ -93,6 +106,18 @@ class KnowsStructure(Protocol):
     """This is an implementation that finds zeros. A mapping with some names of `ZeroStructure` will do."""
 
     def structure(self, A: Array, F: Array, C: Array, G: Array) -> ZeroStructure | Mapping[str, Any]: ...
+
+
+class CountsFromRecords(Protocol):
+    """This is an implementation that counts faults without a residual; None stands for undecided."""
+
+    def count_faults(self, y: Array, u: Array, order: int) -> int | None: ...
+
+
+class FindsFromRecords(Protocol):
+    """This is an implementation that finds a model and the fault matrices in its states."""
+
+    def identified_fault_space(self, y: Array, u: Array, order: int, n_v: int) -> tuple[Any, Any, Any] | None: ...
 
 
 def offered(implementation: object) -> dict[str, Function]:

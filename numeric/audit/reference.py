@@ -18,6 +18,7 @@ from ..data.validation import enough_samples, signal
 from ..model.models import StateSpaceModel
 from ..model.past_inputs import UNDETERMINED, pi_moesp
 from ..model.residuals import residual as subtract
+from ..pipeline import identify as identified
 from ..signal.reconstruction import reconstruct_fault
 from ..signal.zeros import fault_zeros
 from ..space.by_ranks import fault_space as space
@@ -74,6 +75,20 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> ZeroStructure:
     orders = _infinite_zero_orders(A, F, C, G)
     found = fault_zeros(A, F, C, G)
     return ZeroStructure(len(orders), [complex(z) for z in found.zeros], orders, len(orders) == F.shape[1])
+
+
+def count_faults(y: Array, u: Array, order: int) -> int | None:
+    """The number is that of `identify`, None where it is undecided."""
+    return identified(y, u, order=order).n_v
+
+
+def identified_fault_space(y: Array, u: Array, order: int, n_v: int) -> tuple[Array, Array, Array] | None:
+    """Model and space are those of `identify`; None where the space is undecided."""
+    found = identified(y, u, order=order, n_v=n_v)
+    space = found.fault_space
+    if found.model is None or space is None or not (space.decided and space.meaningful):
+        return None
+    return found.model.A, found.model.C, space.basis
 
 
 def _infinite_zero_orders(A: Array, F: Array, C: Array, G: Array) -> list[int]:

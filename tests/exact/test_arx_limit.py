@@ -149,3 +149,19 @@ def test_a_limit_broken_on_purpose_is_noticed(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(autoregression, "solve", lambda gram, crossed: -solve(gram, crossed))
     found: ARXLimit = arx_limit(deadbeat("seasonal-input"), 2)
     assert found.markov(8) != true_markov(deadbeat("seasonal-input"), 8)
+
+
+@pytest.mark.parametrize("name", HIDDEN)
+def test_the_misfit_falls_with_the_lags_and_is_zero_where_the_plant_is_exact(name: str) -> None:
+    assert arx_limit(deadbeat(name), 2).misfit == 0
+    misfits = [arx_limit(noisy(name), lags).misfit for lags in (2, 10)]
+    assert misfits[0] is not None and misfits[1] is not None and 0 < misfits[1] < misfits[0] / 10
+
+
+def test_limit_tells_of_the_arx_model_beside_pi_moesp() -> None:
+    noise_free, sound = limit(kept("seasonal-input")), limit(noisy("seasonal-input"))
+    assert noise_free.arx is not None and noise_free.arx.lags == 1 and "the true one" in dict(noise_free.sheet())["its plant"]
+    assert sound.past_inputs.rank == 1 and sound.arx is not None and sound.arx.lags == 2
+    assert sound.to_json()["arx"]["misfit"] == str(sound.arx.misfit) and len(sound.to_json()["arx"]["bias"]) == 5
+    told = dict(limit(noisy("following-fault")).sheet())
+    assert "not the true one" in told["its plant"] and not limit(noisy("following-fault")).to_json()["arx"]["open_loop"]

@@ -100,7 +100,7 @@ def test_missing_cells_are_refused_with_a_way_on(tmp_path: Path) -> None:
     for k in (100, 101, 250):
         lines[k + 1] = lines[k + 1].rpartition(",")[0] + ","
     path.write_text("\n".join(lines))
-    with pytest.raises(InvalidInput, match=r"sample 100 .* read_stretches"):
+    with pytest.raises(InvalidInput, match=r"sample 100 .*read_stretches"):
         read_record(path, inputs="valve", outputs="level,flow")
     parts = read_stretches(path, inputs="valve", outputs="level,flow")
     assert [len(part) for part in parts] == [100, 148, 49]

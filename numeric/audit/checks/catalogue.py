@@ -11,9 +11,9 @@ from collections.abc import Collection, Iterator, Sequence
 
 from ....base.errors import InvalidData
 from ..records import Check
-from . import consistency, excitation, faults, growth, identification, manners, refusals, structure
+from . import consistency, excitation, faults, growth, identification, laws, manners, refusals, structure
 
-MODULES = (identification, consistency, faults, excitation, structure, refusals, manners, growth)
+MODULES = (identification, consistency, faults, excitation, structure, refusals, manners, growth, laws)
 
 
 def all_checks() -> Iterator[Check]:

@@ -31,6 +31,8 @@ ARGUMENTS = {
     "fault_space": ("r", "A", "C", "n_v", "block_rows"),
     "reconstruct": ("r", "A", "F", "C", "G", "x0"),
     "structure": ("A", "F", "C", "G"),
+    "count_faults": ("y", "u", "order"),
+    "identified_fault_space": ("y", "u", "order", "n_v"),
 }
 ANSWERS = {
     "identify": ("A", "B", "C", "D"),
@@ -40,6 +42,8 @@ ANSWERS = {
     "fault_space": ("basis",),
     "reconstruct": ("v",),
     "structure": ("normal_rank", "finite_zeros", "infinite_zero_orders", "left_invertible"),
+    "count_faults": ("n_v",),
+    "identified_fault_space": ("A", "C", "basis"),
 }
 
 

@@ -227,6 +227,16 @@ def _columns_counted(A: Any, F: Any, C: Any, G: Any) -> ZeroStructure:
     return replace(found, normal_rank=min(F.shape[1], len(C)), left_invertible=F.shape[1] <= len(C))
 
 
+def _outputs_of_record(y: Any, u: Any, order: int) -> int:
+    return int(y.shape[1])
+
+
+def _columns_turned(y: Any, u: Any, order: int, n_v: int) -> Any:
+    """The columns are [g; f] in place of [f; g]."""
+    A, C, columns = reference.identified_fault_space(y, u, order, n_v) or (np.eye(order), np.eye(y.shape[1], order), np.eye(1))
+    return A, C, np.vstack([columns[len(A) :], columns[: len(A)]])
+
+
 UNSEEN = ("other-units", "permuted-outputs", "other-basis", "time-shift", "split-data")
 FAULTS = [
     mutant("square-time", "every sample looks at all before it", "time-grows-with-N", window_ranks=_square_time),
@@ -308,4 +318,18 @@ FAULTS = [
     mutant("finite-only", "infinite zeros taken for none", "infinite-zeros", structure=_finite_only),
     mutant("inside-only", "zeros outside the unit circle dropped", "finite-zeros", structure=_inside_only),
     mutant("columns-counted", "min(m, p) for the normal rank", "normal-rank", structure=_columns_counted),
+    mutant(
+        "outputs-of-record",
+        "n_v = p, from outputs and inputs",
+        "faults-of-record",
+        *views("faults-of-record", "noisy", "noisy-other-units"),
+        count_faults=_outputs_of_record,
+    ),
+    mutant(
+        "columns-turned",
+        "g above f",
+        "space-of-record-noisy",
+        "space-of-record-noisy-other-units",
+        identified_fault_space=_columns_turned,
+    ),
 ]

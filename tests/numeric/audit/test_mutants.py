@@ -69,6 +69,12 @@ def _answers_everything() -> SimpleNamespace:
         fault_space=lambda r, A, C, n_v, block_rows: np.eye(len(A) + len(C))[:, :n_v],
         reconstruct=lambda r, A, F, C, G, x0: np.zeros((len(r), F.shape[1])),
         structure=lambda A, F, C, G: ZeroStructure(1, [], [0], True),
+        count_faults=lambda y, u, order: 1,
+        identified_fault_space=lambda y, u, order, n_v: (
+            np.eye(order) / 2,
+            np.ones((y.shape[1], order)),
+            np.eye(order + y.shape[1])[:, :n_v],
+        ),
     )
 
 

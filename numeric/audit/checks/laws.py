@@ -1,0 +1,136 @@
+"""Checks of what is asked of outputs and inputs together, without a residual: how many faults act, and the space of their columns.
+
+The records are two noisy vectors with LOUD times their noise, 30 dB below the faults, and the response from rest to
+an input of signs, as loud as the faults, beside them; for the count also without noise. Truth is exact: the number of faults, and
+the columns [f; g] that explain them. A space stands in the states of the model that comes with it, so that the responses of its columns are
+compared, which no basis changes.
+
+Contract. Without noise there is a number, and it is due. Under noise "undecided" is an answer, too: to refuse is no failure there, a wrong
+answer is. The space is asked with n_v given, and under noise alone: the error of a model from so many samples is in it, faults or not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from faultspace.exact.structure.fault_columns import fault_space
+from faultspace.exact.system.systems import System
+
+from ....base.arrays import Array
+from ....base.errors import InvalidData
+from ...model.models import StateSpaceModel
+from ...space.distances import compare_subspaces
+from ..records import Broken, Check, Demand, Function, Measurement, Refused, Severity
+from ..vectors.rationals import floats, signs
+from ..vectors.recipe_vectors import NoisyVector
+from ..vectors.shipped_vectors import shipped
+from .faults import as_number
+
+LEVEL = 0.25
+"""The sine of the angle by which a space may be off under noise and the error of a model from so many samples: fourteen degrees."""
+LOUD = 300.0
+ASKED = ("one-fault-in-noise", "two-faults-in-noise")
+SEED = 1000  # added to that of the record for the signs of the input
+UNITS = (1e-3, 1.0, 1e3)
+WINDOW = 10  # samples of a response
+
+
+def checks() -> Iterator[Check]:
+    """Yield all checks of the module."""
+    for vector in shipped("noisy"):
+        if vector.slug not in ASKED:
+            continue
+        for slug, noise, units in (("", 0.0, False), ("-noisy", LOUD, False), ("-noisy-other-units", LOUD, True)):
+            when = " whenever outputs have unlike units" if units else ""
+            counted, found = partial(_count, vector, noise, units), partial(_space, vector, units)
+            effect = f"a wrong number of faults{when}"
+            yield Check(f"faults-of-record{slug}", "count_faults", vector.slug, "proposition-3", effect, Severity.SILENT, counted)
+            if not noise:
+                continue
+            effect = f"fault matrices that do not explain the data, or true ones left out{when}"
+            yield Check(f"space-of-record{slug}", "identified_fault_space", vector.slug, "problem-11", effect, Severity.SILENT, found)
+    yield from _refusals(shipped("noisy")[0])
+
+
+def record(vector: NoisyVector, noise: float, units: bool = False) -> tuple[Array, Array]:
+    """Return y (N, p) and u (N, 1): faults, the input, and `noise` times the noise of the vector; outputs in unlike units where asked."""
+    system = vector.system
+    A, C, F, G = (floats(M) for M in (system.A, system.C, system.F, system.G))
+    B, D = _input_matrices(F, G)
+    u = signs(vector.seed + SEED, vector.samples).reshape(-1, 1)
+    v, w = vector.drawn()
+    model = StateSpaceModel(A, np.hstack([F, B]), C, np.hstack([G, D]))
+    y = model.simulate(np.hstack([v, u])) + noise * float(vector.noise) * w
+    return (y * np.resize(UNITS, len(C)) if units else y), np.ascontiguousarray(u)
+
+
+def _input_matrices(F: Array, G: Array) -> tuple[Array, Array]:
+    turned = np.where(np.arange(len(F)) % 2, -1.0, 1.0)[:, None]
+    return F[:, :1] * turned, 0.5 * G[::-1, :1]
+
+
+def _count(vector: NoisyVector, noise: float, units: bool, function: Function) -> Iterator[Measurement]:
+    y, u = record(vector, noise, units)
+    try:
+        got = as_number(function(y, u, vector.system.n))
+    except Refused:
+        if not noise:
+            raise
+        yield Measurement("undecided, as it may be", 0.0, 0.0)
+        return
+    yield Measurement("n_v", abs(got - vector.system.m), 0.0)
+
+
+def _space(vector: NoisyVector, units: bool, function: Function) -> Iterator[Measurement]:
+    system = vector.system
+    y, u = record(vector, LOUD, units)
+    try:
+        answer = function(y, u, system.n, system.m)
+    except Refused:
+        yield Measurement("undecided, as it may be", 0.0, 0.0)
+        return
+    true = floats(fault_space(System(system.A, system.F, system.C, system.G)).basis).T
+    scale = np.resize(UNITS, system.p) if units else np.ones(system.p)
+    wanted = _responses(floats(system.A), floats(system.C), true, np.ones(system.p))
+    try:
+        A, C, columns = (np.atleast_2d(np.asarray(part, dtype=float)) for part in answer)
+        compared = compare_subspaces(_responses(A, C, columns, scale), wanted)
+    except (InvalidData, ValueError, TypeError) as error:
+        raise Broken(f"no A, C and basis of columns [f; g]: {error}") from None
+    yield Measurement("dimension of the fault space", float(abs(compared.dimensions[0] - compared.dimensions[1])), 0.0)
+    yield Measurement("sine of the largest angle, two-sided", compared.two_sided, LEVEL)
+
+
+def _responses(A: Array, C: Array, columns: Array, scale: Array) -> Array:
+    """Return what unit pulses through the columns [f; g] (n + p, k) do to the outputs, over `scale`, in WINDOW samples (WINDOW p, k)."""
+    n = len(A)
+    states, parts = columns[:n], [columns[n:] / scale[:, None]]
+    for _ in range(WINDOW - 1):
+        parts.append(C @ states / scale[:, None])
+        states = A @ states
+    return np.vstack(parts)
+
+
+def _refusals(vector: NoisyVector) -> Iterator[Check]:
+    """Yield what must be refused: a missing sample, unequal lengths, fewer samples than unknowns."""
+
+    def asked(slug: str, effect: str, change: Any) -> Iterator[Check]:
+        for function, rest in (("count_faults", ()), ("identified_fault_space", (vector.system.m,))):
+
+            def measure(called: Function, change: Any = change, rest: tuple[Any, ...] = rest) -> Iterator[Measurement]:
+                called(*change(*record(vector, LOUD)), vector.system.n, *rest)
+                return iter(())
+
+            yield Check(slug, function, vector.slug, None, effect, Severity.SILENT, measure, Demand.MUST_REFUSE)
+
+    def missing(y: Array, u: Array) -> tuple[Array, Array]:
+        y[len(y) // 2, 0] = np.nan
+        return y, u
+
+    yield from asked("refuses-nan-output", "a missing sample goes into the estimate unnoticed", missing)
+    yield from asked("refuses-unequal-lengths", "inputs paired with the wrong outputs", lambda y, u: (y, u[:-5]))
+    yield from asked("refuses-short-data", "an answer from fewer equations than unknowns", lambda y, u: (y[:6], u[:6]))
