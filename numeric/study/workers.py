@@ -1,6 +1,7 @@
 """This runs one task after another, over the cores of this machine or over a Dask cluster, and tells how many are done.
 
     in_order      the results of the tasks, in their order, whoever worked on them
+    pool          the processes, or the workers, that run them
     worth         number of tasks that are worth the start of a process: fewer run in this one
 
 The cluster is Dask's, through joblib; `distributed` is needed for it alone. Its workers must have this package installed, in the same
@@ -43,14 +44,21 @@ def in_order(
     if cluster is not None and jobs is not None:
         raise InvalidData(f"jobs: got {jobs} together with a cluster, which decides for itself; leave one of them out")
     workers = joblib.cpu_count() if jobs is None else positive(jobs, "jobs")
-    place = _processes(min(workers, -(-len(tasks) // worth))) if cluster is None else _cluster(cluster)
     results = []
     progress(stage, 0, len(tasks))
-    with place as parallel:
+    with pool(min(workers, -(-len(tasks) // worth)), cluster) as parallel:
         for result in parallel(joblib.delayed(function)(*task) for task in tasks):
             results.append(result)
             progress(stage, len(results), len(tasks))
     return results
+
+
+def pool(count: int, cluster: str | None) -> AbstractContextManager[joblib.Parallel]:
+    """Return so many processes of this machine, or the workers of the Dask scheduler at the address `cluster`, for as long as it is open.
+
+    Raises InvalidData, when it is opened, for a cluster that cannot be used.
+    """
+    return _processes(count) if cluster is None else _cluster(cluster)
 
 
 @contextmanager
