@@ -5,12 +5,15 @@ with_signal   the Findings with F, G and the signal, or a note why they are with
               more than it would of noise
 choose_pair   n_v columns (F, G) out of a fault space, whose signal is then reconstructed
 largest       the largest |y| of each output
+about_own_means   experiments as `count_faults` and the fault space take them, each about its means
 beyond_rounding   the residual that faults are counted on, outputs that the model explains to rounding set to zero
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +22,7 @@ from ..base.errors import InvalidData
 from ..base.progress import Progress
 from ..base.sheets import counted
 from .data.records import Record
+from .experiments import for_each, looked_at, most_moved
 from .findings import Findings
 from .model.reduced_model import ReducedModel
 from .rows.joint import affordable
@@ -64,34 +68,45 @@ def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
     record, model, rows = answer.record, answer.model, max(answer.record.p - faults, 1)
     assert model is not None
     if not affordable(record.p + record.n_u, -(-(model.order + BEYOND) // rows)):
-        return f"{record.p} outputs with {counted(faults, 'fault')} at order {model.order} are too many for the laws of outputs and inputs"
-    y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
+        outputs = f"{counted(record.p, 'output')} with {counted(faults, 'fault')}"
+        return f"order {model.order} is too high for the laws of {outputs} and of the inputs"
+    data = about_own_means(record.stretches(*answer.held))
     count, level = answer.count, answer.noise_level
     if level is None and count is not None and count.n_v == faults and count.noise_power is not None:
         level = np.sqrt(count.noise_power)
     try:
         if isinstance(model, ReducedModel):
-            space = identified_fault_space(y, u, model, n_v=faults, noise_level=level)
+            space = identified_fault_space(*data, model, n_v=faults, noise_level=level)
         else:
-            space = fault_space_by_rows(y, u, model.A, model.C, n_v=faults, noise_level=level)
+            space = fault_space_by_rows(*data, model.A, model.C, n_v=faults, noise_level=level)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return str(error)
     return replace(space, reason=f"{space.reason}; n_v as given")
 
 
 def with_signal(answer: Findings, on_progress: Progress) -> Findings:
-    """Return the signal of one choice of columns out of the space, over all samples, where there is ground for one."""
+    """Return the signal of one choice of columns out of the space, over all samples of each experiment, where there is ground for one."""
     model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
     if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:
         return answer
     if not space.decided:
         return replace(answer, notes=(*answer.notes, "F, G and the fault signal are withheld: n_z is undecided, see the fault space"))
     on_progress("choosing F and G", 0, 0)
-    part = rest.store.read(*loudest(sizes.energies, len(answer.record), TRIED_ON))
-    A, C = model.model.A, model.model.C
-    F, G = choose_pair(part, A, C, space, count)
+    one = most_moved(answer)
+    assert one.residual is not None and one.sizes is not None
+    part = one.residual.store.read(*loudest(one.sizes.energies, len(one.record), TRIED_ON))
+    F, G = choose_pair(part, model.model.A, model.model.C, space, count)
+    answer = for_each(answer, lambda one: _reconstructed(one, F, G, on_progress))
+    shown = any(one.signal is not None for one in answer.parts)
+    return replace(answer, pair=(F, G)) if shown else answer
+
+
+def _reconstructed(answer: Findings, F: Array, G: Array, on_progress: Progress) -> Findings:
+    """Return the signal of these columns over all samples, or a note why it is withheld."""
+    model, rest, count = answer.model, answer.residual, F.shape[1]
+    assert model is not None and rest is not None
     try:
-        signal = reconstruct_fault(rest.store, A, F, C, G, within=answer.held, on_progress=on_progress)
+        signal = reconstruct_fault(rest.store, model.model.A, F, model.model.C, G, within=answer.held, on_progress=on_progress)
     except InvalidData as error:
         return replace(answer, notes=(*answer.notes, f"no fault signal: {error}"))
     notes = answer.notes
@@ -160,9 +175,15 @@ def largest(record: Record) -> Array:
     return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
 
 
+def about_own_means(experiments: Sequence[tuple[Array, Array]]) -> tuple[Any, Any]:
+    """Return y and u of one experiment about their means, or all experiments as a list of pairs, and None."""
+    about = [(y - y.mean(axis=0), u - u.mean(axis=0)) for y, u in experiments]
+    return about[0] if len(about) == 1 else (about, None)
+
+
 def beyond_rounding(answer: Findings) -> Array:
-    """Return the residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their
-    rounding would be scaled up and counted as faults."""
+    """Return the residual on the samples that are looked at, zero for outputs that the model explains to rounding: beside others that it
+    does not explain, their rounding would be scaled up and counted as faults."""
     rest, sizes = answer.residual, answer.sizes
     assert rest is not None and sizes is not None
-    return np.asarray(rest.store.read(*answer.held) * (sizes.peak > ROUNDING * largest(answer.record)))
+    return np.asarray(rest.store.read(*looked_at(answer)) * (sizes.peak > ROUNDING * largest(answer.record)))

@@ -23,13 +23,14 @@ from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress
 from ..base.sheets import counted
 from .changing import beside_changes, unlike_healthy_ranks, with_changes
-from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest
+from .choice import MEANS_FROM, ROUNDING, about_own_means, beyond_rounding, largest
 from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
 from .count.healthy_model import healthy_reference
 from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
+from .experiments import for_each, looked_at
 from .findings import Findings
 from .model.reduced_model import ReducedModel
 from .rows.evidence import LONG
@@ -55,10 +56,13 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
     healthy = answer.healthy or 0
     if first < healthy:
         first, last = healthy, min(healthy + most, len(record))
+    if answer.parts and healthy:
+        first, last = looked_at(replace(answer, held=(first, last)))
     if last - first < len(record):
         why = "where the residual is largest" if first > healthy or not healthy else "after those stated to be without fault"
         source = "the fault signal is from all samples, the model from the healthy ones"
         source = source if healthy else "the model and the fault signal are from all samples"
+        why += ", counted over all experiments one after the other" if answer.parts else ""
         notes += (f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; {source}",)
     answer = replace(answer, held=(first, last), notes=notes)
     r = beyond_rounding(answer)
@@ -69,7 +73,7 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
             if healthy:
                 answer = _against_healthy(answer, rest.store.read(first, last), on_progress)
             else:
-                answer = _about_zero(answer if answer.exact else with_changes(_by_laws(answer, on_progress)), r)
+                answer = _about_zero(answer if answer.exact else for_each(_by_laws(answer, on_progress), with_changes), r)
             answer = beside_changes(answer)
     except np.linalg.LinAlgError:
         reason = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
@@ -86,7 +90,7 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
     record, sizes = answer.record, answer.sizes
     assert sizes is not None
     try:
-        y, u = record.stretch(*answer.held)
+        y, u = record.stretch(*looked_at(answer))
         found = fault_dimension(r.astype(np.float32) if record.single and answer.exact else r, u=u)
     except InvalidData as error:
         return replace(answer, reason=str(error))
@@ -107,14 +111,15 @@ def _by_laws(answer: Findings, on_progress: Progress) -> Findings:
     assert model is not None
     order = max(model.order, 1)
     if not affordable(record.p + record.n_u, order + LONG):
-        note = f"{record.p} outputs at order {model.order} are too many for the laws of outputs and inputs: the residual alone is counted"
+        outputs = counted(record.p, "output")
+        note = f"order {model.order} is too high for the laws of {outputs} and of the inputs: the residual alone is counted"
         return replace(answer, notes=(*answer.notes, note))
     on_progress("counting the laws of outputs and inputs", 0, 0)
-    y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
+    data = about_own_means(record.stretches(*answer.held))
     try:
         same = answer.held == (0, len(record)) and answer.modelled == len(record)
         given = model if same and isinstance(model, ReducedModel) else None
-        count = count_faults(y, u, order=order, noise_level=answer.noise_level, model=given)
+        count = count_faults(*data, order=order, noise_level=answer.noise_level, model=given)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return replace(answer, notes=(*answer.notes, f"the laws of outputs and inputs were not counted, the residual alone was: {error}"))
     answer = replace(answer, count=count, possible=count.possible)
@@ -134,8 +139,10 @@ def _spikes(answer: Findings) -> str:
     deviation is told by the median of the sizes, which spikes hardly move.
     """
     assert answer.residual is not None
-    r = answer.residual.store.read(*answer.held)
-    sizes = np.abs(r - np.median(r, axis=0))
+    first, last = answer.held
+    inside = [(max(first, start), min(last, stop)) for start, stop in answer.record.bounds if max(first, start) < min(last, stop)]
+    parts = [answer.residual.store.read(*part) for part in inside]
+    sizes = np.abs(np.concatenate([r - np.median(r, axis=0) for r in parts]))
     deviation = np.median(sizes, axis=0) / scipy.special.ndtri(0.75)
     most = -scipy.special.ndtri(UNLIKELY / (2 * sizes.size))
     spiky = [name for name, peak, one in zip(answer.record.outputs, sizes.max(axis=0), deviation, strict=True) if peak > most * one]
@@ -174,7 +181,7 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
     if np.all(sizes.early_peak <= ROUNDING * largest(record)):
         return _zero_or_not(replace(answer, unexplained=True))
     on_progress("counting faults against the healthy samples", 0, 0)
-    answer = with_changes(answer)
+    answer = for_each(answer, with_changes)
     start = max(until - HELD // (record.p + record.n_u), 0)
     healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
     mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[-MEANS_FROM:], before[-MEANS_FROM:])

@@ -33,6 +33,9 @@ class Identification(Findings):
     pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
                      the signal explains, by_noise: what it would explain of noise
     doubts           what the record gives reason to doubt: evidence, what it does to the answer, what to do
+    experiments      the same for each experiment by itself: its record, residual, onset, changes and signal, with the model, the number of
+                     faults and the space of all; one experiment is its own, of several the whole has no onset, changes and signal
+    initial_states   the state (n,) at the first sample of each experiment, that of a healthy record first
     notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
 
     order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
@@ -58,8 +61,9 @@ class Identification(Findings):
         order = "undecided" if self.model is None else self.model.order
         n_v = "undecided" if self.n_v is None else self.n_v
         n_z = self.fault_space.n_z if self.fault_space is not None and self.fault_space.meaningful else None
-        found = "no signal" if self.signal is None else "with a signal"
-        return f"<Identification of {len(self.record)} samples: order {order}, n_v {n_v}, n_z {n_z}, {found}>"
+        found = "no signal" if all(one.signal is None for one in self.experiments) else "with a signal"
+        of = f" in {len(self.parts)} experiments" if self.parts else ""
+        return f"<Identification of {len(self.record)} samples{of}: order {order}, n_v {n_v}, n_z {n_z}, {found}>"
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows: the summary."""

@@ -18,6 +18,7 @@ import numpy as np
 import scipy  # its folders are loaded when they are first used
 
 from ...base.arrays import Array
+from ...base.sheets import counted
 from .predictor import Stretch
 from .rows import FREEZING, Evidence
 
@@ -37,7 +38,7 @@ def frozen_sensors(before: Stretch, after: Stretch, names: Sequence[str], level:
         if more < 1.0:
             needed = max(2.0 + np.ceil((np.log(level / 2.0) - np.log(count) - np.log(first)) / np.log(more)), 2.0)
         visible = float(needed) if needed <= count else np.inf
-        detail = f"longest run {length} samples, before {longest_run(before.y[:, i])}"
+        detail = f"longest run {counted(length, 'sample')}, before {longest_run(before.y[:, i])}"
         yield Evidence(FREEZING, name, chance, float(length), float(length), None, visible, None, "samples", detail)
 
 

@@ -190,5 +190,5 @@ def _from(rows: Sequence[Change]) -> str:
         return "from no size on"
     unit = "sigma" if rows[0].visible_sigmas is not None else rows[0].unit
     least, most = min(known), max(known)
-    blind = "" if len(known) == len(sizes) else f", in {len(known)} of {len(sizes)} channels"
+    blind = "" if len(known) == len(sizes) else f", in {len(known)} of {counted(len(sizes), 'channel')}"
     return f"from {least:.3g}{'' if f'{least:.3g}' == f'{most:.3g}' else f' to {most:.3g}'} {unit} on{blind}"

@@ -212,32 +212,37 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
     Invariant: the cost never rises.
     """
     damping = 1e-3
-    dead = np.finfo(float).tiny
+    dead, eps = np.finfo(float).tiny, np.finfo(float).eps
+    columns = data.reshape(len(data), -1)
 
-    def cost_of(g: Array) -> float:
-        return float(np.sum(np.maximum(_numerator(data, g), 0.0) / np.maximum(_numerator(gains, g), 1e-12)))
+    def products(g: Array) -> tuple[Array, Array, Array, Array]:
+        sg, qg = data @ g, gains @ g
+        return sg, qg, np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
 
-    cost = cost_of(g)
+    sg, qg, a, d = products(g)
+    cost = float(np.sum(a / d))
     flat = False
     # Of a cost that rounding makes, as without noise, no slope is known: steps would turn g by the root of rounding.
     if cost <= _rounding(data, gains, g):
         return g, cost, True
     for _ in range(_STEPS):
-        sg, qg = data @ g, gains @ g
-        a, d = np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
         gradient = (sg / d[:, None] - qg * (a / d**2)[:, None]).sum(axis=0)
         cross = (sg / (d**2)[:, None]).T @ qg
-        hessian = np.tensordot(1.0 / d, data, axes=1) - cross - cross.T + (qg * (a / d**3)[:, None]).T @ qg
-        ridge = np.diag(np.maximum(np.diag(hessian), 0.0) + np.finfo(float).eps * abs(np.trace(hessian)) + dead)
+        hessian = ((1.0 / d)[None] @ columns).reshape(cross.shape) - cross - cross.T + (qg * (a / d**3)[:, None]).T @ qg
+        ridge = np.maximum(hessian.diagonal(), 0.0) + eps * abs(hessian.trace()) + dead
         while True:
+            damped = hessian.copy()
+            damped.flat[:: len(g) + 1] += damping * ridge
             # Without noise both may underflow; then there is nothing left to gain.
             try:
-                step = np.linalg.solve(hessian + damping * ridge, -gradient)
+                step = np.linalg.solve(damped, -gradient)
             except np.linalg.LinAlgError:
                 return g, cost, True
             step -= g * (g @ step)
-            trial = (g + step) / np.linalg.norm(g + step)
-            new = cost_of(trial)
+            trial = g + step
+            trial /= np.linalg.norm(trial)
+            tried = products(trial)
+            new = float(np.sum(tried[2] / tried[3]))
             if new < cost or damping > 1e8:
                 break
             damping *= 8.0
@@ -245,6 +250,7 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
             return g, cost, True
         drop = np.log(cost / max(new, dead))
         g, cost, damping = trial, new, max(damping / 6.0, 1e-10)
+        sg, qg, a, d = tried
         if drop < FLAT:
             flat = True
             break

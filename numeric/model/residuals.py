@@ -158,7 +158,7 @@ def residual(
     if parts.backward:
         notes.append(f"{parts.backward} growing mode(s) of the model were run backward from their fitted final state")
     if observed < model.n:
-        notes.append(f"the record determines {observed} of {model.n} state directions; x0 is zero along the others")
+        notes.append(f"the record determines {observed} of {counted(model.n, 'direction')} of the state; x0 is zero along the others")
     freedom = max(len(r) - observed / model.p, 1.0)
     return ResidualSignal(
         store=stored(r),

@@ -147,10 +147,12 @@ def _counted(edges: Numbers, rows: Array, p: int, at: Numbers, kept: tuple[int, 
     scale = _usual(held * np.concatenate([at, M - at, [M]]), len(kept), p)
     ratios = _ratios(_squares(rows)[some], held, p, at) / scale
     largest, exceeded = float(ratios.max()), 0
-    for tried, sums in enumerate(_without_change(rows, p, int(at[np.argmax(ratios)])), 1):
-        exceeded += bool((_ratios(sums[some], held, p, at) / scale).max() >= largest)
-        if exceeded == CLEAR:
-            return Scan(edges, rows, p, kept, at, ratios, exceeded / tried)
+    tried = 0
+    for sums in _without_change(rows, p, int(at[np.argmax(ratios)])):
+        larger = np.flatnonzero((_ratios(sums[:, some[0], some[1], some[2]], held, p, at) / scale).max(axis=1) >= largest)
+        if exceeded + len(larger) >= CLEAR:
+            return Scan(edges, rows, p, kept, at, ratios, CLEAR / (tried + 1 + int(larger[CLEAR - exceeded - 1])))
+        exceeded, tried = exceeded + len(larger), tried + len(sums)
     return Scan(edges, rows, p, kept, at, ratios, (exceeded + 1) / (DRAWS + 1))
 
 
@@ -159,13 +161,12 @@ def changed_outputs(found: Scan) -> Array:
     p, held = found.p, found.rows.shape[1]
     at = np.array([found.best])
     columns = [np.array([c for c in found.kept if c == 0 or (c - 1) % p == j]) for j in range(p)]
-    own = [np.ix_(np.arange(len(found.rows)), kept, kept) for kept in columns]
 
     def alone(sums: Array) -> Array:
-        return np.array([_ratios(sums[kept], held, 1, at)[0] for kept in own])
+        return np.array([_ratios(sums[..., kept[:, None], kept], held, 1, at)[..., 0] for kept in columns])
 
-    seen = alone(_squares(found.rows))
-    exceeded = sum((alone(sums) >= seen for sums in _without_change(found.rows, p, found.best)), np.zeros(p))
+    seen = alone(_squares(found.rows))[:, None]
+    exceeded = sum(((alone(sums) >= seen).sum(axis=1) for sums in _without_change(found.rows, p, found.best)), np.zeros(p))
     return np.asarray((exceeded + 1) / (DRAWS + 1))
 
 
@@ -197,8 +198,8 @@ def _squares(rows: Array) -> Array:
 
 
 def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
-    """Yield the sums (M, q, q) of DRAWS records like the rows (M, L, q) that have no change: one autoregression, driven
-    by the innovations of both sides of the edge, the parts of which are put in another order."""
+    """Yield, many at a time, the sums (count, M, q, q) of DRAWS records like the rows (M, L, q) that have no change: one autoregression,
+    driven by the innovations of both sides of the edge, the parts of which are put in another order."""
     M, L, q = rows.shape
     lags = (q - 1) // p - 1
     slopes, innovations = _innovations(rows, p, edge)
@@ -221,7 +222,7 @@ def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
             forced = errors @ from_errors[:size, :size].T + past @ from_past[:size].T
             record[:, lags + k : lags + k + STRETCH] = forced.reshape(count, -1, p)
         z = [np.ones((count, M * L, 1)), *(record[:, lags - i : lags - i + M * L] for i in range(1, lags + 1)), record[:, lags:]]
-        yield from _squares(np.concatenate(z, axis=2).reshape(count, M, L, q))
+        yield _squares(np.concatenate(z, axis=2).reshape(count, M, L, q))
 
 
 def _autoregression(slopes: Array, p: int) -> StateSpaceModel:
@@ -300,12 +301,14 @@ def _log_spread(sums: Array, counts: Numbers, p: int) -> Array:
 
 
 def _ratios(sums: Array, count: int | Numbers, p: int, at: Numbers) -> Array:
-    """Return L at the edges `at` for the sums (M, q, q) of parts of so many samples, one number or (M,)."""
-    counts = np.broadcast_to(count, len(sums))
+    """Return L (..., len(at)) at the edges `at` for the sums (..., M, q, q) of parts of so many samples, one number or (M,)."""
+    M = sums.shape[-3]
+    counts = np.broadcast_to(count, M)
     # Both from their own end: what is small on one side is not the difference of what is large.
-    before, after = np.cumsum(sums, axis=0)[at - 1], np.cumsum(sums[::-1], axis=0)[len(sums) - at - 1]
+    before = np.cumsum(sums, axis=-3)[..., at - 1, :, :]
+    after = np.cumsum(sums[..., ::-1, :, :], axis=-3)[..., M - at - 1, :, :]
     n, n_1 = int(counts.sum()), np.cumsum(counts)[at - 1]
-    whole = _log_spread(sums.sum(axis=0), np.asarray(n), p)
+    whole = _log_spread(sums.sum(axis=-3), np.asarray(n), p)[..., None]
     return np.asarray(n * whole - n_1 * _log_spread(before, n_1, p) - (n - n_1) * _log_spread(after, n - n_1, p))
 
 

@@ -26,7 +26,7 @@ from ...base.threads import one_thread
 from ..data.plain import plain
 from ..data.records import SampleStore, Stored, stored
 from ..data.validation import signal, whole
-from .change_scan import LEAST, Reader, changed_outputs, choose_lags, located, scan
+from .change_scan import LEAST, Reader, Scan, changed_outputs, choose_lags, located, scan
 
 LEVEL = 0.01  # the chance that a stretch without a change is said to have one
 CONFIDENCE = 0.95  # of the interval
@@ -200,7 +200,7 @@ def fault_onset(
     whole_scan = scan(read, 0, N, width, lags, known or 0)
     if whole_scan is None:
         return _nothing(store, known, level, confidence, lags, None, f"{counted(N, 'sample')} are too few to look for a change")
-    changes = _changes(store, 0, N, known or 0, level, confidence)
+    changes = _changes(store, 0, N, known or 0, level, confidence, whole_scan)
     if not changes:
         return _nothing(store, known, level, confidence, lags, whole_scan.p_value, _alike(known, whole_scan.p_value, level))
     return _measured(store, changes, known, level, confidence, whole_scan.p_value, lags)
@@ -218,14 +218,16 @@ def _scaled(store: SampleStore, start: int, stop: int) -> tuple[Reader, NDArray[
     return read, moving
 
 
-def _changes(store: SampleStore, first: int, last: int, earliest: int, level: float, confidence: float) -> list[_Change]:
-    """Return the changes of samples first .. last - 1 at `earliest` or later, in the order of time."""
+def _changes(
+    store: SampleStore, first: int, last: int, earliest: int, level: float, confidence: float, found: Scan | None = None
+) -> list[_Change]:
+    """Return the changes of samples first .. last - 1 at `earliest` or later, in the order of time; `found` is their scan, if made."""
     read, moving = _scaled(store, first, last)
     p = int(moving.sum())
     if not p:
         return []
-    lags = choose_lags(read, first, last, p)
-    found = scan(read, first, last, p, lags, earliest)
+    if found is None:
+        found = scan(read, first, last, p, choose_lags(read, first, last, p), earliest)
     if found is None or found.p_value > level:
         return []
     chances = np.ones(store.width)

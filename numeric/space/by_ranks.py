@@ -184,7 +184,8 @@ def _no_null_rows(data: Arguments, ladder: Ladder) -> str:
         if ladder.final_gap == p
         else f"the window must be longer than the lag, {ladder.lag}: take block_rows >= {ladder.lag + 1}"
     )
-    return f"rank R_{s} = {p * s} of {p * s} rows: no null row, so every column [f; g] is a solution and the answer means nothing; {why}"
+    rows = counted(p * s, "row")
+    return f"rank R_{s} = {p * s} of {rows}: no null row, so every column [f; g] is a solution and the answer means nothing; {why}"
 
 
 def _judged(data: Arguments, ladder: Ladder, n_v: int, n_z: int, expected: int, margin: float) -> tuple[bool, str]:

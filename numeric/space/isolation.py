@@ -31,13 +31,17 @@ from numpy.typing import ArrayLike
 from ...base.arrays import Array
 from ...base.chi_squared import chi_squared_tail
 from ...base.errors import InvalidData
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
 from ..data.plain import plain
 from ..data.validation import noise_deviations
 from ..drawing import plot_angles
 from .result import FaultSpaceEstimate, SpaceOfValley
 
+NO_ERRORS = (
+    "the model is of PI-MOESP, which does not tell how sure it is, so that no angle to the fault space can be called small or large; a "
+    "longer record of a stable plant, with its noise, has a model that tells it"
+)
 EXCLUDED, CONSISTENT = 0.01, 0.05  # a column whose probability lies between is undecided
 WIDE = 0.5  # radians: above it, the first order says no more than that the space is not known (`identified_fault_space`)
 DRAWS, SEED = 4000, 20251124
@@ -201,7 +205,8 @@ def isolate(
     matrices: Any = getattr(model, "model", model)
     (p, n), n_u = matrices.C.shape, matrices.B.shape[1]
     if space.n != n or len(space.basis) != n + p:
-        raise InvalidData(f"space: got {len(space.basis)} rows and {space.n} states for a model of {n} states and {p} outputs")
+        got = f"{counted(len(space.basis), 'row')} and {counted(space.n, 'state')}"
+        raise InvalidData(f"space: got {got} for a model of {counted(n, 'state')} and {counted(p, 'output')}")
     names = (list(outputs or [f"y{j + 1}" for j in range(p)]), list(inputs or [f"u{j + 1}" for j in range(n_u)]))
     for given, count, what in ((names[0], p, "outputs"), (names[1], n_u, "inputs")):
         if len(given) != count:
@@ -211,7 +216,7 @@ def isolate(
     uncertainty = getattr(model, "uncertainty", None)
     errors = np.zeros((0, n + p, p + n_u)) if uncertainty is None else _column_errors(matrices, uncertainty.root, scale)
     identified = matrices is not model
-    reason = "the model has no standard errors" if identified and uncertainty is None else _refusal(space, identified, len(errors))
+    reason = NO_ERRORS if identified and uncertainty is None else _refusal(space, identified, len(errors))
     labels = [("sensor", name) for name in names[0]] + [("actuator", name) for name in names[1]]
     causes = tuple(
         _cause(kind, name, columns[:, j], errors[:, :, j], space, undecided=bool(reason)) for j, (kind, name) in enumerate(labels)
@@ -345,7 +350,7 @@ def _words_of_sets(causes: Sequence[Cause], sets: Sequence[Sequence[Cause]], n_v
         return f"{_and([cause.name for cause in sets[0]])} explain the {n_v} faults together{rest}"
     if sets:
         listed = " or ".join(_and([cause.name for cause in several]) for several in sets[:4])
-        more = f", or one of {len(sets) - 4} more sets" if len(sets) > 4 else ""
+        more = f", or {counted(len(sets) - 4, 'more set')}" if len(sets) > 4 else ""
         return f"together the {n_v} faults are explained by {listed}{more}: the data cannot tell which{rest}"
     alone = [cause.name for cause in causes if cause.answer == "consistent"]
     if still:

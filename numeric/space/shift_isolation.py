@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike
 
 from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
-from ...base.sheets import Shown
+from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
 from ..data.plain import plain
 from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, cause_name, joined
@@ -39,7 +39,7 @@ from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, c
 ANGLES = 720  # of the grid on which the least statistic is looked for
 NO_GAIN = "the model has a pole on the unit circle or outside, as far as its standard errors tell: an offset has no steady response"
 UNSTEADY = "the shift does not stay what it is, so that the static gain does not tell what an actuator does"
-NO_ERRORS = "the model has no standard errors, so that nothing is known of how sure its static gain is"
+NO_ERRORS = "the model is of PI-MOESP, which does not tell how sure it is, so that nothing is known of how sure its static gain is"
 
 
 @dataclass(frozen=True)
@@ -188,7 +188,8 @@ def isolate_shift(
     p, n_u = matrices.D.shape
     d, V = _checked(shift, covariance, p)
     if freedom is not None and not freedom >= p:
-        raise InvalidData(f"freedom: got {shorten(freedom)} for {p} outputs; at least as many are needed, or None where it is known")
+        wanted = "at least as many are needed, or None where it is known"
+        raise InvalidData(f"freedom: got {shorten(freedom)} for {counted(p, 'output')}; {wanted}")
     names = (list(outputs or [f"y{j + 1}" for j in range(p)]), list(inputs or [f"u{j + 1}" for j in range(n_u)]))
     for given, count, what in ((names[0], p, "outputs"), (names[1], n_u, "inputs")):
         if len(given) != count:
@@ -218,7 +219,7 @@ def _checked(shift: ArrayLike, covariance: ArrayLike, p: int) -> tuple[Array, Ar
     """Return shift (p,) and covariance (p, p). Raises InvalidData for what is none."""
     d, V = np.asarray(shift, dtype=np.float64), np.asarray(covariance, dtype=np.float64)
     if d.shape != (p,) or V.shape != (p, p):
-        raise InvalidData(f"shift: got the shapes {d.shape} and {V.shape} of shift and covariance for a model of {p} outputs")
+        raise InvalidData(f"shift: got the shapes {d.shape} and {V.shape} of shift and covariance for a model of {counted(p, 'output')}")
     if not (np.all(np.isfinite(d)) and np.all(np.isfinite(V))):
         raise InvalidData("shift: shift and covariance must be finite")
     sizes = np.sqrt(np.maximum(np.diag(V), 0.0))
