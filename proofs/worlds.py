@@ -25,7 +25,7 @@ import joblib
 
 from ..base.errors import InvalidData
 from ..base.progress import silent
-from ..numeric.study.workers import pool
+from ..base.workers import pool
 from .deciding import Check
 from .evidence.corpus import CORPUS, examine
 from .evidence.orbits_by_stages import LARGEST, orbit_count, orbits_over, pairs

@@ -71,9 +71,14 @@ def test_a_world_is_gone_through_goes_on_where_it_stopped_and_says_what_it_cover
     part = lines_of(out)
     assert len(part) == len(list(units(1, 1, 1))[::3])
     out.write_text(out.read_text(encoding="utf-8") + '{"format": "faultspace-wor', encoding="utf-8")  # stopped in the middle of a line
-    tried = []
+    tried: list[worlds.Unit] = []
     real = worlds.examined
-    monkeypatch.setattr(worlds, "examined", lambda unit: tried.append(unit) or real(unit))
+
+    def watched(unit: worlds.Unit) -> worlds.Found:
+        tried.append(unit)
+        return real(unit)
+
+    monkeypatch.setattr(worlds, "examined", watched)
     assert main([*ARGUMENTS, "--out", str(out)]) == 0
     assert len(tried) == len(list(units(1, 1, 1))) - len(part)
     rows = [row.split() for row in capsys.readouterr().out.splitlines()]
