@@ -1,6 +1,7 @@
 """The last steps of `faultspace identify`: the fault space of what was counted, and one pair (F, G) out of it with its signal.
 
 with_space    the Findings with the fault space
+noise_mix     the mixture of outputs in which the space is sought where healthy samples tell the noise
 with_signal   the Findings with F, G and the signal, or a note why they are withheld: n_z is undecided, or the signal explains no
               more than it would of noise
 choose_pair   n_v columns (F, G) out of a fault space, whose signal is then reconstructed
@@ -26,6 +27,7 @@ from .experiments import for_each, looked_at, most_moved
 from .findings import Findings
 from .model.reduced_model import ReducedModel
 from .rows.joint import affordable
+from .rows.known_noise import space_in_known_noise, whitening
 from .rows.space import BEYOND, fault_space_by_rows, identified_fault_space
 from .signal.explained_share import noise_share
 from .signal.reconstruction import Reconstruction, reconstruct_fault
@@ -37,6 +39,11 @@ MEANS_FROM = 1 << 14  # samples that means and shares are taken of: the regresso
 PAIRS_TRIED = 6
 TRIED_ON = 4000  # samples that a pair is tried on
 JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which a note says so
+FORETOLD = (
+    "the residual foretells a fault from its own past and the inputs, as it does a constant, a ramp, a sine, a sensor that is stuck "
+    "or a gain that has changed; such a fault excites too little for its space, which noise would place; what explains a shift of the "
+    "mean, and the table of changes, say more"
+)
 FROM_IDENTIFIED = (
     "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
     "shows how much on systems of the paper's kind)"
@@ -48,6 +55,8 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
     model, rest, faults = answer.model, answer.residual, answer.n_v
     if not faults or model is None or rest is None:
         return answer
+    if answer.news is not None and answer.news < faults:
+        return replace(answer, notes=(*answer.notes, f"no fault space: {FORETOLD}"))
     on_progress("fault space", 0, 0)
     A, C = model.model.A, model.model.C
     space, notes = None if answer.exact else _by_laws(answer, faults), answer.notes
@@ -75,13 +84,24 @@ def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
     if level is None and count is not None and count.n_v == faults and count.noise_power is not None:
         level = np.sqrt(count.noise_power)
     try:
-        if isinstance(model, ReducedModel):
+        mix = noise_mix(answer)
+        if isinstance(model, ReducedModel) and mix is not None:
+            space = space_in_known_noise(*data, model, mix, n_v=faults)
+        elif isinstance(model, ReducedModel):
             space = identified_fault_space(*data, model, n_v=faults, noise_level=level)
         else:
             space = fault_space_by_rows(*data, model.A, model.C, n_v=faults, noise_level=level)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return str(error)
     return replace(space, reason=f"{space.reason}; n_v as given")
+
+
+def noise_mix(answer: Findings) -> Array | None:
+    """Return the mixture (p, p) of the outputs that has white noise across them by the healthy samples; None without such samples."""
+    rest = answer.residual
+    if not answer.healthy or rest is None or rest.fitted or rest.covariance is None:
+        return None
+    return whitening(rest.covariance)
 
 
 def with_signal(answer: Findings, on_progress: Progress) -> Findings:

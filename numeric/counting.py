@@ -28,6 +28,7 @@ from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
 from .count.healthy_model import healthy_reference
 from .count.mean_shift import POWER, mean_about_zero, mean_shift
+from .count.news import news_beyond_healthy
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
 from .experiments import for_each, looked_at
@@ -71,7 +72,7 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             # Not those set to zero: rounding is held against rounding.
             if healthy:
-                answer = _against_healthy(answer, rest.store.read(first, last), on_progress)
+                answer = _against_healthy(answer, rest.store.read(first, last), faults, on_progress)
             else:
                 answer = _about_zero(answer if answer.exact else for_each(_by_laws(answer, on_progress), with_changes), r)
             answer = beside_changes(answer)
@@ -173,7 +174,7 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
     return replace(answer, mean=mean, notes=notes)
 
 
-def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findings:
+def _against_healthy(answer: Findings, r: Array, faults: int | None, on_progress: Progress) -> Findings:
     """Count the faults in the residual r of `answer` against the samples stated to be without fault, of which the last HELD numbers are
     held, and beside the test of the mean."""
     record, rest, sizes, until = answer.record, answer.residual, answer.sizes, answer.healthy
@@ -205,10 +206,41 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
         # Ranks of the residual alone would count the noise of the other outputs as faults beside a dead one.
         answer = replace(answer, n_v=None, counted_by=None, reason=against.reason)
     answer = replace(answer, counted_against=(start, until), against=against, visible=visible_white_faults(reference, against, POWER))
+    if asked := faults or against.n_v:
+        answer = replace(answer, news=_news(answer, r, u, healthy, before, asked))
     if against.n_v is not None:
         answer = replace(answer, n_v=against.n_v, reason=against.reason, counted_by="healthy samples")
+        answer = _beside_news(answer)
         answer = _beside_laws(answer, healthy, on_progress)
     return _zero_or_not(answer)
+
+
+def _news(answer: Findings, r: Array, u: Array, healthy: Array, before: Array, faults: int) -> int | None:
+    """Return how many of so many faults are more than residual and inputs foretell, in the longest stretch between two onsets: a predictor
+    that is fitted over a jump has all of its coefficients bent. Where these are too short it is the whole."""
+    assert answer.model is not None
+    order, last, (first, stop) = answer.model.order, slice(-MEANS_FROM, None), answer.held
+    onsets = [one for one in (answer.onset.onsets if answer.onset is not None else ()) if first <= one.sample < stop]
+    stretches = [(one.stretch[0] - first, min(one.stretch[1], stop) - first) for one in onsets]
+    begin, end = max(stretches, key=lambda part: part[1] - part[0], default=(0, stop - first))
+    for part in (slice(begin, min(end, begin + MEANS_FROM)), slice(0, MEANS_FROM)):
+        found = news_beyond_healthy(r[part], u[part], healthy[last], before[last], n_v=faults, order=order)
+        if found is not None:
+            return found
+    return None
+
+
+def _beside_news(answer: Findings) -> Findings:
+    """Leave several faults undecided where fewer are more than residual and inputs foretell: against healthy samples the direction of one
+    fault, as of a gain that has changed, may turn within a frequency's width and count twice."""
+    news, n_v = answer.news, answer.n_v
+    if n_v is None or n_v < 2 or news is None or news >= n_v:
+        return answer
+    reason = (
+        f"{answer.reason}; but {news} of them {'is' if news == 1 else 'are'} more than residual and inputs foretell: one fault whose "
+        "direction turns with the frequency, as of a gain that has changed, counts twice"
+    )
+    return replace(answer, n_v=None, possible=tuple(range(max(news, 1), n_v + 1)), counted_by=None, reason=reason)
 
 
 def _beside_laws(answer: Findings, healthy: Array, on_progress: Progress) -> Findings:

@@ -61,6 +61,7 @@ class Findings:
     healthy_record: bool = False
     counted_against: tuple[int, int] = (0, 0)
     against: FaultsAgainstHealthy | None = None
+    news: int | None = None
     mean: MeanShift | None = None
     changes: Changes | None = None
     visible: Array | None = None

@@ -42,9 +42,10 @@ class Identification(Findings):
     samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
     ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero where
     there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of the little that the
-    second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained: the healthy samples
-    are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output that would be seen;
-    dt: the sample time in seconds, where it was stated or a time column tells it.
+    second half of a record shows against the first; news: how many of the faults counted against the healthy samples are more than
+    residual and inputs foretell, None where that was not asked; healthy_record: these came in a record of their own; unexplained: the
+    healthy samples are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one
+    output that would be seen; dt: the sample time in seconds, where it was stated or a time column tells it.
 
     `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
     `to_scipy()`, `to_pandas()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there

@@ -169,7 +169,7 @@ def test_records_without_a_change_are_those_of_the_plain_recursion(p: int, lags:
     rows[..., 0] = 1.0
     slopes, innovations = change_scan._innovations(rows, p, parts // 2)
     draw, samples = np.random.default_rng(change_scan.SEED), parts * length
-    made = [sums for batch in change_scan._without_change(rows, p, parts // 2) for sums in batch]
+    made = np.concatenate(list(change_scan._without_change(rows, p, parts // 2)))
     assert len(made) == change_scan.DRAWS
     for sums in made[: 2 * change_scan.CLEAR]:
         errors = innovations[draw.permutation(parts)].reshape(samples, p)
