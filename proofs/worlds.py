@@ -83,7 +83,7 @@ def covered(lines: Iterable[Found]) -> str:
     for line in lines:
         for key in ("orbits", "systems", "accepted", "seconds"):
             sums[line["n"], line["p"], line["m"]][key] += line[key]
-    rows = [("n", "p", "m", "orbits", "of", "systems", "of 2^", "part", "certificates", "CPU s")]
+    rows: list[tuple[str, ...]] = [("n", "p", "m", "orbits", "of", "systems", "of 2^", "part", "certificates", "CPU s")]
     for (n, p, m), row in sorted(sums.items()):
         bits, part = (n + p) * (n + m), row["systems"] / 2 ** ((n + p) * (n + m))
         numbers = (int(row["orbits"]), orbit_count(n, p, m), int(row["systems"]), bits)
