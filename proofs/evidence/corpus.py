@@ -27,6 +27,7 @@ from ..trust.structure_certificates import accept
 from .exhaustive import orbits
 from .families import adversarial, paper_example, random_systems
 from .material import Material
+from .orbits_by_stages import orbits_by_stages
 
 
 @dataclass(frozen=True, repr=False)
@@ -142,7 +143,7 @@ def _sources(bench: Any) -> Iterator[tuple[str, ResidualSystem, int]]:
         for system in islice(random_systems(field, count, seed=1), count):
             yield f"random systems of every structure over {field}", system, 1
     for q, n, p, m in _exhaustive_boxes(full):
-        for orbit in orbits(q, n, p, m):
+        for orbit in orbits_by_stages(n, p, m) if full and q == 2 else orbits(q, n, p, m):
             yield f"all systems over GF({q}) in the box {_box(q, full)}", orbit.system, orbit.size
     for n, p in () if full else ((0, 2), (1, 2)):
         for orbit in orbits(2, n, p, 2):
@@ -161,7 +162,7 @@ def _exhaustive_boxes(full: bool) -> Iterator[tuple[int, int, int, int]]:
 def _limits(q: int, full: bool) -> tuple[int, int, int]:
     """Return the largest n, p, m of the exhaustive box over GF(q)."""
     if q == 2:
-        return (2, 3, 2) if full else (2, 2, 1)
+        return (3, 3, 2) if full else (2, 2, 1)
     return (2, 2, 1) if full else (1, 2, 1)
 
 

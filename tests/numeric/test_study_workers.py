@@ -8,8 +8,8 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
+from faultspace.base import workers as base_workers
 from faultspace.base.errors import InvalidData
-from faultspace.numeric.study import workers as study_workers
 from faultspace.numeric.study.groups import Plan
 from faultspace.numeric.study.studies import CORRECTED, PUBLISHED, Study, monte_carlo
 from faultspace.numeric.study.workers import in_order
@@ -56,7 +56,7 @@ def test_a_cluster_gives_the_same_cases_and_only_its_scheduler_counts() -> None:
 
 def test_without_a_scheduler_there_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
-    monkeypatch.setattr(study_workers, "PATIENCE", 1)
+    monkeypatch.setattr(base_workers, "PATIENCE", 1)
     for address in ("tcp://127.0.0.1:9", "nonsense://", "127.0.0.1:notaport"):
         with pytest.raises(InvalidData, match="no Dask scheduler answers"):
             monte_carlo(PUBLISHED, systems=2, samples=100, cluster=address)
@@ -64,7 +64,7 @@ def test_without_a_scheduler_there_one_line_says_so(monkeypatch: pytest.MonkeyPa
 
 def test_without_workers_there_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(study_workers, "PATIENCE", 2)
+    monkeypatch.setattr(base_workers, "PATIENCE", 2)
     with (
         distributed.LocalCluster(n_workers=0, dashboard_address=None) as cluster,
         pytest.raises(InvalidData, match="has no worker"),

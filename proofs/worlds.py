@@ -1,0 +1,159 @@
+"""`python -m faultspace.proofs.worlds`: every system over GF(2) of stated dimensions, with what the ledger says of single systems.
+
+    READINGS     the checks of the ledger that ask for single systems alone, and stand
+    units        a world in parts: the systems of one (n, p, m) over one class of pairs (A, F)
+    examined     what becomes of a unit: its orbits certified, each reading tried on all of them
+    covered      the table: how much of each (n, p, m) was gone through, against 2^((n+p)(n+m)) and Burnside's number of orbits
+
+A unit that is finished is a line of the file of `--out`; the same command goes on where it was stopped. `--scheduler` has the units done
+by the workers of a Dask cluster. Exit code 0: no counterexample; 1: there is one, or a certificate was refused; 2: bad input.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import joblib
+
+from ..base.errors import InvalidData
+from ..base.progress import silent
+from ..base.workers import pool
+from .deciding import Check
+from .evidence.corpus import CORPUS, examine
+from .evidence.orbits_by_stages import LARGEST, orbit_count, orbits_over, pairs
+from .verdict.verdicts import Verdict
+from .verdict.workbench import Workbench
+
+FORMAT = "faultspace-worlds/1"
+NONE_MEETS = "no system of the corpus meets the hypotheses"
+READINGS = (
+    "theorem_2.pencil_zeros_minimal", "theorem_2.pencil_zeros", "assumption_4.n_known", "assumption_4.n_unknown", "assumption_4.lag",
+    "proposition_3.n_alone", "proposition_3.lag_exactly", "proposition_3.normal_rank", "problem_11.window_n_plus_1",
+    "problem_11.lag_plus_1", "problem_11.dimension", "zero_feedthrough.exactly_when", "trajectory_recovered.state_known",
+    "trajectory_recovered.no_finite_zeros", "trajectory_recovered.zero_feedthrough_signal", "objection_3.gap_without_controllability",
+    "objection_3.ranks_without_minimality", "window_ranks.ranks", "window_ranks.indices", "window_ranks.solutions", "window_ranks.limit",
+    "sharp_windows.gap",
+)  # fmt: skip
+
+Unit = tuple[int, int, int, int]
+Found = dict[str, Any]
+
+
+def units(n: int, p: int, m: int) -> Iterator[Unit]:
+    """Yield the units with at most n states, p outputs and m faults as n, p, m and the number of a pair (A, F), the smallest first."""
+    dimensions = product(range(n + 1), range(p + 1), range(m + 1))
+    for one in sorted(dimensions, key=lambda d: ((d[0] + d[1]) * (d[0] + d[2]), d)):
+        for place in range(len(pairs(one[0], one[2]))):
+            yield (*one, place)
+
+
+def examined(unit: Unit) -> Found:
+    """Return the line of a unit: orbits, systems, accepted certificates, seconds of one processor, and what fails, in words.
+
+    Raises nothing that a certificate is refused for; that is told as a failure.
+    """
+    n, p, m, place = unit
+    started = time.process_time()
+    found: Found = {"n": n, "p": p, "m": m, "pair": place, "orbits": 0, "systems": 0, "accepted": 0, "failing": []}
+    bench = Workbench("quick", 1, silent, Path())
+    try:
+        evidence = [examine(f"systems over GF(2), n={n} p={p} m={m}", one.system, one.size) for one in orbits_over(pairs(n, m)[place], p)]
+    except Exception as error:  # a certificate that is refused is a finding, and the other units go on
+        return found | {"failing": [f"{type(error).__name__}: {error}"], "seconds": round(time.process_time() - started, 2)}
+    bench.put(CORPUS, evidence)
+    for name in READINGS:
+        outcome = Check(name).done(bench)
+        if outcome.verdict != Verdict.CERTIFIED and outcome.evidence != NONE_MEETS:
+            found["failing"].append(f"{name}: {outcome.verdict}, {outcome.evidence}")
+    sums = {"orbits": len(evidence), "systems": sum(e.weight for e in evidence), "accepted": sum(e.accepted for e in evidence)}
+    return found | sums | {"seconds": round(time.process_time() - started, 2)}
+
+
+def covered(lines: Iterable[Found]) -> str:
+    """Return the table of what was gone through, a row for each (n, p, m)."""
+    sums: dict[tuple[int, int, int], dict[str, float]] = defaultdict(lambda: defaultdict(float))
+    for line in lines:
+        for key in ("orbits", "systems", "accepted", "seconds"):
+            sums[line["n"], line["p"], line["m"]][key] += line[key]
+    rows: list[tuple[str, ...]] = [("n", "p", "m", "orbits", "of", "systems", "of 2^", "part", "certificates", "CPU s")]
+    for (n, p, m), row in sorted(sums.items()):
+        bits, part = (n + p) * (n + m), row["systems"] / 2 ** ((n + p) * (n + m))
+        numbers = (int(row["orbits"]), orbit_count(n, p, m), int(row["systems"]), bits)
+        rows.append((*map(str, (n, p, m, *numbers)), f"{part:.4g}", str(int(row["accepted"])), f"{row['seconds']:.1f}"))
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return "\n".join("  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Go through the world that the arguments choose, print the table, and return the exit code."""
+    parser = argparse.ArgumentParser(prog="python -m faultspace.proofs.worlds", description="Every system over GF(2) of some dimensions.")
+    for name, most, what in (("n", 3, "states"), ("p", 3, "outputs"), ("m", 2, "faults")):
+        parser.add_argument(f"--{name}", type=int, default=most, help=f"the most {what} ({most})")
+    parser.add_argument(
+        "--out", type=Path, metavar="FILE", required=True, help="finished units, a line of JSON each; what it has is not done again"
+    )
+    parser.add_argument("--part", type=int, default=1, metavar="K", help="only every Kth unit, to measure what all would take (1)")
+    parser.add_argument("--jobs", type=int, default=0, help="processes (one for each core)")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="work on the Dask cluster with this scheduler instead")
+    given = parser.parse_args(arguments)
+    if min(given.n, given.p, given.m, given.jobs) < 0 or given.part < 1 or given.n + given.m > LARGEST:
+        parser.error(
+            f"got n={given.n} p={given.p} m={given.m} part={given.part} jobs={given.jobs}, expected none below 0 and n + m <= {LARGEST}"
+        )
+    if given.scheduler and given.jobs:
+        parser.error("--jobs and --scheduler exclude each other: the cluster decides how many work")
+    chosen = list(units(given.n, given.p, given.m))[:: given.part]
+    try:
+        before = _kept(given.out)
+    except (ValueError, KeyError) as error:
+        parser.error(f"--out: {given.out} is no file of finished units ({error}); name another")
+    finished = {(line["n"], line["p"], line["m"], line["pair"]) for line in before}
+    waiting = [unit for unit in chosen if unit not in finished]
+    try:
+        lines = _run(waiting, given.out, given.jobs or joblib.cpu_count(), given.scheduler)
+    except InvalidData as error:
+        parser.error(str(error))
+    mine = [line for line in (*before, *lines) if (line["n"], line["p"], line["m"], line["pair"]) in set(chosen)]
+    print(covered(mine))
+    failing = [words for line in mine for words in line["failing"]]
+    print("\n".join(failing) if failing else f"no counterexample to any of {len(READINGS)} readings")
+    return 1 if failing else 0
+
+
+def _run(waiting: Sequence[Unit], out: Path, jobs: int, scheduler: str | None) -> list[Found]:
+    lines: list[Found] = []
+    if not waiting:
+        return lines
+    with pool(jobs, scheduler) as parallel, out.open("a", encoding="utf-8") as file:
+        for line in parallel(joblib.delayed(examined)(unit) for unit in waiting):
+            file.write(json.dumps({"format": FORMAT} | line) + "\n")
+            file.flush()
+            lines.append(line)
+            print(f"{len(lines)}/{len(waiting)} units", file=sys.stderr)
+    return lines
+
+
+def _kept(out: Path) -> list[Found]:
+    """Return the lines of the file. One that a stop cut short, which can be the last alone, is taken out of it."""
+    if not out.exists():
+        return []
+    text = out.read_text(encoding="utf-8")
+    whole = text[: text.rfind("\n") + 1]
+    lines = [json.loads(line) for line in whole.splitlines()]
+    if any(line["format"] != FORMAT for line in lines):
+        raise ValueError(f"the format is not {FORMAT}")
+    if whole != text:
+        out.write_text(whole, encoding="utf-8")
+    return lines
+
+
+if __name__ == "__main__":
+    sys.exit(main())
