@@ -18,8 +18,9 @@ from ..base.errors import InvalidInput, in_file, quote_path, shorten
 from ..base.messages import say
 from ..base.progress import evenly, working
 from ..base.sheets import counted
-from ..numeric.data.files import read_record, split_names
+from ..numeric.data.files import read_record
 from ..numeric.data.records import Record, recorded
+from ..numeric.data.selectors import split_names
 from ..numeric.data.streams import RESTARTED, TableStream, followed
 from ..numeric.model.models import StateSpaceModel
 from ..numeric.monitor.alarms import Alarm

@@ -2,15 +2,12 @@
 
 read_record     the chosen channels of a file, as a Record
 read_stretches  the stretches of a file between rows that are not whole, as Records
-split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate
-named_once      the refusal of a channel that is named more than once
 FORMATS         suffix -> format
 READERS         format -> the function that reads it, at the end of the file
 
-A channel is chosen by its column's name. For matrices (NPZ, NPY, MAT, and text without a line of names; in NPY and text the matrix is
-called `data`): NAME is all columns, NAME[:,j] or NAME[j] column j, NAME[:,i:j] several, NAME[i,:] row i, NAME[i,j] channel (i, j) of an
-array whose first of three axes is time. Indices count from 0. The file is only read. Everything wrong raises InvalidInput: what was got,
-what is needed, what to try.
+A channel is chosen by its column's name, or by a selector of a matrix (`selectors.py`; NPZ, NPY, MAT, and text without a line of names; in
+NPY and text the matrix is called `data`). The file is only read. Everything wrong raises InvalidInput: what was got, what is needed,
+what to try.
 
 No more of a file than a piece is held in memory: text goes by lines, Parquet by the pages of its columns, NPY by a memory map, large
 arrays of an NPZ by a memory map of what is unpacked among the temporary files. MAT is the exception: its variables are compressed as a
@@ -25,7 +22,6 @@ from __future__ import annotations
 import io
 import mmap
 import os
-import re
 import shutil
 import tempfile
 import zipfile
@@ -46,6 +42,7 @@ from ...base.sheets import counted
 from .clocks import Clock, first_clock, whole_clock
 from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
+from .selectors import labels_of, missing, named_once, picked, split_names
 from .text_tables import TextTable
 from .validation import first_not_finite
 
@@ -55,12 +52,10 @@ FORMATS = {
     ".csv": "text", ".tsv": "text", ".txt": "text", ".dat": "text",
     ".parquet": "Parquet", ".pq": "Parquet", ".npz": "NPZ", ".npy": "NPY", ".mat": "MAT",
 }  # fmt: skip
-MOST_NAMED = 12
 MATRIX = "data"
 PIECE = 1 << 14  # samples converted at once
 BUFFER = 1 << 20  # bytes of a column that Parquet reads at once
 MAPPED = 1 << 20  # bytes of an array above which it is mapped, not read
-_SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
 
 
 @dataclass(frozen=True)
@@ -72,17 +67,6 @@ class _Opened:
     single: bool
     rows: Iterator[Array]
     clock: Clock | None = None
-
-
-def split_names(given: str | Sequence[str]) -> list[str]:
-    """Return the names in a text, or in texts, that may each hold several, separated by commas outside brackets. Raises InvalidData for
-    what is no text."""
-    given = [given] if isinstance(given, str) else list(given)
-    wrong = [name for name in given if not isinstance(name, str)]
-    if wrong:
-        raise InvalidData(f"got {shorten(wrong[0])} as the name of a channel, expected text: a matrix's columns are data[:,0], data[:,1:3]")
-    names = [name.strip() for text in given for name in re.split(r",(?![^\[\]]*\])", text)]
-    return [name for name in names if name]
 
 
 def read_record(
@@ -181,7 +165,7 @@ def _opened(
         raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
     with _readable(read_as):
         found = READERS[read_as](Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
-    labels = [_labels(name, width) for name, width in zip(names, found.widths, strict=True)]
+    labels = [labels_of(name, width) for name, width in zip(names, found.widths, strict=True)]
     u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
     y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]
     named_once(u_names, y_names)
@@ -198,29 +182,6 @@ def _readable(read_as: str) -> Iterator[None]:
         raise InvalidInput(f"cannot be read as {read_as} data ({reason[:1].lower()}{reason[1:]}), expected a data file") from None
 
 
-def named_once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
-    """Raise InvalidData for a channel named more than once."""
-    both = [name for name in inputs if name in outputs]
-    if both:
-        raise InvalidData(f"got channel {shorten(both[0])} as input and as output, expected it to be one of them")
-    for names in (inputs, outputs):
-        twice = [name for i, name in enumerate(names) if name in names[:i]]
-        if twice:
-            raise InvalidData(f"got channel {shorten(twice[0])} twice, expected every channel once")
-
-
-def _labels(selector: str, count: int) -> list[str]:
-    """Return the channels that a selector stands for: itself, or for several its last range replaced by each number."""
-    if count == 1:
-        return [selector]
-    match = _SELECTOR.match(selector)
-    name, indices = (match["name"], match["indices"].split(",")) if match else (selector, [":", ":"])
-    place = max(i for i, index in enumerate(indices) if ":" in index)
-    start = indices[place].partition(":")[0].strip()
-    first = int(start) if start else 0
-    return [f"{name}[{','.join([*indices[:place], str(first + j), *indices[place + 1 :]])}]" for j in range(count)]
-
-
 def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
     """Refuse what is no finite number; the rows begin with sample `first`."""
     if wrong := first_not_finite(rows):
@@ -232,30 +193,21 @@ def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
         )
 
 
-def _missing(name: str, there: Sequence[str], what: str) -> InvalidInput:
-    if not there:
-        return InvalidInput(f"got no {what} at all, expected {shorten(name)}")
-    listed = ", ".join(there[:MOST_NAMED]) + (f", ... ({len(there)} in all)" if len(there) > MOST_NAMED else "")
-    near = [other for other in there if other.lower().strip() == name.lower().strip()]
-    advice = f"; did you mean {shorten(near[0])}?" if near else ""
-    return InvalidInput(f"there is no {what} {shorten(name)}, expected one of: {listed}{advice}")
-
-
 def _text(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) -> _Opened:
     table = TextTable.opened(path)
     wanted: list[list[int]] = []
     for name in names:
         if table.names is not None:
             if name not in table.names:
-                raise _missing(name, table.names, f"column (separated by {table.separator_name})")
+                raise missing(name, table.names, f"column (separated by {table.separator_name})")
             wanted.append([table.names.index(name)])
         else:
             # The first line of values tells the width: a selector on it tells the columns.
             stand_in = np.tile(np.arange(table.width), (2, 1))
-            picked = _picked({MATRIX: stand_in}, name, "matrix; the file has no line of names, so its columns are")
-            if not np.array_equal(picked[0], picked[-1]):
+            chosen = picked({MATRIX: stand_in}, name, "matrix; the file has no line of names, so its columns are")
+            if not np.array_equal(chosen[0], chosen[-1]):
                 raise InvalidInput(f"got {shorten(name)}, expected columns {MATRIX}[:,j] of a file without a line of names")
-            wanted.append([int(j) for j in np.atleast_1d(picked[0])])
+            wanted.append([int(j) for j in np.atleast_1d(chosen[0])])
     places = [place for group in wanted for place in group]
     there = table.names or ()
     units = dict(zip(there, table.units or (), strict=False))
@@ -284,7 +236,7 @@ def _parquet(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack
         raise InvalidInput(f"got two columns named {shorten(twice[0])}, expected every name once")
     for name in names:
         if name not in there:
-            raise _missing(name, there, "column")
+            raise missing(name, there, "column")
         kind = file.schema_arrow.field(name).type
         if not (arrow.types.is_integer(kind) or arrow.types.is_floating(kind) or arrow.types.is_boolean(kind)):
             raise InvalidInput(f"column {shorten(name)} holds values of type {kind}, expected numbers")
@@ -314,7 +266,7 @@ def _npz(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
         members = {name.removesuffix(".npy"): name for name in archive.namelist()}
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="faultspace-")))
         arrays = _Lazily(list(members), lambda name: _member(archive, members[name], folder))
-        return _timed(_side_by_side([_signal(_picked(arrays, name, "array"), name) for name in names], names, on_read), arrays, names)
+        return _timed(_side_by_side([_signal(picked(arrays, name, "array"), name) for name in names], names, on_read), arrays, names)
     except ValueError as error:
         if isinstance(error, InvalidInput):
             raise
@@ -346,7 +298,7 @@ def _npy(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
         if array.ndim == 0:
             raise InvalidInput("got a single number, expected a matrix with a row a sample")
         what = f"array; the one of an NPY file is called {MATRIX}, it is not"
-        return _side_by_side([_signal(_picked({MATRIX: array}, name, what), name) for name in names], names, on_read)
+        return _side_by_side([_signal(picked({MATRIX: array}, name, what), name) for name in names], names, on_read)
     except ValueError as error:
         if isinstance(error, InvalidInput):
             raise
@@ -361,10 +313,10 @@ def _mat(path: Path, names: Sequence[str], on_read: OnRead, stack: ExitStack) ->
     try:
         there = [name for name, _, _ in whosmat(path)]
         arrays: Mapping[str, Any] = _Lazily(there, lambda name: loadmat(path, variable_names=[name])[name])
-        return _timed(_side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
+        return _timed(_side_by_side([_signal(picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
     except NotImplementedError:
         arrays = hdf5_arrays(path, stack)
-        return _timed(_side_by_side([_signal(_picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
+        return _timed(_side_by_side([_signal(picked(arrays, name, "variable"), name) for name in names], names, on_read), arrays, names)
     except (MatReadError, ValueError, TypeError, KeyError, IndexError) as error:
         if isinstance(error, InvalidInput):
             raise
@@ -422,41 +374,6 @@ class _Lazily(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return len(self._names)
-
-
-def _picked(arrays: Mapping[str, Any], selector: str, what: str) -> Any:
-    """Return what the selector stands for: an array itself, or NAME[...] of one."""
-    there = list(arrays)
-    if selector in there:
-        return arrays[selector]
-    match = _SELECTOR.match(selector)
-    if match is None or match["name"] not in there:
-        raise _missing(match["name"] if match else selector, there, what)
-    array = np.asarray(arrays[match["name"]])
-    parts = [part.strip() for part in match["indices"].split(",")]
-    try:
-        index = tuple(int(part) if ":" not in part else _range(part) for part in parts)
-    except (ValueError, TypeError):
-        raise InvalidInput(f"got {shorten(selector)}, expected NAME[:,j] with j an integer counted from 0 or a range i:j") from None
-    name, shape = match["name"], " x ".join(map(str, array.shape))
-    if len(index) == array.ndim - 1 and not (len(index) == 1 and isinstance(index[0], slice)):
-        index = (slice(None), *index)  # the axis not spoken of is time
-    if len(index) != array.ndim:
-        pattern = ",".join([":", *"j" * (array.ndim - 1)])
-        raise InvalidInput(f"got {shorten(selector)} of a {shape} array, expected {array.ndim} indices, as in {name}[{pattern}]")
-    try:
-        picked = array[index]
-    except IndexError:
-        raise InvalidInput(f"got {shorten(selector)}, but {name} is {shape}: indices count from 0") from None
-    if picked.ndim == 0:
-        advice = f"{name}[:,{parts[-1]}] is column {parts[-1]}"
-        raise InvalidInput(f"got {shorten(selector)}, one number of a {shape} array; expected a channel: {advice}")
-    return picked
-
-
-def _range(text: str) -> slice:
-    first, last = (int(number) if number.strip() else None for number in text.split(":"))
-    return slice(first, last)
 
 
 def _signal(values: Any, name: str) -> NDArray[Any]:

@@ -21,8 +21,9 @@ from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress
 from ...base.sheets import counted
 from .clocks import Clock, clock_from, first_clock, time_name
-from .files import named_once, read_record, split_names
+from .files import read_record
 from .records import Record, RecordWriter
+from .selectors import named_once, split_names
 from .validation import checked_pieces, two_dimensional
 
 Source = ArrayLike | str | os.PathLike[str] | Record | Iterable[tuple[ArrayLike, ArrayLike]]
