@@ -1,6 +1,7 @@
 """`faultspace identify`: whole runs on data whose answer is known, and what it says where the data cannot tell.
 
 csv_file        the packaged record as a table
+answered        a run on it with pictures, order and sample time given, that several tests read, and its folder, of which they make a copy
 response        what a fault column does to the outputs, whatever the basis of the states
 """
 
@@ -12,6 +13,7 @@ import importlib.util
 import json
 import os
 import shlex
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -36,8 +38,8 @@ from faultspace.numeric.report.summary import advice
 from faultspace.numeric.signal.reconstruction import reconstruct_fault
 from faultspace.numeric.space.by_ranks import fault_space
 from faultspace.numeric.space.distances import containment_distance, subspace_distance
-from tests.end_to_end.commands import call, command, validator
-from tests.end_to_end.identify_runs import CHANNELS, identified, refused, small_csv, valid
+from tests.end_to_end.commands import Run, call, validator
+from tests.end_to_end.identify_runs import identified, refused, small_csv, valid
 
 Array = NDArray[np.float64]
 
@@ -52,6 +54,16 @@ def record() -> made.FaultyRecord:
 @pytest.fixture
 def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
     return small_csv(tmp_path, made.csv_text(record), made.FILE_NAME)
+
+
+@pytest.fixture(scope="module")
+def answered(tmp_path_factory: pytest.TempPathFactory, record: made.FaultyRecord) -> tuple[Run, Path]:
+    # Fixtures of a module come before those of a test, so that these pictures are rendered.
+    folder = tmp_path_factory.mktemp("answered")
+    path = small_csv(folder, made.csv_text(record), made.FILE_NAME)
+    run = identified(path, folder / "out", "--json", "--order", "3", "--dt", "0.25")
+    assert run.code == 0, run.err
+    return run, folder / "out"
 
 
 def response(A: Any, F: Any, C: Any, G: Any, count: int = 8) -> Array:
@@ -103,7 +115,7 @@ def test_the_packaged_record_gives_the_fault_that_made_it(csv_file: Path, record
 
 def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "deep" / "out"
-    run = command("identify", str(csv_file), *CHANNELS, "--out", str(out))
+    run = identified(csv_file, out)
     assert run.code == 0, run.err
     assert "order **3**, chosen from the data: the only one left open" in run.out and "n_v: **1**" in run.out and run.err == ""
     for part in (
@@ -127,12 +139,12 @@ def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path
 
 
 @needs_matplotlib
-def test_the_plots_are_pictures(csv_file: Path, tmp_path: Path, rendered: None) -> None:
-    run = identified(csv_file, tmp_path / "out", "--json", "--order", "3")
+def test_the_plots_are_pictures(answered: tuple[Run, Path]) -> None:
+    run, out = answered
     assert set(PICTURES) <= set(run.json["files"])  # noisy data: the levels are pictured too
     for name in PICTURES:
-        assert (tmp_path / "out" / name).read_bytes().startswith(b"\x89PNG"), name
-    assert (tmp_path / "out" / report.PAGE).read_text("utf-8").count('<img src="data:image/png;base64,') == len(PICTURES)
+        assert (out / name).read_bytes().startswith(b"\x89PNG"), name
+    assert (out / report.PAGE).read_text("utf-8").count('<img src="data:image/png;base64,') == len(PICTURES)
 
 
 def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -147,9 +159,8 @@ def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Pat
     assert "matplotlib" in (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
 
 
-def test_inspect_reads_the_model_where_floats_are_taken_exactly(csv_file: Path, tmp_path: Path) -> None:
-    assert identified(csv_file, tmp_path / "out", "--order", "3").code == 0
-    model = tmp_path / "out" / report.MODEL
+def test_inspect_reads_the_model_where_floats_are_taken_exactly(answered: tuple[Run, Path]) -> None:
+    model = answered[1] / report.MODEL
     validator("model", "faultspace.numeric").validate(json.loads(model.read_text("utf-8")))
     run = call("inspect", str(model), "--floats-exactly", "--json")
     assert run.code == 0, run.err
@@ -165,11 +176,11 @@ def test_who_reads_a_model_knows_the_format_and_the_keys_of_who_writes_it() -> N
     assert set(_MODEL_KEYS) == set(validator("model", "faultspace.numeric").schema["properties"])
 
 
-def test_the_sample_time_goes_into_the_model_that_is_inspected(csv_file: Path, tmp_path: Path) -> None:
-    run = identified(csv_file, tmp_path / "out", "--dt", "0.25", "--json", "--order", "3")
-    model = tmp_path / "out" / report.MODEL
-    content = json.loads(model.read_text("utf-8"))
-    assert run.code == 0 and content["dt"] == 0.25
+def test_the_sample_time_goes_into_the_model_that_is_inspected(answered: tuple[Run, Path], csv_file: Path, tmp_path: Path) -> None:
+    run, out = answered
+    model = tmp_path / report.MODEL
+    content = json.loads((out / report.MODEL).read_text("utf-8"))
+    assert content["dt"] == 0.25
     validator("model", "faultspace.numeric").validate(content)
     # Exact zeros of floats that were estimated say nothing, so that nobody is sent to look for them.
     assert not any("inspect" in line for line in run.json["next"])
@@ -179,10 +190,9 @@ def test_the_sample_time_goes_into_the_model_that_is_inspected(csv_file: Path, t
         refused(call("inspect", str(model), "--floats-exactly"), "dt")
 
 
-def test_the_summary_has_one_measure_of_what_is_explained(csv_file: Path, tmp_path: Path) -> None:
-    run = identified(csv_file, tmp_path / "out", "--order", "3")
-    text = (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
-    assert run.code == 0 and "explained of the residual: 99.68 %" in text and "unexplained" not in text
+def test_the_summary_has_one_measure_of_what_is_explained(answered: tuple[Run, Path]) -> None:
+    text = (answered[1] / report.SUMMARY).read_text("utf-8")
+    assert "explained of the residual: 99.68 %" in text and "unexplained" not in text
     for said in (
         "share of the sum of squares",
         "fit means 100 (1 - |y - simulated y| / |y - mean of y|)",
@@ -245,9 +255,9 @@ def test_without_a_fault_there_is_none() -> None:
     assert answer.n_v == 0 and answer.fault_space is None and answer.signal is None
 
 
-def test_an_open_order_is_an_answer_and_old_files_go(csv_file: Path, tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    assert identified(csv_file, out, "--order", "3").code == 0 and (out / report.MODEL).exists()
+def test_an_open_order_is_an_answer_and_old_files_go(answered: tuple[Run, Path], tmp_path: Path) -> None:
+    out = shutil.copytree(answered[1], tmp_path / "out")
+    assert (out / report.SIGNAL).exists()
     draw = np.random.default_rng(5)
     path = tmp_path / "noise.npz"
     np.savez(path, u=draw.standard_normal(600), y=draw.standard_normal((600, 2)))
@@ -272,9 +282,9 @@ def test_a_file_of_somebody_else_is_refused_and_stays(name: str, csv_file: Path,
     assert [path.name for path in out.iterdir()] == [name] and (out / name).read_text("utf-8") == "mine"
 
 
-def test_a_file_edited_since_is_its_owners(csv_file: Path, tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    assert all(identified(csv_file, out, "--order", "3").code == 0 for _ in range(2))
+def test_a_file_edited_since_is_its_owners(answered: tuple[Run, Path], csv_file: Path, tmp_path: Path) -> None:
+    out = shutil.copytree(answered[1], tmp_path / "out")
+    assert identified(csv_file, out, "--order", "3").code == 0
     before = {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
     (out / report.SUMMARY).write_text("my remarks", encoding="utf-8")
     refused(identified(csv_file, out, "--order", "2"), report.SUMMARY, "no earlier run wrote")

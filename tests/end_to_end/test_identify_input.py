@@ -23,7 +23,8 @@ from faultspace import example_data as made
 from faultspace.base.errors import InvalidInput
 from faultspace.cli import command_line, identifying
 from faultspace.numeric.data import files as data_files
-from faultspace.numeric.data.files import read_record, split_names
+from faultspace.numeric.data.files import read_record
+from faultspace.numeric.data.selectors import split_names
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.report import files as report
 from tests.end_to_end.identify_runs import identified, refused, small_csv
@@ -269,10 +270,10 @@ def test_a_failure_in_writing_leaves_no_half_answer(csv_file: Path, tmp_path: Pa
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(report, "_signal_table", full)
-    refused(identified(csv_file, tmp_path / "out"), "no space left")
+    refused(identified(csv_file, tmp_path / "out", "--order", "3"), "no space left")
     assert not (tmp_path / "out").exists()
     (tmp_path / "kept").mkdir()
-    refused(identified(csv_file, tmp_path / "kept"), "no space left")
+    refused(identified(csv_file, tmp_path / "kept", "--order", "3"), "no space left")
     assert list((tmp_path / "kept").iterdir()) == []
 
 

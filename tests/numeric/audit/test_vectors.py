@@ -53,7 +53,7 @@ def _same(made: Any, kept: Any, place: str) -> None:
 
 @pytest.fixture(scope="module")
 def made() -> dict[str, Any]:
-    """All documents as the tool would write them now; of the records of faults, each of which is made in ten views, a third."""
+    """All documents as the tool would write them now; of the records of faults, each of which is made in ten views, a part."""
     part = fault_records.fault_systems()[:: every()]
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(MAKERS, "faults", lambda: [fault_records._faults(slug, system) for slug, system in part])
