@@ -1,213 +1,244 @@
-"""This measures what `identify --healthy-until` sees of each kind of change: how often rightly, and how often of nothing.
+"""This measures what `identify --healthy-until K` says of each kind of change: how often rightly, how soon, and how often of nothing.
 
-    python benchmarks/changes.py [--trials 10] [--healthy-trials 100] [--seed 1] [--samples short usual] [--markdown]
+    OPENBLAS_NUM_THREADS=1 python benchmarks/changes.py CASES [--records 100] [--tables 200] [--minutes 40] [--seed 1]
+                                                       [--setting middle] [--table] [--markdown]
 
-Random stable plants of three states, order given; noise of a random colour, correlated, a fortieth of each output's size. `short`:
-5 outputs, 1 input, 160 healthy samples, 240 after; `usual`: 3 outputs, 2 inputs, 600 and 900. Half of the records are of a closed loop
-with a random proportional controller, which sees what the sensors say. A change sets in with the first sample after the healthy ones, of
-3, 10 and 30 standard deviations (sigma) of the noise of one output:
+CASES is a file to which each case is written as it comes; the same command goes on with it, and ends with the tables of all that is there
+(`--table`: shows them and measures nothing). Cases come in rounds of one record of every line, so that all lines have as many wherever
+a run was stopped; `--minutes` are CPU minutes. The random numbers of a case are those of its seed, setting, line and number, and of
+nothing else. The records are those of `changes_records.py`; settings: `short` has 5 outputs, 1 input, 160 healthy samples and 240 after,
+`middle` 3, 2, 300 and 300, `usual` 3, 2, 600 and 900. The order, 3, is stated.
 
-    mean shift, step     a constant, from the beginning or from the middle on
-    drift                a ramp up to this size
-    white fault          white noise of this deviation
-    sinusoid             of this amplitude and a random frequency
-    output gain          a sensor, input gain an actuator, that loses so much of its gain that the loss has this root mean square
-    stuck                a sensor that stands still but for a jitter of a hundredth of sigma; freezing: one that holds its value now
-                         and then, for 10 to 30 samples. Their size is that of the output: its noise is a third, a tenth, a thirtieth of it
+    right       the row of this kind and channel is seen (of a step that of mean or drift; of white and coloured noise that of growth;
+                of a stuck sensor that of lost variance or of freezing), or one fault is counted
+    other       something else is seen, or another number is counted
+    undecided   nothing is seen, and no 0 is said
+    zero        a bold 0, which is wrong
+    n_v wrong   a number of faults is said that is neither 1 nor 0
+    cause       right: the sensor or actuator is named alone; wrong: another one is, without it, or it is excluded; open: none is named,
+                or several
+    n_z         records with an n_z that the observability indices of the model's (A, C) forbid
+    onset       found: one begins at the true sample or later, or its interval holds it; held: the interval does; delay: the median,
+                in samples, of the first of these; early: records with one wholly before
+    cpu         seconds a record, `identify` alone
 
-What is told: `right` the row of this kind and channel is seen (of a step that of mean or drift; of a stuck sensor that of lost variance or
-of freezing), `other` something else is seen, `undecided` nothing is, and no 0 is said, `zero` a bold 0, which is wrong. Of records without
-a change: `alarm` a row of the table is seen, by the number of records, which the level of the table, 0.01, bounds, and in which rows. The
-table is there made as `identify` makes it, without the count of faults, which would take most of the time.
+Without a change the table has an alarm where any row is seen, which its level, 0.01, bounds; "n_v > 0" are records in which a fault is
+counted. `--tables` are the records of which only the table is made, as `identify` makes it: the count of faults takes most of the time.
 """
 
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.signal import lfilter
 
-from faultspace.numeric import arx_reduction, changes_since_healthy, identify, residual
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
 
-Array = NDArray[np.float64]
+from benchmarks.changes_records import KINDS, SETTINGS, Drawn, record
+from benchmarks.kept_cases import Cases, interval
+from faultspace.numeric import Identification, Isolation, ShiftIsolation, arx_reduction, changes_since_healthy, identify, residual
+from faultspace.numeric.space.largest import largest_fault_space
 
 SIZES = (3.0, 10.0, 30.0)
-SIGNAL_TO_NOISE = 40.0
-SETTINGS = {"short": (5, 1, 160, 240), "usual": (3, 2, 600, 900)}  # outputs, inputs, healthy samples, samples after
-KINDS = ("mean shift", "step", "drift", "white fault", "sinusoid", "output gain", "input gain", "stuck", "freezing")
+LOOPS = (False, True)
 RIGHT = {
     "step": ("mean shift", "drift"),
     "white fault": ("growth of variance",),
+    "coloured fault": ("growth of variance",),
     "stuck": ("loss of variance", "freezing"),
 }
 OUTCOMES = ("right", "other", "undecided", "zero")
 
 
-@dataclass(frozen=True)
-class Plant:
-    """x(k+1) = A x(k) + B u(k), y(k) = C x(k), and u(k) = L y(k-1) + what excites it."""
-
-    A: Array
-    B: Array
-    C: Array
-    L: Array
-
-
-def plant(random: np.random.Generator, p: int, n_u: int, *, loop: bool) -> Plant:
-    """Draw a stable plant, whose loop is stable, too."""
-    A = random.standard_normal((3, 3))
-    A *= random.uniform(0.3, 0.95) / np.abs(np.linalg.eigvals(A)).max()
-    B, C, L = random.standard_normal((3, n_u)), random.standard_normal((p, 3)), random.standard_normal((n_u, p)) * loop
-    while True:
-        closed = np.block([[A, B @ L], [C, np.zeros((p, p))]])
-        if np.abs(np.linalg.eigvals(closed)).max() < 0.95 or not L.any():
-            return Plant(A, B, C, L)
-        L = L * 0.7
-
-
-def run(system: Plant, dither: Array, noise: Array, sensor: Callable[[int, Array, Array], Array], actuator: Array) -> tuple[Array, Array]:
-    """Return y and u: `sensor` makes what is measured of (k, true outputs and noise, the last measured), `actuator` (N, n_u) are gains."""
-    x, y, u = np.zeros(3), np.zeros(noise.shape), np.zeros(dither.shape)
-    last = np.zeros(noise.shape[1])
-    for k in range(len(y)):
-        u[k] = system.L @ last + dither[k]
-        last = y[k] = sensor(k, system.C @ x + noise[k], last)
-        x = system.A @ x + system.B @ (actuator[k] * u[k])
-    return y, u
-
-
-def coloured(random: np.random.Generator, samples: int, p: int) -> Array:
-    """Return correlated noise of one random colour, each output of deviation one."""
-    white = random.standard_normal((samples + 200, p)) @ (np.eye(p) + 0.5 * random.standard_normal((p, p)))
-    made = lfilter([1.0, random.uniform(-0.8, 0.8)], [1.0, -random.uniform(-0.8, 0.8)], white, axis=0)[200:]
-    return np.asarray(made / made.std(axis=0))
-
-
-def record(kind: str, size: float, setting: tuple[int, int, int, int], random: np.random.Generator, loop: bool) -> tuple[Array, Array, int]:
-    """Return y, u and the output or input that has changed; the kind "none" changes nothing."""
-    p, n_u, healthy, after = setting
-    N = healthy + after
-    system, dither, unit = plant(random, p, n_u, loop=loop), random.standard_normal((N, n_u)), coloured(random, N, p)
-    held = kind in ("stuck", "freezing")
-    quiet, given = run(system, dither, np.zeros((N, p)), lambda k, y, last: y, np.ones((N, n_u)))
-    sigma = quiet.std(axis=0) / (size if held else SIGNAL_TO_NOISE)
-    which = int(random.integers(n_u if kind == "input gain" else p))
-    k = np.arange(N)
-    on = k >= healthy
-    late = np.where(on, k - healthy, 0) / after
-    shapes = {
-        "mean shift": 1.0 * on,
-        "step": 1.0 * (late > 0.5),
-        "drift": late,
-        "white fault": on * random.standard_normal(N),
-        "sinusoid": on * np.sin(2.0 * np.pi * random.uniform(0.02, 0.48) * k + random.uniform(0.0, 6.0)),
-    }
-    added = size * sigma[min(which, p - 1)] * shapes.get(kind, np.zeros(N))
-    gain = -min(size / SIGNAL_TO_NOISE, 0.95) * on if kind == "output gain" else np.zeros(N)
-    actuator = np.ones((N, n_u))
-    if kind == "input gain":
-        alone = run(
-            Plant(system.A, system.B, system.C, 0.0 * system.L), given * (np.arange(n_u) == which), np.zeros((N, p)), same, actuator
-        )
-        actuator[on, which] -= min(size / np.max(alone[0].std(axis=0) / sigma), 0.95)
-    stops = on & (kind == "stuck")
-    if kind == "freezing":
-        for start in random.choice(np.arange(healthy, N - 30), max(after // 100, 1), replace=False):
-            stops[start : start + int(random.integers(10, 31))] = True
-    jitter = 0.01 * sigma[min(which, p - 1)] * random.standard_normal(N) if kind == "stuck" else np.zeros(N)
-    base = [0.0]
-
-    def sensor(k: int, y: Array, last: Array) -> Array:
-        y = y.copy()
-        if kind != "input gain":
-            y[which] = (1.0 + gain[k]) * y[which] + added[k]
-            if stops[k]:
-                base[0] = base[0] if k and stops[k - 1] else last[which]
-                y[which] = base[0] + jitter[k]
-        return y
-
-    y, u = run(system, dither, unit * sigma, sensor, actuator)
-    return y, u, which
-
-
-def same(k: int, y: Array, last: Array) -> Array:
-    """Measure what is there."""
-    return y
-
-
-def told(kind: str, y: Array, u: Array, healthy: int, which: int) -> str:
+def told(kind: str, drawn: Drawn) -> dict[str, Any]:
     """Return what `identify` tells of a record."""
-    answer = identify(y, u, order=3, healthy=healthy)
+    start = time.process_time()
+    answer = identify(drawn.y, drawn.u, order=3, healthy=drawn.healthy)
+    values: dict[str, Any] = {"seconds": round(time.process_time() - start, 3), "n_v": answer.n_v}
+    seen = answer.changes.seen if answer.changes else ()
+    values |= {"rows": [f"{row.kind} {row.channel}" for row in seen], "possible": list(answer.possible), "reason": answer.reason[:300]}
+    values["outcome"] = _outcome(kind, answer, drawn.channel)
+    space, model = answer.fault_space, answer.model
+    values["n_z"] = None
+    if space is not None and model is not None:
+        most = largest_fault_space(model.A, model.C, space.n_v)
+        values |= {"n_z": space.n_z, "decided": space.decided, "allowed": space.n_v <= space.n_z <= most}
+    for name, found in (("space", answer.isolation), ("shift", answer.shift_isolation)):
+        if found is not None:
+            values[f"{name} cause"] = _cause(found, drawn.channel)
+            values[f"{name} chances"] = [cause.p_value for cause in found.causes]
+    onsets = answer.onset.onsets if answer.onset else ()
+    values["onsets"] = [(one.sample, *one.interval) for one in onsets]
+    values["begins"] = drawn.begins
+    return values
+
+
+def _outcome(kind: str, answer: Identification, channel: str | None) -> str:
+    """Return one of the OUTCOMES."""
+    if answer.n_v == 0:
+        return "zero"
     rows = answer.changes.seen if answer.changes else ()
-    channel = f"{'u' if kind == 'input gain' else 'y'}{which + 1}"
-    if any(row.kind in RIGHT.get(kind, (kind,)) and row.channel == channel for row in rows):
-        return "right" if answer.n_v != 0 else "zero"
-    if answer.at_least:
-        return "other"
-    return "undecided" if answer.n_v is None else "zero"
+    row = any(row.kind in RIGHT.get(kind, (kind,)) and row.channel == channel for row in rows)
+    if answer.n_v == 1 or (row and answer.n_v is None):
+        return "right"
+    return "other" if answer.at_least else "undecided"
 
 
-def alarms(y: Array, u: Array, healthy: int) -> list[str]:
-    """Return the kinds of the rows that are seen in the table that `identify` makes."""
-    found = arx_reduction(y[:healthy], u[:healthy], order=3)
-    r = residual(y, u, found, x0=found.x0).r
-    return [row.kind for row in changes_since_healthy(r, y, u, healthy=healthy, model=found).seen]
+def _cause(found: Isolation | ShiftIsolation, channel: str | None) -> str:
+    """Return right, wrong or open."""
+    named = [cause.channel for cause in found.causes if cause.answer == "consistent"]
+    excluded = [cause.channel for cause in found.causes if cause.answer == "excluded"]
+    if named == [channel]:
+        return "right"
+    return "wrong" if channel in excluded or (named and channel not in named) else "open"
+
+
+def alarms(drawn: Drawn) -> dict[str, Any]:
+    """Return the rows that are seen in the table that `identify` makes."""
+    start, healthy = time.process_time(), drawn.healthy
+    found = arx_reduction(drawn.y[:healthy], drawn.u[:healthy], order=3)
+    r = residual(drawn.y, drawn.u, found, x0=found.x0).r
+    rows = changes_since_healthy(r, drawn.y, drawn.u, healthy=healthy, model=found).seen
+    return {"rows": [f"{row.kind} {row.channel}" for row in rows], "seconds": round(time.process_time() - start, 3)}
+
+
+def lines() -> Iterator[tuple[str, float, bool]]:
+    """Yield kind, size and feedback of every line."""
+    for kind in ("none", *KINDS):
+        for size in SIZES if kind != "none" else (0.0,):
+            for loop in LOOPS:
+                yield kind, size, loop
+
+
+def measured(cases: Cases, arguments: argparse.Namespace) -> None:
+    """Measure what is not there yet, in rounds."""
+    cases.begin()
+    setting = SETTINGS[arguments.setting]
+    places = [*lines(), *(("table", 0.0, loop) for loop in LOOPS)]
+    for k in range(max(arguments.records, arguments.tables)):
+        for kind, size, loop in places:
+            most = arguments.tables if kind == "table" else arguments.records
+            key = f"{arguments.setting}, {kind}, {size:g}, {'loop' if loop else 'open'}, {arguments.seed}, {k}"
+            if k >= most or key in cases.found:
+                continue
+            if time.process_time() > 60.0 * arguments.minutes:
+                return
+            place = ("none", *KINDS, "table").index(kind)
+            random = np.random.default_rng((arguments.seed, list(SETTINGS).index(arguments.setting), place, int(size), loop, k))
+            drawn = record("none" if kind == "table" else kind, size, setting, random, loop)
+            values = alarms(drawn) if kind == "table" else told(kind, drawn)
+            cases.add(key, {"setting": arguments.setting, "kind": kind, "size": size, "loop": loop, **values})
+
+
+def _onset(case: dict[str, Any]) -> tuple[bool, bool, int | None, bool]:
+    """Return whether an onset is found, whether its interval holds the true sample, the delay, and whether one is wholly before."""
+    begins = case["begins"]
+    early = any(last < begins for _, _, last in case["onsets"])
+    later = [one for one in case["onsets"] if one[2] >= begins]
+    if not later:
+        return False, False, None, early
+    sample, first, last = later[0]
+    return True, first <= begins <= last, sample - begins, early
+
+
+def cells(cases: Sequence[dict[str, Any]]) -> list[str]:
+    """Return the cells of one line."""
+    outcomes = Counter(case["outcome"] for case in cases)
+    causes = [Counter(case.get(f"{name} cause") for case in cases) for name in ("space", "shift")]
+    forbidden = sum(not case.get("allowed", True) for case in cases)
+    wrong = sum(case["n_v"] not in (None, 0, 1) for case in cases)
+    onsets = [_onset(case) for case in cases]
+    delays = [delay for _, _, delay, _ in onsets if delay is not None]
+    low, high = interval(outcomes["right"], len(cases))
+    return [
+        *(str(len(cases)), *(str(outcomes[word]) for word in OUTCOMES), f"{100 * low:.0f} to {100 * high:.0f} %", str(wrong)),
+        *(" / ".join(str(found[word]) for word in ("right", "wrong", "open")) for found in causes),
+        str(forbidden),
+        *(str(len(delays)), str(sum(held for _, held, _, _ in onsets)), f"{np.median(delays):g}" if delays else ""),
+        *(str(sum(before for *_, before in onsets)), f"{np.mean([case['seconds'] for case in cases]):.2f}"),
+    ]
+
+
+def show(cases: Cases, markdown: bool) -> None:
+    """Print the tables of all that is there."""
+    begin, between, end = ("| ", " | ", " |") if markdown else ("", "  ", "")
+
+    def line(*texts: object) -> None:
+        print(begin + between.join(f"{text!s:<10}" for text in texts) + end)
+
+    for name, (p, n_u, healthy, after) in SETTINGS.items():
+        here = [case for case in cases.found.values() if case["setting"] == name]
+        if not here:
+            continue
+        print(f"\n{name}: {p} outputs, {n_u} inputs, {healthy} healthy samples and {after} after\n")
+        line("no change", "feedback", "records", "alarms", "95 %", "rows", "n_v > 0", "onsets", "cpu")
+        if markdown:
+            line(*["---"] * 9)
+        for kind in ("table", "none"):
+            for loop in LOOPS:
+                some = [case for case in here if case["kind"] == kind and case["loop"] == loop]
+                if not some:
+                    continue
+                hits = sum(bool(case["rows"]) for case in some)
+                low, high = interval(hits, len(some))
+                rows = Counter(row.rsplit(" ", 1)[0] for case in some for row in case["rows"])
+                told_rows = ", ".join(f"{count} {row}" for row, count in rows.items()) or "none"
+                counted = sum(bool(case["n_v"]) for case in some) if kind == "none" else ""
+                onsets = sum(bool(case["onsets"]) for case in some) if kind == "none" else ""
+                chance = f"{100 * low:.2g} to {100 * high:.2g} %"
+                seconds = f"{np.mean([case['seconds'] for case in some]):.2f}"
+                what = "the table alone" if kind == "table" else "identify"
+                line(what, "yes" if loop else "no", len(some), hits, chance, told_rows, counted, onsets, seconds)
+        head = (
+            "change",
+            "sigma",
+            "feedback",
+            "records",
+            *OUTCOMES,
+            "right, 95 %",
+            "n_v wrong",
+            "by space",
+            "by shift",
+            "n_z",
+            "onset",
+            "held",
+            "delay",
+        )
+        print()
+        line(*head, "early", "cpu")
+        if markdown:
+            line(*["---"] * (len(head) + 2))
+        for kind, size, loop in lines():
+            some = [case for case in here if (case["kind"], case["size"], case["loop"]) == (kind, size, loop)]
+            if some and kind != "none":
+                line(kind, f"{size:g}", "yes" if loop else "no", *cells(some))
+        faulty = [case for case in here if case["kind"] in KINDS]
+        if faulty:
+            line("all", "", "", *cells(faulty))
 
 
 def main() -> None:
-    """Measure and print a line for each kind, and one for records without a change."""
+    """Measure what is not there yet, and print the tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--trials", type=int, default=10)
-    parser.add_argument("--healthy-trials", type=int, default=100)
+    parser.add_argument("cases", type=Path, metavar="CASES", help="file of cases, one a line; a run goes on with it")
+    parser.add_argument("--records", type=int, default=100, help="of each line, through identify")
+    parser.add_argument("--tables", type=int, default=200, help="records without a change of which only the table is made")
+    parser.add_argument("--minutes", type=float, default=float("inf"), help="CPU minutes after which this run stops")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--samples", nargs="+", choices=list(SETTINGS), default=list(SETTINGS))
+    parser.add_argument("--setting", choices=list(SETTINGS), default="middle")
+    parser.add_argument("--table", action="store_true", help="show what is there, and measure nothing")
     parser.add_argument("--markdown", action="store_true", help="print tables in Markdown")
     arguments = parser.parse_args()
-    begin, between, end = ("| ", " | ", " |") if arguments.markdown else ("", "  ", "")
-
-    def line(*cells: object) -> None:
-        print(begin + between.join(f"{cell!s:<14}" for cell in cells) + end, flush=True)
-
-    for number, name in enumerate(arguments.samples):
-        setting, start = SETTINGS[name], time.perf_counter()
-        p, n_u, healthy, after = setting
-        print(f"\n{name}: {p} outputs, {n_u} inputs, {healthy} healthy samples and {after} after\n")
-        line("no change", "records", "alarms", "rows")
-        if arguments.markdown:
-            line(*["---"] * 4)
-        for loop in (False, True):
-            seen = []
-            for trial in range(arguments.healthy_trials):
-                random = np.random.default_rng((arguments.seed, number, 0, loop, trial))
-                y, u, _ = record("none", 1.0, setting, random, loop)
-                seen.append(alarms(y, u, healthy))
-            rows = Counter(kind for kinds in seen for kind in kinds)
-            told_rows = ", ".join(f"{count} {kind}" for kind, count in rows.items()) or "none"
-            line("with feedback" if loop else "open", len(seen), sum(map(bool, seen)), told_rows)
-        if not arguments.trials:
-            continue
-        print(f"\n{' / '.join(OUTCOMES)}, open and with feedback, {arguments.trials} records of each\n")
-        line("change", *(f"{size:g} sigma{loop}" for size in SIZES for loop in (", open", ", loop")))
-        if arguments.markdown:
-            line(*["---"] * 7)
-        for place, kind in enumerate(KINDS, start=1):
-            cells = []
-            for size in SIZES:
-                for loop in (False, True):
-                    found: Counter[str] = Counter()
-                    for trial in range(arguments.trials):
-                        random = np.random.default_rng((arguments.seed, number, place, int(size), loop, trial))
-                        y, u, which = record(kind, size, setting, random, loop)
-                        found[told(kind, y, u, healthy, which)] += 1
-                    cells.append(" / ".join(str(found[outcome]) for outcome in OUTCOMES))
-            line(kind, *cells)
-        print(f"\n{time.perf_counter() - start:.0f} s")
+    cases = Cases(arguments.cases)
+    if not arguments.table:
+        measured(cases, arguments)
+    show(cases, arguments.markdown)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Try kernel rows of outputs and inputs: the number of faults, on seeds that no rule was chosen on.
 
-    python benchmarks/counting_at_the_bound.py {count,calibrate,laws} [--trials 30] [--seed 1] [--samples 1001] [--limit SECONDS]
-        [--cells 0 1 ..] [--jobs 1] [--out FILE]
+    python benchmarks/counting_at_the_bound.py {count,calibrate,laws,single,faintest,settings} [--trials 30] [--seed 1] [--samples 1001]
+        [--limit SECONDS] [--cells 0 1 ..] [--jobs 1] [--out FILE]
     python benchmarks/counting_at_the_bound.py merge FILE ..
 
 count       `count_faults` on random plants of order 5 with one input (`fault_dimension.py`): p outputs, n_v faults, noise so many
@@ -9,7 +9,13 @@ count       `count_faults` on random plants of order 5 with one input (`fault_di
             cell has the seed --seed + i and depends on nothing else; with --out each is appended to FILE as a line of JSON
 merge       the same table from such files: parts of cells, made at different times; a trial that stands there twice counts once
 calibrate   means of the likelihood ratios of degrees over what they should be: what MISFITS is set by
-laws        the ratios of `laws.py` over what they should be, where the rows are laws and where they are none: what its constants are set by
+laws        the ratios of `laws.py` over what they should be, where several rows are laws and where there is a row too many: what
+            SHAPE_MISFIT and FLAT_MISFIT stand for, and the middle between the two that FAR stands for
+single      the ratios of single rows that are laws, at 300 to 30001 samples, with faults that fill all frequencies and with some that do
+            not: the quantile regression that CROWDED and LOOSE stand for
+faintest    single rows of records with as many faults as outputs that are accepted, at 1001 and 30001 samples, and their steps: the
+            quantile that FAINTEST stands for, and what it costs where there is a fault less
+settings    how many answers change when what only saves time or ends an iteration is halved or doubled
 
 Brackets are Wilson's 95 % intervals. Seconds are CPU seconds; hold BLAS to one thread.
 """
@@ -18,22 +24,49 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from unittest.mock import patch
 
 import joblib
 import numpy as np
+import scipy.optimize
 import scipy.stats
-from fault_dimension import fault_signals, noise, random_plant
 from numpy.typing import NDArray
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
+
+from benchmarks.fault_dimension import fault_signals, noise, random_plant
+from faultspace.numeric.rows import evidence as evidence_module
+from faultspace.numeric.rows import fault_count as count_module
+from faultspace.numeric.rows import laws as law_module
+from faultspace.numeric.rows import remainder as remainder_module
 from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
-from faultspace.numeric.rows.evidence import Evidence
-from faultspace.numeric.rows.fault_count import FAINTEST, count_faults
+from faultspace.numeric.rows.evidence import EXTRA, GONE, LONG, Evidence
+from faultspace.numeric.rows.fault_count import FAINTEST, MOST, count_faults
 from faultspace.numeric.rows.joint import course, joint_moments
-from faultspace.numeric.rows.laws import FAR, FAR_LONGER, FLAT_MISFIT, SHAPE_MISFIT, SINGLE_MISFITS, step_to_two, tested
+from faultspace.numeric.rows.laws import (
+    ARRIVALS,
+    ARRIVED,
+    CROWDED,
+    FAR,
+    FLAT_MISFIT,
+    HOPELESS,
+    LOOSE,
+    PRECISION,
+    SETTLED,
+    SHAPE_MISFIT,
+    SUFFICES,
+    TURNS,
+    loose_samples,
+    step_to_two,
+    tested,
+)
+from faultspace.numeric.rows.remainder import SAMPLES, SWEEPS, TEST_BANDS
+from faultspace.numeric.space.basis import ROUGH
 from faultspace.numeric.study.runs import NOISE_GAIN, study_run
 from faultspace.numeric.study.systems import N_X, study_system
 
@@ -63,12 +96,14 @@ COUNT_CELLS = (
 SINGLE_CELLS = tuple(cell for cell in COUNT_CELLS if cell[0] - cell[1] == 1)
 
 
-def record(seed: int, p: int, n_v: int, decibels: float, spread: float, samples: int) -> tuple[Array, Array]:
+def record(
+    seed: int, p: int, n_v: int, decibels: float, spread: float, samples: int, faults: Callable[..., Array] = fault_signals
+) -> tuple[Array, Array]:
     """Make y (samples, p) and u (samples, 1)."""
     random = np.random.default_rng([seed, p, n_v, int(decibels), int(spread), samples])
     plant = random_plant(random, p, max(n_v, 1))
     state, u = random.standard_normal(N_X), random.standard_normal((samples, 1))
-    v = fault_signals(random, samples, max(n_v, 1)) * (n_v > 0)
+    v = faults(random, samples, max(n_v, 1)) * (n_v > 0)
     clean = np.sum(plant.respond(state, u, v), axis=0)
     levels = clean.std(axis=0) * 10 ** (-decibels / 20) * random.permutation(np.geomspace(1, 1 / spread, p))
     return clean + noise(random, samples, levels), u
@@ -149,42 +184,130 @@ def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
 
 
 def laws(seed: int, trials: int, samples: int, clock: Clock, cells: Sequence[int]) -> None:
-    """Print the ratios of `laws.py` over their expectations: of as many rows as are laws, and of one more, which are none."""
-    shapes, flats, others, steps = list[float](), list[float](), list[float](), list[float]()
-    singles: list[tuple[float, ...]] = []
-    full, clear = list[bool](), list[float]()
+    """Print what `laws.py` says of several rows by their ratios: of as many as are laws, and of one more, which are none."""
+    shapes, flats, laws_far, others_far = list[float](), list[float](), list[float](), list[float]()
     for number in clock.range(trials):
         p, n_v, decibels, spread = COUNT_CELLS[cells[number % len(cells)]]
-        evidence = Evidence(*record(seed + number, p, n_v, decibels, spread, samples), N_X)
-        if n_v < p:
+        evidence = Evidence([record(seed + number, p, n_v, decibels, spread, samples)], N_X)
+        if p - n_v >= 2:
             found = tested(evidence, p - n_v)
-            if found.sphericity is None:
-                singles.append(found.ratios)
-            else:
-                shapes.append(found.sphericity.nats / found.sphericity.expected)
-                flats.extend(found.ratios)
-        if 0 < n_v < p:
-            others.append(tested(evidence, p - n_v + 1).farness)
-        if n_v == p:
-            found = tested(evidence, 1)
-            full.append(found.holds is not False)
-            if found.holds:
-                steps.append(step_to_two(evidence, found, tested(evidence, 2)))
-        if n_v == p - 1 and decibels == 40.0:
-            clear.append(step_to_two(evidence, found, tested(evidence, 2)))
-    print(f"laws, k >= 2: sphericity / expected {quantiles(shapes)} (SHAPE_MISFIT is {SHAPE_MISFIT:g}, FAR {FAR:g})")
-    print(f"laws, k >= 2: flatness / freedom {quantiles(flats)} (FLAT_MISFIT is {FLAT_MISFIT:g}, FAR_LONGER {FAR_LONGER:g})")
-    for i, misfit in enumerate(SINGLE_MISFITS):
-        print(
-            f"laws, k = 1: flatness / freedom, step {i + 1}: {quantiles([ratios[i] for ratios in singles])} (SINGLE_MISFITS has {misfit:g})"
+            assert found.sphericity is not None
+            laws_far.append(found.farness * FAR)
+            bands, k = min(TEST_BANDS, int(evidence.data.samples / (2 * SAMPLES * found.count))), found.count
+            shapes.append(found.sphericity.nats / found.sphericity.expected / one_in_ten(bands * (k * k - 1)))
+            flats.extend(ratio / one_in_ten(EXTRA * evidence.data.moments.channels) for ratio in found.ratios)
+        if 1 <= p - n_v < p:
+            others_far.append(tested(evidence, p - n_v + 1).farness * FAR)
+    for name, values, had in (("SHAPE_MISFIT", shapes, SHAPE_MISFIT), ("FLAT_MISFIT", flats, FLAT_MISFIT)):
+        print(f"{name}: {np.quantile(values, 0.9):.2f} (set: {had:g}), of {len(values)}")
+    print(f"laws, in units of the misfits: {quantiles(laws_far)}")
+    print(f"one row more: least {min(others_far):.1f}, hundredth {np.quantile(others_far, 0.01):.1f} of {len(others_far)}")
+    print(f"FAR: {np.sqrt(np.quantile(laws_far, 0.99) * np.quantile(others_far, 0.01)):.2f} (set: {FAR:g})")
+
+
+def white_faults(random: np.random.Generator, samples: int, m: int) -> Array:
+    """Make faults (samples, m) that fill all frequencies evenly, as a chirp does not."""
+    return random.standard_normal((samples, m))
+
+
+def single(seed: int, trials: int, clock: Clock) -> None:
+    """Print what the ratios of single rows that are laws exceed one by, as a combination of the two terms of `single_misfits`."""
+    kinds = [(samples, faults) for samples in (300, 1001, 3000, 10000, 30001) for faults in (fault_signals, white_faults)]
+    places, crowded, loose, excess, small = list[int](), list[float](), list[list[float]](), list[list[float]](), list[bool]()
+    for number in clock.range(trials * len(kinds)):
+        place = number % len(kinds)
+        p = 3 + number // len(kinds) % 2
+        evidence = Evidence([record(seed + number, p, p - 1, 40.0, 1.0, kinds[place][0], kinds[place][1])], N_X)
+        found, data = tested(evidence, 1), evidence.single
+        free = loose_samples(evidence, found.fit, found.shares) ** 0.5
+        places.append(place)
+        crowded.append((2 * len(data.moments.angles) / data.samples) ** 0.5)
+        loose.append([free / (degrees * data.moments.channels) for degrees in (EXTRA, LONG)])
+        excess.append(
+            [ratio / one_in_ten(degrees * data.moments.channels) - 1 for ratio, degrees in zip(found.ratios, (EXTRA, LONG), strict=True)]
         )
-    print(
-        f"no laws, k >= 2: the larger of the ratios over FAR and FAR_LONGER: least {min(others, default=np.nan):.2f}, {quantiles(others)}"
-    )
-    print(
-        f"n_v = p, k = 1: not refused {sum(full)} of {len(full)}, accepted {len(steps)}, with steps {np.round(sorted(steps), 1).tolist()}"
-    )
-    print(f"n_v = p - 1, 40 dB: steps {np.round(sorted(clear), 1).tolist()} (FAINTEST is {FAINTEST:g})")
+        small.append(found.probability < SUFFICES)
+    for i, (name, had) in enumerate(zip(("EXTRA", "LONG"), zip(CROWDED, LOOSE, strict=True), strict=True)):
+        terms, values = np.column_stack([crowded, np.array(loose)[:, i]]), np.array(excess)[:, i]
+        best = quantile_regression(terms, values, 0.9)
+        print(f"{name}: CROWDED {best[0]:.2f} (set: {had[0]:g}), LOOSE {best[1]:.2f} (set: {had[1]:g})")
+        for place, (samples, faults) in enumerate(kinds):
+            here = np.array(places) == place
+            if here.any():
+                beyond = rate(sum(values[here] > terms[here] @ had), int(here.sum()))
+                print(f"    N={samples}, {faults.__name__}: beyond one in ten {beyond}, median {1 + np.median(values[here]):.2f}")
+    print(f"probability below {SUFFICES:g}: {rate(sum(small), len(small))}")
+
+
+def one_in_ten(freedom: int) -> float:
+    """Return the 90 % quantile of a chi-squared variable over its degrees of freedom."""
+    return float(scipy.stats.chi2.isf(0.1, freedom)) / freedom
+
+
+def quantile_regression(terms: Array, values: Array, quantile: float) -> Array:
+    """Return the coefficients (c,), none negative, of the terms (N, c) below which this share of the values (N,) lies."""
+    count, width = terms.shape
+    costs = np.concatenate([np.zeros(width), np.full(count, quantile), np.full(count, 1 - quantile)])
+    left = np.hstack([terms, np.eye(count), -np.eye(count)])
+    return np.asarray(scipy.optimize.linprog(costs, A_eq=left, b_eq=values, bounds=(0, None)).x[:width])
+
+
+def faintest(seed: int, trials: int, clock: Clock, cells: Sequence[int], jobs: int) -> None:
+    """Print the steps of single rows that are accepted, with as many faults as outputs, and with one less."""
+    for less, what in ((0, "as many faults as outputs"), (1, "one fault less")):
+        kind = [cell for cell in cells if COUNT_CELLS[cell][0] - COUNT_CELLS[cell][1] == less]
+        chosen = [cell for cell in kind if COUNT_CELLS[cell][2] == 40.0 or not less]
+        kinds = [(cell, samples) for cell in chosen for samples in ((1001, 30001) if not less else (1001,))]
+        if not kinds:
+            continue
+        calls = (joblib.delayed(step_of)(*kinds[number % len(kinds)], seed + number) for number in clock.range(trials))
+        steps = joblib.Parallel(n_jobs=jobs)(calls)
+        accepted = sorted(step for step in steps if step > -np.inf)
+        beyond = rate(sum(step >= FAINTEST for step in steps), len(steps))
+        quantile = float(np.quantile(steps, 0.99, method="higher"))
+        print(f"{what}: {len(accepted)} of {len(steps)} accepted, steps {np.round(accepted, 1).tolist()}")
+        print(f"    99 % quantile {quantile:.1f}; at or beyond FAINTEST, {FAINTEST:g}: {beyond}")
+
+
+def step_of(cell: int, samples: int, seed: int) -> float:
+    """Return the step from two rows to one, minus infinity where a single row is not accepted."""
+    evidence = Evidence([record(seed, *COUNT_CELLS[cell], samples)], N_X)
+    one = tested(evidence, 1)
+    return step_to_two(evidence, one, tested(evidence, 2)) if one.holds else -np.inf
+
+
+# What only saves time or ends an iteration: module, name, and the values that stand for half and twice as much.
+SETTINGS = (
+    (law_module, "HOPELESS", (HOPELESS / 2, HOPELESS * 2)),
+    (law_module, "TURNS", (TURNS // 2, TURNS * 2)),
+    (law_module, "ARRIVED", (ARRIVED / 2, ARRIVED * 2)),
+    (law_module, "ARRIVALS", (ARRIVALS // 2, ARRIVALS * 2)),
+    (law_module, "SETTLED", (SETTLED / 2, SETTLED * 2)),
+    (law_module, "PRECISION", (PRECISION / 2, PRECISION * 2)),
+    (law_module, "ROUGH", (ROUGH / 2, ROUGH * 2)),
+    (evidence_module, "GONE", (GONE / 2, GONE * 2)),
+    (remainder_module, "SWEEPS", (SWEEPS // 2, SWEEPS * 2)),
+    (remainder_module, "TEST_BANDS", (TEST_BANDS // 2, TEST_BANDS * 2)),
+    (count_module, "MOST", (MOST // 2, MOST * 2)),
+)
+
+
+def settings(seed: int, trials: int, samples: int, clock: Clock, cells: Sequence[int]) -> None:
+    """Print for every setting how many answers change when it is halved and when it is doubled, and in what way."""
+    changes: dict[tuple[str, float], list[str]] = {(name, value): [] for _, name, values in SETTINGS for value in values}
+    made = 0
+    for number in clock.range(trials):
+        cell = cells[number % len(cells)]
+        y, u = record(seed + number, *COUNT_CELLS[cell], samples)
+        usual, made = count_faults(y, u, order=N_X).n_v, made + 1
+        for module, name, values in SETTINGS:
+            for value in values:
+                with patch.object(module, name, value):
+                    found = count_faults(y, u, order=N_X).n_v
+                if found != usual:
+                    changes[name, value].append(f"{usual} to {found} (n_v = {COUNT_CELLS[cell][1]})")
+    for (name, value), seen in changes.items():
+        print(f"{name} = {value:g}: {len(seen)} of {made} answers change {'; '.join(seen)}")
 
 
 def quantiles(values: list[float]) -> str:
@@ -220,14 +343,16 @@ class Clock:
 def main() -> None:
     """Parse the arguments, run what they ask for, and print it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("table", choices=("count", "calibrate", "laws", "merge"))
+    parser.add_argument("table", choices=("count", "calibrate", "laws", "single", "faintest", "settings", "merge"))
     parser.add_argument("files", nargs="*", type=Path, help="of merge: what --out wrote")
     parser.add_argument("--trials", type=int, default=30)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--samples", type=int, default=1001)
     parser.add_argument("--limit", type=float, default=float("inf"))
-    parser.add_argument("--cells", type=int, nargs="+", default=range(len(COUNT_CELLS)), help="of count and laws: which, from 0")
-    parser.add_argument("--jobs", type=int, default=1, help="of count: processes at a time")
+    parser.add_argument(
+        "--cells", type=int, nargs="+", default=range(len(COUNT_CELLS)), help="of count, laws, faintest and settings: which, from 0"
+    )
+    parser.add_argument("--jobs", type=int, default=1, help="of count and faintest: processes at a time")
     parser.add_argument("--out", type=Path, help="of count: the file to which trials are appended")
     chosen = parser.parse_args()
     if chosen.table == "merge":
@@ -237,6 +362,12 @@ def main() -> None:
         count(chosen.seed, chosen.trials, chosen.samples, clock, chosen.cells, chosen.jobs, chosen.out)
     elif chosen.table == "laws":
         laws(chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1), chosen.cells)
+    elif chosen.table == "single":
+        single(chosen.seed, chosen.trials, Clock(chosen.limit, 1))
+    elif chosen.table == "faintest":
+        faintest(chosen.seed, chosen.trials, Clock(chosen.limit, 2), chosen.cells, chosen.jobs)
+    elif chosen.table == "settings":
+        settings(chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1), chosen.cells)
     else:
         calibrate(chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1))
 

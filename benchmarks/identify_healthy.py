@@ -1,6 +1,6 @@
 """This measures how often `identify --healthy-until` finds a fault where there is none, and one of the size that it says it would see.
 
-    python benchmarks/identify_healthy.py [--trials 40] [--seed 1] [--markdown]
+    python benchmarks/identify_healthy.py [--trials 40] [--seed 1] [--markdown] [--inputs]
 
 Random stable plants of three states, two inputs and three outputs, order given; noise of a random colour and of levels 1 to 100 apart; K
 healthy samples, then as many again and a half. Of each record three are made: as it is; with a constant at one output, and with a white
@@ -8,17 +8,23 @@ signal there, of the sizes that the answer to the first says are seen with a cha
 
     zero, undecided, fault    what is told of the record without a fault: a fault there is a false alarm
     constant, white           share of the faults of the stated size that are found
+
+With --inputs the records have no fault, and inputs that are so many times as loud after the healthy samples, or so many deviations away:
+how often is a fault found where no answer is left undecided for their sake? LOUDER and AWAY of `numeric/count/unlike_healthy.py` stand for
+the largest of either at which no more alarms are false than where the inputs stay as they were.
 """
 
 from __future__ import annotations
 
 import argparse
 import time
+from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
+from faultspace.numeric.count import unlike_healthy
 from faultspace.numeric.data.records import recorded
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.pipeline import identify
@@ -63,13 +69,39 @@ def trial(random: np.random.Generator, until: int) -> tuple[str, bool | None, bo
     return verdict, counted(constant[output])[1] > 0, counted(white[output] * random.standard_normal(samples - until))[1] > 0
 
 
+def false_alarm(random: np.random.Generator, until: int, louder: float, away: float) -> bool:
+    """Tell whether a fault is found in a record without one, whose inputs are so different after the healthy samples."""
+    samples = until + until * 3 // 2
+    u = random.standard_normal((samples, 2))
+    u[until:] = louder * u[until:] + away
+    y = plant(random).simulate(u) + noise(random, samples)
+    with patch.multiple(unlike_healthy, LOUDER=np.inf, AWAY=np.inf):
+        return identify(recorded(y, u, outputs=OUTPUTS, inputs=INPUTS), order=3, healthy=until).at_least > 0
+
+
+def inputs(trials: int, seed: int) -> None:
+    """Print how often it is, by the change of the inputs and the number of healthy samples."""
+    print(f"false alarms of {trials} records; LOUDER is {unlike_healthy.LOUDER:g}, AWAY is {unlike_healthy.AWAY:g}")
+    for louder, away in (
+        [(1.0, 0.0)] + [(louder, 0.0) for louder in (1.5, 2.0, 3.0, 5.0, 10.0)] + [(1.0, away) for away in (3.0, 10.0, 30.0)]
+    ):
+        found = [
+            sum(false_alarm(np.random.default_rng((seed, until, k)), until, louder, away) for k in range(trials)) for until in HEALTHY[::2]
+        ]
+        print(f"{louder:4g} times as loud, {away:3g} deviations away: {found} with {list(HEALTHY[::2])} healthy samples", flush=True)
+
+
 def main() -> None:
     """Measure and print a line for each number of healthy samples."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--trials", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--markdown", action="store_true", help="print a table in Markdown")
+    parser.add_argument("--inputs", action="store_true", help="false alarms by how the inputs change")
     arguments = parser.parse_args()
+    if arguments.inputs:
+        inputs(arguments.trials, arguments.seed)
+        return
     heads = ("healthy", "records", "zero", "undecided", "fault", "constant found", "white found", "seconds a record")
     row = "| {} |".format(" | ".join(["{}"] * len(heads))) if arguments.markdown else "  ".join(f"{{:>{len(head)}}}" for head in heads)
     print(row.format(*heads))

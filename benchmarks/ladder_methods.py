@@ -76,7 +76,7 @@ class Method:
 
 KERNEL_WORDS = "mingens ker of the homogenised pencil over QQ: the left minimal indices, no window, no certificate"
 METHODS = (
-    Method("ours", "kernel representation, certificate as JSON, and the checker's verdict on it", "python-flint"),
+    Method("ours", "kernel rows, certificate as JSON, and the checker's verdict on it", "python-flint"),
     Method("flint", "fmpz_mat.rank of every window", "python-flint"),
     Method("flint-once", "fmpz_mat.rref of the transposed largest window, once: its pivots are the ranks of all", "python-flint"),
     Method("sympy", "DomainMatrix.rank of every window", "sympy"),
@@ -89,10 +89,9 @@ METHODS = (
 
 def run_ours(system: System) -> None:
     """Produce the certificate as a file, then load and verify the file: what two people who do not trust each other would do."""
-    from faultspace.exact.structure.kernel_rows import kernel_representation
     from faultspace.exact.system.systems import read_system
     from faultspace.proofs.trust import checker
-    from faultspace.proofs.trust.structure_certificates import window_ranks
+    from faultspace.proofs.trust.structure_certificates import window_ranks_of
 
     handle, name = tempfile.mkstemp(suffix=".json")
     os.close(handle)
@@ -100,7 +99,7 @@ def run_ours(system: System) -> None:
     try:
         start = _ready()
         residual = read_system(system).residual
-        file.write_text(json.dumps(window_ranks(kernel_representation(residual))), "utf-8")
+        file.write_text(json.dumps(window_ranks_of(residual)), "utf-8")
         produced = time.process_time()
         certificate = checker.load(str(file))
         checker.verify(certificate, [system])

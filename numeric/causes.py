@@ -13,10 +13,11 @@ import numpy as np
 
 from ..base.errors import InvalidData
 from ..base.progress import Progress
-from .choice import MEANS_FROM
+from .choice import MEANS_FROM, noise_mix
 from .count.mean_shift import MeanShift, mean_shift
 from .count.unlike_healthy import beyond_healthy_inputs
 from .findings import Findings
+from .rows.known_noise import state_units
 from .signal.onset import fault_onset
 from .space.isolation import isolate
 from .space.shift_isolation import isolate_shift, stays
@@ -41,10 +42,13 @@ def with_isolation(answer: Findings) -> Findings:
     space, model, record = answer.fault_space, answer.model, answer.record
     if space is None or model is None:
         return answer
-    y = record.stretch(*answer.held)[0]
-    # The units that `identified_fault_space` matches states in: it is called with outputs about their means.
-    sizes = np.sqrt(np.mean((y - y.mean(axis=0)) ** 2, axis=0))
+    # The units that `identified_fault_space` matches states in: it is called with outputs about their means, those of each experiment.
+    y = np.vstack([one - one.mean(axis=0) for one, _ in record.stretches(*answer.held)])
+    sizes = np.sqrt(np.mean(y**2, axis=0))
     units = np.where(sizes > 0, sizes, 1.0)
+    mix = noise_mix(answer) if space.method == "kernel rows" else None
+    if mix is not None:
+        units = state_units(y, mix)
     return replace(answer, isolation=isolate(space, model, outputs=record.outputs, inputs=record.inputs, units=units))
 
 

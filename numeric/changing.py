@@ -3,7 +3,6 @@
 with_changes      the Findings with the table: against the healthy samples, or the little that can be said within a record without them
 beside_changes    the same where the table forbids to say 0
 unlike_healthy_ranks    a count by ranks alone, where the healthy part is too short to count against it
-with_two_parts    the residual of a healthy record and of another one, which do not follow each other in time
 
 No number of faults follows from the table: a constant fault has no rank, and one fault can be seen in several rows. But 0 is too much said
 where a row is seen, or would be seen but for a doubt.
@@ -15,15 +14,11 @@ from dataclasses import replace
 
 from ..base.arrays import Array
 from ..base.errors import InvalidData
-from ..base.progress import Progress
 from ..base.sheets import counted
 from .changes.predictor import LEARNT_FROM, Stretch
 from .changes.testing import LEVEL, changes_within, parameters, responses, table
 from .count.rank_gap import fault_dimension
-from .data.records import Passes, Record, SampleStore
 from .findings import Findings
-from .model.models import StateSpaceModel
-from .model.residuals import ResidualSignal, residual
 
 
 def with_changes(answer: Findings) -> Findings:
@@ -53,20 +48,26 @@ def _stretch(answer: Findings, first: int, last: int) -> Stretch:
 
 
 def beside_changes(answer: Findings) -> Findings:
-    """Leave a 0 undecided where a row of the table is seen, or is in doubt though its numbers are beyond chance."""
-    changes = answer.changes
-    if changes is None or answer.n_v not in (0, None):
+    """Leave a 0 undecided where a row of a table is seen, or is in doubt though its numbers are beyond chance, in any experiment."""
+    if answer.n_v not in (0, None):
         return answer
-    if changes.seen:
-        rows = "; ".join(f"{row.kind} of {row.channel}: {row.told}" for row in changes.seen[:2])
-        more = f" and {counted(len(changes.seen) - 2, 'row')} more" if len(changes.seen) > 2 else ""
+    tables = [(one.changes, _where(answer, number)) for number, one in enumerate(answer.experiments, 1) if one.changes is not None]
+    seen = [(row, where) for changes, where in tables for row in changes.seen]
+    doubtful = [(row, where) for changes, where in tables for row in changes.doubtful]
+    if seen:
+        rows = "; ".join(f"{row.kind} of {row.channel}{where}: {row.told}" for row, where in seen[:2])
+        more = f" and {counted(len(seen) - 2, 'row')} more" if len(seen) > 2 else ""
         told = f"something has changed ({rows}{more}), whatever its number of independent faults"
-    elif changes.doubtful:
-        row = changes.doubtful[0]
-        told = f"whether there is a {row.kind} of {row.channel} is undecided: {row.reason}"
+    elif doubtful:
+        row, where = doubtful[0]
+        told = f"whether there is a {row.kind} of {row.channel}{where} is undecided: {row.reason}"
     else:
         return answer
     return replace(answer, n_v=None, counted_by=None, reason=f"{answer.reason}; but {told}")
+
+
+def _where(answer: Findings, number: int) -> str:
+    return f" in experiment {number}" if answer.parts else ""
 
 
 def unlike_healthy_ranks(answer: Findings, healthy: Array, u: Array) -> Findings:
@@ -79,18 +80,7 @@ def unlike_healthy_ranks(answer: Findings, healthy: Array, u: Array) -> Findings
         there = fault_dimension(healthy, u=u).n_v
     except InvalidData:
         there = None
-    if answer.changes is not None and answer.changes.seen and not there:
+    if any(one.changes is not None and one.changes.seen for one in answer.experiments) and not there:
         return answer
     why = f"the same way finds {there} among the healthy samples" if there else "the table of changes sees none since the healthy samples"
     return replace(answer, n_v=None, counted_by=None, reason=f"{answer.reason}; but {why}, so that this may be noise of unequal powers")
-
-
-def with_two_parts(healthy: ResidualSignal, record: Record, model: StateSpaceModel, on_progress: Progress) -> ResidualSignal:
-    """Return the residual of a healthy record, followed by that of `record`, another one of the same plant: the state that this begins with
-    is not where the other ends, and is fitted to it. It is the only thing that is."""
-    other = residual(Passes(record, "residual", on_progress), None, model)
-    store = SampleStore(model.p)
-    for part in (healthy.store, other.store):
-        for rows in part.pieces():
-            store.append(rows)
-    return replace(healthy, store=store, notes=(*healthy.notes, *other.notes))

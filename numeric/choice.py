@@ -1,16 +1,20 @@
 """The last steps of `faultspace identify`: the fault space of what was counted, and one pair (F, G) out of it with its signal.
 
 with_space    the Findings with the fault space
+noise_mix     the mixture of outputs in which the space is sought where healthy samples tell the noise
 with_signal   the Findings with F, G and the signal, or a note why they are withheld: n_z is undecided, or the signal explains no
               more than it would of noise
 choose_pair   n_v columns (F, G) out of a fault space, whose signal is then reconstructed
 largest       the largest |y| of each output
+about_own_means   experiments as `count_faults` and the fault space take them, each about its means
 beyond_rounding   the residual that faults are counted on, outputs that the model explains to rounding set to zero
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -19,9 +23,11 @@ from ..base.errors import InvalidData
 from ..base.progress import Progress
 from ..base.sheets import counted
 from .data.records import Record
+from .experiments import for_each, looked_at, most_moved
 from .findings import Findings
 from .model.reduced_model import ReducedModel
 from .rows.joint import affordable
+from .rows.known_noise import space_in_known_noise, whitening
 from .rows.space import BEYOND, fault_space_by_rows, identified_fault_space
 from .signal.explained_share import noise_share
 from .signal.reconstruction import Reconstruction, reconstruct_fault
@@ -33,6 +39,11 @@ MEANS_FROM = 1 << 14  # samples that means and shares are taken of: the regresso
 PAIRS_TRIED = 6
 TRIED_ON = 4000  # samples that a pair is tried on
 JOINED = 1e-3  # relative difference of neighbouring pieces of a fault signal from which a note says so
+FORETOLD = (
+    "the residual foretells a fault from its own past and the inputs, as it does a constant, a ramp, a sine, a sensor that is stuck "
+    "or a gain that has changed; such a fault excites too little for its space, which noise would place; what explains a shift of the "
+    "mean, and the table of changes, say more"
+)
 FROM_IDENTIFIED = (
     "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
     "shows how much on systems of the paper's kind)"
@@ -44,6 +55,8 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
     model, rest, faults = answer.model, answer.residual, answer.n_v
     if not faults or model is None or rest is None:
         return answer
+    if answer.news is not None and answer.news < faults:
+        return replace(answer, notes=(*answer.notes, f"no fault space: {FORETOLD}"))
     on_progress("fault space", 0, 0)
     A, C = model.model.A, model.model.C
     space, notes = None if answer.exact else _by_laws(answer, faults), answer.notes
@@ -66,33 +79,54 @@ def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
     if not affordable(record.p + record.n_u, -(-(model.order + BEYOND) // rows)):
         outputs = f"{counted(record.p, 'output')} with {counted(faults, 'fault')}"
         return f"order {model.order} is too high for the laws of {outputs} and of the inputs"
-    y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
+    data = about_own_means(record.stretches(*answer.held))
     count, level = answer.count, answer.noise_level
     if level is None and count is not None and count.n_v == faults and count.noise_power is not None:
         level = np.sqrt(count.noise_power)
     try:
-        if isinstance(model, ReducedModel):
-            space = identified_fault_space(y, u, model, n_v=faults, noise_level=level)
+        mix = noise_mix(answer)
+        if isinstance(model, ReducedModel) and mix is not None:
+            space = space_in_known_noise(*data, model, mix, n_v=faults)
+        elif isinstance(model, ReducedModel):
+            space = identified_fault_space(*data, model, n_v=faults, noise_level=level)
         else:
-            space = fault_space_by_rows(y, u, model.A, model.C, n_v=faults, noise_level=level)
+            space = fault_space_by_rows(*data, model.A, model.C, n_v=faults, noise_level=level)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return str(error)
     return replace(space, reason=f"{space.reason}; n_v as given")
 
 
+def noise_mix(answer: Findings) -> Array | None:
+    """Return the mixture (p, p) of the outputs that has white noise across them by the healthy samples; None without such samples."""
+    rest = answer.residual
+    if not answer.healthy or rest is None or rest.fitted or rest.covariance is None:
+        return None
+    return whitening(rest.covariance)
+
+
 def with_signal(answer: Findings, on_progress: Progress) -> Findings:
-    """Return the signal of one choice of columns out of the space, over all samples, where there is ground for one."""
+    """Return the signal of one choice of columns out of the space, over all samples of each experiment, where there is ground for one."""
     model, rest, sizes, space, count = answer.model, answer.residual, answer.sizes, answer.fault_space, answer.n_v
     if model is None or rest is None or sizes is None or space is None or not count or not space.meaningful or space.n_z < count:
         return answer
     if not space.decided:
         return replace(answer, notes=(*answer.notes, "F, G and the fault signal are withheld: n_z is undecided, see the fault space"))
     on_progress("choosing F and G", 0, 0)
-    part = rest.store.read(*loudest(sizes.energies, len(answer.record), TRIED_ON))
-    A, C = model.model.A, model.model.C
-    F, G = choose_pair(part, A, C, space, count)
+    one = most_moved(answer)
+    assert one.residual is not None and one.sizes is not None
+    part = one.residual.store.read(*loudest(one.sizes.energies, len(one.record), TRIED_ON))
+    F, G = choose_pair(part, model.model.A, model.model.C, space, count)
+    answer = for_each(answer, lambda one: _reconstructed(one, F, G, on_progress))
+    shown = any(one.signal is not None for one in answer.parts)
+    return replace(answer, pair=(F, G)) if shown else answer
+
+
+def _reconstructed(answer: Findings, F: Array, G: Array, on_progress: Progress) -> Findings:
+    """Return the signal of these columns over all samples, or a note why it is withheld."""
+    model, rest, count = answer.model, answer.residual, F.shape[1]
+    assert model is not None and rest is not None
     try:
-        signal = reconstruct_fault(rest.store, A, F, C, G, within=answer.held, on_progress=on_progress)
+        signal = reconstruct_fault(rest.store, model.model.A, F, model.model.C, G, within=answer.held, on_progress=on_progress)
     except InvalidData as error:
         return replace(answer, notes=(*answer.notes, f"no fault signal: {error}"))
     notes = answer.notes
@@ -161,9 +195,15 @@ def largest(record: Record) -> Array:
     return np.asarray(np.maximum(np.abs(low), np.abs(high))[record.n_u :])
 
 
+def about_own_means(experiments: Sequence[tuple[Array, Array]]) -> tuple[Any, Any]:
+    """Return y and u of one experiment about their means, or all experiments as a list of pairs, and None."""
+    about = [(y - y.mean(axis=0), u - u.mean(axis=0)) for y, u in experiments]
+    return about[0] if len(about) == 1 else (about, None)
+
+
 def beyond_rounding(answer: Findings) -> Array:
-    """Return the residual on `held`, zero for outputs that the model explains to rounding: beside others that it does not explain, their
-    rounding would be scaled up and counted as faults."""
+    """Return the residual on the samples that are looked at, zero for outputs that the model explains to rounding: beside others that it
+    does not explain, their rounding would be scaled up and counted as faults."""
     rest, sizes = answer.residual, answer.sizes
     assert rest is not None and sizes is not None
-    return np.asarray(rest.store.read(*answer.held) * (sizes.peak > ROUNDING * largest(answer.record)))
+    return np.asarray(rest.store.read(*looked_at(answer)) * (sizes.peak > ROUNDING * largest(answer.record)))

@@ -23,13 +23,15 @@ from ..base.errors import InvalidData, shorten
 from ..base.progress import Progress
 from ..base.sheets import counted
 from .changing import beside_changes, unlike_healthy_ranks, with_changes
-from .choice import MEANS_FROM, ROUNDING, beyond_rounding, largest
+from .choice import MEANS_FROM, ROUNDING, about_own_means, beyond_rounding, largest
 from .count.against_healthy import fault_dimension_against_healthy
 from .count.detectable import visible_white_faults
 from .count.healthy_model import healthy_reference
 from .count.mean_shift import POWER, mean_about_zero, mean_shift
+from .count.news import news_beyond_healthy
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
+from .experiments import for_each, looked_at
 from .findings import Findings
 from .model.reduced_model import ReducedModel
 from .rows.evidence import LONG
@@ -55,10 +57,13 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
     healthy = answer.healthy or 0
     if first < healthy:
         first, last = healthy, min(healthy + most, len(record))
+    if answer.parts and healthy:
+        first, last = looked_at(replace(answer, held=(first, last)))
     if last - first < len(record):
         why = "where the residual is largest" if first > healthy or not healthy else "after those stated to be without fault"
         source = "the fault signal is from all samples, the model from the healthy ones"
         source = source if healthy else "the model and the fault signal are from all samples"
+        why += ", counted over all experiments one after the other" if answer.parts else ""
         notes += (f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; {source}",)
     answer = replace(answer, held=(first, last), notes=notes)
     r = beyond_rounding(answer)
@@ -67,9 +72,9 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             # Not those set to zero: rounding is held against rounding.
             if healthy:
-                answer = _against_healthy(answer, rest.store.read(first, last), on_progress)
+                answer = _against_healthy(answer, rest.store.read(first, last), faults, on_progress)
             else:
-                answer = _about_zero(answer if answer.exact else with_changes(_by_laws(answer, on_progress)), r)
+                answer = _about_zero(answer if answer.exact else for_each(_by_laws(answer, on_progress), with_changes), r)
             answer = beside_changes(answer)
     except np.linalg.LinAlgError:
         reason = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
@@ -86,7 +91,7 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
     record, sizes = answer.record, answer.sizes
     assert sizes is not None
     try:
-        y, u = record.stretch(*answer.held)
+        y, u = record.stretch(*looked_at(answer))
         found = fault_dimension(r.astype(np.float32) if record.single and answer.exact else r, u=u)
     except InvalidData as error:
         return replace(answer, reason=str(error))
@@ -111,11 +116,11 @@ def _by_laws(answer: Findings, on_progress: Progress) -> Findings:
         note = f"order {model.order} is too high for the laws of {outputs} and of the inputs: the residual alone is counted"
         return replace(answer, notes=(*answer.notes, note))
     on_progress("counting the laws of outputs and inputs", 0, 0)
-    y, u = (values - values.mean(axis=0) for values in record.stretch(*answer.held))
+    data = about_own_means(record.stretches(*answer.held))
     try:
         same = answer.held == (0, len(record)) and answer.modelled == len(record)
         given = model if same and isinstance(model, ReducedModel) else None
-        count = count_faults(y, u, order=order, noise_level=answer.noise_level, model=given)
+        count = count_faults(*data, order=order, noise_level=answer.noise_level, model=given)
     except (InvalidData, np.linalg.LinAlgError) as error:
         return replace(answer, notes=(*answer.notes, f"the laws of outputs and inputs were not counted, the residual alone was: {error}"))
     answer = replace(answer, count=count, possible=count.possible)
@@ -135,8 +140,10 @@ def _spikes(answer: Findings) -> str:
     deviation is told by the median of the sizes, which spikes hardly move.
     """
     assert answer.residual is not None
-    r = answer.residual.store.read(*answer.held)
-    sizes = np.abs(r - np.median(r, axis=0))
+    first, last = answer.held
+    inside = [(max(first, start), min(last, stop)) for start, stop in answer.record.bounds if max(first, start) < min(last, stop)]
+    parts = [answer.residual.store.read(*part) for part in inside]
+    sizes = np.abs(np.concatenate([r - np.median(r, axis=0) for r in parts]))
     deviation = np.median(sizes, axis=0) / scipy.special.ndtri(0.75)
     most = -scipy.special.ndtri(UNLIKELY / (2 * sizes.size))
     spiky = [name for name, peak, one in zip(answer.record.outputs, sizes.max(axis=0), deviation, strict=True) if peak > most * one]
@@ -167,7 +174,7 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
     return replace(answer, mean=mean, notes=notes)
 
 
-def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findings:
+def _against_healthy(answer: Findings, r: Array, faults: int | None, on_progress: Progress) -> Findings:
     """Count the faults in the residual r of `answer` against the samples stated to be without fault, of which the last HELD numbers are
     held, and beside the test of the mean."""
     record, rest, sizes, until = answer.record, answer.residual, answer.sizes, answer.healthy
@@ -175,7 +182,7 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
     if np.all(sizes.early_peak <= ROUNDING * largest(record)):
         return _zero_or_not(replace(answer, unexplained=True))
     on_progress("counting faults against the healthy samples", 0, 0)
-    answer = with_changes(answer)
+    answer = for_each(answer, with_changes)
     start = max(until - HELD // (record.p + record.n_u), 0)
     healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
     mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[-MEANS_FROM:], before[-MEANS_FROM:])
@@ -199,10 +206,41 @@ def _against_healthy(answer: Findings, r: Array, on_progress: Progress) -> Findi
         # Ranks of the residual alone would count the noise of the other outputs as faults beside a dead one.
         answer = replace(answer, n_v=None, counted_by=None, reason=against.reason)
     answer = replace(answer, counted_against=(start, until), against=against, visible=visible_white_faults(reference, against, POWER))
+    if asked := faults or against.n_v:
+        answer = replace(answer, news=_news(answer, r, u, healthy, before, asked))
     if against.n_v is not None:
         answer = replace(answer, n_v=against.n_v, reason=against.reason, counted_by="healthy samples")
+        answer = _beside_news(answer)
         answer = _beside_laws(answer, healthy, on_progress)
     return _zero_or_not(answer)
+
+
+def _news(answer: Findings, r: Array, u: Array, healthy: Array, before: Array, faults: int) -> int | None:
+    """Return how many of so many faults are more than residual and inputs foretell, in the longest stretch between two onsets: a predictor
+    that is fitted over a jump has all of its coefficients bent. Where these are too short it is the whole."""
+    assert answer.model is not None
+    order, last, (first, stop) = answer.model.order, slice(-MEANS_FROM, None), answer.held
+    onsets = [one for one in (answer.onset.onsets if answer.onset is not None else ()) if first <= one.sample < stop]
+    stretches = [(one.stretch[0] - first, min(one.stretch[1], stop) - first) for one in onsets]
+    begin, end = max(stretches, key=lambda part: part[1] - part[0], default=(0, stop - first))
+    for part in (slice(begin, min(end, begin + MEANS_FROM)), slice(0, MEANS_FROM)):
+        found = news_beyond_healthy(r[part], u[part], healthy[last], before[last], n_v=faults, order=order)
+        if found is not None:
+            return found
+    return None
+
+
+def _beside_news(answer: Findings) -> Findings:
+    """Leave several faults undecided where fewer are more than residual and inputs foretell: against healthy samples the direction of one
+    fault, as of a gain that has changed, may turn within a frequency's width and count twice."""
+    news, n_v = answer.news, answer.n_v
+    if n_v is None or n_v < 2 or news is None or news >= n_v:
+        return answer
+    reason = (
+        f"{answer.reason}; but {news} of them {'is' if news == 1 else 'are'} more than residual and inputs foretell: one fault whose "
+        "direction turns with the frequency, as of a gain that has changed, counts twice"
+    )
+    return replace(answer, n_v=None, possible=tuple(range(max(news, 1), n_v + 1)), counted_by=None, reason=reason)
 
 
 def _beside_laws(answer: Findings, healthy: Array, on_progress: Progress) -> Findings:

@@ -57,7 +57,7 @@ def plot_singular_values(values: ArrayLike, *, order: int | None = None, ax: Any
         ax.axvline(n + 0.5, color=GREY, linewidth=0.9, linestyle="--")
     ax.set(xlabel="number", ylabel="singular value (outputs scaled)", title="Singular values and order")
     _whole_numbers(ax)
-    return _finished(ax, legend=True)
+    return finished(ax, legend=True)
 
 
 def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any = None) -> Any:
@@ -75,7 +75,7 @@ def plot_conditions(values: ArrayLike, equations: int, *, others: str, ax: Any =
     ax.semilogy(count[equations:], sigma[equations:], "o", label=others, **style)
     ax.set(xlabel="number", ylabel="singular value over the largest", title="Conditions on a fault column, and the fault space")
     _whole_numbers(ax)
-    return _finished(ax, legend=True)
+    return finished(ax, legend=True)
 
 
 class Level(Protocol):
@@ -158,7 +158,7 @@ def plot_window_ranks(dimension: WindowRanks, *, window: int | None = None, ax: 
     title = counts if exact else "noise fills every direction, their ranks do not count faults"
     ax.set(xlabel="number", ylabel="singular value (channels of mean square one)", title=f"Windows of the residual: {title}")
     _whole_numbers(ax)
-    return _finished(ax, legend=True)
+    return finished(ax, legend=True)
 
 
 def plot_zeros_and_poles(poles: ArrayLike, zeros: ArrayLike = (), *, ax: Any = None) -> Any:
@@ -180,11 +180,11 @@ def plot_zeros_and_poles(poles: ArrayLike, zeros: ArrayLike = (), *, ax: Any = N
     reach = 1.15 * max(1.0, *(float(np.max(np.abs(given), initial=0.0)) for given in sets.values()))
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach), xlabel="real part", ylabel="imaginary part", title="Poles and finite zeros")
     ax.set_aspect("equal")
-    return _finished(ax, legend=True, place="upper left")
+    return finished(ax, legend=True, place="upper left")
 
 
-def plot_uncertain_poles(poles: ArrayLike, roots: ArrayLike, *, confidence: float = 0.95, ax: Any = None) -> Any:
-    """Draw poles (n,), each with the region that holds it with this probability: an ellipse, and of a real pole a bar.
+def plot_uncertain_poles(poles: ArrayLike, roots: ArrayLike, *, zeros: ArrayLike = (), confidence: float = 0.95, ax: Any = None) -> Any:
+    """Draw poles (n,), each with the region that holds it with this probability: an ellipse, and of a real pole a bar; `zeros` have none.
 
     To first order a pole is off by its row of `roots` (n, K), complex, times K standard normal numbers. Regions too small to be seen are
     all drawn so many powers of ten larger, which the legend tells. A pole whose row is not finite has none, and the legend says so.
@@ -199,7 +199,7 @@ def plot_uncertain_poles(poles: ArrayLike, roots: ArrayLike, *, confidence: floa
         factor = np.sqrt(-2 * np.log(1 - confidence)) if place.imag else NormalDist().inv_cdf((1 + confidence) / 2)
         circle = np.stack([np.cos(turn), np.sin(turn)])[: len(sizes)]
         edges.append(np.array([1, 1j]) @ axes @ (factor * sizes[:, None] * circle))
-    ax = plot_zeros_and_poles(places, ax=ax)
+    ax = plot_zeros_and_poles(places, zeros, ax=ax)
     largest = max((float(np.max(np.abs(edge))) for edge in edges), default=0.0)
     larger = 10 ** max(0, int(np.floor(np.log10(SEEN * ax.get_xlim()[1] / largest)))) if largest > 0 else 1
     label = f"{100 * confidence:g} % region" + (f", drawn {larger} times larger" if larger > 1 else "")
@@ -210,7 +210,7 @@ def plot_uncertain_poles(poles: ArrayLike, roots: ArrayLike, *, confidence: floa
     if not np.all(sure):
         ax.plot([], [], " ", label=f"{counted(int(np.sum(~sure)), 'pole')} without: multiple")
     ax.set_title("Poles, and how sure they are")
-    return _finished(ax, legend=True, place="upper left")
+    return finished(ax, legend=True, place="upper left")
 
 
 def plot_criteria(
@@ -233,7 +233,7 @@ def plot_criteria(
     ax.set(xlabel="order", ylabel="criterion above its least value", title=f"What the data say of the order; taken: {taken} (filled)")
     ticker: Any = import_module("matplotlib.ticker")
     ax.xaxis.set_major_locator(ticker.MaxNLocator(integer=True, min_n_ticks=1))
-    return _finished(ax, legend=True)
+    return finished(ax, legend=True)
 
 
 def plot_roots(frequencies: Array, roots: Array, thresholds: Array, n_v: int | None, *, ax: Any = None) -> Any:
@@ -251,7 +251,7 @@ def plot_roots(frequencies: Array, roots: Array, thresholds: Array, n_v: int | N
     ax.set(
         xlabel="frequency (cycles a sample)", ylabel="power over that of the healthy record", title=f"Beyond the healthy record: {verdict}"
     )
-    return _finished(ax, legend=True)
+    return finished(ax, legend=True)
 
 
 def plot_measured_and_simulated(
@@ -270,7 +270,7 @@ def plot_measured_and_simulated(
             drawn = values[:, j] if p == 1 else (values[:, j] - middle[j]) / size[j] + level
             _line(ax, first, drawn, colour, style, text if j == 0 else None)
     ax.set(xlabel="sample", title="Measured against simulated" + _some_of(p))
-    return _finished(ax, legend=True, outside=True)
+    return finished(ax, legend=True, outside=True)
 
 
 def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, names: Sequence[str] | None = None, ax: Any = None) -> Any:
@@ -292,7 +292,7 @@ def plot_fault_signal(v: ArrayLike, *, trusted: tuple[int, int] | None = None, n
         ax.axvspan(a, b, color=GREY, alpha=0.25, linewidth=0, label="not determined (zeros, delay)" if number == 0 else None)
     ax.set(xlabel="sample", title="Fault signal" + ("s" if m > 1 else "") + _some_of(m))
     ax.margins(x=0.01)
-    return _finished(ax, legend=bool(lost), outside=True)
+    return finished(ax, legend=bool(lost), outside=True)
 
 
 def plot_stored_signal(v: SampleStore, trusted: tuple[int, int], *, first: int = 0, last: int | None = None, ax: Any = None) -> Any:
@@ -324,7 +324,7 @@ def plot_residual(r: ArrayLike, *, names: Sequence[str] | None = None, ax: Any =
         _line(ax, 0, values[:, j] if p == 1 else (values[:, j] - middle[j]) / size[j] + level, BLUE, "-", None)
     ax.set(xlabel="sample", title="Residual" + _some_of(p))
     ax.margins(x=0.01)
-    return _finished(ax, legend=False)
+    return finished(ax, legend=False)
 
 
 def plot_onsets(
@@ -353,7 +353,7 @@ def plot_onsets(
     ticks = [place for place in ticker.MaxNLocator(TICKS, integer=True).tick_values(0, N - 1) if 0 <= place <= N - 1]
     ax.set_xticks([place / samples for place in ticks], [f"{place:,.0f}" for place in ticks])
     ax.set_title("Residual of the whole record" if onsets else "Residual of the whole record: no onset")
-    return _finished(ax, legend=bool(onsets) or healthy is not None, outside=True)
+    return finished(ax, legend=bool(onsets) or healthy is not None, outside=True)
 
 
 def plot_angles(rows: Sequence[tuple[str, float, float | None, str]], *, ax: Any = None) -> Any:
@@ -376,7 +376,7 @@ def plot_angles(rows: Sequence[tuple[str, float, float | None, str]], *, ax: Any
     ax.set_xscale("log")
     ax.set_xlim(left, 90 * (90 / left) ** 0.2)  # with room for the answers
     ax.set(xlabel="angle to the fault space (degrees)", title="Single causes")
-    return _finished(ax, legend=True, outside=True)
+    return finished(ax, legend=True, outside=True)
 
 
 def plot_levels(levels: Sequence[Level], n_v: int | None, *, ax: Any = None) -> Any:
@@ -393,7 +393,7 @@ def plot_levels(levels: Sequence[Level], n_v: int | None, *, ax: Any = None) -> 
     verdict = "undecided" if n_v is None else f"{n_v}"
     ax.set(xlabel="outputs mixed", ylabel="noise power (dB)", title=f"How many outputs still obey a common law? Faults: {verdict}")
     ax.set_xticks(count)
-    return _finished(ax, legend=True)
+    return finished(ax, legend=True)
 
 
 def _axes(ax: Any) -> Any:
@@ -407,7 +407,8 @@ def _axes(ax: Any) -> Any:
     return pyplot.subplots(figsize=(7, 4.2), layout="constrained")[1]
 
 
-def _finished(ax: Any, *, legend: bool, place: str = "best", outside: bool = False) -> Any:
+def finished(ax: Any, *, legend: bool, place: str = "best", outside: bool = False) -> Any:
+    """Give the axes the grid, the sides and the legend that all pictures have, and return them."""
     ax.grid(True, color="#dddddd", linewidth=0.6, zorder=0)
     ax.set_axisbelow(True)
     for side in ("top", "right"):

@@ -61,6 +61,7 @@ class Findings:
     healthy_record: bool = False
     counted_against: tuple[int, int] = (0, 0)
     against: FaultsAgainstHealthy | None = None
+    news: int | None = None
     mean: MeanShift | None = None
     changes: Changes | None = None
     visible: Array | None = None
@@ -76,6 +77,8 @@ class Findings:
     notes: tuple[str, ...] = ()
     dt: float | None = None
     doubts: Doubts | None = None
+    initial_states: tuple[Array, ...] = ()
+    parts: tuple[Findings, ...] = ()
 
     @property
     def modelled(self) -> int:
@@ -88,10 +91,16 @@ class Findings:
         and the table of changes included."""
         if self.n_v is not None:
             return self.n_v
-        changed = self.changes is not None and bool(self.changes.seen)
+        changed = any(one.changes is not None and bool(one.changes.seen) for one in self.experiments)
         counts = (self.against.at_least if self.against else 0, min(self.possible, default=0))
         seen = (*counts, int(self.moved or self.unexplained or changed))
         return max(seen)
+
+    @property
+    def experiments(self) -> tuple[Findings, ...]:
+        """Return what was found in each experiment: its own record, residual, onset, changes and signal, with the model, the number of
+        faults and the space of all. One experiment is its own."""
+        return self.parts or (self,)
 
     @property
     def orders(self) -> OrderEvidence | None:

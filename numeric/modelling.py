@@ -14,6 +14,7 @@ either, samples held back do (`model/held_out_orders.py`), so that there is a mo
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -24,11 +25,11 @@ from ..base.sheets import counted
 from .count.exactness import SCREENED, obeys_exactly
 from .data.records import Passes, Record
 from .model.arx_windows import longest_lag
-from .model.asymptotic_likelihood import arx_reduction
+from .model.asymptotic_likelihood import arx_reduction_experiments
 from .model.feedback import FOLLOWS
 from .model.held_out_orders import order_left_open
 from .model.moesp_model import MoespModel, OrderUndecided
-from .model.past_inputs import pi_moesp
+from .model.past_inputs import pi_moesp_experiments
 from .model.reduced_model import ReducedModel
 from .model.reduction_starts import hankel_factors
 
@@ -54,7 +55,8 @@ class Modelled:
 
 def modelled(record: Record, order: int | None, block_rows: int | None, on_progress: Progress) -> Modelled:
     """Make the model of a record. Raises InvalidData where neither way can have one, with the reason of the first."""
-    exact = obeys_exactly(*record.stretch(0, SCREENED), single=record.single)
+    longest = _longest(record)
+    exact = obeys_exactly(*longest.stretch(0, SCREENED), single=record.single)
     if not exact:
         try:
             return _by_reduction(record, order, block_rows, exact, on_progress)
@@ -76,7 +78,8 @@ def _by_held_out(record: Record, found: Modelled, on_progress: Progress) -> Mode
     """Return the model of the order that fits samples held back best, where the singular values left it open, with what remains open."""
     if found.model is not None:
         return found
-    chosen = order_left_open(*record.stretch(0, len(record)), found.window) if len(record) <= MOST_TRIED else None
+    tried = _longest(record)
+    chosen = order_left_open(*tried.stretch(0, len(tried)), found.window) if len(tried) <= MOST_TRIED else None
     if chosen is None:
         return found
     fits = ", ".join(f"{n}: {fit:.3g}" for n, fit in enumerate(chosen.fits, 1) if np.isfinite(fit))
@@ -92,7 +95,8 @@ def _with_notes(found: Modelled, *notes: str) -> Modelled:
 
 
 def _by_reduction(record: Record, order: int | None, block_rows: int | None, exact: bool, on_progress: Progress) -> Modelled:
-    found = arx_reduction(Passes(record, STAGE, on_progress), order=order, lags=block_rows)
+    sources = [(Passes(one, STAGE, on_progress), None) for one in record.experiments]
+    found = arx_reduction_experiments(sources, order=order, lags=block_rows)
     # Powers of two near the deviations: they round nothing, and are the same in whatever pieces the record came.
     units = np.exp2(-np.round(np.log2(record.channels.deviation)))
     arx = found.arx.scaled(units[record.n_u :], units[: record.n_u])
@@ -102,7 +106,7 @@ def _by_reduction(record: Record, order: int | None, block_rows: int | None, exa
     notes = tuple(note for note in found.notes if not note.startswith(FOLLOWS))
     if found.order == 0:
         notes += ("the outputs follow the inputs at once or not at all: the model has no state",)
-    lags = block_rows if block_rows is not None else max(longest_lag([len(record)], record.p, record.n_u), 1)
+    lags = block_rows if block_rows is not None else max(longest_lag([len(one) for one in record.experiments], record.p, record.n_u), 1)
     return Modelled(found, values, lags, exact, way, notes)
 
 
@@ -110,13 +114,24 @@ def _by_past_inputs(record: Record, order: int | None, block_rows: int | None, e
     rows = block_rows if block_rows is not None else window_default(len(record), record.p, record.n_u, order)
     way = f"PI-MOESP with windows of {rows} samples"
     try:
-        found = pi_moesp(Passes(record, STAGE, on_progress), order=order, block_rows=rows)
+        found = pi_moesp_experiments(_of_windows(record, 2 * rows, on_progress), order=order, block_rows=rows)
     except OrderUndecided as error:
         return Modelled(None, error.singular_values, rows, exact, way, refusal=str(error))
     notes = found.warnings
     if order is not None and not found.gap.clean:
         notes += (f"order {order} was given; the singular values have no clean gap there (ratio {found.gap.ratio:.3g})",)
     return Modelled(found, found.singular_values, rows, exact, way, notes)
+
+
+def _longest(record: Record) -> Record:
+    """Return the longest experiment of a record."""
+    return max(record.experiments, key=len)
+
+
+def _of_windows(record: Record, least: int, on_progress: Progress) -> list[tuple[Any, None]]:
+    """Return the experiments with so many samples at least, or all where none has."""
+    longer = [one for one in record.experiments if len(one) >= least]
+    return [(Passes(one, STAGE, on_progress), None) for one in longer or record.experiments]
 
 
 def window_default(samples: int, p: int, n_u: int, order: int | None) -> int:

@@ -39,18 +39,15 @@ from ..base.progress import Progress, silent
 from ..base.sheets import counted
 from ..base.threads import one_thread
 from .causes import with_isolation, with_onset, with_shift
-from .changing import with_two_parts
 from .choice import ROUNDING, largest, with_signal, with_space
 from .counting import with_count
-from .data.joining import healthy_from, joined
-from .data.records import Passes, Record
-from .data.sources import Source, record_from
+from .data.joining import healthy_from, joined, one_record
+from .data.records import Record
+from .data.sources import Source
 from .data.validation import noise_deviations, whole
 from .doubt.asking import doubts
+from .experiments import completed, for_each, long_enough, residual_by_experiment, with_parts
 from .findings import Findings
-from .model.moesp_model import MoespModel
-from .model.reduced_model import ReducedModel
-from .model.residuals import ResidualSignal, growing_modes, residual
 from .modelling import modelled, window_default
 from .result import Identification
 from .signal.residual_sizes import residual_sizes
@@ -58,7 +55,7 @@ from .signal.residual_sizes import residual_sizes
 
 @one_thread()
 def identify(
-    y: Source,
+    y: Source | Sequence[Source],
     u: Any = None,
     *,
     order: int | None = None,
@@ -85,14 +82,19 @@ def identify(
     data file or a frame, whose channels `inputs` and `outputs` choose, or an iterator of consecutive pieces (y, u), which is read once.
     All of them become one record, and the same numbers give the same answer.
 
+    Several experiments of one plant are a list of records (as `read_stretches` gives them, the parts between missing samples), paths or
+    frames, or lists y and u of as many arrays each; a list of pairs (y, u) are pieces of one experiment. Each has a length, an initial
+    state and an operating point of its own; model, number of faults and fault space are of all, and `found.experiments` has onset, changes,
+    residual and signal of each. Experiments too short for the windows of the others are left out, and a note says so.
+
     `order` is the number n of states, `block_rows` the samples of a window (the lags of the ARX model, the block rows of PI-MOESP), `n_v`
     the number of faults, each found from the data where it is not stated; `healthy` says how many samples, from the first on, are without
     fault, or is another record of the same channels that has none (a Record, a path, a frame, a tuple (y, u), an iterator of pieces),
     which then comes first in the record that the answer is about; `noise_level`, one number or one an output, is the standard deviation
     of the sensors' noise in units of y, by which faults are told from noise where no samples are healthy; `remove_means` takes the means
-    off, of the healthy samples where there are any. `dt` is the time from sample to sample in seconds, which a time column of the data
-    may tell instead; the exports have it, and with it the summary tells frequencies and damping. `on_progress(stage, done, total)` hears
-    how far it has come.
+    off, of the healthy samples where there are any, else of each experiment. `dt` is the time from sample to sample in seconds, which a
+    time column of the data may tell instead; the exports have it, and with it the summary tells frequencies and damping.
+    `on_progress(stage, done, total)` hears how far it has come.
     Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can be had; what cannot be told after
     that is a note of the Identification.
 
@@ -111,21 +113,27 @@ def identify(
     if not isinstance(remove_means, bool | np.bool_):
         raise InvalidData(f"remove_means: got {shorten(remove_means)}; True or False is needed")
     dt = _seconds(dt)
-    record = record_from(y, u, inputs=inputs, outputs=outputs, on_progress=on_progress)
+    record = one_record(y, u, inputs=inputs, outputs=outputs, on_progress=on_progress)
     if n_v is not None and n_v > record.p:
         raise InvalidData(f"n_v: got {n_v} for {counted(record.p, 'output')}; at most as many can be told apart: state fewer")
     if until is not None and until >= len(record):
         raise InvalidData(f"healthy: got {until} for {counted(len(record), 'sample')}; some must follow: state fewer")
+    if until is not None and until > len(record.experiments[0]):
+        raise InvalidData(
+            f"healthy: got {until} for a first experiment of {counted(len(record.experiments[0]), 'sample')}; state samples of the first "
+            "experiment, or give the experiment without fault as healthy and the others as experiments"
+        )
     if until is None and healthy is not None:
         before = healthy_from(healthy, record, on_progress)
         record, until = joined(before, record), len(before)
     level = None if noise_level is None else noise_deviations(noise_level, record.p)
     found = _findings(record, order, block_rows, n_v, until, counted_healthy is None, level, bool(remove_means), on_progress)
-    part = record if until is None else record.beginning(until)
+    part = found.record if until is None else found.record.beginning(until)
     raised = doubts(part, found.model, dt=dt, means_removed=bool(remove_means))
     if dt is None and record.clock is not None:
         dt = record.clock.dt
-    return Identification(**vars(found) | {"dt": dt, "doubts": raised})
+    known = {"dt": dt, "doubts": raised}
+    return Identification(**vars(found) | known | {"parts": tuple(Identification(**vars(one) | known) for one in found.parts)})
 
 
 def _is_record(healthy: Any) -> bool:
@@ -171,13 +179,17 @@ def _findings(
     """Go through the chain of the module's docstring; `apart`: the `healthy` samples are a record of their own, before the other."""
     part = record if healthy is None else record.beginning(healthy)
     rows = block_rows if block_rows is not None else window_default(len(part), record.p, record.n_u, order)
+    record, left_out = long_enough(record, rows)
+    part = record if healthy is None else record.beginning(healthy)
     try:
         _enough(part, rows)
         _varying(part)
     except InvalidData as error:
         raise error if healthy is None else InvalidData(f"healthy: the model is from these samples alone: {error}") from None
-    notes: tuple[str, ...] = ()
-    if remove_means:
+    notes = left_out
+    if remove_means and healthy is None:
+        record = part = record.about_own_means()
+    elif remove_means:
         record, part = record.about(part.channels.mean), part.about_means()
     found = modelled(part, order, block_rows, on_progress)
     if noise_level is not None and healthy is not None:
@@ -188,33 +200,14 @@ def _findings(
     if found.model is None:
         return replace(answer, notes=(*answer.notes, f"the order is undecided: {found.refusal}"))
     with np.errstate(over="ignore", invalid="ignore"):  # outliers beyond all numbers are told by what they leave
-        rest = _residual(part if answer.healthy_record else record, found.model, len(part), on_progress)
-        if answer.healthy_record:
-            rest = with_two_parts(rest, record.ending(len(part)), found.model.model, on_progress)
+        rest, each = residual_by_experiment(record, found.model, len(part), on_progress)
     sizes = residual_sizes(rest.store, len(part))
-    answer = replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes))
+    answer = with_parts(replace(answer, residual=rest, sizes=sizes, notes=(*answer.notes, *rest.notes)), each)
     if np.all(sizes.peak <= ROUNDING * largest(record)):
-        return replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model")
-    answer = with_count(with_onset(answer, on_progress), n_v, on_progress)
-    return with_signal(with_shift(with_isolation(with_space(answer, on_progress))), on_progress)
-
-
-def _residual(record: Record, found: MoespModel | ReducedModel, modelled: int, on_progress: Progress) -> ResidualSignal:
-    """Take the residual from the state that goes with the model, where there is one and the model can be run from it over the whole record,
-    of which it may have seen the first samples alone: no sample is then held. Its covariance is that of the samples `modelled`, with all
-    parameters that were fitted taken off."""
-    data = Passes(record, "residual", on_progress)
-    model = found.model
-    if isinstance(found, ReducedModel):
-        if found.x0 is None or growing_modes(model, len(record)):
-            return residual(data, None, model)
-        rest = residual(data, None, model, x0=found.x0)
-        squares = sum((r.T @ r for r in rest.store.pieces(0, modelled)), np.zeros((model.p, model.p)))
-        fitted = model.n * (model.p + model.n_u + 1) + model.p * model.n_u
-        return replace(rest, covariance=squares / max(modelled - fitted / model.p, 1.0))
-    if found.x0 is None or found.residual_covariance is None or growing_modes(model, len(record)):
-        return residual(data, None, model)
-    return replace(residual(data, None, model, x0=found.x0), covariance=found.residual_covariance)
+        return completed(replace(answer, n_v=0, n_v_given=False, reason=_nothing_left(answer), counted_by="model"))
+    answer = with_count(for_each(answer, lambda one: with_onset(one, on_progress)), n_v, on_progress)
+    answer = completed(with_isolation(with_space(answer, on_progress)))
+    return with_signal(for_each(answer, with_shift), on_progress)
 
 
 def _nothing_left(answer: Findings) -> str:

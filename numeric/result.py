@@ -33,15 +33,19 @@ class Identification(Findings):
     pair, signal     F (n, n_v), G (p, n_v), one choice out of the space, and v (N, n_v) for it; explained: the share of the residual that
                      the signal explains, by_noise: what it would explain of noise
     doubts           what the record gives reason to doubt: evidence, what it does to the answer, what to do
+    experiments      the same for each experiment by itself: its record, residual, onset, changes and signal, with the model, the number of
+                     faults and the space of all; one experiment is its own, of several the whole has no onset, changes and signal
+    initial_states   the state (n,) at the first sample of each experiment, that of a healthy record first
     notes            what a user must know, in whole sentences or nearly so; why an end was reached is among them
 
     order_given: the order was stated; held: the samples (first, last) that faults were counted on; dimension: the count on these; healthy:
     samples stated to be without fault, from the first on; `modelled` samples the model is from; counted_against: the samples of the healthy
     ones that `against` was counted against; mean: the test of the mean of the residual (against the healthy samples, or against zero where
     there are none and no means were removed); changes: the table of what has changed since the healthy samples, or of the little that the
-    second half of a record shows against the first; healthy_record: these came in a record of their own; unexplained: the healthy samples
-    are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one output that would be seen;
-    dt: the sample time in seconds, where it was stated or a time column tells it.
+    second half of a record shows against the first; news: how many of the faults counted against the healthy samples are more than
+    residual and inputs foretell, None where that was not asked; healthy_record: these came in a record of their own; unexplained: the
+    healthy samples are explained to rounding, the others are not; visible (p,): the standard deviation of a white fault at one
+    output that would be seen; dt: the sample time in seconds, where it was stated or a time column tells it.
 
     `summary()` tells people what was found, `plot()` draws it, `save(folder)` writes all of it, and `to_json()`, `to_control()`,
     `to_scipy()`, `to_pandas()` and `to_mat(path)` hand it to other programs. Raises InvalidData where one of these needs a model and there
@@ -58,8 +62,9 @@ class Identification(Findings):
         order = "undecided" if self.model is None else self.model.order
         n_v = "undecided" if self.n_v is None else self.n_v
         n_z = self.fault_space.n_z if self.fault_space is not None and self.fault_space.meaningful else None
-        found = "no signal" if self.signal is None else "with a signal"
-        return f"<Identification of {len(self.record)} samples: order {order}, n_v {n_v}, n_z {n_z}, {found}>"
+        found = "no signal" if all(one.signal is None for one in self.experiments) else "with a signal"
+        of = f" in {len(self.parts)} experiments" if self.parts else ""
+        return f"<Identification of {len(self.record)} samples{of}: order {order}, n_v {n_v}, n_z {n_z}, {found}>"
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows: the summary."""

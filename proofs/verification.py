@@ -8,23 +8,20 @@ from __future__ import annotations
 import time
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from importlib import import_module
 
 from ..base.errors import InvalidInput, shorten
 from ..base.progress import Progress, silent
 from ..base.sheets import counted
 from .adversary.attacking import attacking, of_reading, of_row
-from .evidence.corpus import describe
+from .deciding import Check, Without, decided
 from .hypotheses import ablations
 from .rocq.build import BrokenTheory, NoRocq, NotProved
 from .rocq.locks import held
 from .rocq.sources import sources
 from .rocq.theorems import Theorems
 from .rocq.theorems import check as machine_checked
-from .trust.checker import Malformed, Rejected
-from .verdict.ablation import ablate
-from .verdict.ledger import Claim, Reading, expected_without, load
-from .verdict.verdicts import ClaimResult, Outcome, ReadingResult, Report, Row, Verdict
+from .verdict.ledger import Claim, load
+from .verdict.verdicts import ClaimResult, ReadingResult, Report, Row, Verdict
 from .verdict.workbench import Workbench
 
 EFFORTS = ("quick", "full")
@@ -71,34 +68,24 @@ def verify(
     total = sum(len(claim.readings) for claim in chosen)
     machine = _theorems(chosen, report)
     attacks = attacking({claim.id for claim in chosen}, effort, jobs, report)
+    experiments = [one for one in ablations() if one.claim in {claim.id for claim in chosen}]
+    checks = dict.fromkeys(Check(reading.check) for claim in chosen for reading in claim.readings)  # several readings come down to one
+    answers = decided(bench, [*checks, *(Without(one.name) for one in experiments)])
     results: list[ClaimResult] = []
-    decided: dict[str, Outcome] = {}  # by the name of the check: several readings come down to one
-    done = 0
     for claim in chosen:
         readings = []
         for reading in claim.readings:
-            report(f"{claim.id}: {reading.id}", done, total)
-            readings.append(of_reading(_with_theorems(_check(reading, bench, decided), machine), claim.id, attacks))
-            done += 1
+            report(f"{claim.id}: {reading.id}", len(results), len(chosen))
+            check = Check(reading.check)
+            seconds = answers[check].seconds if check in checks else 0.0  # of the first reading that comes down to it
+            checks.pop(check, None)
+            result = ReadingResult(reading, answers[check].found, seconds)
+            readings.append(of_reading(_with_theorems(result, machine), claim.id, attacks))
         results.append(ClaimResult(claim, tuple(readings)))
-    rows = tuple(of_row(row, attacks) for row in _without_hypotheses(bench, {claim.id for claim in chosen}, machine, report))
+    found = [row for one in experiments for row in answers[Without(one.name)].found]
+    rows = tuple(of_row(_row_with_theorems(row, machine), attacks) for row in found)
     report("done", total, total)
-    corpus = describe(bench.corpus) if "corpus" in vars(bench) else ""
-    return Report(effort, tuple(results), rows, corpus, time.perf_counter() - started, machine.message)
-
-
-def _without_hypotheses(bench: Workbench, claims: set[str], machine: _Machine, report: Progress) -> tuple[Row, ...]:
-    expected = expected_without()
-    chosen = [ablation for ablation in ablations() if ablation.claim in claims]
-    rows: list[Row] = []
-    for done, ablation in enumerate(chosen):
-        report(f"{ablation.claim} without its hypotheses", done, len(chosen))
-        try:
-            rows += [_row_with_theorems(row, machine) for row in ablate(bench, ablation, expected[ablation.name])]
-        except Exception as error:  # as for a reading: it did not finish, and the others go on
-            words = f"{type(error).__name__}: {error}"
-            rows.append(Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, (), 0))
-    return tuple(rows)
+    return Report(effort, tuple(results), rows, bench.corpus_in_words, time.perf_counter() - started, machine.message)
 
 
 @dataclass(frozen=True)
@@ -162,24 +149,3 @@ def _row_with_theorems(row: Row, machine: _Machine) -> Row:
         return row
     words = f"Rocq, without axioms: {', '.join(row.theorems)}; and {row.evidence}"
     return replace(row, verdict=Verdict.PROVED, evidence=words, machine_checked=True)
-
-
-def _check(reading: Reading, bench: Workbench, decided: dict[str, Outcome]) -> ReadingResult:
-    started = time.perf_counter()
-    if reading.check not in decided:
-        decided[reading.check] = _outcome(reading.check, bench)
-    return ReadingResult(reading, decided[reading.check], time.perf_counter() - started)
-
-
-def _outcome(check: str, bench: Workbench) -> Outcome:
-    """What the function of this name in claims/ finds; an ERROR where it raises, or says something that no accepted certificate bears."""
-    file, _, name = check.partition(".")
-    try:
-        outcome: Outcome = getattr(import_module(f".claims.{file}", __package__), name)(bench)
-    except (Malformed, Rejected) as error:
-        outcome = Outcome(Verdict.ERROR, f"the checker refused a certificate: {error}")
-    except Exception as error:  # whatever it is, this check did not finish, and the others go on
-        outcome = Outcome(Verdict.ERROR, f"{type(error).__name__}: {error}")
-    if outcome.verdict in (Verdict.CERTIFIED, Verdict.REFUTED) and not (outcome.certificates and outcome.accepted):
-        outcome = Outcome(Verdict.ERROR, f"{outcome.verdict}, and yet no certificate was accepted: {outcome.evidence}")
-    return outcome

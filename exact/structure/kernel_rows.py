@@ -11,28 +11,30 @@
 Rows whose leading coefficients are triangular by their pivots, and which annihilate the system, bound every gap from above: gap(k) <= p
 - #{mu <= k}. Ranks modulo a prime bound every window from below. Where the two meet, rank [O_s T_s] = s r + sum min(s, mu) for every s.
 
-Over Q and Q(a): the shape of the rows comes from the recursion modulo one prime, their coefficients from one exact solve by p-adic lifting
-(`relations`), and the exact Horner check has the last word. Source: [F75], [W91], [SB21].
+Over Q and Q(a): the shape of the rows comes from one elimination modulo a prime (`modular_rows`), their coefficients from one exact solve
+(`relations`), and the exact Horner check has the last word. Over GF(p) the shape comes from the output-nulling recursion. Source: [F75],
+[W91], [SB21].
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import gcd, lcm
+from math import lcm
 from typing import Any
 
-from flint import fmpq
+from flint import fmpz, fmpz_mat
 
 from ...base.sheets import Shown
-from ..algebra.fields import NumberField, PrimeField
+from ..algebra.fields import PrimeField
 from ..algebra.matrices import Matrix, beside, stacked
 from ..algebra.notation import polynomial, several
 from ..algebra.validation import natural
 from ..system.modular import Image, image
 from ..system.systems import ResidualSystem, System, residual_of
-from .relations import integer_relations, relations_over_prime_field
+from .modular_rows import rows_modulo
+from .relations import coefficients_of, integer_relations, relations_over_prime_field
 from .zero_output import ZeroOutputChain, zero_output_chain
 
 
@@ -55,7 +57,7 @@ class KernelRepresentation(Shown):
 
     The system has p outputs. `rows` ascend by degree; each has `coefficients` of shape (mu + 1) x p and the output of its `pivot`. Their
     degrees are the left minimal indices, the largest is the `lag`, a number of samples, and p less their number is the normal rank;
-    `rank(s)` is rank [O_s T_s] for every s. `image` and `chain` are the system modulo a prime, with which the rows were shown to be all.
+    `rank(s)` is rank [O_s T_s] for every s. `image` is the system modulo a prime, with which the rows were shown to be all.
     `kernel_representation` makes it. Source: [F75], [W91]; [G25] Theorem 2 after [SB21] for the ranks. Raises nothing by itself.
 
     >>> from faultspace.exact import ResidualSystem, kernel_representation
@@ -69,7 +71,6 @@ class KernelRepresentation(Shown):
     system: ResidualSystem
     rows: tuple[KernelRow, ...]
     image: Image
-    chain: ZeroOutputChain
 
     @cached_property
     def left_minimal_indices(self) -> tuple[int, ...]:
@@ -181,10 +182,9 @@ def kernel_representation(system: System) -> KernelRepresentation:
     picture = image(residual)
     most = _misleading_primes(residual) + 1
     for _ in range(most):
-        chain = zero_output_chain(picture.system)
-        rows = _rows(residual, picture, chain)
+        rows = _rows(residual, picture)
         if rows is not None:
-            return KernelRepresentation(residual, rows, picture, chain)
+            return KernelRepresentation(residual, rows, picture)
         picture = image(residual, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
     raise ArithmeticError(f"no kernel rows fit at any of {most} primes")
 
@@ -206,20 +206,34 @@ def _misleading_primes(system: ResidualSystem) -> int:
     return (system.n + 1) * size * (system.n + 2) * entry // 29
 
 
-def _rows(system: ResidualSystem, picture: Image, chain: ZeroOutputChain) -> tuple[KernelRow, ...] | None:
-    """These are the rows whose shape the chain shows, or None when the exact check refutes that shape."""
-    leads = _leads(chain, system.p)
-    if isinstance(system.field, PrimeField):
+def _rows(system: ResidualSystem, picture: Image) -> tuple[KernelRow, ...] | None:
+    """These are the rows whose shape the image shows, or None when the exact check refutes that shape, or shows none."""
+    field = system.field
+    if isinstance(field, PrimeField):
+        leads = _leads(zero_output_chain(system), system.p)
         tables = relations_over_prime_field(system, leads)
-        return tuple(KernelRow(pivot, Matrix.of(c, system.field)) for (_, pivot), c in zip(leads, tables, strict=True))
-    relations = integer_relations(system, leads, picture.prime)
-    if relations is None:
+        return tuple(KernelRow(pivot, Matrix.of(c, field)) for (_, pivot), c in zip(leads, tables, strict=True))
+    shape = rows_modulo(picture.system)
+    relations = None if shape is None else integer_relations(system, shape.leads, picture.prime)
+    if shape is None or relations is None or not _all_annihilate(relations, system):
         return None
-    rows = tuple(
-        KernelRow(pivot, Matrix.from_elements(system.field, mu + 1, system.p, _primitive(relation, system.field)))
-        for (mu, pivot), relation in zip(leads, relations, strict=True)
-    )
-    return rows if all(annihilates(row, system) for row in rows) else None
+    return tuple(KernelRow(output, coefficients_of(relation, system)) for (_, output), relation in zip(shape.leads, relations, strict=True))
+
+
+def _all_annihilate(relations: Sequence[list[list[fmpz]]], system: ResidualSystem) -> bool:
+    """This tells whether rows of integer coordinates annihilate the system: Horner's recursion, all rows at once, over one denominator."""
+    split = [getattr(system, name).flint.numer_denom() for name in "AFCG"]
+    common = fmpz(lcm(*(int(bottom) for _, bottom in split)))
+    A, F, C, G = (top * (common // bottom) for top, bottom in split)
+    width, factor = system.p * system.field.degree, fmpz(1)
+    state = fmpz_mat(len(relations), A.nrows())
+    for k in reversed(range(max(map(len, relations), default=0))):
+        rows = [relation[k] if k < len(relation) else [0] * width for relation in relations]
+        coefficient = fmpz_mat(len(relations), width, [x * factor for row in rows for x in row])
+        if not (coefficient * G + state * F).is_zero():
+            return False
+        state, factor = coefficient * C + state * A, factor * common
+    return bool(state.is_zero())
 
 
 def _leads(chain: ZeroOutputChain, p: int) -> list[tuple[int, int]]:
@@ -231,14 +245,3 @@ def _leads(chain: ZeroOutputChain, p: int) -> list[tuple[int, int]]:
         seen.update(fresh)
         leads.extend((k, output) for output in fresh)
     return leads
-
-
-def _primitive(relation: list[list[list[Any]]], field: Any) -> list[list[Any]]:
-    """The result is the relation scaled to coprime integers, as field elements."""
-    scalars = [x for row in relation for entry in row for x in entry]
-    bottom = lcm(*(int(x.q) for x in scalars)) if scalars else 1
-    top = gcd(*(int((x * bottom).p) for x in scalars)) or 1
-    scale = fmpq(bottom, top)
-    if isinstance(field, NumberField):
-        return [[field.from_coordinates([x * scale for x in entry]) for entry in row] for row in relation]
-    return [[entry[0] * scale for entry in row] for row in relation]

@@ -1,7 +1,8 @@
 """This finds coefficients of the kernel rows, once their shape is known: one exact linear solve.
 
     leads                      (mu, output) for every output that depends on earlier ones from sample mu on
-    integer_relations          over Q and Q(a); flint's p-adic lifting, which stops as soon as the answer is recognised
+    integer_relations          over Q and Q(a), in coprime integer coordinates, by flint's solver over the integers
+    coefficients_of            the same as field elements
     relations_over_prime_field over GF(p), by elimination
     basis rows                 the rows (k, i) of [O_s T_s] that depend on no row above them: k < mu_i, all k where i is no lead
 
@@ -12,15 +13,16 @@ away is checked by the caller's Horner run, never assumed.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import gcd
 from typing import Any
 
-import flint
-from flint import fmpq, fmpz, nmod_mat
+from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
 
-from ..algebra.fields import Rationals
-from ..algebra.matrices import Matrix, pivot_columns, solve_left
+from ..algebra.fields import NumberField
+from ..algebra.matrices import Matrix, solve_left
 from ..system.systems import ResidualSystem
 from ..system.windows import window_matrix
+from .window_columns import null_vectors, window_columns
 
 Lead = tuple[int, int]
 
@@ -49,75 +51,67 @@ def relations_over_prime_field(system: ResidualSystem, leads: Sequence[Lead]) ->
     return relations
 
 
-def integer_relations(system: ResidualSystem, leads: Sequence[Lead], prime: int) -> list[list[list[list[fmpq]]]] | None:
-    """For each lead the result has the (mu + 1) x p x d rational coordinates of its row; it is None where the shape or the prime proves
-    wrong.
+def integer_relations(system: ResidualSystem, leads: Sequence[Lead], prime: int) -> list[list[list[fmpz]]] | None:
+    """For each lead the result has the mu + 1 coefficients of its row, each the p d coordinates, all coprime integers; it is None where the
+    shape or the prime proves wrong.
     """
     if not leads:
         return []
     d, p = system.field.degree, system.p
-    rational = _over_the_rationals(system)
     windows = max(mu for mu, _ in leads) + 1
-    built, state_scale = _integer_window(rational, windows)
+    (A, F), scale = _numerators(system.A, system.F)
+    (C, G), _ = _numerators(system.C, system.G)
+    columns = window_columns(A, F, C, G, windows)  # of sample k: those of the system times scale^k, and v(j) over scale^j
     basis = basis_rows(leads, p, windows)
-    above = built.rows([k * p * d + i * d + c for k, i in basis for c in range(d)])
-    below = built.rows([mu * p * d + output * d for mu, output in leads])
-    pivots = _pivots_modulo(above, prime)
-    if len(pivots) < above.nrows:
+    places = [(k * p + i) * d + c for k, i in basis for c in range(d)]
+    above = [[column[place] for place in places] for column in columns]
+    chosen = _independent(above, len(places), prime)
+    if len(chosen) < len(places):
         return None
-    square, target = above.columns(pivots), below.columns(pivots)
-    solution = _solve(square, target)
+    numerators, bottom = list[list[fmpz]](), fmpz(1)
+    if chosen:
+        target = fmpz_mat([[columns[j][(mu * p + output) * d] for mu, output in leads] for j in chosen])
+        solution: Any = fmpz_mat([above[j] for j in chosen]).solve(target)
+        top, bottom = solution.numer_denom()
+        numerators = top.tolist()
     relations = []
     for a, (mu, output) in enumerate(leads):
-        rows = [[[fmpq(0)] * d for _ in range(p)] for _ in range(mu + 1)]
+        rows = [[fmpz(0)] * (p * d) for _ in range(mu + 1)]
         for b, (k, i) in enumerate(basis):
-            values = [solution[b * d + c, a] for c in range(d)]
+            values = [numerators[b * d + c][a] for c in range(d)]
             if (k, i) < (mu, output):
-                rows[k][i] = [-value * state_scale**k for value in values]
-            elif any(value != 0 for value in values):
+                rows[k][i * d : i * d + d] = [-value * scale**k for value in values]
+            elif any(values):
                 return None
-        rows[mu][output][0] = fmpq(state_scale**mu)
-        relations.append(rows)
+        rows[mu][output * d] = bottom * scale**mu
+        content = gcd(*(int(x) for row in rows for x in row))
+        relations.append([[x // content for x in row] for row in rows])
     return relations
 
 
-def _over_the_rationals(system: ResidualSystem) -> ResidualSystem:
-    """The result is the system of the blocks: n d states, m d faults, p d outputs over Q."""
-    d = system.field.degree
-    rational = Rationals()
-    parts = [getattr(system, name) for name in "AFCG"]
-    return ResidualSystem(*(Matrix(rational, part.nrows * d, part.ncols * d, part.flint) for part in parts))
+def coefficients_of(relation: list[list[fmpz]], system: ResidualSystem) -> Matrix:
+    """The result has the field elements with the coordinates of a relation, (mu + 1) x p."""
+    field, d = system.field, system.field.degree
+    if isinstance(field, NumberField):
+        parts = [[row[j : j + d] for j in range(0, len(row), d)] for row in relation]
+        rows = [[field.from_coordinates([fmpq(x) for x in part]) for part in row] for row in parts]
+        return Matrix.from_elements(field, len(rows), system.p, rows)
+    return Matrix(field, len(relation), system.p, fmpq_mat(fmpz_mat(len(relation), system.p, [x for row in relation for x in row])))
 
 
-def _integer_window(system: ResidualSystem, windows: int) -> tuple[Matrix, fmpz]:
-    """The result is [O_s T_s] of (dA, dF, cC, cG), which is integral, and d.
-
-    Its row of sample k is c d^k times that of the system, with v(j) rescaled: kernel coefficients come back as N_k d^k.
-    """
-    d, e = _common_denominator(system.A, system.F), _common_denominator(system.C, system.G)
-    scaled = ResidualSystem(*(_times(part, factor) for part, factor in ((system.A, d), (system.F, d), (system.C, e), (system.G, e))))
-    return window_matrix(scaled, windows), d
-
-
-def _common_denominator(*parts: Matrix) -> fmpz:
-    result = fmpz(1)
-    for part in parts:
-        result = result.lcm(part.flint.numer_denom()[1])
-    return result
+def _numerators(*parts: Matrix) -> tuple[list[fmpz_mat], fmpz]:
+    """The result has the blocks times their common denominator, and that denominator."""
+    split = [part.flint.numer_denom() for part in parts]
+    common = fmpz(1)
+    for _, bottom in split:
+        common = common.lcm(bottom)
+    return [top * (common // bottom) for top, bottom in split], common
 
 
-def _times(part: Matrix, factor: fmpz) -> Matrix:
-    return Matrix(part.field, part.nrows, part.ncols, part.flint * factor)
-
-
-def _pivots_modulo(matrix: Matrix, prime: int) -> list[int]:
-    """These columns make a square invertible matrix of an integer one of full row rank; they are found modulo the prime."""
-    numerators = matrix.flint.numer_denom()[0]
-    return pivot_columns(nmod_mat(numerators, prime).rref()[0])
-
-
-def _solve(square: Matrix, target: Matrix) -> Any:
-    """The result is the transposed solution of X square = target, by Dixon's p-adic lifting [D82]."""
-    if square.nrows == 0:
-        return flint.fmpq_mat(0, target.nrows)
-    return square.flint.transpose().solve(target.flint.transpose(), "dixon")
+def _independent(table: list[list[fmpz]], width: int, prime: int) -> list[int]:
+    """The result has the indices of the rows of the table that are independent, modulo the prime, of those above them."""
+    if not table or not width:
+        return []
+    turned = [[row[j] for row in table] for j in range(width)]
+    dependent = {max(i for i, x in enumerate(vector) if x) for vector in null_vectors(turned, len(table), prime)}
+    return [i for i in range(len(table)) if i not in dependent]

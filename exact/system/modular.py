@@ -12,9 +12,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from flint import fmpz, nmod_poly
+from flint import fmpz, nmod_mat, nmod_poly
 
-from ..algebra.fields import NumberField, PrimeField
+from ..algebra.fields import NumberField, PrimeField, Rationals
 from ..algebra.matrices import Matrix
 from .systems import ResidualSystem
 
@@ -64,8 +64,15 @@ def simple_root(field: NumberField, prime: int) -> int | None:
 
 
 def reduce_matrix(matrix: Matrix, prime: int, root: int | None) -> Matrix | None:
-    """The result is the matrix modulo the prime, a going to the root; None when a denominator vanishes."""
+    """The result is the matrix modulo the prime, a going to the root; None when a denominator vanishes. Over GF(p) it is the matrix."""
+    if isinstance(matrix.field, PrimeField):
+        return matrix
     target = PrimeField(prime)
+    if isinstance(matrix.field, Rationals):
+        numerators, denominator = matrix.flint.numer_denom()
+        if denominator % prime == 0:
+            return None
+        return Matrix(target, matrix.nrows, matrix.ncols, nmod_mat(numerators, prime) * pow(int(denominator), -1, prime))
     rows: list[list[Any]] = []
     for row in matrix.elements():
         reduced = []

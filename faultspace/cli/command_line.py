@@ -260,7 +260,14 @@ def limit(
 
 @_command()
 def identify(
-    data: Annotated[str, typer.Argument(metavar="DATA", show_default=False, help="A CSV, Parquet, NPZ, NPY or MAT file of measurements.")],
+    data: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="DATA...",
+            show_default=False,
+            help="A CSV, Parquet, NPZ, NPY or MAT file of measurements; several are experiments of one plant.",
+        ),
+    ],
     inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
     outputs: Annotated[list[str], typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")],
     out: Annotated[
@@ -304,6 +311,9 @@ def identify(
         ),
     ] = None,
     remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
+    gaps: Annotated[
+        bool, typer.Option("--gaps", help="Samples are missing: take the parts between them as experiments of one plant.")
+    ] = False,
     dt: Annotated[
         float | None,
         typer.Option(
@@ -320,20 +330,21 @@ def identify(
     That is: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell, which is an answer too: exit 0.
     DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
 
+    Several files of the same channels give one model, one number of faults and one fault space; onset, changes and signal are of each.
     A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
     the matrix is called data.
     """
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, remove_means=remove_means, dt=dt)
+    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, remove_means=remove_means, dt=dt, gaps=gaps)
     return identifying.run(data, known, inputs=inputs, outputs=outputs, out=out, as_json=json)
 
 
 @_command()
 def monitor(
     model: Annotated[
-        str, typer.Argument(metavar="MODEL", show_default=False, help="The model.json of identify, or the folder that it is in.")
+        str, typer.Argument(metavar="MODEL", show_default=False, help="The model.json of identify, its folder, or a saved monitor.")
     ],
     inputs: Annotated[
         list[str] | None, typer.Option("--inputs", metavar="NAME,...", help="Input columns.", show_default="as in the model's file")
@@ -342,7 +353,8 @@ def monitor(
         list[str] | None, typer.Option("--outputs", metavar="NAME,...", help="Output columns.", show_default="as in the model's file")
     ] = None,
     healthy: Annotated[
-        str | None, typer.Option("--healthy", metavar="FILE", help="A record without fault to calibrate by.", show_default=False)
+        str | None,
+        typer.Option("--healthy", metavar="FILE", help="A record without fault to calibrate by.", show_default="the model's own"),
     ] = None,
     healthy_until: Annotated[
         int | None,
@@ -358,19 +370,33 @@ def monitor(
         typer.Option(metavar="SECONDS", parser=_number(float, 0, 60), help="Stop when nothing came for so long.", show_default="never"),
     ] = None,
     level: Annotated[
-        float, typer.Option(metavar="RATE", parser=_number(float, 0, 1e-4), help="False alarms a sample, all tests together.")
-    ] = 1e-4,
-    window: Annotated[int, typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of the chi-square test.")] = 20,
+        float | None,
+        typer.Option(
+            metavar="RATE",
+            parser=_number(float, 0, 1e-4),
+            help="False alarms a sample, all tests together.",
+            show_default="0.0001, or as saved",
+        ),
+    ] = None,
+    window: Annotated[
+        int | None,
+        typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of the chi-square test.", show_default="20, or as in MODEL"),
+    ] = None,
+    save: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write the monitor there at the end, a MODEL that goes on later.", show_default=False),
+    ] = None,
     json: Json = False,
 ) -> int:
     """Watch a plant: a model against a stream.
 
     Lines of a CSV table with a line of names come from standard input or a growing file; an empty field is a missing sample. Each alarm is
-    a line as it comes, with --json a JSON object; the last is the summary. Exit 0 at the end of the stream, whatever the alarms.
+    a line as it comes, with --json a JSON object; the last is the summary. Without --healthy the samples of MODEL's own record that were
+    stated to be healthy say what is usual, else those before its first onset, else all. Exit 0 at the end, whatever the alarms.
     """
     from . import monitoring
 
-    watching = monitoring.Watching(healthy, healthy_until, follow, idle, level, window)
+    watching = monitoring.Watching(healthy, healthy_until, follow, idle, level, window, save)
     return monitoring.run(model, watching, inputs=inputs or [], outputs=outputs or [], as_json=json)
 
 

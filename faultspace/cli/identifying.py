@@ -15,14 +15,15 @@ from rich.text import Text
 
 from ..base.errors import InvalidInput, in_file, quote_path
 from ..base.messages import say
-from ..base.progress import evenly, working
-from ..numeric.data.files import read_record
+from ..base.progress import Progress, evenly, working
+from ..base.sheets import counted
+from ..numeric.data.files import read_record, read_stretches
 from ..numeric.data.records import Record
 from ..numeric.pipeline import identify
 from ..numeric.report import files as report
 from ..numeric.report.folders import refuse
 from ..numeric.report.summary import summary
-from .argument_names import as_options
+from .argument_names import as_options, naming, of_file
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED
 from .reading_files import prepare_folder
@@ -40,20 +41,23 @@ class Known:
     noise_level: Sequence[float] | None
     remove_means: bool
     dt: float | None
+    gaps: bool = False
 
 
-def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str], out: Path, as_json: bool) -> int:
+def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: Sequence[str], out: Path, as_json: bool) -> int:
     """Identify and write the files of `report.NAMES` into `out`; the exit code is 0 whenever there is an answer, "undecided" included.
+
+    Several files are experiments of one plant, and with `known.gaps` so are the parts of a file between missing samples.
 
     A folder with a file of these names that no earlier run wrote is refused before anything is read. Where there is no answer, folders that
     were made for it go again.
     """
     if known.healthy is not None and known.healthy_until is not None:
         raise InvalidInput("--healthy: got --healthy-until as well, expected one of them: a file without fault, or the number of samples")
-    taken = [
-        name for name in report.NAMES if (out / name).exists() and any(_same(out / name, read) for read in (data, known.healthy) if read)
-    ]
-    if taken:
+    worded = as_options if known.healthy is None else of_file
+    read = [*files, *([known.healthy] if known.healthy else [])]
+    data = _named(files)
+    if any(_same(out / name, path) for name in report.NAMES if (out / name).exists() for path in read):
         raise InvalidInput(f"{quote_path(data)}: would be overwritten by the answer of this name, expected another --out")
     refuse(out, report.NAMES)
     new = _missing(out)
@@ -61,13 +65,13 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
         prepare_folder(out)
         with working(f"reading {quote_path(data)}") as telling:
             tell = evenly(telling)
-            record = read_record(data, inputs=inputs, outputs=outputs, on_progress=tell)
+            records = [one for path in files for one in _records(path, known.gaps, inputs, outputs, tell)]
             healthy: int | Record | None = known.healthy_until
             if known.healthy is not None:
                 healthy = read_record(known.healthy, inputs=inputs, outputs=outputs, on_progress=tell)
-            with in_file(data):
+            with naming(worded), in_file(data):
                 answer = identify(
-                    record,
+                    records if len(records) > 1 else records[0],
                     order=known.order,
                     block_rows=known.block_rows,
                     n_v=known.faults,
@@ -78,7 +82,7 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
                     on_progress=tell,
                 )
             tell("writing", 0, 0)
-            written, remarks = report.write(answer, out, data, tell, worded=as_options)
+            written, remarks = report.write(answer, out, data, tell, worded=worded)
     except BaseException:
         for folder in new:
             with suppress(OSError):
@@ -87,14 +91,26 @@ def run(data: str, known: Known, *, inputs: Sequence[str], outputs: Sequence[str
     for remark in remarks:
         say(remark)
     if as_json:
-        print_json(report.document(answer, data, worded=as_options) | {"files": written})
+        print_json(report.document(answer, data, worded=worded) | {"files": written})
         return ANSWERED
     console = answers()
-    for line in summary(answer, data, worded=as_options):
+    for line in summary(answer, data, worded=worded):
         paragraph(console, Text(line, style="bold cyan" if line.startswith("#") else ""))
     console.print()
     paragraph(console, f"written into {quote_path(str(out))}: {', '.join(written)}")
     return ANSWERED
+
+
+def _records(path: str, gaps: bool, inputs: Sequence[str], outputs: Sequence[str], tell: Progress) -> list[Record]:
+    """Return the record of a file, or the parts of it between missing samples."""
+    if gaps:
+        return read_stretches(path, inputs=inputs, outputs=outputs, on_progress=tell)
+    return [read_record(path, inputs=inputs, outputs=outputs, on_progress=tell)]
+
+
+def _named(files: Sequence[str]) -> str:
+    """Return what the answer is about: the file, or the first of several with the number of the others."""
+    return files[0] if len(files) == 1 else f"{files[0]} and {counted(len(files) - 1, 'file')} more"
 
 
 def _one_or_each(levels: Sequence[float] | None) -> float | Sequence[float] | None:

@@ -4,7 +4,7 @@ A constant signal is persistently exciting of order one only, so that a constant
 healthy record says what means are worth: how much noise there is at frequency zero, and how much of a mean the model's error explains.
 
     predictor     e(k) = r(k) - c - sum_j A_j r(k-j) - sum_j B_j u(k-j), least squares on the healthy record [lags: `healthy_model.py`]
-    shift         d of the mean of r: the mean of e over the part tested is (I - sum A_j) d plus chance
+    shift         d of the mean of r: the mean of e over the part tested is (I - sum A_j) d plus chance, where d stays what it is
     chance        of covariance W h. W: long-run covariance of e, from the first B cosine transforms of the healthy e, each an independent
                   vector of covariance W where the spectrum is flat so near to zero [LLSW18]; prewhitening by the predictor makes it flat
                   [AM92], and B is theirs, .41 K^(2/3). h = 1/M + x' (X0' X0)^-1 x: M samples tested, the second term the error of the
@@ -12,7 +12,11 @@ healthy record says what means are worth: how much noise there is at frequency z
     test          T^2 = mean(e)' W^-1 mean(e) / h, and T^2 (B - p + 1) / (B p) has Fisher's law with p and B - p + 1 degrees of freedom
                   [H31]: exact for Gaussian e that is flat near zero, and given h; `benchmarks/identify_healthy.py` measures the level
     power         the same with noncentrality d' V^-1 d: from it the shift of one output alone that is found with the stated chance
-    V             covariance of the estimated shift, (I - sum A_j)^-1 W h (I - sum A_j)^-T
+    estimate      of d: the mean of r itself less the one expected, (I - sum A_j)^-1 (mean(e) + P). P = sum_i a_i (r(s-i) - r(t-i)) / M
+                  is what the lags have before the first sample s and miss before the end t, a_i = sum_(j>=i) A_j: without it a fault
+                  that varies, at one sensor, would lean into other outputs
+    V             covariance of the estimate, (I - sum A_j)^-1 (W h + 2 a S a' / M^2) (I - sum A_j)^-T, S that of the lags while healthy;
+                  the last few e are in P and in mean(e), which is left out: by its order in M it is to W h as the lags are to M
 
 Undecided, with the reason, where the test has no ground: a predictor with a root at one within what a random walk of K samples shows
 [F76], for then a mean says nothing; a healthy record whose own halves differ by the same test; more outputs than B.
@@ -50,7 +54,8 @@ class MeanReference:
 
     `coefficients` (1 + q, p), that of the constant first, belong to the predictor with `lags` lags, of r in units of `scales` (p,) and u in
     those of `input_scales` (n_u,). `root` satisfies root' root = (X0' X0)^-1, `still` (p, p) is I - sum A_j, `long_run` (p, p) is the
-    covariance W of `freedom` B, `nearest` is the least |1 - root| of the predictor, and `samples` is K.
+    covariance W of `freedom` B, `nearest` is the least |1 - root| of the predictor, and `samples` is K. `ends` (p, lags p) are the a_i side
+    by side, and `past` (lags p, lags p) is S.
     """
 
     scales: Array
@@ -63,6 +68,8 @@ class MeanReference:
     freedom: int
     nearest: float
     samples: int
+    ends: Array
+    past: Array
 
     @property
     def p(self) -> int:
@@ -140,6 +147,8 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
     waves = np.asarray(scipy.fft.dct(e, type=2, axis=0, norm="ortho"))[1 : freedom + 1] / np.sqrt(1.0 - X.shape[1] / len(now))
     width = p + inputs.shape[1]
     steps = [coefficients[1 + j * width : 1 + j * width + p].T for j in range(lags)]
+    of_r = X[:, [1 + j * width + i for j in range(lags) for i in range(p)]]
+    of_r = of_r - of_r.mean(axis=0)
     return MeanReference(
         scales=scales,
         input_scales=input_scales,
@@ -151,6 +160,8 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
         freedom=freedom,
         nearest=nearest_root(steps),
         samples=len(now),
+        ends=np.hstack([sum(steps[i:], np.zeros((p, p))) for i in range(lags)] or [np.zeros((p, 0))]),
+        past=of_r.T @ of_r / len(of_r),
     )
 
 
@@ -201,18 +212,24 @@ def mean_about_zero(r: ArrayLike, *, level: float = LEVEL) -> MeanShift:
 
 def _tested(reference: MeanReference, r: Array, u: Array, level: float) -> MeanShift:
     """Do the test itself."""
-    X, now = _regressors(r / reference.scales, u / reference.input_scales, reference.lags)
+    scaled = r / reference.scales
+    X, now = _regressors(scaled, u / reference.input_scales, reference.lags)
     e = (now - X @ reference.coefficients).mean(axis=0)
     h = 1.0 / len(now) + float(np.sum((reference.root @ _expected(reference, X.mean(axis=0))) ** 2))
-    return _judged(reference, e, h, level)
+    before, last = scaled[: reference.lags][::-1], scaled[len(now) :][::-1]
+    return _judged(reference, e, h, level, reference.ends @ (before - last).ravel() / len(now), len(now))
 
 
-def _judged(reference: MeanReference, e: Array, h: float, level: float) -> MeanShift:
-    """Return the verdict on the mean e (p,) of what the predictor leaves, of covariance W h where there is no shift."""
+def _judged(reference: MeanReference, e: Array, h: float, level: float, ends: Array | None = None, samples: int = 1) -> MeanShift:
+    """Return the verdict on the mean e (p,) of what the predictor leaves, of covariance W h where there is no shift; `ends` is P, none
+    where the lags miss nothing, of so many samples M."""
     statistic = float(e @ np.linalg.solve(reference.long_run, e)) / h
     threshold = reference.threshold(level)
     back = np.linalg.inv(reference.still)
-    V = back @ reference.long_run @ back.T * h
+    own = reference.long_run * h
+    if ends is not None:
+        e, own = e + ends, own + 2.0 * reference.ends @ reference.past @ reference.ends.T / samples**2
+    V = back @ own @ back.T
     shift = back @ e * reference.scales
     deviations = np.sqrt(np.diag(V)) * reference.scales
     single = -float(scipy.special.stdtrit(reference.freedom, level / (2 * reference.p)))

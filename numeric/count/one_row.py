@@ -212,15 +212,15 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
     Invariant: the cost never rises.
     """
     damping = 1e-3
-    dead = np.finfo(float).tiny
+    dead, eps = np.finfo(float).tiny, np.finfo(float).eps
+    columns = data.reshape(len(data), -1)
 
-    def at(g: Array) -> tuple[Array, Array, Array, Array, float]:
-        """Return S_b g and Q_b g of all bands, numerators and denominators, and the cost."""
+    def products(g: Array) -> tuple[Array, Array, Array, Array]:
         sg, qg = data @ g, gains @ g
-        a, d = np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
-        return sg, qg, a, d, float(np.sum(a / d))
+        return sg, qg, np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
 
-    sg, qg, a, d, cost = at(g)
+    sg, qg, a, d = products(g)
+    cost = float(np.sum(a / d))
     flat = False
     # Of a cost that rounding makes, as without noise, no slope is known: steps would turn g by the root of rounding.
     if cost <= _rounding(data, gains, g):
@@ -228,24 +228,29 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
     for _ in range(_STEPS):
         gradient = (sg / d[:, None] - qg * (a / d**2)[:, None]).sum(axis=0)
         cross = (sg / (d**2)[:, None]).T @ qg
-        hessian = np.tensordot(1.0 / d, data, axes=1) - cross - cross.T + (qg * (a / d**3)[:, None]).T @ qg
-        ridge = np.diag(np.maximum(np.diag(hessian), 0.0) + np.finfo(float).eps * abs(np.trace(hessian)) + dead)
+        hessian = ((1.0 / d)[None] @ columns).reshape(cross.shape) - cross - cross.T + (qg * (a / d**3)[:, None]).T @ qg
+        ridge = np.maximum(hessian.diagonal(), 0.0) + eps * abs(hessian.trace()) + dead
         while True:
+            damped = hessian.copy()
+            damped.flat[:: len(g) + 1] += damping * ridge
             # Without noise both may underflow; then there is nothing left to gain.
             try:
-                step = np.linalg.solve(hessian + damping * ridge, -gradient)
+                step = np.linalg.solve(damped, -gradient)
             except np.linalg.LinAlgError:
                 return g, cost, True
             step -= g * (g @ step)
-            trial = (g + step) / np.linalg.norm(g + step)
-            there = at(trial)
-            if there[-1] < cost or damping > 1e8:
+            trial = g + step
+            trial /= np.linalg.norm(trial)
+            tried = products(trial)
+            new = float(np.sum(tried[2] / tried[3]))
+            if new < cost or damping > 1e8:
                 break
             damping *= 8.0
-        if not there[-1] < cost:
+        if not new < cost:
             return g, cost, True
-        drop = np.log(cost / max(there[-1], dead))
-        g, (sg, qg, a, d, cost), damping = trial, there, max(damping / 6.0, 1e-10)
+        drop = np.log(cost / max(new, dead))
+        g, cost, damping = trial, new, max(damping / 6.0, 1e-10)
+        sg, qg, a, d = tried
         if drop < FLAT:
             flat = True
             break

@@ -3,7 +3,14 @@
 beyond_healthy_inputs   the inputs are louder, or elsewhere, than while healthy
 unlike_healthy          a spike, a sensor that is stuck or dead
 
-The constants are rules of thumb, set by hand. They make an answer undecided and never decide one.
+They make an answer undecided and never decide one. What is a spike, or too long a run of equal values, follows from the level of the
+count: the largest of N values is held against the largest of K healthy ones, where sizes, and lengths of runs, have tails that fall no
+slower than an exponential. For such tails of scale s the largest of K independent values exceeds s (log K - log log(2 / level)) but for a
+probability of level / 2, and the largest of N of p channels stays below s log(2 p N / level) but for as much: so the ratio of the two is
+bounded without knowing s. Normal noise has thinner tails, for which the bound is safe even where dependent values count for fewer than K.
+
+How much louder an input may be, and how far away, is calibrated: `benchmarks/identify_healthy.py --inputs` prints how often a record
+without a fault is called faulty for either, while nothing is left undecided on their account.
 """
 
 from __future__ import annotations
@@ -14,13 +21,14 @@ import numpy as np
 
 from ...base.arrays import Array
 from ...base.errors import shorten
+from .healthy_model import LEVEL
 
-LOUDER = 1.5  # an input of more than so many times its healthy deviation drives model error that the healthy samples do not show
-AWAY = 10.0  # and so does one that moved by more than so many
-PEAK = 3.0  # a residual of more than so many times its healthy peak is no noise like the healthy one,
-QUIET = 0.5  # nor is one of less than this share of its healthy size,
-STUCK = 20  # nor an output that keeps one value for so many samples, and LONGER times as many as while healthy
-LONGER = 4
+# An input of more than so many times its healthy deviation drives model error that the healthy samples do not show; and so does one that
+# moved by more than so many.
+LOUDER, AWAY = 1.5, 10.0
+# Of less than this share of its healthy size a residual is other noise, or none: what `noise_level` of `count_faults` means, too, may be
+# wrong by two and no more.
+QUIET = 0.5
 
 
 def beyond_healthy_inputs(before: Array, u: Array, names: Sequence[str]) -> str:
@@ -37,17 +45,25 @@ def beyond_healthy_inputs(before: Array, u: Array, names: Sequence[str]) -> str:
 def unlike_healthy(r: Array, healthy: Array, y: Array, healthy_y: Array, names: Sequence[str]) -> str:
     """Say what a plot would show and no spectrum or mean: a spike, or a sensor that is stuck or dead. It is empty where there is none."""
     peaks, sizes = np.abs(healthy).max(axis=0), np.sqrt(np.mean(healthy**2, axis=0))
+    most, longest = largest_ratio(len(healthy), r.size), largest_ratio(len(healthy_y), y.size)
     for i, name in enumerate(names):
         where = int(np.argmax(np.abs(r[:, i])))
-        if abs(r[where, i]) > PEAK * peaks[i]:
+        if abs(r[where, i]) > most * peaks[i]:
             times = abs(r[where, i]) / peaks[i]
             return f"the residual of {shorten(name)} reaches {times:.3g} times its healthy peak: a short fault, or an outlier"
         if np.sqrt(np.mean(r[:, i] ** 2)) < QUIET * sizes[i]:
             return f"the residual of {shorten(name)} is much smaller than while healthy: a sensor that is stuck or dead, or less noise"
         still = _longest_still(y[:, i])
-        if still >= max(STUCK, LONGER * _longest_still(healthy_y[:, i])):
+        if still > longest * _longest_still(healthy_y[:, i]):
             return f"{shorten(name)} keeps one value for {still} samples: a sensor that is stuck or dead, or nothing that moves it"
     return ""
+
+
+def largest_ratio(healthy: int, later: int) -> float:
+    """Return by how much the largest of so many `later` values exceeds the largest of so many healthy ones at most, but for a
+    probability of LEVEL, where their tails fall like an exponential or faster. It is infinite where the healthy values are too few."""
+    scales = float(np.log(healthy) - np.log(np.log(2 / LEVEL)))
+    return float(np.log(2 * later / LEVEL)) / scales if scales > 0.0 else np.inf
 
 
 def _longest_still(values: Array) -> int:

@@ -110,9 +110,9 @@ def read_stretches(
     They lie between rows with a cell that is no finite number, and between times at which rows are missing.
 
     The arguments are those of `read_record`, in the same units; the result is a list of Records, in the order of time, each with at least
-    one sample. They are experiments of one plant, and go into one model as such: `arx_reduction_experiments(parts)`;
-    the longest of them is a record for `identify`, with the sample time where a column tells it. Raises InvalidInput as `read_record`
-    does, but for numbers that are not finite, and where no row is whole.
+    one sample, with the sample time where a column tells it. They are experiments of one plant, and go into one answer as such:
+    `identify(parts)`, or `arx_reduction_experiments(parts)` for the model alone. Raises InvalidInput as `read_record` does, but for numbers
+    that are not finite, and where no row is whole.
 
     >>> import faultspace as fs, pathlib, tempfile
     >>> from faultspace.numeric import read_stretches
@@ -189,7 +189,7 @@ def _finite(labels: Sequence[str], rows: Array, first: int) -> None:
         what = "no number (NaN or empty)" if np.isnan(rows[k, j]) else "infinite"
         raise InvalidInput(
             f"channel {shorten(labels[j])} is {what} at sample {first + k} (counted from 0), expected finite numbers: cut the record "
-            "before or after, fill the samples in, or read the stretches between with read_stretches"
+            "before or after, fill the samples in, or take the parts between as experiments (read_stretches, or --gaps)"
         )
 
 

@@ -1,9 +1,12 @@
 """This is a measured record that need not fit into memory: written once, piece by piece, then read in pieces as often as a method needs it.
 
+A record may hold several experiments of one plant, one after the other: their samples follow each other in the store and not in time.
+
 stored          a SampleStore of an array
 in_memory       the samples of a result that keeps them in a store, as an array
 SampleStore     rows (N, k) of floats: in memory while they are few, beyond IN_MEMORY bytes in a temporary file
 Record          inputs and outputs in one store, their names, and what is known of every channel; iterating gives pieces (y, u)
+side_by_side    one Record of several, each an experiment of its own
 Moments         least and greatest values, means and deviations of rows that come in pieces
 RecordWriter    takes the rows [u, y] as they come and makes the Record
 recorded        a Record from arrays
@@ -20,6 +23,7 @@ import tempfile
 import weakref
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -117,8 +121,10 @@ class Record(Shown):
     `len` is the number of samples, `outputs` and `inputs` are the names, `y` and `u` read all samples, and iterating gives pieces (y, u) in
     the order of time. The `store` holds rows [u, y] of finite numbers in the units that they came in, `offset` (k,) is taken off every row
     that is read, and `format` says how they came. `single` says whether an output was given in float32, so that it is known to float32
-    rounding only; `length` samples of the store, from the first on, belong to the record (None: all). `clock` is what a time column says
-    of the steps, None where there is none. Raises InvalidInput where the disk has no room for what is written.
+    rounding only; `length` samples of the store, from number `first` on, belong to the record (None: all). `clock` is what a time column
+    says of the steps, None where there is none. Where the record holds several experiments, one after the other, `lengths` has the samples
+    of each, and `experiments` gives each of them as a Record; it is empty for one. Raises InvalidInput where the disk has no room for what
+    is written.
 
     >>> from faultspace.numeric import record_from
     >>> record = record_from([[1.0], [3.0]], [[0.0], [1.0]])
@@ -135,18 +141,23 @@ class Record(Shown):
     single: bool = False
     length: int | None = None
     clock: Clock | None = None
+    first: int = 0
+    lengths: tuple[int, ...] = ()
 
     def __len__(self) -> int:
-        return len(self.store) if self.length is None else self.length
+        return len(self.store) - self.first if self.length is None else self.length
 
     @property
     def title(self) -> str:
         """Return what the record is, on one short line."""
-        return f"{counted(len(self), 'sample')}, inputs {_names(self.inputs)}, outputs {_names(self.outputs)}"
+        of = f" of {len(self.lengths)} experiments" if self.lengths else ""
+        return f"{counted(len(self), 'sample')}{of}, inputs {_names(self.inputs)}, outputs {_names(self.outputs)}"
 
     def sheet(self) -> Iterator[tuple[str, str]]:
         """Yield one line a channel, inputs before outputs."""
         yield "read from", self.format
+        if self.lengths:
+            yield "samples of the experiments", ", ".join(map(str, self.lengths))
         if self.clock is not None:
             yield "sample time", f"{self.clock.dt:.6g} s, by {self.clock.source}"
         yield "", "".join(f"{name:>10}" for name in ("least", "greatest", "mean", "deviation"))
@@ -161,6 +172,7 @@ class Record(Shown):
         known = self.channels
         return {
             "samples": len(self),
+            "experiments": list(self.lengths) or [len(self)],
             "inputs": list(self.inputs),
             "outputs": list(self.outputs),
             "format": self.format,
@@ -172,12 +184,32 @@ class Record(Shown):
         }
 
     def __iter__(self) -> Iterator[tuple[Array, Array]]:
-        for rows in self.store.pieces(0, len(self)):
+        for rows in self.rows():
             yield self._split(rows)
+
+    def rows(self) -> Iterator[Array]:
+        """Yield the samples [u, y] as they stand in the store, in pieces."""
+        return self.store.pieces(self.first, self.first + len(self))
 
     def stretch(self, first: int, last: int) -> tuple[Array, Array]:
         """Return y and u of samples first .. last - 1."""
-        return self._split(self.store.read(first, min(last, len(self))))
+        return self._split(self.store.read(self.first + first, self.first + min(last, len(self))))
+
+    @property
+    def bounds(self) -> tuple[tuple[int, int], ...]:
+        """Return (first, last) of each experiment, whose samples are first .. last - 1; those of the whole where there is one."""
+        ends = np.cumsum(self.lengths).tolist() or [len(self)]
+        return tuple(zip([0, *ends], ends, strict=False))
+
+    @cached_property
+    def experiments(self) -> tuple[Record, ...]:
+        """Return each experiment as a record of its own, or the record itself where it is one; nothing is copied."""
+        return tuple(self.part(*bounds) for bounds in self.bounds) if self.lengths else (self,)
+
+    def stretches(self, first: int, last: int) -> list[tuple[Array, Array]]:
+        """Return y and u of samples first .. last - 1, a pair for each experiment that has some of them."""
+        inside = [(max(first, start), min(last, stop)) for start, stop in self.bounds]
+        return [self.stretch(start, stop) for start, stop in inside if start < stop]
 
     @property
     def y(self) -> Array:
@@ -208,24 +240,33 @@ class Record(Shown):
         """Return the same record with every channel about its mean."""
         return self.about(self.channels.mean)
 
+    def about_own_means(self) -> Record:
+        """Return the record with every channel about its mean in each experiment, whose operating points may differ; several are copied."""
+        if not self.lengths:
+            return self.about_means()
+        writer = RecordWriter(self.store.width)
+        for one in self.experiments:
+            for rows in one.rows():
+                writer.append(rows - one.channels.mean)
+        return replace(self, store=writer.store, channels=writer.known(), offset=np.zeros_like(self.offset), length=None, first=0)
+
     def about(self, means: Array) -> Record:
         """Return the same record with `means` (k,), inputs before outputs, taken off."""
         return replace(self, offset=means)
 
     def beginning(self, length: int) -> Record:
         """Return the first `length` samples as a record of their own, with what is known of their channels; nothing is copied."""
-        known = Moments(self.store.width)
-        for rows in self.store.pieces(0, length):
-            known.add(rows)
-        return replace(self, channels=known.channels(), length=length)
+        return self.part(0, length)
 
-    def ending(self, first: int) -> Record:
-        """Return the samples from `first` on as a record of their own, which are copied, with what is known of their channels."""
-        writer = RecordWriter(self.store.width)
-        for rows in self.store.pieces(first, len(self)):
-            writer.append(rows)
-        made = writer.record(outputs=self.outputs, inputs=self.inputs, format=self.format, single=self.single)
-        return replace(made, offset=self.offset)
+    def part(self, first: int, last: int) -> Record:
+        """Return samples first .. last - 1 as a record of their own, with what is known of their channels; nothing is copied."""
+        known = Moments(self.store.width)
+        for rows in self.store.pieces(self.first + first, self.first + last):
+            known.add(rows)
+        inside = [min(last, stop) - max(first, start) for start, stop in self.bounds]
+        lengths = tuple(length for length in inside if length > 0)
+        lengths = lengths if len(lengths) > 1 else ()
+        return replace(self, channels=known.channels(), first=self.first + first, length=last - first, lengths=lengths)
 
     def _split(self, rows: Array) -> tuple[Array, Array]:
         rows = rows - self.offset
@@ -274,12 +315,41 @@ class RecordWriter:
             self.store.append(rows)
             self._known.add(rows)
 
+    def known(self) -> Channels:
+        """Return what is known of the channels from the rows that have been taken."""
+        return self._known.channels()
+
     def record(
-        self, *, outputs: Sequence[str], inputs: Sequence[str], format: str, single: bool = False, clock: Clock | None = None
+        self,
+        *,
+        outputs: Sequence[str],
+        inputs: Sequence[str],
+        format: str,
+        single: bool = False,
+        clock: Clock | None = None,
+        lengths: tuple[int, ...] = (),
     ) -> Record:
-        """Make the record of the rows that have been taken."""
-        known = self._known.channels()
-        return Record(self.store, tuple(outputs), tuple(inputs), format, known, np.zeros(self.store.width), single, clock=clock)
+        """Make the record of the rows that have been taken; `lengths` are the samples of its experiments where there are several."""
+        offset = np.zeros(self.store.width)
+        return Record(self.store, tuple(outputs), tuple(inputs), format, self.known(), offset, single, clock=clock, lengths=lengths)
+
+
+def side_by_side(records: Sequence[Record]) -> Record:
+    """Return one record of all the experiments of `records`, which have the same channels and are copied as they were measured.
+
+    A single one is returned as it is. The clock is that of the first with one.
+    """
+    first = records[0]
+    if len(records) == 1:
+        return first
+    writer = RecordWriter(first.store.width)
+    for record in records:
+        for rows in record.rows():
+            writer.append(rows)
+    lengths = tuple(stop - start for record in records for start, stop in record.bounds)
+    single = any(record.single for record in records)
+    clock = next((record.clock for record in records if record.clock is not None), None)
+    return writer.record(outputs=first.outputs, inputs=first.inputs, format=first.format, single=single, clock=clock, lengths=lengths)
 
 
 def recorded(y: ArrayLike, u: ArrayLike, *, outputs: Sequence[str], inputs: Sequence[str]) -> Record:

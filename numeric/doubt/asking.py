@@ -4,7 +4,8 @@ doubts      the Doubts of a record, with its model where there is one
 
 What needs no model is asked of any record. The tests of one-step errors take the ARX model that the reduced model came from, or one that is
 fitted here; where neither can be had, or where there is no noise, `unasked` of the answer says so. A stretch of HEARD samples is looked
-at: a doubt that so many do not show is not worth one.
+at: a doubt that so many do not show is not worth one. Of several experiments the longest is asked, and all of them whether their inputs
+follow their outputs.
 """
 
 from __future__ import annotations
@@ -73,7 +74,8 @@ def doubts(
 
 def _asked(record: Record, model: object, residual: ArrayLike | None, dt: float | None, means_removed: bool) -> Doubts:
     record = record.about(np.zeros(len(record.names)))
-    y, u = record.stretch(0, HEARD)
+    longest = max(record.experiments, key=len)
+    y, u = longest.stretch(0, HEARD)
     rest = None if residual is None else _residual(residual, record)
     samples = np.hstack([u, y])
     rows = [*channel_doubts(samples, record.channels, record.names, record.n_u, means_removed=means_removed)]
@@ -87,12 +89,12 @@ def _asked(record: Record, model: object, residual: ArrayLike | None, dt: float 
     else:
         asked += OF_CLOCK
     if isinstance(model, ReducedModel):
-        rows += mode_doubts(model, len(record), dt if dt is not None or record.clock is None else record.clock.dt)
+        rows += mode_doubts(model, len(longest), dt if dt is not None or record.clock is None else record.clock.dt)
         rows += delay_doubts(model, record.inputs, record.outputs)
         asked += OF_MODEL
     else:
         unasked |= dict.fromkeys(OF_MODEL, "it needs a model with standard errors, as arx_reduction gives it")
-    arx, why = _arx(record, model)
+    arx, why = _arx(longest, model)
     try:
         found = None if arx is None else _of_errors(y, u, arx, record)
     except np.linalg.LinAlgError:
@@ -143,7 +145,7 @@ def _of_errors(y: Array, u: Array, arx: Arx, record: Record) -> list[Doubt] | No
         return None
     rows = list(rounding_doubts(y, e.std(axis=0), record.outputs))
     lags = max(h, longest_lag([len(y)], record.p, record.n_u))
-    chance = feedback_chance([(y, u)], arx, lags)
+    chance = feedback_chance([one.stretch(0, HEARD) for one in record.experiments], arx, lags)
     if chance < LEVEL:
         rows.append(_closed_loop(chance, record))
     past = [np.hstack([about_u[h:]])] + [np.hstack([about_y[h - i : len(y) - i], about_u[h - i : len(u) - i]]) for i in range(1, h + 1)]

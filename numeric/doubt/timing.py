@@ -36,7 +36,7 @@ TOO_FAST = 100
 """Samples that the fastest mode takes, from which sampling is called fast: ten times the rule of thumb of ten."""
 MOST_MARKOV = 20
 SAME = 1e-6  # relative difference of sample times that are called equal
-ROUTE = "cut the record there and give its parts as experiments (read_stretches, arx_reduction_experiments), or fill in what is missing"
+ROUTE = "cut the record there and give its parts as experiments (identify of read_stretches, or --gaps), or fill in what is missing"
 
 
 def clock_doubts(clock: Clock | None, stated: float | None) -> Iterator[Doubt]:

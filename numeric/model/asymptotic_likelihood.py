@@ -84,7 +84,7 @@ def arx_reduction(
 
 @one_thread()
 def arx_reduction_experiments(
-    experiments: Sequence[tuple[ArrayLike, ArrayLike] | Record],
+    experiments: Sequence[tuple[ArrayLike | Pieces, ArrayLike | None] | Record],
     *,
     order: int | None = None,
     lags: int | None = None,
@@ -95,7 +95,8 @@ def arx_reduction_experiments(
     Each has a length, an initial state and an offset of its own: their operating points may differ. Experiments no longer than the lags
     have no part in the model; their offset and state are NaN, and a note tells how many there are.
 
-    `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u), or of Records, as `read_stretches` gives them; the
+    `experiments` is a list of pairs, y with the shape (N_i, p) and u with (N_i, n_u), or pieces and None, or of Records, as
+    `read_stretches` gives them; the
     other arguments and the result are those of `arx_reduction`. Raises InvalidData as there, and where no experiment is given.
 
     >>> import numpy as np

@@ -108,13 +108,14 @@ class _Shape(NamedTuple):
         return Compression(self.block_rows, self.past_rows, self.p, self.n_u, samples, columns, factor, route, condition, rounding)
 
 
-def _joint(y: Array, u: Array, first: tuple[int, int]) -> Array:
+def _signals(y: Array, u: Array, first: tuple[int, int]) -> tuple[Array, Array]:
+    """Return u and y, in the order of the joint signal, where they have as many channels as the first piece."""
     if (u.shape[1], y.shape[1]) != first:
         raise InvalidData(
             f"a piece has {counted(u.shape[1], 'input')} and {counted(y.shape[1], 'output')} "
             f"where the first has {first[0]} and {first[1]}: all need the same"
         )
-    return np.concatenate([u, y], axis=1)
+    return u, y
 
 
 def _enough(samples: int, shape: _Shape) -> None:
@@ -122,24 +123,24 @@ def _enough(samples: int, shape: _Shape) -> None:
     enough_samples(samples, lags, f"a window of past_rows + block_rows = {shape.past_rows} + {shape.block_rows} samples")
 
 
-def _started(data: Iterator[tuple[Array, Array]], past_rows: int, block_rows: int) -> tuple[_Shape, Array]:
-    """Return the shape that the first piece has, and that piece as a joint signal."""
+def _started(data: Iterator[tuple[Array, Array]], past_rows: int, block_rows: int) -> tuple[_Shape, tuple[Array, Array]]:
+    """Return the shape that the first piece has, and that piece as u and y."""
     try:
         y, u = next(data)
     except StopIteration:
         raise InvalidData("no data: the iterable of pieces (y, u) is empty") from None
     shape = _Shape(u.shape[1], y.shape[1], past_rows, block_rows)
-    return shape, _joint(y, u, shape[:2])
+    return shape, (u, y)
 
 
 def _by_qr(data: Pieces, past_rows: int, block_rows: int) -> Compression:
     source = iter(data)
     shape, piece = _started(source, past_rows, block_rows)
     running = SequentialQR(window_rows(*shape), shape.n_u + shape.p)
-    running.append(piece)
-    samples = len(piece)
+    running.append(np.concatenate(piece, axis=1))
+    samples = len(piece[0])
     for y, u in source:
-        running.append(_joint(y, u, shape[:2]))
+        running.append(np.concatenate(_signals(y, u, shape[:2]), axis=1))
         samples += len(y)
     _enough(samples, shape)
     factor, inputs = running.factor(), (past_rows + block_rows) * shape.n_u
@@ -153,9 +154,9 @@ def _by_gram(data: Pieces, past_rows: int, block_rows: int) -> Compression | Non
     channels = shape.n_u + shape.p
     running = DisplacementGram(channels, past_rows + block_rows)
     with np.errstate(over="ignore", invalid="ignore"):
-        running.append(piece)
+        running.append(*piece)
         for y, u in source:
-            running.append(_joint(y, u, shape[:2]))
+            running.append(*_signals(y, u, shape[:2]))
         _enough(running.samples, shape)
         whole = running.gram()
     rows = window_rows(*shape)
@@ -242,6 +243,8 @@ def merge(*compressions: Compression) -> Compression:
                     f"compressions with {name} = {getattr(first, name)} and {getattr(other, name)} cannot be merged: compress with "
                     "equal settings"
                 )
+    if len(compressions) == 1:
+        return first
     factor = triangular(*(one.factor for one in compressions))
     routes = {one.route for one in compressions}
     return _Shape(first.n_u, first.p, first.past_rows, first.block_rows).compression(

@@ -23,7 +23,8 @@ from ...base.arrays import Array
 from ..model.sequential_qr import triangular
 
 BLOCK, LAGS_IN_BLOCK = 128, 8  # samples of a block at least, and in lags: few of them need mending
-ENTRIES = 1 << 14  # entries of the samples transformed at once, so few that their memory is used again and not asked for anew
+ENTRIES = 1 << 17  # entries of the samples transformed at once: they and their transforms stay in the cache
+SPARE = 1 << 19  # entries of an array, 4 MB, that is freed untouched
 
 
 class DisplacementGram:
@@ -35,12 +36,16 @@ class DisplacementGram:
 
     def __init__(self, channels: int, lags: int) -> None:
         self._channels, self._lags = channels, lags
+        # The C library of Linux returns freed memory to the system, and gets it back page by page, wiped: as much time as all sums here. It
+        # keeps twice the largest array that it has seen freed, so one is freed that nobody has written to.
+        np.empty(SPARE)
         self._block = 1 << (max(BLOCK, LAGS_IN_BLOCK * lags) - 1).bit_length()
         # Products of the real and imaginary parts of the channels at each frequency, and of the ends of blocks with what they lack.
         self._spectra = np.zeros((self._block // 2 + 1, 2 * channels, 2 * channels))
         self._edges = np.zeros(((lags - 1) * channels,) * 2)
-        self._kept = np.empty((0, channels))
-        self._head = np.empty((0, channels))
+        # Samples lie along the last axis: a channel is then read and transformed in one go.
+        self._kept = np.empty((channels, 0))
+        self._head = np.empty((channels, 0))
         self.samples = 0
 
     @property
@@ -48,29 +53,44 @@ class DisplacementGram:
         """Return columns of the Hankel matrix so far."""
         return max(self.samples - self._lags + 1, 0)
 
-    def append(self, piece: Array) -> None:
-        """Take the next samples (T, channels)."""
-        at_once = max(4 * self._block, ENTRIES // self._channels)
-        for first in range(0, len(piece), at_once):
-            self._take(piece[first : first + at_once])
+    def append(self, *signals: Array) -> None:
+        """Take the next samples: signals (T, any) whose channels come in this order."""
+        length = len(signals[0])
+        parts = -(-length // max(4 * self._block, ENTRIES // self._channels))
+        for part in range(parts):
+            self._take([signal[part * length // parts : (part + 1) * length // parts].T for signal in signals])
 
-    def _take(self, piece: Array) -> None:
-        self.samples += len(piece)
-        if len(self._head) < self._lags:
-            self._head = np.concatenate([self._head, piece[: self._lags - len(self._head)]])
-        joint = np.concatenate([self._kept, piece])
-        count, reach = (len(joint) - self._lags + 1) // self._block, self._lags - 1
+    def _take(self, signals: list[Array]) -> None:
+        kept, new = self._kept.shape[1], signals[0].shape[1]
+        joint = np.empty((self._channels, kept + new))
+        joint[:, :kept] = self._kept
+        first = 0
+        for signal in signals:
+            joint[first : first + len(signal), kept:] = signal
+            first += len(signal)
+        self.samples += new
+        if self._head.shape[1] < self._lags:
+            self._head = np.concatenate([self._head, joint[:, kept : kept + self._lags - self._head.shape[1]]], axis=1)
+        self._transform(joint)
+
+    def _transform(self, joint: Array) -> None:
+        """Take what whole blocks there are of the samples (channels, T) that no block holds yet, and keep the rest."""
+        channels, reach = self._channels, self._lags - 1
+        count = (joint.shape[1] - reach) // self._block
         if count < 1:
             self._kept = joint
             return
         whole = count * self._block
-        blocks = joint[:whole].reshape(count, self._block, self._channels)
-        parts = rfft(blocks, axis=1).view(np.float64).transpose(1, 0, 2)
-        self._spectra += parts.transpose(0, 2, 1) @ parts
-        following = np.concatenate([blocks[1:, :reach], joint[np.newaxis, whole : whole + reach]])
-        lacking = (following - blocks[:, :reach]).reshape(count, -1)
-        self._edges += blocks[:, self._block - reach :].reshape(count, -1).T @ lacking
-        self._kept = joint[whole:].copy()
+        blocks = joint[:, :whole].reshape(channels, count, self._block)
+        # A frequency's numbers side by side, all blocks at once: the product of a few would take as long. The copy has numpy call dgemm,
+        # which is faster than dsyrk for matrices as small as these.
+        parts = rfft(blocks.transpose(2, 1, 0), axis=0).view(np.float64)
+        self._spectra += parts.transpose(0, 2, 1) @ parts.copy()
+        following = np.concatenate([blocks[:, 1:, :reach], joint[:, np.newaxis, whole : whole + reach]], axis=1)
+        lacking = (following - blocks[:, :, :reach]).swapaxes(0, 1).reshape(count, -1)
+        ends = blocks[:, :, self._block - reach :].swapaxes(0, 1).reshape(count, -1)
+        self._edges += ends.T @ lacking
+        self._kept = joint[:, whole:].copy()
 
     def _first_row(self) -> Array:
         """Return G[0, d], d = 0..lags-1, as an array (lags, channels, channels)."""
@@ -78,18 +98,18 @@ class DisplacementGram:
         real, imaginary = self._spectra[:, 0::2], self._spectra[:, 1::2]
         crossed = real[:, :, 0::2] + imaginary[:, :, 1::2] + 1j * (real[:, :, 1::2] - imaginary[:, :, 0::2])
         row: Array = irfft(crossed, self._block, axis=0)[:lags]
-        edges = self._edges.reshape(reach, self._channels, reach, self._channels)
-        rest = len(self._kept) - reach
+        edges = self._edges.reshape(self._channels, reach, self._channels, reach)
+        rest = self._kept.shape[1] - reach
         for lag in range(lags):
-            row[lag] += np.einsum("kakb->ab", edges[reach - lag :, :, :lag])
+            row[lag] += np.einsum("akbk->ab", edges[:, reach - lag :, :, :lag])
             # What no block holds yet.
-            row[lag] += self._kept[:rest].T @ self._kept[lag : lag + rest]
+            row[lag] += self._kept[:, :rest] @ self._kept[:, lag : lag + rest].T
         return row
 
     def gram(self) -> Array:
         """Return G (lags * channels, lags * channels), rows ordered by lag, then channel. At least `lags` samples must have come."""
         lags, channels = self._lags, self._channels
-        head, tail = self._head[: lags - 1], self._kept[len(self._kept) - lags + 1 :]
+        head, tail = self._head[:, : lags - 1].T, self._kept[:, self._kept.shape[1] - lags + 1 :].T
         blocks = np.empty((lags, channels, lags, channels))
         for lag, correlation in enumerate(self._first_row()):
             count = lags - lag

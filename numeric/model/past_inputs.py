@@ -327,7 +327,7 @@ def pi_moesp(
 
 @one_thread()
 def pi_moesp_experiments(
-    experiments: Sequence[tuple[ArrayLike, ArrayLike]],
+    experiments: Sequence[tuple[ArrayLike | Pieces, ArrayLike | None]],
     *,
     order: int | None = None,
     block_rows: int,

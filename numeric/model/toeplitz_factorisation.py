@@ -26,13 +26,15 @@ def toeplitz_factorisation(r: Array, A: Array, C: Array, *, block_rows: int, ran
     """Return orthonormal columns (n + p, n_z) for the residual r (N, p), `rank` the rank that R_s is taken to have, s = `block_rows` >= 2.
 
     Where the rank leaves no null row, every column is a solution: all of R^(n+p), whatever n_z. Raises InvalidData for a rank or an n_z
-    that cannot be.
+    that cannot be, and for fewer samples than block rows.
     """
     (p, n), s = C.shape, block_rows
     if s < 2 or not 0 < rank <= p * s:
         raise InvalidData(f"block_rows, rank: got {s}, {rank}; 2 block rows or more and a rank from 1 to p block_rows are needed")
     if not 0 < n_z <= n + p:
         raise InvalidData(f"n_z: got {n_z}; from 1 to n + p = {n + p} columns can be asked for")
+    if len(r) < s:
+        raise InvalidData(f"r: got {len(r)} samples; {s} block rows need {s} or more")
     if rank == p * s:
         return np.eye(n + p)
     U = np.linalg.svd(hankel_factor(r, s))[0][:, :rank]

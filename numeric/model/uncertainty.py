@@ -76,10 +76,10 @@ class Uncertainty(Shown):
             "markov_deviations": plain(self.markov(COUNT)),
         }
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draw the poles, each with the region that holds it with probability 0.95 to first order, into the matplotlib axes `ax`, new ones
-        where None are given, and return them. Raises ImportError without matplotlib."""
-        return plot_uncertain_poles(self.model.poles, self._pole_roots(), ax=ax)
+    def plot(self, ax: Any = None, *, zeros: ArrayLike = ()) -> Any:
+        """Draw the poles, each with the region that holds it with probability 0.95 to first order, and `zeros` where some are given, into
+        the matplotlib axes `ax`, new ones where None are given, and return them. Raises ImportError without matplotlib."""
+        return plot_uncertain_poles(self.model.poles, self._pole_roots(), zeros=zeros, ax=ax)
 
     def _pole_roots(self) -> ComplexArray:
         """Return the poles' errors (n, K - n^2) as linear maps of standard normal numbers; not finite where a pole is multiple."""

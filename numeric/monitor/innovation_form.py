@@ -288,7 +288,8 @@ class Predictor:
 
     The state is known up to a covariance P, at first that of the healthy record ten times as wide. An innovation then has the covariance
     S + C P C', and the gain is the optimal one; a missing output (NaN) is left out of both. P fades as samples come, and where it is
-    nothing the filter is the predictor x+ = A x + B u + K e.
+    nothing the filter is the predictor x+ = A x + B u + K e. `state` (d,) and `spread`, P or None where the state is known, are all that it
+    remembers.
     """
 
     def __init__(self, form: Form) -> None:
@@ -300,8 +301,8 @@ class Predictor:
 
     def restart(self) -> None:
         """Forget the state."""
-        self._state = np.zeros(len(self.form.A))
-        self._spread: Array | None = ELSEWHERE**2 * self.form.unknown
+        self.state = np.zeros(len(self.form.A))
+        self.spread: Array | None = ELSEWHERE**2 * self.form.unknown
 
     def step(self, y: Array, u: Array) -> tuple[Array, Array] | None:
         """Return the innovation (p,) of one sample, uncorrelated and of deviation one, and output by output over its deviation.
@@ -314,20 +315,20 @@ class Predictor:
         if not np.all(np.abs(pushed) < WILD**2):  # NaN is not, either
             self.restart()
             return None
-        forecast = form.C @ self._state + form.D @ pushed + form.level
+        forecast = form.C @ self.state + form.D @ pushed + form.level
         with np.errstate(over="ignore"):
             e = np.where(there, (np.where(there, y, 0.0) - units.centre) / units.scale - forecast, 0.0)
-        after = form.A @ self._state + form.B @ pushed + form.push
-        if self._spread is None and np.all(there):
+        after = form.A @ self.state + form.B @ pushed + form.push
+        if self.spread is None and np.all(there):
             e = np.clip(e, -WILD * self._sizes, WILD * self._sizes)
-            self._state = after + form.K @ e
+            self.state = after + form.K @ e
             return self._inverse @ e, e / self._sizes
         return self._filtered(e, there, after)
 
     def _filtered(self, e: Array, there: Array, after: Array) -> tuple[Array, Array] | None:
         """Take the step with a state that is not known, or with outputs missing; `after` is the next state by the forecast alone."""
         form, seen = self.form, np.flatnonzero(there)
-        spread = np.zeros_like(form.A) if self._spread is None else self._spread
+        spread = np.zeros_like(form.A) if self.spread is None else self.spread
         S = form.covariance + form.C @ spread @ form.C.T
         cross = form.A @ spread @ form.C.T + form.K @ form.covariance
         left = form.A @ spread @ form.A.T + form.K @ form.covariance @ form.K.T
@@ -338,8 +339,8 @@ class Predictor:
             expected = S[:, seen] @ weighted[:, 0]
             after = after + cross[:, seen] @ weighted[:, 0]
             left = left - cross[:, seen] @ weighted[:, 1:]
-        self._state = after
-        self._spread = None if np.abs(left).max(initial=0.0) < KNOWN else (left + left.T) / 2
+        self.state = after
+        self.spread = None if np.abs(left).max(initial=0.0) < KNOWN else (left + left.T) / 2
         if not len(seen):
             return None
         z = scipy.linalg.solve_triangular(np.linalg.cholesky(S), expected, lower=True)

@@ -1,13 +1,15 @@
 """Watch a plant online: a model against a stream of samples, with alarms at a stated rate of false ones.
 
-Monitor     calibrated on a healthy record; `update` for one sample, `extend` for many, to the same bytes
+Monitor       calibrated on a healthy record; `update` for one sample, `extend` for many, to the same bytes; `save` and `load` for a break
+learned_of    what a monitor learns of the record of an Identification: what model.json holds
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import os
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,12 +26,16 @@ from ..model.models import StateSpaceModel
 from ..model.reduced_model import ReducedModel
 from .alarms import MISSING, Alarm, Watched
 from .innovation_form import Predictor, innovation_form
-from .statistics import TESTS, Bank, Settings, roots
-from .thresholds import calibrate
+from .learned import MONITORING, Learned, array, learn
+from .saving import read, write
+from .statistics import MEMORY, TESTS, Bank, Settings, roots
+from .thresholds import LEAST_BLOCKS
 
 SIMULATED = 5_000  # samples of the disturbance of a reduced model, where no healthy record is given
 SEED = 1
-MARGIN = 0.1  # of the range of an input
+LEVEL = 1e-4  # false alarms a sample, where none are stated
+MOST = 100_000  # samples of an Identification that are used: as many as LEVEL needs to be seen
+WINDOW, SHIFT = 20, 1.0  # of the chi-square test, and of the CUSUM, where none are stated
 
 
 class Monitor(Shown):
@@ -41,9 +47,10 @@ class Monitor(Shown):
     `model` is a StateSpaceModel, or a result of identification that has one, with n states, n_u inputs and p outputs in the units of the
     data. `y` (N, p) and `u` (N, n_u) are a record without fault, by which the innovations of the model and the thresholds are calibrated,
     in any form that `identify` takes: arrays, frames, a record, or the path of a file with the names `inputs` and `outputs`. A model of
-    order 0 with D = 0 makes the monitor learn an autoregressive predictor from the record alone. Without y, an Identification with
-    samples stated to be healthy brings these; any other `arx_reduction` has a record simulated by its disturbance, in which the faults
-    of the record that it was identified from count as healthy. `level` is the expected number of false alarms a sample, all tests
+    order 0 with D = 0 makes the monitor learn an autoregressive predictor from the record alone. Without y, an Identification brings the
+    samples of its own record that were stated to be healthy, else those before the first onset, else all of them, faults included, which
+    `notes` say; an `arx_reduction` has a record simulated by its disturbance, in which the faults of the record that it was identified
+    from count as healthy. `level` is the expected number of false alarms a sample, all tests
     together, so that 1 / level is the mean time between them; `window` the samples of the chi-square test; `shift` the change of mean
     that the CUSUM is made for, in deviations of an innovation. 10 / level healthy samples are needed for such a rate to be seen in the
     record; `notes` say where there are fewer and what follows. Look at `notes` first, then at `calibration`.
@@ -53,8 +60,8 @@ class Monitor(Shown):
     been below it for a window of samples. A sample costs the same whatever came before. A missing output is NaN: the others are judged
     without it. A change of the operating point that the linear model does not describe is an alarm like any other, which names the inputs
     that are beyond what the healthy record has shown; `restart` forgets the state, and a new operating point for good needs a new healthy
-    record. Raises InvalidData for records and models that do not fit, are too short or have no noise, and InvalidInput for files that
-    cannot be read.
+    record. `save` and `load` carry a monitor over a break. Raises InvalidData for records and models that do not fit, are too short or have
+    no noise, and InvalidInput for files that cannot be read.
 
     >>> import numpy as np
     >>> import faultspace as fs
@@ -75,44 +82,99 @@ class Monitor(Shown):
         y: Source | None = None,
         u: Any = None,
         *,
-        level: float = 1e-4,
-        window: int = 20,
-        shift: float = 1.0,
+        level: float = LEVEL,
+        window: int = WINDOW,
+        shift: float = SHIFT,
         inputs: str | Sequence[str] | None = None,
         outputs: str | Sequence[str] | None = None,
     ) -> None:
         with one_thread():
-            plant, found = _plant(model), model
-            if not (isinstance(level, float | np.floating) and 0 < level <= 0.1):
-                raise InvalidData(f"level: got {shorten(level)}; needed the false alarms a sample, above 0 and at most 0.1: try 1e-4")
+            plant, rate = _plant(model), _rate(level)
             if not (isinstance(shift, float | int | np.floating) and 0 < shift < np.inf):
                 raise InvalidData(f"shift: got {shorten(shift)}; needed a positive change of mean, in deviations: try 1.0")
             window = whole(window, "window", 2, "state how many samples the chi-square test sums over, 20 for example")
-            record = _healthy(found, y, u, inputs, outputs)
-            simulated = record is None
-            healthy = _simulated(found) if record is None else (record.y, record.u)
-            if (healthy[0].shape[1], healthy[1].shape[1]) != (plant.p, plant.n_u):
-                raise InvalidData(
-                    f"healthy: got {counted(healthy[0].shape[1], 'output')} and {counted(healthy[1].shape[1], 'input')}; the model has "
-                    f"{counted(plant.p, 'output')} and {counted(plant.n_u, 'input')}: give the channels of the model, in its order"
-                )
-            fitted = innovation_form(plant, *healthy, with_inputs=not simulated)
-            self.outputs = tuple(f"y{i + 1}" for i in range(plant.p)) if record is None else record.outputs
-            self.inputs = tuple(f"u{i + 1}" for i in range(plant.n_u)) if record is None else record.inputs
-            self._settings = Settings(plant.p, window, float(shift))
-            self.calibration = calibrate(self._settings, float(level), fitted.errors, fitted.sizes)
-            self._form, self._predictor = fitted.form, Predictor(fitted.form)
-            bounds = (np.full(plant.n_u, -np.inf), np.full(plant.n_u, np.inf))
-            self._bounds = bounds if simulated else _bounds(healthy[1])
-            self._root = np.linalg.cholesky(fitted.form.covariance)
-            told = (
-                "no healthy record was given: what disturbed the record that the model is from counts as healthy, faults included, and the "
-                "errors of the model are left out, so that more false alarms than stated are to be expected"
-            )
-            self.notes = ((told,) if simulated else ()) + self.calibration.notes
-            self.samples, self.untested, self.missing = 0, 0, np.zeros(plant.p, int)
-            self.alarms = dict.fromkeys((*TESTS, MISSING), 0)
-            self.restart()
+            settings = Settings(plant.p, window, float(shift))
+            self._begin(_learned(model, plant, settings, _given(plant, y, u, inputs, outputs)), rate)
+
+    def _begin(self, learned: Learned, level: float) -> None:
+        """Take what was learned, and begin to count samples."""
+        self.outputs, self.inputs, self._settings, self._learned = learned.outputs, learned.inputs, learned.settings, learned
+        self.calibration = learned.calibration(level)
+        self._form, self._predictor = learned.form, Predictor(learned.form)
+        self._bounds = (learned.least, learned.greatest)
+        self._root = np.linalg.cholesky(learned.form.covariance)
+        self.notes = learned.notes + self.calibration.notes
+        self.samples, self.untested, self.missing = 0, 0, np.zeros(learned.settings.p, int)
+        self.alarms = dict.fromkeys((*TESTS, MISSING), 0)
+        self.restart()
+
+    @one_thread()
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the monitor, with all that it remembers, into a file of JSON (monitor.schema.json): `load` goes on as without the break.
+
+        A saved monitor of that name is replaced, whole or not at all. Raises InvalidInput where the file cannot be written, or is another.
+        """
+        write(path, self._learned.to_json() | {"level": self.calibration.level, "state": self._state()})
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str], *, level: float | None = None) -> Self:
+        """Return the monitor of `save`, which goes on where it was; or a new one by the model of `identify`: its model.json, or its folder.
+
+        `level` is that of the file unless stated, and 1e-4 where the file states none. Raises InvalidInput for a file that cannot be read,
+        and InvalidData, which says what is wrong, for one without what a monitor needs.
+        """
+        return cls.from_json(read(path), level=level)
+
+    @classmethod
+    @one_thread()
+    def from_json(cls, document: Mapping[str, Any], *, level: float | None = None) -> Self:
+        """Return the monitor in a document of `save`, or in that of a model with what monitoring needs, as `load` does."""
+        document = document.get(MONITORING, document) if isinstance(document, Mapping) else document
+        learned = Learned.from_json(document)
+        made = cls.__new__(cls)
+        made._begin(learned, _rate(document.get("level", LEVEL) if level is None else level))
+        if "state" in document:
+            made._resume(document["state"])
+        return made
+
+    def _state(self) -> dict[str, Any]:
+        """Return what changes from sample to sample, JSON-ready; null stands for what is unknown or has never been."""
+        return {
+            "samples": self.samples,
+            "not_judged": self.untested,
+            "missing": self.missing.tolist(),
+            "alarms": dict(self.alarms),
+            "absent": self._absent.tolist(),
+            "quiet": self._quiet.tolist(),
+            "beyond": plain(self._beyond),
+            "statistics": plain(self.statistics),
+            "numbers": self._numbers.tolist(),
+            "recent": plain(self._recent),
+            "bank": {name: values.tolist() for name, values in self._bank.state().items()},
+            "state": self._predictor.state.tolist(),
+            "spread": plain(self._predictor.spread),
+        }
+
+    def _resume(self, state: Any) -> None:
+        """Go on from a state that `_state` told. Raises InvalidData, which names the key, for anything else."""
+        if not isinstance(state, Mapping) or not isinstance(state.get("bank"), Mapping) or not isinstance(state.get("alarms"), Mapping):
+            raise InvalidData(f"state: got {shorten(state)}, expected the state of a saved monitor")
+        p, d = self._settings.p, len(self._form.A)
+        self.samples = _counts(state, "samples", ()).item()
+        self.untested = _counts(state, "not_judged", ()).item()
+        self.missing, self._absent = _counts(state, "missing", (p,)), _counts(state, "absent", (p,))
+        self.alarms = {test: _counts(state["alarms"], test, ()).item() for test in self.alarms}
+        self._quiet = _counts(state, "quiet", (len(TESTS),))
+        self._numbers = _counts(state, "numbers", (self._settings.memory,))
+        self._beyond = array(state, "beyond", (len(self.inputs),), missing=-np.inf)
+        self.statistics = array(state, "statistics", (len(TESTS),), missing=np.nan)
+        self._recent = array(state, "recent", (self._settings.memory, p))
+        bank = {name: array(state["bank"], name, values.shape) for name, values in self._bank.state().items()}
+        if not 0 <= bank["place"] < self._settings.window:
+            raise InvalidData(f"place: got {shorten(state['bank']['place'])}, expected a place in the window of {self._settings.window}")
+        self._bank.resume(bank)
+        self._predictor.state = array(state, "state", (d,))
+        self._predictor.spread = None if state.get("spread") is None else array(state, "spread", (d, d))
 
     def restart(self) -> None:
         """Forget the state of the plant and of the tests, as after a pause of unknown length; samples are counted on."""
@@ -277,28 +339,85 @@ def _plant(model: Any) -> StateSpaceModel:
     return inner
 
 
-def _healthy(
-    model: Any, y: Source | None, u: Any, inputs: str | Sequence[str] | None, outputs: str | Sequence[str] | None
+def _rate(level: Any) -> float:
+    if not (isinstance(level, float | np.floating) and 0 < level <= 0.1):
+        raise InvalidData(f"level: got {shorten(level)}; needed the false alarms a sample, above 0 and at most 0.1: try 1e-4")
+    return float(level)
+
+
+def _given(
+    plant: StateSpaceModel, y: Source | None, u: Any, inputs: str | Sequence[str] | None, outputs: str | Sequence[str] | None
 ) -> Record | None:
-    """Return the healthy record that was given, or that an Identification has; None where there is none."""
-    if y is not None:
-        if isinstance(y, np.ndarray) and not _plant(model).n_u and (u is None or not np.size(u)):
-            alone = signal(y, "y")
-            names = [f"y{i + 1}" for i in range(alone.shape[1])] if outputs is None else outputs
-            return recorded(alone, np.zeros((len(alone), 0)), outputs=names, inputs=())
-        return record_from(y, u, inputs=inputs, outputs=outputs)
-    record, healthy = getattr(model, "record", None), getattr(model, "healthy", None)
-    if isinstance(record, Record) and isinstance(healthy, int):
-        return replace(record, offset=np.zeros_like(record.offset)).beginning(healthy)  # a stream comes as it is measured
-    if isinstance(_reduced(model), ReducedModel):
+    """Return the healthy record that was given, None where there is none."""
+    if y is None:
         return None
-    raise InvalidData("healthy: got no record without fault, and the model does not tell what its errors are like: give y and u")
+    if isinstance(y, np.ndarray) and not plant.n_u and (u is None or not np.size(u)):
+        alone = signal(y, "y")
+        names = [f"y{i + 1}" for i in range(alone.shape[1])] if outputs is None else outputs
+        return recorded(alone, np.zeros((len(alone), 0)), outputs=names, inputs=())
+    return record_from(y, u, inputs=inputs, outputs=outputs)
 
 
-def _bounds(u: Array) -> tuple[Array, Array]:
-    """Return what the inputs may reach before they count as beyond the healthy record: its range and MARGIN of it on both sides."""
-    least, greatest = u.min(axis=0), u.max(axis=0)
-    return least - MARGIN * (greatest - least), greatest + MARGIN * (greatest - least)
+def _learned(model: Any, plant: StateSpaceModel, settings: Settings, record: Record | None) -> Learned:
+    """Return what the given record teaches, or where there is none, what the model or identification brings."""
+    if record is not None:
+        return learn(plant, record.y, record.u, settings, names=(record.outputs, record.inputs))
+    if isinstance(getattr(model, "record", None), Record):
+        return learned_of(model, settings)
+    if not isinstance(_reduced(model), ReducedModel):
+        raise InvalidData("healthy: got no record without fault, and the model does not tell what its errors are like: give y and u")
+    note = (
+        "no healthy record was given: what disturbed the record that the model is from counts as healthy, faults included, and the "
+        "errors of the model are left out, so that more false alarms than stated are to be expected"
+    )
+    return learn(plant, *_simulated(model), settings, with_inputs=False, notes=(note,))
+
+
+def learned_of(found: Any, settings: Settings | None = None) -> Learned:
+    """Return what the record of an Identification teaches: of the samples that were stated to be healthy; else of those before the first
+    onset that leaves enough; else of the whole record. A note says which, where none were stated.
+
+    Without `settings` the window is WINDOW, or what so few samples allow. Raises InvalidData where these are too few for any, or there is
+    no noise.
+    """
+    plant = _plant(found)
+    record = replace(found.record, offset=np.zeros_like(found.record.offset))  # a stream comes as it is measured
+
+    def of(samples: int, *notes: str) -> Learned:
+        part = record.beginning(min(samples, MOST))
+        fitted = innovation_form(plant, part.y, part.u, with_inputs=True)
+        allowed = max(2, min(WINDOW, len(fitted.errors) // (LEAST_BLOCKS * MEMORY)))
+        small = f"so few samples allow a window of {allowed} samples, not of {WINDOW}"
+        notes += (small,) if settings is None and allowed < WINDOW else ()
+        chosen = Settings(plant.p, allowed, SHIFT) if settings is None else settings
+        return learn(plant, part.y, part.u, chosen, fitted=fitted, names=(part.outputs, part.inputs), notes=notes)
+
+    if isinstance(found.healthy, int):
+        return of(found.healthy)
+    starts = [] if found.onset is None else [onset.interval[0] for onset in found.onset.onsets]
+    for number, first in enumerate(starts):
+        among = f", though it changes before, at sample {starts[0]}" if number else ""
+        try:
+            made = of(
+                first, f"no samples were stated to be without fault: the first {first} count as such, before the residual changes{among}"
+            )
+        except InvalidData:
+            continue  # too few
+        if made.settings.window >= WINDOW or settings is not None:
+            return made
+    return of(
+        len(record),
+        "no samples were stated to be without fault: all that the model is from count as such, so that a fault like one that acted there "
+        "gives no alarm; a record without fault beside the model mends that",
+    )
+
+
+def _counts(document: Mapping[str, Any], key: str, shape: tuple[int, ...]) -> Any:
+    """Return the integers under `key`, of this shape."""
+    found = array(document, key, shape)
+    if np.any(found != np.rint(found)) or np.any(np.abs(found) > 2.0**53):
+        raise InvalidData(f"{key}: got {shorten(document[key])}, expected integers")
+    return found.astype(int)
 
 
 def _reduced(model: Any) -> Any:

@@ -21,6 +21,7 @@ Bank         the state of the four statistics
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,6 +31,7 @@ from ...base.arrays import Array
 TESTS = ("residual", "chi-square", "cusum", "hankel")
 MEMORY = 5  # windows that the moments remember
 LONGEST = 30.0  # deviations, beside the usual root of p, to which an innovation is shortened
+REMEMBERED = ("sums", "energies", "squares", "column", "moments", "direction")  # by a bank, from sample to sample
 HEIGHT, MOST_ROWS = 30, 10  # numbers in a Hankel column, and block rows, at most; two rows at least
 
 
@@ -59,11 +61,11 @@ class Bank:
         p, height = settings.p, settings.p * settings.rows
         self.settings, self._ceiling = settings, ceiling
         self.sums = np.zeros((streams, p))
-        self._energies = np.full((streams, settings.window), float(p))
-        self._scores = np.zeros((streams, settings.window, p))
+        self.energies = np.full((streams, settings.window), float(p))
+        self.squares = np.zeros((streams, settings.window, p))
         self._place = 0
         self._longest = np.sqrt(p) + LONGEST
-        self._column = np.zeros((streams, height))
+        self.column = np.zeros((streams, height))
         self.moments = np.tile(np.eye(height), (streams, 1, 1))
         self._change = np.empty_like(self.moments)
         self.direction = np.full((streams, height), 1 / np.sqrt(height))
@@ -71,28 +73,38 @@ class Bank:
     @property
     def scores(self) -> Array:
         """Return the sums (R, p) of s_i^2 over the window."""
-        return np.asarray(self._scores.sum(axis=1))
+        return np.asarray(self.squares.sum(axis=1))
+
+    def state(self) -> dict[str, Array]:
+        """Return what the statistics remember, each array with an axis of the streams first; `_place` is where the window goes on."""
+        return {name: getattr(self, name) for name in REMEMBERED} | {"place": np.array(self._place)}
+
+    def resume(self, state: Mapping[str, Array]) -> None:
+        """Go on from what another bank of these settings remembers."""
+        for name in REMEMBERED:
+            setattr(self, name, np.array(state[name]))
+        self._place = int(state["place"])
 
     def update(self, z: Array, s: Array) -> Array:
         """Return the statistics (R, 4) at this sample."""
         z = z * np.minimum(1.0, self._longest / np.maximum(np.sqrt(np.sum(z * z, axis=1)), 1.0))[:, None]
         window, memory, p = self.settings.window, self.settings.memory, self.settings.p
-        self._energies[:, self._place] = np.sum(z * z, axis=1)
-        self._scores[:, self._place] = s * s
+        self.energies[:, self._place] = np.sum(z * z, axis=1)
+        self.squares[:, self._place] = s * s
         self._place = (self._place + 1) % window
         total = self.sums + z
         length = np.sqrt(np.sum(total * total, axis=1))
         kept = np.minimum(np.maximum(length - self.settings.shift / 2, 0.0), self._ceiling)
         self.sums = total * (kept / np.where(length > 0, length, 1.0))[:, None]
-        self._column[:, :-p] = self._column[:, p:]
-        self._column[:, -p:] = z
-        np.multiply(self._column[:, :, None], self._column[:, None, :] / memory, out=self._change)
+        self.column[:, :-p] = self.column[:, p:]
+        self.column[:, -p:] = z
+        np.multiply(self.column[:, :, None], self.column[:, None, :] / memory, out=self._change)
         self.moments *= 1 - 1 / memory
         self.moments += self._change
         image = np.matmul(self.moments, self.direction[:, :, None])[:, :, 0]
         root = np.sqrt(np.sum(image * image, axis=1))
         self.direction = image / root[:, None]
-        return np.column_stack([np.abs(s).max(axis=1), self._energies.sum(axis=1), kept, root])
+        return np.column_stack([np.abs(s).max(axis=1), self.energies.sum(axis=1), kept, root])
 
 
 def roots(moments: Array) -> Array:

@@ -15,9 +15,11 @@ the healthy block maxima stands above the largest tenth of the simulated ones, o
 cannot show are rates beyond its length: 10 / rate samples are needed for a rate to be seen there (ten alarms expected); with fewer the
 shape of the tail is that of Gaussian noise, and `notes` of the Calibration says so.
 
-Calibration     thresholds with what they rest on
-calibrate       from healthy errors
-simulated       block maxima of Gaussian streams
+Calibration         thresholds with what they rest on
+calibrate           from healthy errors
+largest_of_blocks   what it needs of them, for whatever rate
+calibrated          from that
+simulated           block maxima of Gaussian streams
 """
 
 from __future__ import annotations
@@ -101,6 +103,14 @@ def calibrate(settings: Settings, level: float, errors: Array, sizes: Array) -> 
 
     Raises InvalidData where there are fewer than LEAST_BLOCKS blocks.
     """
+    return calibrated(settings, level, largest_of_blocks(settings, errors, sizes), len(errors))
+
+
+def largest_of_blocks(settings: Settings, errors: Array, sizes: Array) -> Array:
+    """Return the largest statistics (blocks, 4) of each block of `memory` healthy errors (M, p) and (M, p), as `Bank` takes.
+
+    Raises InvalidData where there are fewer than LEAST_BLOCKS blocks.
+    """
     memory, samples = settings.memory, len(errors)
     blocks = samples // memory
     if blocks < LEAST_BLOCKS:
@@ -110,7 +120,13 @@ def calibrate(settings: Settings, level: float, errors: Array, sizes: Array) -> 
         )
     bank = Bank(settings, 1)
     trace = np.array([bank.update(z[None], s[None])[0] for z, s in zip(errors, sizes, strict=True)])
-    maxima = trace[samples - blocks * memory :].reshape(blocks, memory, -1).max(axis=1)
+    return np.asarray(trace[samples - blocks * memory :].reshape(blocks, memory, -1).max(axis=1))
+
+
+def calibrated(settings: Settings, level: float, maxima: Array, samples: int) -> Calibration:
+    """Return the thresholds for `level` false alarms a sample of all tests together, from the largest statistics (blocks, 4) of the blocks
+    of so many healthy samples."""
+    blocks = len(maxima)
     ideal = ideal_thresholds(settings, level / len(TESTS))
     threshold = ideal * np.maximum(1.0, _largest(maxima) / _largest(simulated(settings), blocks))
     alarms = tuple(int(count) for count in np.sum(maxima > threshold, axis=0))

@@ -19,6 +19,7 @@ import numpy as np
 
 from ...base.progress import Progress
 from ..drawing import plot_onsets
+from .by_experiment import numbered
 
 if TYPE_CHECKING:
     from ..findings import Findings
@@ -116,19 +117,23 @@ def _bounds(answer: Findings) -> list[int]:
 
 
 def residual_table(answer: Findings, path: Path, on_progress: Progress) -> None:
-    """Write a line a sample: its number, how many onsets came before, the residual of each output in digits that give the float back."""
+    """Write a line a sample: its number, how many onsets came before, the residual of each output in digits that give the float back. Where
+    there are several experiments, the number of each stands first, and samples are counted in each."""
     rest = answer.residual
     assert rest is not None
-    N = len(rest.store)
+    several = ["experiment"] if answer.parts else []
     with open(path, "w", encoding="utf-8", newline="") as stream:
         lines = csv.writer(stream, lineterminator="\n")
-        lines.writerow(["sample", "stretch", *answer.record.outputs])
-        k = 0
-        for piece in rest.store.pieces():
-            before = stretches(answer, k, k + len(piece)).tolist()
-            lines.writerows([k + i, before[i], *map(repr, row)] for i, row in enumerate(piece.tolist()))
-            k += len(piece)
-            on_progress("writing the residual", k, N)
+        lines.writerow([*several, "sample", "stretch", *answer.record.outputs])
+        done = 0
+        for number, start, _, part in numbered(answer):
+            assert part.residual is not None
+            k, which = start, [number] if several else []
+            for piece in part.residual.store.pieces(start):
+                before = stretches(part, k, k + len(piece)).tolist()
+                lines.writerows([*which, k - start + i, before[i], *map(repr, row)] for i, row in enumerate(piece.tolist()))
+                k, done = k + len(piece), done + len(piece)
+                on_progress("writing the residual", done, len(rest.store))
 
 
 def stretches(answer: Findings, first: int, until: int) -> Any:

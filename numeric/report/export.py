@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...base.errors import InvalidData, InvalidInput, quote_path
+from .by_experiment import numbered
 from .causes import stretches
 
 if TYPE_CHECKING:
@@ -58,7 +59,8 @@ def to_mat(answer: Findings, path: str | os.PathLike[str]) -> None:
 
 def to_pandas(answer: Findings) -> Any:
     """Return a DataFrame, a row a sample, with columns ("input", name), ("output", name), ("residual", name of the output),
-    ("onset", "before"), how many onsets came before, and ("fault", v1, ..): NaN where the signal is not determined."""
+    ("onset", "before"), how many onsets came before, and ("fault", v1, ..): NaN where the signal is not determined. Of several experiments
+    the first column is ("experiment", "number"), 0 for a healthy record before them, and samples count in each."""
     try:
         pandas: Any = import_module("pandas")
     except ImportError:
@@ -70,12 +72,22 @@ def to_pandas(answer: Findings) -> Any:
     if answer.residual is not None:
         rest = answer.residual.store.read(0, len(record))
         columns |= {("residual", name): values for name, values in zip(record.outputs, rest.T, strict=True)}
-        columns |= {("onset", "before"): stretches(answer, 0, len(record))}
-    if answer.signal is not None:
-        first, last = answer.signal.trusted
-        v = np.full((len(record), answer.signal.store.width), np.nan)
-        v[first:last] = answer.signal.store.read(first, last)
-        columns |= {("fault", f"v{j + 1}"): values for j, values in enumerate(v.T)}
+        columns |= {("onset", "before"): np.zeros(len(record), dtype=int)}
+    if answer.pair is not None:
+        columns |= {("fault", f"v{j + 1}"): np.full(len(record), np.nan) for j in range(answer.pair[0].shape[1])}
     samples = np.arange(len(record))
+    if answer.parts:
+        columns = {("experiment", "number"): np.zeros(len(record), dtype=int)} | columns
+    for number, start, place, part in numbered(answer):
+        inside = slice(place, place + len(part.record) - start)
+        if answer.parts:
+            columns[("experiment", "number")][inside] = number
+            samples[inside] = np.arange(len(part.record) - start)
+        if part.residual is not None:
+            columns[("onset", "before")][inside] = stretches(part, start, len(part.record))
+        if part.signal is not None:
+            first, last = (max(sample, start) for sample in part.signal.trusted)
+            for j, values in enumerate(part.signal.store.read(first, last).T):
+                columns[("fault", f"v{j + 1}")][place + first - start : place + last - start] = values
     index = pandas.Index(samples, name="sample") if answer.dt is None else pandas.Index(samples * answer.dt, name="time [s]")
     return pandas.DataFrame(columns, index=index)

@@ -15,17 +15,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...base.errors import InvalidInput, quote_path
+from ...base.errors import InvalidData, InvalidInput, quote_path
 from ...base.progress import Progress
 from ..count.mean_shift import POWER
 from ..data.plain import plain
-from ..data.records import SampleStore
 from ..model.invariants import half_transfers, system_matrix
 from ..model.moesp_model import MoespModel
 from ..model.reduced_model import ReducedModel
 from ..model.weighted_reduction import circle
+from ..monitor.learned import MONITORING
+from ..monitor.monitoring import learned_of
 from ..rows.joint import even_split
 from ..space.distances import containment_distance
+from .by_experiment import experiments, numbered
 from .causes import RESIDUAL, residual_table, told
 from .folders import refuse, replace
 from .page import report
@@ -35,6 +37,7 @@ from .summary import MODEL_FILE, advice, fit, markdown, summary
 
 if TYPE_CHECKING:
     from ..findings import Findings
+    from ..model.models import StateSpaceModel
 
 MODEL, SPACE, SIGNAL, SUMMARY, PAGE = MODEL_FILE, "fault-space.json", "fault-signal.csv", "summary.md", "report.html"
 FREQUENCIES = 32  # of the transfer function with standard errors
@@ -49,6 +52,7 @@ def document(answer: Findings, data: str, *, worded: Callable[[str], str] = str)
         "samples": len(record),
         "inputs": list(record.inputs),
         "outputs": list(record.outputs),
+        "experiments": experiments(answer),
         "means_removed": answer.means_removed,
         "block_rows": answer.block_rows,
         "order": model.order if model else None,
@@ -161,7 +165,7 @@ def _of_reduction(model: ReducedModel) -> dict[str, Any]:
 def write(
     answer: Findings, out: Path, data: str, on_progress: Progress, *, worded: Callable[[str], str] = str
 ) -> tuple[list[str], list[str]]:
-    """Writes the files into the folder `out`; their names, and remarks on what could not be had; `worded` as in `summary`.
+    """Write the files into the folder `out`; return their names, and remarks on what could not be had. `worded` is as in `summary`.
 
     Files of these names that an earlier run wrote are replaced, or removed where this answer has none. Raises InvalidInput where the folder
     cannot be written into, and, before anything is written, where it has a file of these names that is not ours.
@@ -171,7 +175,7 @@ def write(
     try:
         with tempfile.TemporaryDirectory(prefix=".unfinished-", dir=out) as name:
             folder = Path(name)
-            _tables(answer, folder, on_progress)
+            remarks += _tables(answer, folder, on_progress)
             remarks += pictures(answer, folder)
             lines = [*summary(answer, data, worded=worded)]
             if remarks:
@@ -185,37 +189,60 @@ def write(
     return written, remarks
 
 
-def _tables(answer: Findings, folder: Path, on_progress: Progress) -> None:
+def _tables(answer: Findings, folder: Path, on_progress: Progress) -> list[str]:
+    """Write everything but pictures and summary; remarks on what could not be had."""
+    remarks: list[str] = []
     if answer.model is not None:
-        model = answer.model.model.to_json()
-        model |= {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
-        if answer.dt is not None:
-            model |= {"dt": answer.dt}
-        if answer.pair is not None:
-            F, G = answer.pair
-            model |= {"n_v": F.shape[1], "F": F.tolist(), "G": G.tolist()}
-        _json(folder / MODEL, model)
+        monitoring, remark = of_monitor(answer)
+        remarks += remark
+        _json(folder / MODEL, _model(answer, answer.model.model), monitoring)
     if (space := _space(answer)) is not None:
         _json(folder / SPACE, space)
     if answer.residual is not None:
         residual_table(answer, folder / RESIDUAL, on_progress)
-    if answer.signal is not None:
-        _signal_table(answer.signal.store, answer.signal.trusted, folder / SIGNAL, on_progress)
+    if any(part.signal is not None for part in answer.experiments):
+        _signal_table(answer, folder / SIGNAL, on_progress)
+    return remarks
 
 
-def _signal_table(v: SampleStore, trusted: tuple[int, int], path: Path, on_progress: Progress) -> None:
-    """Write a line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back."""
-    first, last = trusted
+def _model(answer: Findings, inner: StateSpaceModel) -> dict[str, Any]:
+    model = inner.to_json() | {"inputs": list(answer.record.inputs), "outputs": list(answer.record.outputs)}
+    if answer.dt is not None:
+        model |= {"dt": answer.dt}
+    if answer.pair is not None:
+        F, G = answer.pair
+        model |= {"n_v": F.shape[1], "F": F.tolist(), "G": G.tolist()}
+    return model
+
+
+def of_monitor(answer: Findings) -> tuple[dict[str, Any] | None, list[str]]:
+    """Return what a monitor needs, None where the record does not tell it, with a remark that says why."""
+    try:
+        return learned_of(answer).to_json(), []
+    except InvalidData as error:
+        return None, [f"{MODEL}, what `monitor` needs: {str(error).removeprefix('healthy: ')}"]
+
+
+def _signal_table(answer: Findings, path: Path, on_progress: Progress) -> None:
+    """Write a line a sample: its number, whether v is determined there (1 or 0), v in digits that give the float back. Where there are
+    several experiments, the number of each stands first, samples are counted in each, and those without a signal have no lines."""
+    several, done = ["experiment"] if answer.parts else [], 0
     with open(path, "w", encoding="utf-8", newline="\n") as stream:
-        stream.write(",".join(["sample", "determined", *(f"v{j + 1}" for j in range(v.width))]) + "\n")
-        k = 0
-        for piece in v.pieces():
-            lines = []
-            for row in piece.tolist():
-                lines.append(",".join([str(k), str(int(first <= k < last)), *map(repr, row)]))
-                k += 1
-            stream.write("\n".join(lines) + "\n")
-            on_progress("writing the fault signal", k, len(v))
+        width = answer.pair[0].shape[1] if answer.pair else 0
+        stream.write(",".join([*several, "sample", "determined", *(f"v{j + 1}" for j in range(width))]) + "\n")
+        for number, start, _, part in numbered(answer):
+            if part.signal is None:
+                continue
+            (first, last), k = part.signal.trusted, start
+            which = [str(number)] if several else []
+            for piece in part.signal.store.pieces(start):
+                lines = []
+                for row in piece.tolist():
+                    lines.append(",".join([*which, str(k - start), str(int(first <= k < last)), *map(repr, row)]))
+                    k += 1
+                stream.write("\n".join(lines) + "\n")
+                done += len(piece)
+                on_progress("writing the fault signal", done, len(answer.record))
 
 
 def _space(answer: Findings) -> dict[str, Any] | None:
@@ -234,5 +261,9 @@ def _space(answer: Findings) -> dict[str, Any] | None:
     }
 
 
-def _json(path: Path, content: object) -> None:
-    path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+def _json(path: Path, content: dict[str, Any], monitoring: dict[str, Any] | None = None) -> None:
+    """Write what people read a line a number, and what a monitor needs, where it is given, on one line behind it."""
+    text = json.dumps(content, indent=1, allow_nan=False)
+    if monitoring is not None:
+        text = f'{text[:-2]},\n "{MONITORING}": {json.dumps(monitoring, allow_nan=False)}\n}}'
+    path.write_text(text + "\n", encoding="utf-8")

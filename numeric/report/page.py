@@ -30,7 +30,8 @@ CAPTIONS = {
     ),
     "zeros-and-poles.png": (
         "Model",
-        "The poles of the model, and the finite zeros of the faults where F and G are given, beside the unit circle.",
+        "The poles of the model beside the unit circle, each with the region that holds it with probability 0.95 where that is known: an "
+        "ellipse, of a real pole a bar. Circles are the finite zeros of the faults, where F and G are given.",
         "Poles and zeros in the complex plane with the unit circle.",
     ),
     "singular-values.png": (
@@ -52,6 +53,12 @@ CAPTIONS = {
         "Onset",
         "The residual of each output over the whole record; dashed lines are onsets, within intervals of probability 0.95.",
         "Curves of the residual of each output with the onsets marked.",
+    ),
+    "spectra.png": (
+        "Onset",
+        "The power of the residual of each output over frequency, before and after the first onset where there is one, and of the fault "
+        "signal in the units of its column of F and G: where the blue curve stands above the grey one, the fault acts.",
+        "Curves of power over frequency, a panel for each output and for each fault signal.",
     ),
     "isolation.png": (
         "Which sensor or actuator",

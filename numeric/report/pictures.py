@@ -7,7 +7,8 @@ PICTURES     the names of the files
     singular-values   of PI-MOESP, with the order
     window-ranks      singular values of the residual's windows, with thresholds and ranks
     noise-levels      where noise fills every window: what the best law on k mixed outputs leaves, which jumps at k = n_v
-    zeros-and-poles   poles of the model and finite zeros of the faults
+    zeros-and-poles   poles of the model, with the regions that hold them where these are known, and finite zeros of the faults
+    spectra           of the residual, before and after the onset, and of the fault signal (spectra.py)
     outputs           the last samples, measured against simulated
     residual, isolation    of causes.py: the residual of the whole record with its onsets, the angles of single causes
     fault-signal      the whole record, and a detail of it where the residual is loudest
@@ -24,16 +25,21 @@ import numpy as np
 
 from ...base.errors import InvalidData
 from .. import drawing
+from ..experiments import most_moved
+from ..model.reduced_model import ReducedModel
 from ..signal.residual_sizes import loudest
+from . import spectra
 from .causes import CAUSES_DRAWN, causes_drawn
 
 if TYPE_CHECKING:
     from ..findings import Findings
+    from ..model.moesp_model import MoespModel
     from ..model.residuals import ResidualSignal
     from ..signal.reconstruction import Reconstruction
 
 PICTURES = (
-    "singular-values.png", "window-ranks.png", "noise-levels.png", "zeros-and-poles.png", "outputs.png", "fault-signal.png", *CAUSES_DRAWN,
+    "singular-values.png", "window-ranks.png", "noise-levels.png", "zeros-and-poles.png", "outputs.png", "fault-signal.png", "spectra.png",
+    *CAUSES_DRAWN,
 )  # fmt: skip
 PICTURED = 300  # samples of a detail
 WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)
@@ -58,6 +64,8 @@ def main_picture(answer: Findings, ax: Any = None) -> Any:
     Raises InvalidData where there is no model to draw anything of."""
     if answer.residual is None:
         raise InvalidData("there is no model, so that there is nothing to draw: state an order")
+    answer = most_moved(answer)
+    assert answer.residual is not None
     if answer.signal is not None:
         return answer.signal.plot(ax)
     y, simulated, first = _last_outputs(answer, answer.residual)
@@ -73,10 +81,11 @@ def _last_outputs(answer: Findings, rest: ResidualSignal) -> tuple[Any, Any, int
 
 
 def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable[[Any], Any]]]:
-    """Return name, size and what to do with a figure."""
+    """Return name, size and what to do with a figure; of several experiments that in which the residual varies most is drawn."""
+    answer = most_moved(answer)
     model, dimension, rest, signal = answer.model, answer.dimension, answer.residual, answer.signal
     order = model.order if model else None
-    spectrum, ranks, levels, plane, outputs, faults = PICTURES[:6]
+    spectrum, ranks, levels, plane, outputs, faults, frequencies = PICTURES[:7]
     drawings: list[tuple[str, tuple[float, float], Callable[[Any], Any]]] = [
         (spectrum, WIDE, lambda figure: drawing.plot_singular_values(answer.singular_values, order=order, ax=figure.add_subplot()))
     ]
@@ -86,7 +95,7 @@ def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable
         drawings.append((levels, WIDE, lambda figure: drawing.plot_levels(dimension.levels, dimension.n_v, ax=figure.add_subplot())))
     if model:
         zeros = signal.zeros if signal else np.zeros(0)
-        drawings.append((plane, SQUARE, lambda figure: drawing.plot_zeros_and_poles(model.model.poles, zeros, ax=figure.add_subplot())))
+        drawings.append((plane, SQUARE, lambda figure: _plane(model, zeros, figure.add_subplot())))
     if rest:
         names = answer.record.outputs
         y, simulated, first = _last_outputs(answer, rest)
@@ -95,7 +104,17 @@ def _drawings(answer: Findings) -> list[tuple[str, tuple[float, float], Callable
     if answer.sizes and signal:
         near = loudest(answer.sizes.energies, len(signal.store), PICTURED)
         drawings.append((faults, TALL, lambda figure: draw_signal(signal, near, figure)))
+    found = spectra.panels(answer)
+    if found:
+        drawings.append((frequencies, (8.0, spectra.height(len(found))), lambda figure: spectra.draw(found, answer.dt, figure)))
     return [*drawings, *causes_drawn(answer)]
+
+
+def _plane(model: MoespModel | ReducedModel, zeros: Any, ax: Any) -> Any:
+    """Draw poles and zeros, with the regions of the poles where the model knows how sure it is."""
+    if isinstance(model, ReducedModel):
+        return model.uncertainty.plot(ax, zeros=zeros)
+    return drawing.plot_zeros_and_poles(model.model.poles, zeros, ax=ax)
 
 
 def draw_signal(signal: Reconstruction, near: tuple[int, int], figure: Any) -> None:

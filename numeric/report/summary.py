@@ -20,6 +20,7 @@ from ...base.sheets import counted
 from ..count.mean_shift import POWER
 from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
+from .by_experiment import experiment_lines
 from .causes import isolation_lines, onset_lines
 from .physical import mode_lines
 
@@ -33,6 +34,7 @@ MOST_ROWS = 12
 DIGITS = 4
 CANDIDATES = 3
 MOST_POLES = 3
+LEVEL_MISSED = np.sqrt(0.5)  # of what is missed, by size, so that half of its squares are a constant
 
 
 def fit(answer: Findings) -> Array | None:
@@ -48,7 +50,8 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
     """Yield the answer for people, as lines of Markdown; `worded` rewrites notes and advice, which name arguments as Python does."""
     record, model = answer.record, answer.model
     yield f"# {quote_path(data)}"
-    yield f"{counted(len(record), 'sample')}, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
+    several = f" of {len(record.lengths)} experiments" if record.lengths else ""
+    yield f"{counted(len(record), 'sample')}{several}, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
     yield f"windows of {answer.block_rows} samples{', means removed' if answer.means_removed else ''}"
     yield ""
     yield "## Model"
@@ -71,7 +74,9 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
                 left = "what is left is noise and the model's error"
             yield f"fit of the simulated outputs, from the fitted initial state: {_several(pairs)}; {left}"
             yield "fit means 100 (1 - |y - simulated y| / |y - mean of y|) % by output: 100 is a perfect fit, 0 no better than the mean"
+            yield from _below_zero(answer, explained)
         yield from onset_lines(answer)
+        yield from experiment_lines(answer)
         yield ""
         yield "## Faults"
         yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"
@@ -104,6 +109,27 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
     yield ""
     yield "## What to try next"
     yield from (f"- {worded(line)}" for line in advice(answer))
+
+
+def _below_zero(answer: Findings, explained: Array) -> Iterator[str]:
+    """Yield what a fit below zero means, and whether the level of the output is what is missed."""
+    record, sizes = answer.record, answer.sizes
+    poor = np.flatnonzero(explained < 0)
+    if not len(poor) or sizes is None or answer.residual is None:
+        return
+    samples = answer.modelled
+    total, count = np.zeros(record.p), 0
+    for piece in answer.residual.store.pieces(0, samples):
+        total, count = total + piece.sum(axis=0), count + len(piece)
+    level = np.abs(total / max(count, 1))[poor] * np.sqrt(samples)
+    off = [record.outputs[i] for i, part in zip(poor, level, strict=True) if part > LEVEL_MISSED * sizes.early_norm[i]]
+    names = _several([record.outputs[i] for i in poor])
+    yield f"below zero: the simulated {names} lies farther from the measured one than its mean does, so that this model says little of it"
+    if off:
+        yield (
+            f"what is missed of {_several(off)} is mostly its level, not its course: inputs and outputs have means that the model does not "
+            "connect; remove_means=True takes every channel about its mean"
+        )
 
 
 def _why_the_order(answer: Findings) -> str:

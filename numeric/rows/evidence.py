@@ -10,6 +10,7 @@ Everything is made when it is first asked for, and once.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,15 +20,15 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData
 from ..data.validation import experiment
 from ..model.arx import Arx, fitted_arx
-from ..model.arx_windows import arx_windows
-from ..model.asymptotic_likelihood import arx_reduction, lengths_and_lags
+from ..model.arx_windows import arx_windows, merge_windows
+from ..model.asymptotic_likelihood import arx_reduction_experiments, lengths_and_lags
 from ..model.models import StateSpaceModel
 from ..model.quick_reduction import quick_reduction
 from ..model.reduced_model import ReducedModel
 from ..model.residuals import residual
 from ..model.weighted_reduction import spectral_radius
-from ..space.tapered_moments import BANDS, tapered_moments
-from .joint import JointMoments, joint_moments
+from ..space.tapered_moments import BANDS, pooled_moments
+from .joint import JointMoments, joint_moments_experiments
 from .remainder import Remainder, as_signals
 
 # Degrees beyond the order by which flatness is seen: one more could still be explained by a single root of the colour of a fault.
@@ -43,38 +44,43 @@ TINY = float(np.finfo(np.float64).tiny)
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What y (N, p) and u (N, n_u) say to rows of total degree `order` and more; `given` is a model of such data where there is one."""
+    """What experiments, pairs y (N_i, p) and u (N_i, n_u), say to rows of total degree `order` and more; `given` is a model of such data
+    where there is one."""
 
-    y: Array
-    u: Array
+    experiments: Sequence[tuple[Array, Array]]
     order: int
     given: ReducedModel | None = None
 
     @cached_property
     def data(self) -> JointMoments:
         """The moments for rows of degree order + EXTRA, or as much of it as the record is long for."""
-        return joint_moments(self.y, self.u, self.order + max(1, min(EXTRA, self.longest - self.order)), self.bands)
+        return joint_moments_experiments(self.experiments, self.order + max(1, min(EXTRA, self.longest - self.order)), self.bands)
+
+    @property
+    def samples(self) -> int:
+        """How many samples the experiments have together."""
+        return sum(len(y) for y, _ in self.experiments)
 
     @property
     def bands(self) -> int:
         """So many bands that what changes within one stays below the noise of the record: its power falls with the square of the width."""
-        return int(BANDS * max(1.0, len(self.y) / SHORT) ** 0.5)
+        return int(BANDS * max(1.0, self.samples / SHORT) ** 0.5)
 
     @property
     def narrow(self) -> float:
-        """How much larger the misfits of flatness are for narrower bands, which let narrower roots in."""
+        """How much larger the misfit of flatness of several rows is taken on records longer than SHORT: where faults leave a frequency to
+        the noise it grows with the root of the samples there, as the root of the number of bands does."""
         return float((len(self.data.moments.angles) / BANDS) ** 0.5) if self.bands > BANDS else 1.0
 
     @property
     def longest(self) -> int:
-        """The highest degree for which there are twice as many windows as a window has entries."""
-        channels = int(self.y.shape[1] + self.u.shape[1])
-        return (len(self.y) - 2 * channels) // (2 * channels + 1)
+        """The highest degree for which every experiment has twice as many windows as a window has entries."""
+        return min(longest_degree(*one) for one in self.experiments)
 
     @cached_property
     def single(self) -> JointMoments:
         """The moments for a single row, of degree order + LONG or as much of it as the record is long for."""
-        return joint_moments(self.y, self.u, self.order + max(1, min(LONG, self.longest - self.order)), self.bands)
+        return joint_moments_experiments(self.experiments, self.order + max(1, min(LONG, self.longest - self.order)), self.bands)
 
     @cached_property
     def arx(self) -> Arx | None:
@@ -82,9 +88,10 @@ class Evidence:
         scale, p = self.data.scale, self.data.p
         if self.given is not None:
             return self.given.arx.scaled(1 / scale[:p], 1 / scale[p:])
-        source = experiment(self.y, self.u)
+        sources = [experiment(y, u) for y, u in self.experiments]
         try:
-            windows = arx_windows(source, lengths_and_lags([source], self.order, None)[1])
+            lengths, lags = lengths_and_lags(sources, self.order, None)
+            windows = merge_windows([arx_windows(source, lags) for source, length in zip(sources, lengths, strict=True) if length > lags])
             y, u = windows.scales
             return fitted_arx(windows, -(-self.order // p)).scaled(y / scale[:p], u / scale[p:])
         except InvalidData:
@@ -112,7 +119,7 @@ class Evidence:
         if self.given is not None and self.given.order == self.order:
             return self.given
         try:
-            return arx_reduction(self.y, self.u, order=self.order)
+            return arx_reduction_experiments(self.experiments, order=self.order)
         except InvalidData:
             return None
 
@@ -121,10 +128,13 @@ class Evidence:
         """What the model leaves of y after the initial state, whose error would fill the nulls of the noise spectrum, has died away."""
         if self.reduction is None:
             return None
-        radius = min(max(spectral_radius(self.reduction.model.A), TINY), 1 - 1 / len(self.y))
-        gone = min(int(np.log(GONE) / np.log(radius)) + 1, len(self.y) // 4)
-        r = residual(self.y, self.u, self.reduction.model).r[gone:] / self.data.scale[: self.data.p]
-        moments = tapered_moments(r - r.mean(axis=0), 0)
+        radius = min(max(spectral_radius(self.reduction.model.A), TINY), 1 - 1 / max(len(y) for y, _ in self.experiments))
+        rest = []
+        for y, u in self.experiments:
+            gone = min(int(np.log(GONE) / np.log(radius)) + 1, len(y) // 4)
+            r = residual(y, u, self.reduction.model).r[gone:] / self.data.scale[: self.data.p]
+            rest.append(r - r.mean(axis=0))
+        moments = pooled_moments(rest, 0)
         return as_signals(moments.moments / moments.weights[:, None, None], moments)
 
     @cached_property
@@ -141,3 +151,9 @@ class Evidence:
             return p // 2
         powers = rest.weights @ np.log(np.maximum(np.linalg.eigvalsh(rest.powers), TINY))
         return 1 + int(np.argmax(np.diff(powers)))
+
+
+def longest_degree(y: Array, u: Array) -> int:
+    """Return the highest degree for which y (N, p) and u (N, n_u) have twice as many windows as a window has entries."""
+    channels = int(y.shape[1] + u.shape[1])
+    return (len(y) - 2 * channels) // (2 * channels + 1)

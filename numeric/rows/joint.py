@@ -32,12 +32,12 @@ from ...base.errors import InvalidData
 from ..count.windows import channel_sizes
 from ..data.validation import signals
 from ..space.basis import FLAT, KernelBasis, kernel_basis, refined_basis
-from ..space.tapered_moments import BANDS, CrossMoments, tapered_moments
+from ..space.tapered_moments import BANDS, CrossMoments, pooled_moments
 
 # Turns of colour and rows: the level moves by less than a thousandth of a nat afterwards.
 ROUNDS = 5
-# Rows of the largest moments that are fitted in an identification: fits take the cube of their number, 1 CPU second a count at 35 rows and
-# some twenty at so many. A rule of thumb for patience, which decides no number.
+# Rows of the largest moments that are fitted in an identification. A budget of time: fits take the cube of their number, 1 CPU second a
+# count at 35 rows, so that so many take some twenty. It decides no number.
 LARGEST = 100
 # Power, beside that of a channel, that moments cannot tell from their rounding: rows that leave less are exact, and not refined further.
 ROUNDING = 1e-12
@@ -90,8 +90,7 @@ def joint_moments(y: ArrayLike, u: ArrayLike, degree: int, bands: int = BANDS) -
 def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]], degree: int, bands: int = BANDS) -> JointMoments:
     """Return the moments of several experiments (y, u) of one system, each from its own initial state, weighted by their lengths.
 
-    Raises InvalidData as `joint_moments`, for experiments with other numbers of channels, and for experiments so short that their spectra
-    have different numbers of bands.
+    Raises InvalidData as `joint_moments`, of the shortest experiment, and for experiments with other numbers of channels.
     """
     records = [signals(y, u) for y, u in experiments]
     if len({(y.shape[1], u.shape[1]) for y, u in records}) != 1:
@@ -101,15 +100,7 @@ def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]]
     lengths = np.array([len(y) for y, _ in records], dtype=float)
     sizes = np.array([_deviations(np.hstack(record)) for record in records])
     scale = np.sqrt(lengths @ sizes**2 / lengths.sum())
-    parts = [tapered_moments(np.hstack(record) / scale, degree, bands) for record in records]
-    if len({len(part.angles) for part in parts}) != 1:
-        short = [len(y) for y, _ in records]
-        raise InvalidData(f"experiments: got lengths {short}, whose spectra have different numbers of bands; leave the short ones out")
-    share = (lengths - degree) / (lengths - degree).sum()
-    first = parts[0]
-    moments = np.tensordot(share, np.array([part.moments for part in parts]), 1)
-    weights = np.tensordot(share, np.array([part.weights for part in parts]), 1)
-    pooled = CrossMoments(moments, weights, first.angles, first.channels, degree, sum(part.samples for part in parts))
+    pooled = pooled_moments([np.hstack(record) / scale for record in records], degree, bands)
     return JointMoments(pooled, scale, records[0][0].shape[1])
 
 

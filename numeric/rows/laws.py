@@ -17,17 +17,18 @@ band; where the disturbance of the ARX model has clearly another shape, that is 
     step_to_two  what a single row leaves less than two: how far a last fault must stand above the noise
     tested       the test; with draws > 0 the misfit of the ratios is measured by the parametric bootstrap
 
-What the constants rest on. `benchmarks/counting_at_the_bound.py laws --trials 60 --seed 82000` (N = 1001) gives, where rows are laws, means
-of 1.14 (sphericity), 2.66 (flatness of several rows), 2.13 and 2.79 (of one, for EXTRA and LONG), and for one row more than there are laws
-at least 2.1 times FAR or FAR_LONGER, where laws reach .2 of it. SHAPE_MISFIT, FLAT_MISFIT and SINGLE_MISFITS are set near these means, from
-earlier seeds, FAR and FAR_LONGER between. SUFFICES is a level of one in a hundred; FAILS lies far below it; EXTRA, LONG, HOPELESS, TURNS,
-ARRIVED and SETTLED are compromises between time and power. That the misfits of flatness grow as the root of the number of bands
-(`Evidence.narrow`) was seen on few records of 30000 and 100000 samples alone.
+What the constants rest on. SUFFICES is a level, and FAILS lies so far below it that no misfit explains it. SHAPE_MISFIT and FLAT_MISFIT
+make the stated laws of several rows true at one in ten, and FAR is the middle, on a logarithmic scale, between the largest hundredth of
+what the ratios of laws are in units of their misfits and the least hundredth of it where there is a row too many:
+`benchmarks/counting_at_the_bound.py laws` prints all three. Ratios of laws keep their size where N grows and those of others grow with N,
+so that the middle of N = 1001 serves longer records. CROWDED and LOOSE make the law of a single row true at one in ten, for 300 to 30001
+samples: `counting_at_the_bound.py single` prints the quantile regression. The others end iterations or save time:
+`counting_at_the_bound.py settings` counts the answers that change when each is halved and doubled.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -51,17 +52,17 @@ ARRIVED, ARRIVALS = 0.1, 10
 SETTLED = 0.05
 # Share of the unit of a likelihood ratio that the last step of a descent may still gain.
 PRECISION = 0.02
-# Mean of the ratio of sphericity over what it should have, where the rows are laws.
-SHAPE_MISFIT = 1.3
-# Mean of the ratio of flatness over its degrees of freedom: of several rows, and of one for EXTRA and for LONG.
-FLAT_MISFIT, SINGLE_MISFITS = 3.2, (3.2, 2.5)
-# Ratios that many times beyond these are worth neither another start nor a bootstrap.
-HOPELESS = 2.0
+# By so much the ratios of sphericity and of flatness, of several rows, exceed the stated laws where the rows are laws: one in ten is
+# beyond the tenth of the law times the misfit.
+SHAPE_MISFIT, FLAT_MISFIT = 1.3, 3.0
+# Of a single row the misfit of flatness is 1 + CROWDED / root(samples of a band) + LOOSE root(loose samples) / freedom, for EXTRA and
+# for LONG.
+CROWDED, LOOSE = (2.4, 3.7), (0.43, 5.1)
 # Probabilities from which rows are laws, and below which a single row is none. Rows that are no laws are far below.
 SUFFICES, FAILS = 0.01, 1e-12
-# Several rows are refuted by a sphericity, or by a gain of longer rows, so many times what is expected: beyond what a descent that ended
-# elsewhere leaves of laws.
-FAR, FAR_LONGER = 8.0, 25.0
+# Several rows are refuted by a ratio so many times its misfit: beyond what a descent that ended elsewhere leaves of laws. And so many times
+# beyond that they are worth neither another start nor a bootstrap.
+FAR, HOPELESS = 5.5, 2.0
 SEED = 20251122
 
 
@@ -71,8 +72,8 @@ class Laws:
 
     The noise `shares` (p,) have the mean logarithm zero and are in the units of the moments. `flatness` is the probability of such a gain,
     if the rows are laws; `probability` is that of ratios as large: of one row that of its flatness, of several twice the smaller one of
-    the two. `ratios` are those of flatness over their degrees of freedom, before any misfit but that of narrow bands: none where the shape
-    is hopeless, two of a single row. `longest` is the fit of a single row of the highest degree that was tried.
+    the two. `ratios` are those of flatness over their degrees of freedom, before any misfit but that of narrow bands of several rows: none
+    where the shape is hopeless, two of a single row. `longest` is the fit of a single row of the highest degree that was tried.
     """
 
     count: int
@@ -101,9 +102,9 @@ class Laws:
 
     @property
     def farness(self) -> float:
-        """Return how far a ratio of several rows is beyond its expectation, in units of FAR and FAR_LONGER: above one they are no laws."""
-        shape = 0.0 if self.sphericity is None else self.sphericity.nats / (FAR * self.sphericity.expected)
-        return max([shape] + [ratio / FAR_LONGER for ratio in self.ratios])
+        """Return the larger ratio of several rows over what it should be, in units of FAR misfits: above one they are no laws."""
+        shape = 0.0 if self.sphericity is None else self.sphericity.nats / (FAR * SHAPE_MISFIT * self.sphericity.expected)
+        return max([shape] + [ratio / (FAR * FLAT_MISFIT) for ratio in self.ratios])
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of the numbers that the answer rests on; the ratio of sphericity is null of a single row."""
@@ -121,11 +122,11 @@ class Laws:
 
 @dataclass(frozen=True)
 class Misfits:
-    """By these the ratios of sphericity and of flatness are divided."""
+    """By these the ratios of sphericity and of flatness are divided; None of a single row stands for `single_misfits`."""
 
     shape: float = SHAPE_MISFIT
     flat: float = FLAT_MISFIT
-    single: tuple[float, ...] = SINGLE_MISFITS
+    single: tuple[float, ...] | None = None
 
 
 def tested(evidence: Evidence, count: int, shares: Array | None = None) -> Laws:
@@ -200,7 +201,7 @@ def _with_shares(data: JointMoments, fit: KernelBasis, shares: Array, known: boo
         fit, shares, best = trial, found, shape
         if settled:
             break
-    if best.nats > HOPELESS * FAR * best.expected:
+    if best.nats > HOPELESS * FAR * SHAPE_MISFIT * best.expected:
         return fit, shares
     return refitted(data, degrees, fit.rows, shares=shares, rounds=3, flat=_flat(data)), shares
 
@@ -214,7 +215,7 @@ def _several(evidence: Evidence, fit: KernelBasis, shares: Array, misfits: Misfi
     """Return several rows with both ratios. Where their shape is hopeless, longer rows are not asked."""
     data, count = evidence.data, len(fit.rows)
     shape = sphericity(remainder(data, fit), shares, misfits.shape)
-    if shape.nats > HOPELESS * FAR * shape.expected:
+    if shape.nats > HOPELESS * FAR * SHAPE_MISFIT * shape.expected:
         return Laws(count, fit, shares, shape, 0.0, 1.0, min(1.0, 2 * shape.level))
     extra = data.degree - evidence.order
     longer = refitted(data, even_split(evidence.order + extra, count), fit.rows, shares=shares, rounds=2, flat=_flat(data))
@@ -239,13 +240,39 @@ def _single(evidence: Evidence, shares: Array, misfits: Misfits = Misfits(), sta
         fit = refitted(data, (order,), start.rows, shares=shares, rounds=3, flat=_flat(data))
     longest, probability, gains, ratios = fit, 1.0, list[float](), list[float]()
     steps = [EXTRA, data.degree - order] if data.degree > order + EXTRA else [data.degree - order]
-    for degrees, misfit in zip(steps, misfits.single, strict=False):
+    freedoms = [degrees * data.moments.channels for degrees in steps]
+    divisors = misfits.single or single_misfits(evidence, fit, shares, freedoms)
+    for degrees, freedom, misfit in zip(steps, freedoms, divisors, strict=False):
         longest = refitted(data, (order + degrees,), longest.rows, shares=shares, rounds=3, flat=_flat(data))
         gains.append(max(fit.level - longest.level, 0.0))
-        freedom = degrees * data.moments.channels
-        ratios.append(data.samples * gains[-1] / (freedom * evidence.narrow))
+        ratios.append(data.samples * gains[-1] / freedom)
         probability = min(probability, len(steps) * chi_squared_tail(ratios[-1] * freedom / misfit, freedom))
     return Laws(1, fit, shares, None, gains[0], probability, probability, tuple(ratios), longest)
+
+
+def single_misfits(evidence: Evidence, fit: KernelBasis, shares: Array, freedoms: Sequence[int]) -> tuple[float, ...]:
+    """Return the means of the ratios of flatness over these degrees of freedom, if the row of this fit is a law.
+
+    A root of a longer row near the unit circle fits the few samples of one band, and the best place for it is taken: what that gains
+    beyond the stated law falls with the samples of a band. Where the faults leave a frequency to the noise the direction of a row is free
+    there, and the least of equal powers is taken, which of so many samples lies below their mean by a multiple of one over their root.
+    """
+    data = evidence.single
+    band = data.samples / (2 * len(data.moments.angles))
+    loose = loose_samples(evidence, fit, shares)
+    terms = zip(CROWDED, LOOSE, freedoms, strict=False)
+    return tuple(1 + crowded / band**0.5 + free * loose**0.5 / freedom for crowded, free, freedom in terms)
+
+
+def loose_samples(evidence: Evidence, fit: KernelBasis, shares: Array) -> float:
+    """Return how many complex samples stand at frequencies where the faults leave two directions or more to the noise: where they add less
+    than the noise itself to the second least power of the disturbance."""
+    rest = evidence.disturbance
+    if rest is None or len(shares) < 2:
+        return 0.0
+    powers = np.linalg.eigvalsh(rest.powers / np.sqrt(shares[:, None] * shares))
+    noise = np.exp(fit.level) * np.interp(rest.angles, evidence.single.moments.angles, fit.spectrum)
+    return float(rest.weights @ (powers[:, 1] < 2 * noise)) * evidence.single.samples / 2
 
 
 def bootstrapped(evidence: Evidence, laws: Laws, draws: int) -> Laws:
@@ -253,8 +280,12 @@ def bootstrapped(evidence: Evidence, laws: Laws, draws: int) -> Laws:
     if _hopeless(laws):
         return laws
     found = []
-    for record in redrawn(evidence.y, evidence.u, evidence.data, laws.fit, laws.shares, draws, SEED):
-        one = _again(replace(evidence, y=record), laws, Misfits(1.0, 1.0, (1.0, 1.0)))
+    inputs = [u for _, u in evidence.experiments]
+    records = [
+        redrawn(y, u, evidence.data, laws.fit, laws.shares, draws, SEED + number) for number, (y, u) in enumerate(evidence.experiments)
+    ]
+    for outputs in zip(*records, strict=True):
+        one = _again(replace(evidence, experiments=list(zip(outputs, inputs, strict=True))), laws, Misfits(1.0, 1.0, (1.0, 1.0)))
         found.append(([one.sphericity.nats / one.sphericity.expected] if one.sphericity else []) + list(one.ratios))
     means = tuple(np.maximum(np.mean(found, axis=0), 1.0).tolist())
     return _again(evidence, laws, Misfits(single=means) if laws.count == 1 else Misfits(*means))
@@ -276,7 +307,7 @@ def longer_are_laws(evidence: Evidence, refused: Laws, known: Array | None) -> b
     data, count = evidence.data, refused.count
     if count == data.p and evidence.disturbance is not None:
         shape = sphericity(evidence.disturbance, noise_shares(evidence.disturbance, refused.shares) if known is None else known)
-        return shape.nats <= FAR * shape.expected
+        return shape.nats <= FAR * SHAPE_MISFIT * shape.expected
     degrees = even_split(evidence.order + EXTRA, count)
     starts = [refitted(data, degrees, refused.fit.rows, shares=refused.shares, rounds=1, flat=ROUGH)]
     if evidence.higher is not None:
@@ -284,7 +315,7 @@ def longer_are_laws(evidence: Evidence, refused: Laws, known: Array | None) -> b
     for start in starts:
         fit, shares = _with_shares(data, start, refused.shares, known is not None)
         shape = sphericity(remainder(data, fit), shares)
-        if shape.nats <= FAR * shape.expected:
+        if shape.nats <= FAR * SHAPE_MISFIT * shape.expected:
             return True
     return False
 

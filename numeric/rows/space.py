@@ -5,6 +5,7 @@ space iff N_y (g + C (q - A)^-1 f) vanishes, that is iff it meets the conditions
 row ([G25] problem (11)). Of k rows with degrees eta_i there are sum (eta_i + 1) conditions, exactly n + p - n_z, so that rows and A, C
 that do not fit exactly contradict each other nowhere: N_y O_s = 0, which holds for true ones, need not be imposed.
 
+    pooled                  the moments of several experiments, in bands that most of their samples carry
     fault_space_by_rows     the space, its dimension with a probability, and the angle by which it may be off where A, C are right
     identified_fault_space  the same for an identified model, whose error is in the angle
     n_z                     n_v + n - (total degree of the rows): of an order that is too high by one, one too many
@@ -16,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -36,11 +38,17 @@ from ..model.valleys import valleys
 from ..space.basis import KernelBasis
 from ..space.largest import largest_fault_space
 from ..space.result import FaultSpaceEstimate, SpaceOfValley, SpaceUncertainty, everything, kernel_conditions, orthonormal
+from ..space.tapered_moments import BANDS
 from ..space.uncertainty import space_uncertainty, turned_by_model
 from .bootstrap import redrawn
 from .degree import MISFITS, LeastDegree, freedom, least_degree, likelihood_ratio
-from .joint import JointMoments, course, even_split, fitted, joint_moments, padded, refitted
+from .joint import JointMoments, course, even_split, fitted, joint_moments, joint_moments_experiments, padded, refitted
 
+Experiments = Sequence[tuple[Array, Array]]
+# The share of the samples that sets how many bands all experiments have: a few short ones must not make them wide. A rule of thumb.
+MOST = 0.9
+# Windows for each band, as `tapered_moments` takes them.
+A_BAND = 8
 # Total degrees beyond the order by which it is tested.
 BEYOND = 1
 SEED = 20251123
@@ -53,9 +61,19 @@ WIDENED = 1.5
 
 @one_thread()
 def fault_space_by_rows(
-    y: ArrayLike, u: ArrayLike, A: ArrayLike, C: ArrayLike, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
+    y: ArrayLike | Experiments,
+    u: ArrayLike | None,
+    A: ArrayLike,
+    C: ArrayLike,
+    *,
+    n_v: int,
+    noise_level: ArrayLike | None = None,
+    draws: int = 0,
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
+
+    Where u is None, y is a list of pairs (y, u), each an experiment of the same system with an initial state of its own; experiments too
+    short for the frequency bands of the others are left out.
 
     The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`); with `draws` their misfit is measured
     on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right:
@@ -74,21 +92,21 @@ def fault_space_by_rows(
     >>> fault_space_by_rows(y, u, np.zeros((0, 0)), np.zeros((2, 0)), n_v=1).G.ravel().round(1) ** 2
     array([0.49, 0.49])
     """
-    outputs, inputs = signals(y, u)
-    _, A, C = shaped(outputs, A, C)
-    rows = _fitted(outputs, inputs, A, C, n_v, noise_level, draws)
+    records = _experiments(y, u)
+    outputs, A, C = shaped(_outputs(records), A, C)
+    rows = _fitted(records, outputs, A, C, n_v, noise_level, draws)
     return rows if isinstance(rows, FaultSpaceEstimate) else _estimate(rows, _solved(rows, outputs, A, C, np.zeros((A.size + C.size, 0))))
 
 
 @one_thread()
 def identified_fault_space(
-    y: ArrayLike, u: ArrayLike, model: ReducedModel, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
+    y: ArrayLike | Experiments, u: ArrayLike | None, model: ReducedModel, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
 
-    `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The likelihood of a model has several valleys in short records:
-    models with other poles that explain the data as well (`numeric/model/valleys.py`). The space is that of the given model; the angle
-    is over all valleys, each with its probability. In each of them the covariance of A and C is carried to the space to first order
+    y, u, `n_v`, `noise_level` and `draws` are those of `fault_space_by_rows`. The likelihood of a model has several valleys in short
+    records: models with other poles that explain the data as well (`numeric/model/valleys.py`). The space is that of the given model; the
+    angle is over all valleys, each with its probability. In each of them the covariance of A and C is carried to the space to first order
     [MN89], widened by what `benchmarks/space_at_the_bound.py --calibrate` measures, and added to that of the rows. Both take the order
     and the number of zeros as right. Zeros are undecided where the data would rather do with a state less: one too many is a zero too many.
     The benchmark counts how often the angle holds; one above half a radian says that the space is hardly known. The basis is in the
@@ -105,9 +123,9 @@ def identified_fault_space(
     >>> found.n_z, bool(found.uncertainty.angle() < 0.2)
     (1, True)
     """
-    outputs, inputs = signals(y, u)
-    _, A, C = shaped(outputs, model.model.A, model.model.C)
-    rows = _fitted(outputs, inputs, A, C, n_v, noise_level, draws)
+    records = _experiments(y, u)
+    outputs, A, C = shaped(_outputs(records), model.model.A, model.model.C)
+    rows = _fitted(records, outputs, A, C, n_v, noise_level, draws)
     if isinstance(rows, FaultSpaceEstimate):
         return rows
     known = valleys(model)
@@ -181,8 +199,33 @@ def _of_states(uncertainty: Uncertainty) -> Array:
     return np.asarray(root.reshape(n + p, n + model.n_u, root.shape[1])[:, :n].reshape((n + p) * n, root.shape[1]))
 
 
+def _experiments(y: Any, u: ArrayLike | None) -> list[tuple[Array, Array]]:
+    """Return the experiments, checked, of y and u, or of a list of pairs."""
+    if u is not None:
+        return [signals(y, u)]
+    if not isinstance(y, Sequence) or not y or not all(isinstance(one, tuple) and len(one) == 2 for one in y):
+        raise InvalidData("u is missing: pass it, or a list of pairs (y, u), one an experiment")
+    return [signals(*one) for one in y]
+
+
+def _outputs(records: Experiments) -> Array:
+    """Return the outputs of all experiments, one after the other."""
+    return records[0][0] if len(records) == 1 else np.vstack([y for y, _ in records])
+
+
+def pooled(records: Experiments, degree: int) -> JointMoments:
+    """Return the moments of all experiments (y, u) for rows up to this degree, in as many bands as experiments with MOST of the samples
+    carry; shorter ones are left out, for the bands of all must be the same. Raises InvalidData as `joint_moments`."""
+    if len(records) == 1:
+        return joint_moments(*records[0], degree)
+    lengths = sorted((len(y) for y, _ in records), reverse=True)
+    least = lengths[int(np.searchsorted(np.cumsum(lengths), MOST * sum(lengths)))]
+    kept = [record for record in records if len(record[0]) >= least]
+    return joint_moments_experiments(kept, degree, min(BANDS, max((least - degree) // A_BAND, 1)))
+
+
 def _fitted(
-    outputs: Array, inputs: Array, A: Array, C: Array, n_v: int, noise_level: ArrayLike | None, draws: int
+    records: list[tuple[Array, Array]], outputs: Array, A: Array, C: Array, n_v: int, noise_level: ArrayLike | None, draws: int
 ) -> _Rows | FaultSpaceEstimate:
     """Return the rows of the total degree that the data accept, or what there is to say where no row is left."""
     p, n = C.shape
@@ -199,7 +242,9 @@ def _fitted(
         return everything(n, p, faults, n + 1, reason)
     coordinates = observed_coordinates(outputs, A, C, n + 1)
     rows, seen = p - faults, coordinates.observed
-    data = joint_moments(outputs, inputs, -(-(seen + BEYOND) // rows))
+    if draws and len(records) > 1:
+        raise InvalidData(f"draws: got {draws} with {len(records)} experiments; the bootstrap makes records like one: leave it out")
+    data = pooled(records, -(-(seen + BEYOND) // rows))
     largest = largest_fault_space(coordinates.A, coordinates.C, faults)
     shares = np.ones(p)
     if noise_level is not None:
@@ -209,7 +254,7 @@ def _fitted(
     chosen = least_degree(data, fits, n + faults - largest, seen)
     misfits: Sequence[float] = MISFITS
     if draws:
-        misfits = _misfits(outputs, inputs, data, fits, chosen, shares, draws)
+        misfits = _misfits(*records[0], data, fits, chosen, shares, draws)
         chosen = least_degree(data, fits, n + faults - largest, seen, misfits)
     return _Rows(data, fits[chosen.degree], chosen, faults, largest, misfits[0])
 

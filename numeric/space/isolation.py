@@ -33,11 +33,16 @@ from ...base.chi_squared import chi_squared_tail
 from ...base.errors import InvalidData
 from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
+from ..count.windows import EPS
 from ..data.plain import plain
 from ..data.validation import noise_deviations
 from ..drawing import plot_angles
 from .result import FaultSpaceEstimate, SpaceOfValley
 
+NO_ERRORS = (
+    "the model is of PI-MOESP, which does not tell how sure it is, so that no angle to the fault space can be called small or large; a "
+    "longer record of a stable plant, with its noise, has a model that tells it"
+)
 EXCLUDED, CONSISTENT = 0.01, 0.05  # a column whose probability lies between is undecided
 WIDE = 0.5  # radians: above it, the first order says no more than that the space is not known (`identified_fault_space`)
 DRAWS, SEED = 4000, 20251124
@@ -186,7 +191,8 @@ def isolate(
     `space` is of `identified_fault_space` for the ReducedModel `model`, whose errors are then in every bound, or of any function that gives
     one for a StateSpaceModel, whose A, B, C, D of the shapes (n, n), (n, n_u), (p, n), (p, n_u) are taken as right. `outputs` and `inputs`
     name the channels, by default y1, .., u1, ..; `units` (p,) are the sizes of the outputs, in units of y, by which the states of two
-    models are matched in the space: the roots of their mean squares, by default ones. A cause is "excluded" where its probability is below
+    models are matched in the space: the roots of their mean squares, by default ones; or (p, p), where it was found in mixtures of outputs,
+    U with the mixtures U^-1 y of unit size. A cause is "excluded" where its probability is below
     0.01, "consistent" where it is 0.05 or more and the bound is below half a radian, and else "undecided". All are undecided where the
     space is. Raises InvalidData for shapes and names that do not fit. Source: [G25] problem (11), [MN89].
 
@@ -207,12 +213,12 @@ def isolate(
     for given, count, what in ((names[0], p, "outputs"), (names[1], n_u, "inputs")):
         if len(given) != count:
             raise InvalidData(f"{what}: got {len(given)} names for {count}; one for each is needed")
-    scale = np.ones(p) if units is None else noise_deviations(units, p)
+    weight = _weight(units, p)
     columns = np.hstack([np.vstack([np.zeros((n, p)), np.eye(p)]), np.vstack([matrices.B, matrices.D])])
     uncertainty = getattr(model, "uncertainty", None)
-    errors = np.zeros((0, n + p, p + n_u)) if uncertainty is None else _column_errors(matrices, uncertainty.root, scale)
+    errors = np.zeros((0, n + p, p + n_u)) if uncertainty is None else _column_errors(matrices, uncertainty.root, weight)
     identified = matrices is not model
-    reason = "the model has no standard errors" if identified and uncertainty is None else _refusal(space, identified, len(errors))
+    reason = NO_ERRORS if identified and uncertainty is None else _refusal(space, identified, len(errors))
     labels = [("sensor", name) for name in names[0]] + [("actuator", name) for name in names[1]]
     causes = tuple(
         _cause(kind, name, columns[:, j], errors[:, :, j], space, undecided=bool(reason)) for j, (kind, name) in enumerate(labels)
@@ -236,7 +242,18 @@ def _refusal(space: FaultSpaceEstimate, reduced: bool, model_errors: int) -> str
     return ""
 
 
-def _column_errors(matrices: Matrices, root: Array, scale: Array) -> Array:
+def _weight(units: ArrayLike | None, p: int) -> Array:
+    """Return U^-1 (p, p). Raises InvalidData for units that are none."""
+    if np.ndim(units) != 2:  # type: ignore[arg-type]
+        return np.diag(1 / (np.ones(p) if units is None else noise_deviations(units, p)))
+    mixed = np.asarray(units, dtype=np.float64)
+    sizes = np.linalg.norm(mixed, axis=1) if mixed.shape == (p, p) and np.all(np.isfinite(mixed)) else np.zeros(p)
+    if not np.all(sizes > 0) or np.linalg.cond(mixed / sizes[:, None]) * EPS > 1:
+        raise InvalidData(f"units: got the shape {mixed.shape} for {p} outputs; one number each is needed, or an invertible matrix of them")
+    return np.asarray(np.linalg.inv(mixed / sizes[:, None]) / sizes)
+
+
+def _column_errors(matrices: Matrices, root: Array, weight: Array) -> Array:
     """Return the errors (K, n + p, p + n_u) of the columns of sensors and actuators, as linear maps of the numbers of the model's root:
     those of B and D, and the turn of the states of the true model to those of this one."""
     (p, n), n_u = matrices.C.shape, matrices.B.shape[1]
@@ -246,10 +263,9 @@ def _column_errors(matrices: Matrices, root: Array, scale: Array) -> Array:
     columns[:, :, p:] = entries[:, :, n:]
     if n:
         blocks, moves, power, moved = [], [], np.eye(n), np.zeros((len(entries), n, n))
-        weight = 1 / scale[:, None]
         for _ in range(2 * n):
-            blocks.append(weight * matrices.C @ power)
-            moves.append(weight * (of_C @ power + matrices.C @ moved))
+            blocks.append(weight @ matrices.C @ power)
+            moves.append(weight @ (of_C @ power + matrices.C @ moved))
             power, moved = power @ matrices.A, of_A @ power + matrices.A @ moved
         turn = np.linalg.pinv(np.concatenate(blocks)) @ np.concatenate(moves, axis=1)
         columns[:, :n, p:] += turn @ matrices.B

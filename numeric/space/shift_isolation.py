@@ -39,7 +39,7 @@ from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, c
 ANGLES = 720  # of the grid on which the least statistic is looked for
 NO_GAIN = "the model has a pole on the unit circle or outside, as far as its standard errors tell: an offset has no steady response"
 UNSTEADY = "the shift does not stay what it is, so that the static gain does not tell what an actuator does"
-NO_ERRORS = "the model has no standard errors, so that nothing is known of how sure its static gain is"
+NO_ERRORS = "the model is of PI-MOESP, which does not tell how sure it is, so that nothing is known of how sure its static gain is"
 
 
 @dataclass(frozen=True)

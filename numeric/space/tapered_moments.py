@@ -2,7 +2,7 @@
 
     psi             psi(k) = [r(k); ..; r(k+eta)], so that N(q) r (k) = N psi(k) for coefficients N = [N_0 .. N_eta]
     CrossMoments    Hermitian second moments of psi in frequency bands: all that a kernel basis asks of the data
-    tapered_moments from r, in memory independent of its length
+    tapered_moments from r, in memory independent of its length; pooled_moments: from several records of one system
     real_parts      what a single row asks of them
     taper           cosine edges, the middle flat [T67]: an untapered record leaks about 1/N of its power to every
                     frequency, more than noise through a low-pass leaves near its null, where the weights are largest
@@ -13,7 +13,8 @@ Segments overlap by an edge, so that little is lost on long records.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,6 +83,25 @@ def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
 
     Raises InvalidData where the windows are fewer than twice their own size.
     """
+    return pooled_moments([r], degree, most)
+
+
+def pooled_moments(experiments: Sequence[Array], degree: int, most: int = BANDS) -> CrossMoments:
+    """Return the moments of several records (N_i, p) of one system, weighted by their lengths, in bands that all of them fill together.
+
+    Raises InvalidData where the windows of one of them are fewer than twice their own size.
+    """
+    windows = np.array([len(r) - degree for r in experiments])
+    bands = max(4, min(most, int(windows.sum()) // 8))
+    parts = [_moments(r, degree, bands) for r in experiments]
+    share = windows / windows.sum()
+    moments = np.tensordot(share, np.array([part.moments for part in parts]), 1)
+    weights = np.tensordot(share, np.array([part.weights for part in parts]), 1)
+    return replace(parts[0], moments=moments, weights=weights, samples=sum(part.samples for part in parts))
+
+
+def _moments(r: Array, degree: int, bands: int) -> CrossMoments:
+    """Return the moments of one record (N, p); a short one leaves some of so many bands empty."""
     N, p = r.shape
     windows, size = N - degree, p * (degree + 1)
     if windows < 2 * size:
@@ -89,7 +109,6 @@ def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
             f"r has {counted(N, 'sample')} of {counted(p, 'channel')}: kernel rows of degree {degree} need at least {2 * size + degree}; "
             "record more, or take a model of lower order"
         )
-    bands = max(4, min(most, windows // 8))
     length = min(windows, SEGMENT)
     pieces = 1 + int(np.ceil((windows - length) / (length * (1 - EDGES / 2))))
     starts = np.linspace(0, windows - length, pieces).astype(int).tolist()

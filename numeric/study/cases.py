@@ -2,6 +2,8 @@
 
     published_case, corrected_case               with the true A, B, C, D
     identified_case, corrected_identified_case   with A, B, C, D from PI-MOESP on the same data
+    one_by_one                                   the cases of these indices and seeds, one after the other
+    Numbered                                     an index with the seed of its case
     Case                                         the system's zeros, the noise, an estimate for each estimator, a random subspace
     Estimate                                     of one estimator: its dimension and errors
     Errors                                       the same angles in three metrics
@@ -15,7 +17,7 @@ A case is a function of its index and seed alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,7 +37,7 @@ from ..space.result import orthonormal
 from .runs import NOISE_GAIN, StudyRun, response, study_run
 from .systems import MOST_ZEROS, N_V, N_X, P, StudySystem, study_system
 
-Estimator = Callable[[Array, StateSpaceModel, int], Array]
+Numbered = tuple[int, np.random.SeedSequence]
 
 PUBLISHED_WINDOW, CORRECTED_WINDOW = 5, N_X + 1
 NOISE_LEVEL = 0.01
@@ -118,6 +120,33 @@ def corrected_identified_case(index: int, seed: np.random.SeedSequence, samples:
     return _with_identified_model(index, seed, samples, CORRECTED_WINDOW, NOISE_LEVEL / NOISE_GAIN, (PAPER, LIKELIHOOD, LAWS))
 
 
+@dataclass(frozen=True)
+class Truth:
+    """This is what the published estimator is told: the rank of R_s and n_z; it is `vacuous` where the rank leaves no null row."""
+
+    rank: int
+    n_z: int
+    vacuous: bool
+
+
+def truth_of(n_zeros: int, window: int) -> Truth:
+    """Return the rank that R_s has without noise at s = `window`, beyond the lag or not, and the dimension of its solution space."""
+    rank = N_X + window * N_V - n_zeros
+    vacuous = rank >= P * window
+    return Truth(rank, N_X + P if vacuous else N_V + n_zeros, vacuous)
+
+
+def seeds_of_parts(seed: np.random.SeedSequence) -> list[np.random.SeedSequence]:
+    """Return the seeds of a case's system, run, initial state and random subspace."""
+    # Not seed.spawn, which would count the children and so change with a second use.
+    return [np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, part)) for part in range(4)]
+
+
+def one_by_one(case: Callable[[int, np.random.SeedSequence, int], Case], numbered: Sequence[Numbered], samples: int) -> list[Case]:
+    """Return case(index, seed, samples) for each index and seed, in their order."""
+    return [case(index, seed, samples) for index, seed in numbered]
+
+
 def _with_true_model(
     index: int, seed: np.random.SeedSequence, samples: int, window: int, level: float, estimators: tuple[str, ...]
 ) -> Case:
@@ -151,22 +180,18 @@ class _Drawn:
     """The object holds system, run and what is known of them before anything is estimated; one case after the other has a zero more."""
 
     def __init__(self, index: int, seed: np.random.SeedSequence, samples: int, level: float, window: int) -> None:
-        # Not seed.spawn, which would count the children and so change with a second use.
-        parts = (np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, part)) for part in range(4))
-        of_system, of_run, of_start, of_subspace = parts
+        of_system, of_run, of_start, of_subspace = seeds_of_parts(seed)
         self.index, self.window = index, window
         self.system: StudySystem = study_system(index % (MOST_ZEROS + 1), of_system)
         self.run: StudyRun = study_run(self.system, of_run, level=level, samples=samples)
         self.start, self.subspace = np.random.default_rng(of_start), np.random.default_rng(of_subspace)
-        self.rank = N_X + window * N_V - self.system.n_zeros
-        self.vacuous = self.rank >= P * window
-        self.n_z = N_X + P if self.vacuous else N_V + self.system.n_zeros
+        self.truth = truth_of(self.system.n_zeros, window)
 
     def estimate(self, name: str, r: Array, model: StateSpaceModel, to_true: Array) -> Estimate:
         """Estimate by the estimator of that name from r and the model's A, C, and measure the error in the true state basis."""
         try:
             if name == PAPER:
-                found = toeplitz_factorisation(r, model.A, model.C, block_rows=self.window, rank=self.rank, n_z=self.n_z)
+                found = toeplitz_factorisation(r, model.A, model.C, block_rows=self.window, rank=self.truth.rank, n_z=self.truth.n_z)
             else:
                 found = fault_space_by_likelihood(r, model.A, model.C, n_v=N_V).basis
         except InvalidData as error:
@@ -198,11 +223,11 @@ class _Drawn:
             decibels=self.run.decibels,
             block_rows=self.window,
             rows=P * self.window,
-            rank=self.rank,
-            n_z=self.n_z,
-            vacuous=self.vacuous,
+            rank=self.truth.rank,
+            n_z=self.truth.n_z,
+            vacuous=self.truth.vacuous,
             estimates=estimates,
-            random=_errors(system, orthonormal(self.subspace.standard_normal((N_X + P, self.n_z)))),
+            random=_errors(system, orthonormal(self.subspace.standard_normal((N_X + P, self.truth.n_z)))),
         )
 
 

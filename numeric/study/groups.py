@@ -9,13 +9,13 @@ median_interval      the distribution-free 95 % confidence interval of a median
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.special
 
-from .cases import PAPER, Case
+from .cases import PAPER, Case, Numbered
 
 QUANTILES = (0.1, 0.25, 0.5, 0.75, 0.9)
 CONFIDENCE = 0.95
@@ -23,15 +23,17 @@ CONFIDENCE = 0.95
 
 @dataclass(frozen=True)
 class Plan:
-    """The plan says what a study does with each system. `metric` names the field of `Errors` that is its error, and `worth` is the
-    number of systems that are worth the start of a process."""
+    """The plan says what a study does with its systems: `cases` makes Cases of (index, seed) pairs and a number of samples, the same for a
+    system whatever others it comes with, best `stack` of them at a time. `metric` names the field of `Errors` that is its error, and
+    `worth` is the number of systems that are worth the start of a process."""
 
     name: str
     title: str
     metric: str
     metric_text: str
     estimators: tuple[str, ...]
-    case: Callable[[int, np.random.SeedSequence, int], Case]
+    cases: Callable[[Sequence[Numbered], int], list[Case]]
+    stack: int
     worth: int
 
 

@@ -2,7 +2,7 @@
 
     StudyRun         inputs u, outputs y, faults v of one run, with the noise that was added
     study_run        one run of a system
-    study_faults     v1 = sin(0.25 t^1.3) + 0.1, v2 = 1 - 0.99^t + white noise
+    study_faults     v1 = sin(0.25 t^1.3) + 0.1, v2 = 1 - 0.99^t + white noise; study_chirp and study_rise their parts without chance
     coloured_noise   white noise through the low-pass of the study
     response         y from u and x0 by one recursive filter with the poles of A: what a small model needs
     NOISE_GAIN       standard deviation of that noise for white noise of deviation one: the reason why "1 %" is 43 dB
@@ -91,8 +91,17 @@ def response(model: StateSpaceModel, u: Array, x0: Array) -> Array:
 
 def study_faults(samples: int, rng: np.random.Generator) -> Array:
     """Return (samples, 2): a chirp of rising frequency with an offset, and a slow rise buried in white noise."""
-    t = np.arange(samples)
-    return np.column_stack([np.sin(0.25 * t**1.3) + 0.1, 1 - 0.99**t + rng.standard_normal(samples)])
+    return np.column_stack([study_chirp(samples), study_rise(samples) + rng.standard_normal(samples)])
+
+
+def study_chirp(samples: int) -> Array:
+    """Return the first fault (samples,)."""
+    return np.asarray(np.sin(0.25 * np.arange(samples) ** 1.3) + 0.1, dtype=np.float64)
+
+
+def study_rise(samples: int) -> Array:
+    """Return the second fault (samples,) without its noise."""
+    return np.asarray(1 - 0.99 ** np.arange(samples), dtype=np.float64)
 
 
 def coloured_noise(samples: int, channels: int, rng: np.random.Generator) -> Array:

@@ -32,6 +32,8 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from functools import partial
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -40,7 +42,8 @@ from ...base.errors import InvalidData, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import Shown
 from ..data.validation import positive
-from .cases import LAWS, LIKELIHOOD, PAPER, corrected_case, corrected_identified_case, identified_case, published_case
+from .case_stacks import published_cases
+from .cases import LAWS, LIKELIHOOD, PAPER, corrected_case, corrected_identified_case, identified_case, one_by_one
 from .groups import Group, Plan, StudyCases, by_phase, by_zeros
 from .plots import errors_by_zeros
 from .runs import SAMPLES
@@ -52,19 +55,36 @@ _CONTAINMENT = "angles from [F; G] to the estimate (containment) over n_v pi/2; 
 _TWO_SIDED = "two-sided distance between the true fault space and the estimate, over its maximum"
 _BOTH = (PAPER, LIKELIHOOD)
 PUBLISHED = Plan(
-    "published", "as published: s = 5, true A, B, C, D, noise 43 dB down", "published", _CONTAINMENT, (PAPER,), published_case, 300
+    "published", "as published: s = 5, true A, B, C, D, noise 43 dB down", "published", _CONTAINMENT, (PAPER,), published_cases, 100, 1000
 )
 IDENTIFIED = Plan(
-    "identified", "identified: s = 5, A, B, C, D by PI-MOESP, noise 43 dB down", "published", _CONTAINMENT, (PAPER,), identified_case, 40
+    "identified",
+    "identified: s = 5, A, B, C, D by PI-MOESP, noise 43 dB down",
+    "published",
+    _CONTAINMENT,
+    (PAPER,),
+    partial(one_by_one, identified_case),
+    1,
+    40,
 )
-CORRECTED = Plan("corrected", "as corrected: s = 6, true A, B, C, D, noise 40 dB down", "two_sided", _TWO_SIDED, _BOTH, corrected_case, 20)
+CORRECTED = Plan(
+    "corrected",
+    "as corrected: s = 6, true A, B, C, D, noise 40 dB down",
+    "two_sided",
+    _TWO_SIDED,
+    _BOTH,
+    partial(one_by_one, corrected_case),
+    1,
+    20,
+)
 CORRECTED_IDENTIFIED = Plan(
     "corrected-identified",
     "corrected and identified: s = 6, A, B, C, D by PI-MOESP (laws: by reduction), noise 40 dB down",
     "two_sided",
     _TWO_SIDED,
     (*_BOTH, LAWS),
-    corrected_identified_case,
+    partial(one_by_one, corrected_identified_case),
+    1,
     20,
 )
 STUDIES = {plan.name: plan for plan in (PUBLISHED, IDENTIFIED, CORRECTED, CORRECTED_IDENTIFIED)}
@@ -152,12 +172,21 @@ def monte_carlo(
     if not isinstance(plan, Plan):
         raise InvalidData(f"plan: got {shorten(plan)}; one of {', '.join(STUDIES)} is needed")
     systems, samples = positive(systems, "systems"), positive(samples, "samples")
+    if samples < 2:
+        raise InvalidData(f"samples: got {samples}; noise relative to a standard deviation needs 2 or more")
     if seed < 0:
         raise InvalidData(f"seed: got {seed}; a whole number from 0 on is needed")
     start = time.perf_counter()
-    tasks = [(index, child, samples) for index, child in enumerate(np.random.SeedSequence(seed).spawn(systems))]
-    cases = in_order(plan.case, tasks, worth=plan.worth, jobs=jobs, cluster=cluster, stage=plan.name, progress=on_progress or silent)
-    return Study(plan, seed, samples, tuple(cases), time.perf_counter() - start)
+    numbered = list(enumerate(np.random.SeedSequence(seed).spawn(systems)))
+    tasks = [(numbered[first : first + plan.stack], samples) for first in range(0, systems, plan.stack)]
+
+    def in_systems(stage: str, done: int, _: int) -> None:
+        heard(stage, min(done * plan.stack, systems), systems)
+
+    heard = on_progress or silent
+    worth = -(-plan.worth // plan.stack)
+    stacks = in_order(plan.cases, tasks, worth=worth, jobs=jobs, cluster=cluster, stage=plan.name, progress=in_systems)
+    return Study(plan, seed, samples, tuple(chain.from_iterable(stacks)), time.perf_counter() - start)
 
 
 def _in_words(group: Group) -> str:

@@ -90,7 +90,7 @@ def study_system(n_zeros: int, seed: np.random.SeedSequence | int) -> StudySyste
         raise InvalidData(f"n_zeros: got {n_zeros}; systems with 0, 1, 2 or 3 finite zeros can be built")
     rng = np.random.default_rng(seed)
     for attempt in range(1, ATTEMPTS + 1):
-        A = _companion(_poles(rng))
+        A = companion(draw_poles(rng))
         B, D = rng.standard_normal((N_X, N_U)), rng.standard_normal((P, N_U))
         C = np.hstack([np.linalg.qr(rng.standard_normal((P, P)))[0], np.zeros((P, N_X - P))])
         zeros = rng.standard_normal(len(DIRECTIONS[n_zeros]))
@@ -157,7 +157,7 @@ def pencil_zeros(A: Array, F: Array, C: Array, G: Array, rng: np.random.Generato
     return np.array(sorted(merged, key=lambda z: (abs(z), z.real, z.imag)), dtype=np.complex128)
 
 
-def _poles(rng: np.random.Generator) -> ComplexArray:
+def draw_poles(rng: np.random.Generator) -> ComplexArray:
     """Return five poles: real ones uniform in (-1, 1), pairs of uniform modulus and uniform angle, each with probability one half."""
     poles: list[complex] = []
     while len(poles) < N_X:
@@ -168,7 +168,7 @@ def _poles(rng: np.random.Generator) -> ComplexArray:
     return np.array(poles)
 
 
-def _companion(poles: ComplexArray) -> Array:
+def companion(poles: ComplexArray) -> Array:
     """Return the matrix with ones above the diagonal whose last row holds the characteristic polynomial of these poles."""
     A = np.eye(len(poles), k=1)
     A[-1] = -np.real(np.poly(poles))[:0:-1]

@@ -19,15 +19,7 @@ from ...exact.limits.hidden_states import hides_a_state
 from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances
 from ...exact.parametric.leads import lead_identities
-from ..evidence.experiments import (
-    Drive,
-    LimitEvidence,
-    certificates_of,
-    examine_experiment,
-    experiments_in_order,
-    leading,
-    nilpotent_points,
-)
+from ..evidence.experiments import NILPOTENT, Drive, LimitEvidence, certificates_of, examine_experiment, experiments_in_order, leading
 from ..evidence.kept_experiments import WITHOUT_RANK, kept
 from ..evidence.seasonal_inputs import BOX as BOX_OF_PERIOD
 from ..evidence.seasonal_inputs import in_order, seasonal
@@ -172,7 +164,7 @@ def two_sided_long_past_inputs(bench: Workbench) -> Outcome:
 
 def two_sided_almost_every(bench: Workbench) -> Outcome:
     """For a fixed u the exceptional (A, B) are common zeros of rational functions; at one nilpotent A they do not all vanish."""
-    records = [examine_experiment("at a nilpotent A, for one u, n and s each", experiment) for experiment in nilpotent_points()]
+    records = bench.material(NILPOTENT)
     return certify_limits([e for e in records if e.whole_range_expected], lambda e: e.equal)
 
 

@@ -2,8 +2,8 @@
 
 PairEvidence              two systems: equal, or the first window on which they differ; their lags and normal ranks
 AlternativeEvidence       a system and other fault matrices for the same (A, C): equal or not, inside the fault space or not
-compared_pairs            all pairs over GF(2) at small dimensions, shift registers, perturbed and equivalent systems over Q
-alternatives              every (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
+PAIRS                     all pairs over GF(2) at small dimensions, shift registers, perturbed and equivalent systems over Q
+ALTERNATIVES              every (F', G') over GF(2) at small dimensions; pairs (Fhat P, Ghat P) for good and bad P over Q
 examine_pair, examine_alternative    the evidence on one of each
 comparison_certificate    the certificate of equality or of the first difference, whichever is so
 ranked, fault_space_basis    what is asked of one system of a pair alone, kept because a system stands in many of them
@@ -18,9 +18,6 @@ from functools import lru_cache
 from itertools import product
 from typing import Any
 
-from joblib import Parallel, delayed
-
-from ...base.progress import Progress
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.algebra.matrices import Matrix, beside, rank, solve_left, stacked
 from ...exact.structure.behavior import compare
@@ -31,6 +28,7 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from .exhaustive import all_systems, orbits
 from .families import adversarial, random_systems, shift_registers
+from .material import Material
 
 
 @dataclass(frozen=True)
@@ -141,30 +139,16 @@ def examine_alternative(origin: str, system: ResidualSystem, alternative: Residu
     )
 
 
-def compared_pairs(effort: str, jobs: int, progress: Progress) -> tuple[PairEvidence, ...]:
-    """All pairs of systems of the effort, made on `jobs` processes."""
-    return tuple(_in_parallel(examine_pair, list(_pairs(effort == "full")), jobs, progress, "comparing pairs"))
+def _examined_pair(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> list[PairEvidence]:
+    return [examine_pair(*item)]
 
 
-def alternatives(effort: str, jobs: int, progress: Progress) -> tuple[AlternativeEvidence, ...]:
-    """All systems of the effort with other fault matrices, made on `jobs` processes."""
-    return tuple(_in_parallel(examine_alternative, list(_alternatives(effort == "full")), jobs, progress, "trying other fault matrices"))
+def _examined_alternative(item: tuple[str, ResidualSystem, ResidualSystem, int]) -> list[AlternativeEvidence]:
+    return [examine_alternative(*item)]
 
 
-def _in_parallel(examine: Any, items: list[tuple[Any, ...]], jobs: int, progress: Progress, stage: str) -> Iterator[Any]:
-    batches = [items[i : i + 60] for i in range(0, len(items), 60)]
-    done = 0
-    for batch in Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(examine, batch) for batch in batches):
-        done += len(batch)
-        progress(stage, done, len(items))
-        yield from batch
-
-
-def _all(examine: Any, batch: list[tuple[Any, ...]]) -> list[Any]:
-    return [examine(*item) for item in batch]
-
-
-def _pairs(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
+def _pairs(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
+    full = bench.full
     for n in range(1, 13 if full else 9):
         idle, driven = shift_registers(n)
         yield "shift registers", idle, driven, 1
@@ -208,7 +192,8 @@ def _relatives(system: ResidualSystem, rng: random.Random) -> Iterator[ResidualS
     yield ResidualSystem(A, stacked(system.F, Matrix.zero(QQ, 1, system.m)), beside(system.C, edge), system.G)
 
 
-def _alternatives(full: bool) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
+def _alternatives(bench: Any) -> Iterator[tuple[str, ResidualSystem, ResidualSystem, int]]:
+    full = bench.full
     named = [system for _, system in adversarial() if system.n <= 4]
     for system in [*named, *random_systems(QQ, 600 if full else 60, seed=3)]:
         space = fault_space(kernel_representation(system))
@@ -237,3 +222,7 @@ def _choices(rows: int, cols: int, rng: random.Random) -> Iterator[Matrix]:
         )
     order = rng.sample(range(rows), rows)
     yield Matrix.of([[int(order.index(i) == j) for j in range(cols)] for i in range(rows)], shape=(rows, cols))
+
+
+PAIRS = Material("pairs", "comparing pairs", _pairs, _examined_pair, 60)
+ALTERNATIVES = Material("alternatives", "trying other fault matrices", _alternatives, _examined_alternative, 60)

@@ -2,7 +2,7 @@
 
     Evidence     the Structure of a system as accepted certificates state it, with its origin and weight
     examine      one system: certificates made, checked, and read back into a structure
-    corpus       all systems of an effort, on all cores
+    CORPUS       all systems of an effort
     describe     how some of them were made, in words with counts
 
 A claim reads evidence only, so that whatever it concludes rests on statements that the checker has accepted.
@@ -14,10 +14,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
+from typing import Any
 
-from joblib import Parallel, delayed
-
-from ...base.progress import Progress
 from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.structure.fault_columns import FaultSpace, fault_space
@@ -28,6 +26,7 @@ from ..trust import structure_certificates as make
 from ..trust.structure_certificates import accept
 from .exhaustive import orbits
 from .families import adversarial, paper_example, random_systems
+from .material import Material
 
 
 @dataclass(frozen=True, repr=False)
@@ -124,26 +123,15 @@ def examine(origin: str, system: ResidualSystem, weight: int = 1) -> Evidence:
     return evidence
 
 
-def corpus(effort: str, jobs: int, progress: Progress) -> tuple[Evidence, ...]:
-    """All systems of the effort, "quick" or "full", with their evidence, made on `jobs` processes."""
-    sources = list(_sources(effort))
-    found: list[Evidence] = []
-    batches = [sources[i : i + 40] for i in range(0, len(sources), 40)]
-    for batch in Parallel(n_jobs=jobs, return_as="generator")(delayed(_examine_all)(batch) for batch in batches):
-        found.extend(batch)
-        progress("certifying the systems", len(found), len(sources))
-    return tuple(found)
+def _examined(item: tuple[str, ResidualSystem, int]) -> list[Evidence]:
+    return [examine(*item)]
 
 
-def _examine_all(batch: list[tuple[str, ResidualSystem, int]]) -> list[Evidence]:
-    return [examine(*item) for item in batch]
-
-
-def _sources(effort: str) -> Iterator[tuple[str, ResidualSystem, int]]:
+def _sources(bench: Any) -> Iterator[tuple[str, ResidualSystem, int]]:
     yield "the paper's example", paper_example().residual, 1
     for _, system in adversarial():
         yield "named adversarial systems", system, 1
-    full = effort == "full"
+    full = bench.full
     fields: list[tuple[Field, int]] = [
         (QQ, 3000 if full else 180),
         (NumberField(("-2", "0", "1")), 300 if full else 24),  # type: ignore[arg-type]
@@ -180,3 +168,6 @@ def _limits(q: int, full: bool) -> tuple[int, int, int]:
 def _box(q: int, full: bool) -> str:
     n, p, m = _limits(q, full)
     return f"n <= {n}, p <= {p}, m <= {m}"
+
+
+CORPUS = Material("corpus", "certifying the systems", _sources, _examined, 40)

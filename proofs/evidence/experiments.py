@@ -1,7 +1,7 @@
 """Experiments whose population limits are known exactly, with certificates that the checker accepted: proposition-1 rests on these.
 
     LimitEvidence           an experiment, what its signals are like, and what certificates say of both methods and both regressions
-    certified_limits        those of an effort, in families named after how v and u belong together
+    LIMITS                  those of an effort, in families named after how v and u belong together
     examine_experiment      the evidence on one experiment
     FAMILIES                the name of a family, and how an experiment of it is drawn
     nilpotent_points        one (A, B) for each of several spectra of u, at which the limit of PI-MOESP is to have full rank
@@ -20,9 +20,6 @@ from itertools import product
 from random import Random
 from typing import Any
 
-from joblib import Parallel, delayed
-
-from ...base.progress import Progress
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.algebra.stability import is_stable, rational_characteristic_polynomial
@@ -32,6 +29,7 @@ from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..trust import limit_certificates as make
 from ..trust.structure_certificates import Certificate, Unprovable, accept
+from .material import Material
 from .seasonal_inputs import in_order, seasonal
 
 Rows = list[list[str]]
@@ -153,20 +151,22 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
     )
 
 
-def certified_limits(effort: str, jobs: int, progress: Progress) -> tuple[LimitEvidence, ...]:
-    """All experiments of the effort with certified limits, made on `jobs` processes."""
-    count = 400 if effort == "full" else 40
-    sources = [(name, seed) for name in FAMILIES for seed in range(3 * count if name == "v independent of u" else count)]
-    found: list[LimitEvidence] = []
-    batches = [sources[i : i + 10] for i in range(0, len(sources), 10)]
-    for batch in Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(b) for b in batches):
-        found += batch
-        progress("population limits", len(found), len(sources))
-    return tuple(found)
+def _sources(bench: Any) -> list[tuple[str, int]]:
+    count = 400 if bench.full else 40
+    return [(name, seed) for name in FAMILIES for seed in range(3 * count if name == "v independent of u" else count)]
 
 
-def _all(batch: list[tuple[str, int]]) -> list[LimitEvidence]:
-    return [examine_experiment(name, FAMILIES[name](Random(f"{name} {seed}"))) for name, seed in batch]
+def _examined(item: tuple[str, int]) -> list[LimitEvidence]:
+    name, seed = item
+    return [examine_experiment(name, FAMILIES[name](Random(f"{name} {seed}")))]
+
+
+def _nilpotent(bench: Any) -> Iterator[Experiment]:
+    return nilpotent_points()
+
+
+def _at_nilpotent(experiment: Experiment) -> list[LimitEvidence]:
+    return [examine_experiment("at a nilpotent A, for one u, n and s each", experiment)]
 
 
 def _controllable(A: Matrix, B: Matrix) -> bool:
@@ -397,3 +397,7 @@ def _columns(values: Sequence[str], p: int) -> Iterator[tuple[str, ...]]:
     for _ in range(2 * p):
         columns = [(*column, value) for column in columns for value in values]
     return iter(columns)
+
+
+LIMITS = Material("limits", "population limits", _sources, _examined, 10)
+NILPOTENT = Material("limits at nilpotent A", "population limits at nilpotent A", _nilpotent, _at_nilpotent, 1)

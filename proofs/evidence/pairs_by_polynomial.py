@@ -1,7 +1,7 @@
 """Pairs (Fhat P, Ghat P): what the polynomial D(q; P) says of each beforehand, and what accepted certificates say of it afterwards.
 
 PairByPolynomial         a system, a P, D(q; P) by its determinant; normal rank, zeros and equivalence of the pair by certificates
-pairs_by_polynomial      for each system a good P, a bad P of full column rank where there is one, a P for given zeros, random P
+PAIRS_BY_POLYNOMIAL      for each system a good P, a bad P of full column rank where there is one, a P for given zeros, random P
 examine_by_polynomial    the record of one P, with its certificates made and accepted
 pencil_of                the pencil [P | q b - a] of a system, found once
 """
@@ -13,10 +13,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
+from typing import Any
 
-from joblib import Parallel, delayed
-
-from ...base.progress import Progress
 from ...exact.algebra.fields import QQ, PrimeField
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.algebra.polynomials import monic, multiply, written
@@ -31,6 +29,7 @@ from ..trust.structure_certificates import accept
 from .alternatives import comparison_certificate, fault_space_basis, ranked
 from .exhaustive import orbits
 from .families import adversarial, random_systems
+from .material import Material
 
 MOST_STATES = 3
 
@@ -105,25 +104,9 @@ def examine_by_polynomial(origin: str, purpose: str, system: ResidualSystem, P: 
     )
 
 
-def pairs_by_polynomial(effort: str, jobs: int, progress: Progress) -> tuple[PairByPolynomial, ...]:
-    """All pairs of the effort, made on `jobs` processes."""
-    sources = list(_systems(effort == "full"))
-    batches = [sources[i : i + 20] for i in range(0, len(sources), 20)]
-    found: list[PairByPolynomial] = []
-    done = 0
-    for batch, made in zip(batches, Parallel(n_jobs=jobs, return_as="generator")(delayed(_all)(b) for b in batches), strict=True):
-        found += made
-        done += len(batch)
-        progress("pairs and their polynomials", done, len(sources))
-    return tuple(found)
-
-
-def _all(batch: list[tuple[str, ResidualSystem, int]]) -> list[PairByPolynomial]:
-    found = []
-    for origin, system, weight in batch:
-        for purpose, P, wanted in _choices(system):
-            found.append(examine_by_polynomial(origin, purpose, system, P, wanted, weight))
-    return found
+def _examined(item: tuple[str, ResidualSystem, int]) -> list[PairByPolynomial]:
+    origin, system, weight = item
+    return [examine_by_polynomial(origin, purpose, system, P, wanted, weight) for purpose, P, wanted in _choices(system)]
 
 
 def _choices(system: ResidualSystem) -> Iterator[tuple[str, Matrix, object]]:
@@ -144,7 +127,8 @@ def _choices(system: ResidualSystem) -> Iterator[tuple[str, Matrix, object]]:
         yield "random", Matrix.of([[rng.randint(-2, 2) for _ in range(shape[1])] for _ in range(shape[0])], field, shape=shape), None
 
 
-def _systems(full: bool) -> Iterator[tuple[str, ResidualSystem, int]]:
+def _systems(bench: Any) -> Iterator[tuple[str, ResidualSystem, int]]:
+    full = bench.full
     for _, system in adversarial():
         if system.n <= MOST_STATES:
             yield "named systems", system, 1
@@ -161,3 +145,6 @@ def _systems(full: bool) -> Iterator[tuple[str, ResidualSystem, int]]:
 def _hashable(coefficients: object) -> tuple[object, ...]:
     """Return written coefficients as a tuple; entries of Q(a), which are lists, become tuples."""
     return tuple(tuple(c) if isinstance(c, list) else c for c in coefficients)  # type: ignore[attr-defined]
+
+
+PAIRS_BY_POLYNOMIAL = Material("pairs by polynomial", "pairs and their polynomials", _systems, _examined, 20)

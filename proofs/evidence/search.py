@@ -3,6 +3,7 @@
     Box                bounds on n, p, m, their sum, and the entries
     systems_in_order   by n + m + p, then n, m, p, then the largest numerator or denominator, then lexicographically (A, F, C, G by rows)
     chunks             the same systems in batches, as Facts
+    first_of_orbits    the first of those that differ by renumbering and signs alone, in batches
     Facts              window ranks, rank of T_s, observability, controllability of many systems at once, by definition
     smallest           the first system that a vectorised test on Facts lets through and an exact test confirms
 
@@ -14,9 +15,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
-from itertools import product
+from functools import cache, cached_property
+from itertools import permutations, product
 from math import isqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -167,49 +169,90 @@ def ranks(matrices: Integers) -> Integers:
         bound *= isqrt(int(length)) + 1
     if bound >= PRIME:
         raise ArithmeticError(f"a minor could be as large as {bound}")
-    work = _residues(matrices)
-    count, nrows, ncols = work.shape
+    work = _residues(np.ascontiguousarray(np.moveaxis(matrices, 0, -1)))  # the systems last: numpy's inner loops are long then
+    nrows, ncols, count = work.shape
     rank = np.zeros(count, dtype=np.int64)
-    every, rows = np.arange(count), np.arange(nrows)
+    every, rows = np.arange(count), np.arange(nrows)[:, None]
     for _ in range(ncols):  # what is left to do has one column less each time
-        lead, rest = work[:, :, 0], work[:, :, 1:]
-        candidates = (lead != 0) & (rows >= rank[:, None])
-        found = candidates.any(axis=1)
+        lead = work[:, 0]
+        candidates = (lead != 0) & (rows >= rank)
+        found = candidates.any(axis=0)
         if not found.any():
-            work = rest
+            work = work[:, 1:]
             continue
-        chosen, here = np.argmax(candidates, axis=1), np.minimum(rank, nrows - 1)
+        chosen, here = np.argmax(candidates, axis=0), np.minimum(rank, nrows - 1)
         at = np.where(found, chosen, here)
-        pivot_row, other = work[every, at], work[every, here]
-        work[every, at], work[every, here] = other, pivot_row
-        below = (rows > here[:, None]) & found[:, None]
-        scale, times = np.where(below, pivot_row[:, :1], 1), np.where(below, lead, 0)
-        work = _residues(rest * scale[:, :, None] - times[:, :, None] * pivot_row[:, None, 1:])
+        pivot_row, other = work[at, :, every].T.copy(), work[here, :, every].T
+        work[at, :, every], work[here, :, every] = other.T, pivot_row.T
+        below = (rows > here) & found
+        scale, times = np.where(below, pivot_row[0], 1), np.where(below, lead, 0)
+        work = _residues(work[:, 1:] * scale[:, None] - times[:, None] * pivot_row[None, 1:])
         rank += found
     return rank
 
 
-def _residues(numbers: Integers) -> Integers:
+def _residues(numbers: NDArray[Any]) -> Integers:
     """Return the numbers modulo the prime; numpy divides by one number several times faster than it takes the remainder."""
-    return numbers - numbers // PRIME * PRIME
+    residues: Integers = numbers - numbers // PRIME * PRIME
+    return residues
 
 
-def chunks(box: Box, known: dict[tuple[int, ...], Known] | None = None) -> Iterator[Facts]:
-    """Yield the systems of a box in order, in batches of the same dimensions.
+def chunks(box: Box) -> Iterator[Facts]:
+    """Yield the systems of a box in order, in batches of the same dimensions."""
+    for n, m, p, _, digits in _batches(box, CHUNK):
+        yield _facts(n, m, p, digits)
 
-    `known`, where it is given, keeps what is found out about a batch for the next search, which may be through another box.
+
+def first_of_orbits(box: Box, known: dict[tuple[int, ...], Known] | None = None) -> Iterator[Facts]:
+    """Yield, in order, the first system of each orbit under renumbering and changes of sign of states, outputs and faults.
+
+    These keep the box as it is. So the first system of the box that fails a statement which they leave as it is, is one of these. `known`,
+    where it is given, keeps what is found out about a batch for the next search, which may be through another box.
     """
     known = {} if known is None else known
+    for n, m, p, start, digits in _batches(box, 16 * CHUNK):
+        for earlier in _precedences(n, m, p):
+            digits = digits[digits @ earlier <= 0]
+        if len(digits):
+            yield _facts(n, m, p, digits, known.setdefault((n, m, p, start), {}))
+
+
+def _batches(box: Box, length: int) -> Iterator[tuple[int, int, int, int, Integers]]:
+    """Yield n, m, p, the number of the first system, and the entries of at most so many systems, one a row, A, F, C, G by rows."""
     for n, m, p in box.dimensions():
-        length = (n + p) * (n + m)
-        total = 3**length
-        for start in range(0, total, CHUNK):
-            numbers = np.arange(start, min(start + CHUNK, total), dtype=np.int64)
-            digits = np.stack([numbers // 3**k % 3 for k in reversed(range(length))], axis=1) - 1
-            cuts = np.cumsum([n * n, n * m, p * n])
-            A, F, C, G = np.split(digits, cuts, axis=1)
-            found = known.setdefault((n, m, p, start), {})
-            yield Facts(A.reshape(-1, n, n), F.reshape(-1, n, m), C.reshape(-1, p, n), G.reshape(-1, p, m), found)
+        entries = (n + p) * (n + m)
+        total = 3**entries
+        for start in range(0, total, length):
+            numbers = np.arange(start, min(start + length, total), dtype=np.int64)
+            yield n, m, p, start, np.stack([numbers // 3**k % 3 for k in reversed(range(entries))], axis=1) - 1
+
+
+def _facts(n: int, m: int, p: int, digits: Integers, known: Known | None = None) -> Facts:
+    A, F, C, G = np.split(digits, np.cumsum([n * n, n * m, p * n]), axis=1)
+    shaped = A.reshape(-1, n, n), F.reshape(-1, n, m), C.reshape(-1, p, n), G.reshape(-1, p, m)
+    return Facts(*shaped, {} if known is None else known)
+
+
+@cache
+def _precedences(n: int, m: int, p: int) -> tuple[Integers, ...]:
+    """Return a vector for each renumbering with signs: its product with the entries of a system is positive iff the image comes earlier.
+
+    The number of a system in the order is the product of its entries with powers of 3, and a constant; that of its image has the same
+    powers, moved and with signs.
+    """
+    cuts = np.cumsum([n * n, n * m, p * n])
+    powers = 3 ** np.arange((n + p) * (n + m), dtype=np.int64)[::-1]
+    A, F, C, G = (part.reshape(shape) for part, shape in zip(np.split(powers, cuts), ((n, n), (n, m), (p, n), (p, m)), strict=True))
+    found = []
+    for T, U, V in product(_signed_permutations(n), _signed_permutations(p), _signed_permutations(m)):
+        moved = T.T @ A @ T, T.T @ F @ V, U.T @ C @ T, U.T @ G @ V
+        found.append(powers - np.concatenate([part.ravel() for part in moved]))
+    return tuple(found)
+
+
+def _signed_permutations(size: int) -> list[Integers]:
+    unit = np.eye(size, dtype=np.int64)
+    return [unit[list(order)] * np.array(signs)[:, None] for order in permutations(range(size)) for signs in product((1, -1), repeat=size)]
 
 
 def systems_in_order(box: Box, test: Callable[[Facts], Flags]) -> Iterator[ResidualSystem]:
@@ -220,5 +263,13 @@ def systems_in_order(box: Box, test: Callable[[Facts], Flags]) -> Iterator[Resid
 
 
 def smallest(box: Box, test: Callable[[Facts], Flags], confirm: Callable[[ResidualSystem], bool]) -> ResidualSystem | None:
-    """Return the first system of the box that passes the vectorised test and the exact one; None where there is none."""
-    return next((system for system in systems_in_order(box, test) if confirm(system)), None)
+    """Return the first system of the box that passes the vectorised test and the exact one; None where there is none.
+
+    Renumbering and changes of sign of states, outputs and faults leave both tests as they are.
+    """
+    for facts in first_of_orbits(box):
+        for index in np.flatnonzero(test(facts)):
+            system = facts.system(int(index))
+            if confirm(system):
+                return system
+    return None

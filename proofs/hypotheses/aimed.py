@@ -19,6 +19,7 @@ from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Evidence, examine
+from ..evidence.material import Material
 from ..verdict.workbench import Workbench
 from .facets import of_system
 
@@ -35,9 +36,21 @@ HIDDEN_ZEROS = (
 Table = list[list[str]]
 
 
-def aimed_evidence(bench: Workbench) -> list[Evidence]:
+def aimed_evidence(bench: Workbench) -> tuple[Evidence, ...]:
     """Return the evidence on the aimed systems of the effort."""
-    return bench.records("aimed systems", lambda: [examine("aimed", s) for s in (*HIDDEN_ZEROS, *aimed_systems(400 if bench.full else 80))])
+    return bench.material(AIMED)
+
+
+def _sources(bench: Workbench) -> Iterator[ResidualSystem]:
+    yield from HIDDEN_ZEROS
+    yield from aimed_systems(400 if bench.full else 80)
+
+
+def _examined(system: ResidualSystem) -> list[Evidence]:
+    return [examine("aimed", system)]
+
+
+AIMED = Material("aimed systems", "certifying the aimed systems", _sources, _examined, 40)
 
 
 def aimed_systems(count: int) -> Iterator[ResidualSystem]:

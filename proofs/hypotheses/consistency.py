@@ -13,8 +13,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 
-from joblib import Parallel, delayed
-
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix
 from ...exact.limits.experiments import Experiment
@@ -22,7 +20,8 @@ from ...exact.limits.lyapunov import solve
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
 from ..claims.proposition_1 import show_words
-from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
+from ..evidence.experiments import LIMITS, LimitEvidence, certificates_of, examine_experiment
+from ..evidence.material import Material
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, first_found
@@ -132,26 +131,43 @@ def autoregressive(found: PopulationLimits, order: int) -> bool:
 
 
 def _subjects(bench: Workbench) -> Iterator[Driven]:
-    return iter(bench.records("driven", partial(_made, bench)))
+    bench.need(LIMITS, AIMED, SMALL)
+    yield from bench.material(DRIVEN)
+    yield from bench.material(AIMED)
 
 
-def _made(bench: Workbench) -> list[Driven]:
-    aimed = list(aimed_experiments(400 if bench.full else 40))
-    batches = [aimed[i : i + 10] for i in range(0, len(aimed), 10)]
-    found: list[Driven] = []
-    for batch in Parallel(n_jobs=bench.jobs, return_as="generator")(delayed(_examined)(b) for b in batches):
-        found += batch
-        bench.progress("population limits, aimed", len(found), len(aimed))
-    return [driven(record) for record in bench.limits] + found
+def _limits(bench: Workbench) -> Sequence[LimitEvidence]:
+    return bench.limits
 
 
-def _examined(batch: Sequence[Experiment]) -> list[Driven]:
-    return [driven(examine_experiment("aimed", experiment)) for experiment in batch]
+def _driven(record: LimitEvidence) -> list[Driven]:
+    return [driven(record)]
+
+
+def _aimed(bench: Workbench) -> Iterator[Experiment]:
+    return aimed_experiments(400 if bench.full else 40)
+
+
+def _examined_aimed(experiment: Experiment) -> list[Driven]:
+    return [driven(examine_experiment("aimed", experiment))]
+
+
+def _small(bench: Workbench) -> Iterator[Experiment]:
+    return small_experiments()
+
+
+def _examined(experiment: Experiment) -> list[Driven]:
+    return [driven(examine_experiment("search", experiment))]
+
+
+DRIVEN = Material("driven", "reading population limits", _limits, _driven, 20)
+AIMED = Material("aimed experiments", "population limits, aimed", _aimed, _examined_aimed, 10)
+SMALL = Material("small experiments", "population limits of small experiments", _small, _examined, 10)
 
 
 def _smallest(hypotheses: Mapping[str, Callable[[Driven], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Driven]:
     kept = [test for name, test in hypotheses.items() if name not in dropped]
-    searched = bench.records("small experiments", lambda: [driven(bench.examined_experiment(e)) for e in small_experiments()])
+    searched = bench.material(SMALL)
 
     def counterexamples(poor: bool) -> Iterator[Driven]:
         for subject in searched:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import product
 from random import Random
 
@@ -17,7 +16,8 @@ from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.alternatives import AlternativeEvidence, comparison_certificate, examine_alternative
+from ..evidence.alternatives import ALTERNATIVES, AlternativeEvidence, comparison_certificate, examine_alternative
+from ..evidence.material import Material
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -91,21 +91,28 @@ def theorem_3_ii() -> Ablation[Pair]:
 
 def _subjects(bench: Workbench) -> Iterator[Pair]:
     """Yield alternatives with columns in Z at lag + 1, the others at the longest window whose solutions they are, if there is one."""
-    for d in (*bench.alternatives, *bench.records("aimed alternatives", partial(_aimed, 150 if bench.full else 40))):
+    bench.need(ALTERNATIVES, AIMED_ALTERNATIVES)
+    for d in (*bench.alternatives, *bench.material(AIMED_ALTERNATIVES)):
         window = facets(d.system).lag + 1 if d.in_space else _longest(d.system, d.alternative)
         if window:
             yield Pair(d.system, d.alternative, window, d.equal, d.weight, d.accepted)
 
 
-def _aimed(count: int) -> list[AlternativeEvidence]:
-    """Two random P of m columns for each aimed system; they are bad for some and good for most."""
+def _aimed(bench: Workbench) -> Iterator[ResidualSystem]:
+    return aimed_systems(150 if bench.full else 40)
+
+
+def _examined(system: ResidualSystem) -> list[AlternativeEvidence]:
+    """Return two random P of m columns for a system; they are bad for some and good for most."""
     found = []
-    for system in aimed_systems(count):
-        space, rng = fault_space(kernel_representation(system)), Random(str(system))
-        for _ in range(2):
-            rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
-            found.append(examine_alternative("aimed", system, with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))))
+    space, rng = fault_space(kernel_representation(system)), Random(str(system))
+    for _ in range(2):
+        rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(system.m)] for _ in range(space.dimension)]
+        found.append(examine_alternative("aimed", system, with_pair(space, Matrix.of(rows, shape=(space.dimension, system.m)))))
     return found
+
+
+AIMED_ALTERNATIVES = Material("aimed alternatives", "trying aimed fault matrices", _aimed, _examined, 20)
 
 
 def _longest(system: ResidualSystem, alternative: ResidualSystem) -> int:

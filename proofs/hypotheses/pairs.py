@@ -19,7 +19,8 @@ from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..evidence.alternatives import PairEvidence, comparison_certificate, examine_pair, ranked
+from ..evidence.alternatives import ALTERNATIVES, PAIRS, PairEvidence, comparison_certificate, examine_pair, ranked
+from ..evidence.material import Material
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -155,7 +156,8 @@ def columns_in_space(first: ResidualSystem, second: ResidualSystem) -> bool:
 
 def _agreeing(bench: Workbench) -> Iterator[Compared]:
     """Yield every pair that agrees on s samples, for each s where it does up to n + 2; its certificates count once."""
-    for d in (*bench.pairs, *_made(bench)):
+    bench.need(PAIRS, MADE)
+    for d in (*bench.pairs, *bench.material(MADE)):
         last = max(d.first.n, d.second.n) + 2 if d.first_difference is None else d.first_difference - 1
         for s in range(1, last + 1):
             yield Compared(d.first, d.second, s, d.first_difference is None, d.weight, d.accepted if s == 1 else 0)
@@ -163,23 +165,26 @@ def _agreeing(bench: Workbench) -> Iterator[Compared]:
 
 def _equivalent(bench: Workbench) -> Iterator[Compared]:
     """Yield pairs with equal behaviours and as many states, with other fault matrices for the same (A, C) or with other (A, C)."""
+    bench.need(ALTERNATIVES, PAIRS, MADE)
     for alternative in bench.alternatives:
         if alternative.equal:
             yield Compared(alternative.system, alternative.alternative, None, True, alternative.weight, alternative.accepted)
-    for pair in (*bench.pairs, *_made(bench)):
+    for pair in (*bench.pairs, *bench.material(MADE)):
         if pair.first_difference is None and pair.first.n == pair.second.n:
             yield Compared(pair.first, pair.second, None, True, pair.weight, pair.accepted)
 
 
-def _made(bench: Workbench) -> list[PairEvidence]:
-    """Yield certified pairs: equivalent ones whose (A, C) differ, and aimed systems with other fault columns of Z for the same (A, C)."""
+def _sources(bench: Workbench) -> Iterator[tuple[ResidualSystem, ResidualSystem]]:
+    """Yield equivalent pairs whose (A, C) differ, and aimed systems with other fault columns of Z for the same (A, C)."""
     others, aimed = (800, 100) if bench.full else (120, 25)
+    return chain(equivalent_pairs(others), ((system, other_columns(system)) for system in aimed_systems(aimed)))
 
-    def made() -> list[PairEvidence]:
-        pairs = chain(equivalent_pairs(others), ((system, other_columns(system)) for system in aimed_systems(aimed)))
-        return [examine_pair("made on purpose", *two) for two in pairs]
 
-    return bench.records("equivalent pairs", made)
+def _examined(pair: tuple[ResidualSystem, ResidualSystem]) -> list[PairEvidence]:
+    return [examine_pair("made on purpose", *pair)]
+
+
+MADE = Material("equivalent pairs", "comparing pairs made on purpose", _sources, _examined, 40)
 
 
 def _groups(

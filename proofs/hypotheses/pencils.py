@@ -31,7 +31,8 @@ from ...exact.system.systems import ResidualSystem
 from ..claims.one_determinant import agrees
 from ..claims.one_determinant import show as show_pair
 from ..evidence.alternatives import comparison_certificate
-from ..evidence.pairs_by_polynomial import PairByPolynomial, examine_by_polynomial, pencil_of
+from ..evidence.material import Material
+from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial, examine_by_polynomial, pencil_of
 from ..evidence.search import Box, Facts, Integers, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -162,20 +163,27 @@ GOOD = "P good: normal rank r"
 
 
 def _subjects(bench: Workbench) -> Iterator[Chosen]:
-    for record in (*bench.pairs_by_polynomial, *bench.records("aimed pairs", partial(_aimed, 60 if bench.full else 15))):
+    bench.need(PAIRS_BY_POLYNOMIAL, AIMED_PAIRS)
+    for record in (*bench.pairs_by_polynomial, *bench.material(AIMED_PAIRS)):
         yield Chosen(record)
 
 
-def _aimed(count: int) -> list[PairByPolynomial]:
-    """Return pairs of random P, two for each aimed system."""
+def _aimed(bench: Workbench) -> Iterator[ResidualSystem]:
+    return aimed_systems(60 if bench.full else 15)
+
+
+def _examined(system: ResidualSystem) -> list[PairByPolynomial]:
+    """Return pairs of two random P for a system."""
     found = []
-    for system in aimed_systems(count):
-        pencil, rng = pencil_of(system), Random(str(system))
-        for _ in range(2):
-            rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(pencil.columns)] for _ in range(pencil.n_z)]
-            P = Matrix.of(rows, shape=(pencil.n_z, pencil.columns))
-            found.append(examine_by_polynomial("aimed", "random", system, P, None, 1))
+    pencil, rng = pencil_of(system), Random(str(system))
+    for _ in range(2):
+        rows = [[rng.choice((-2, -1, 0, 0, 1, 2)) for _ in range(pencil.columns)] for _ in range(pencil.n_z)]
+        P = Matrix.of(rows, shape=(pencil.n_z, pencil.columns))
+        found.append(examine_by_polynomial("aimed", "random", system, P, None, 1))
     return found
+
+
+AIMED_PAIRS = Material("aimed pairs", "aimed pairs and their polynomials", _aimed, _examined, 20)
 
 
 def determinant() -> Ablation[Chosen]:

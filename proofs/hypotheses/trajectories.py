@@ -19,6 +19,7 @@ from ...exact.structure.signals import persistency
 from ...exact.system.systems import ResidualSystem
 from ..evidence.exhaustive import orbits
 from ..evidence.families import adversarial, random_systems
+from ..evidence.material import Material
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
@@ -135,21 +136,26 @@ def examined(system: ResidualSystem, x0: Matrix, v: Matrix, s: int, weight: int 
 
 
 def _subjects(bench: Workbench) -> Iterator[Simulated]:
-    return iter(bench.records("trajectories", partial(_made, bench.full)))
+    return iter(bench.material(TRAJECTORIES))
 
 
-def _made(full: bool) -> list[Simulated]:
+def _sources(bench: Workbench) -> list[tuple[ResidualSystem, int, int]]:
+    full = bench.full
     sources = [(system, 1) for _, system in adversarial() if 0 < system.n <= 3 and system.m]
     sources += [(s, 1) for s in islice(random_systems(QQ, 400, seed=5, largest=3), 300 if full else 60) if s.n and s.m]
     for n, p, m in ((1, 1, 1), (1, 2, 1), *(((2, 2, 1), (1, 2, 2)) if full else ())):
         sources += [(orbit.system, orbit.size) for orbit in orbits(2, n, p, m)]
     sources += [(system, 1) for system in aimed_systems(60 if full else 15)]
-    found = []
-    for system, weight in sources:
-        lag = facets(system).lag
-        for s in sorted({1, max(lag, 1)}):
-            found += [examined(system, x0, v, s, weight) for x0, v in signals(system, s, 6 if full else 2)]
-    return found
+    return [(system, weight, 6 if full else 2) for system, weight in sources]
+
+
+def _simulated(source: tuple[ResidualSystem, int, int]) -> list[Simulated]:
+    system, weight, count = source
+    windows = sorted({1, max(facets(system).lag, 1)})
+    return [examined(system, x0, v, s, weight) for s in windows for x0, v in signals(system, s, count)]
+
+
+TRAJECTORIES = Material("trajectories", "simulating", _sources, _simulated, 20)
 
 
 def _smallest(hypotheses: Mapping[str, Callable[[Simulated], bool]], bench: Workbench, dropped: Sequence[str]) -> Found[Simulated]:

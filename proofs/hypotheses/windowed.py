@@ -16,12 +16,12 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ..evidence.corpus import Evidence
+from ..evidence.corpus import CORPUS, Evidence
 from ..evidence.search import Box, Facts, Flags
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Show, Workbench, size
-from .aimed import aimed_evidence
+from .aimed import AIMED, aimed_evidence
 from .facets import degenerate, facets, nilpotent
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
@@ -128,6 +128,7 @@ def windowed(
     """Return the ablation on every system of the corpus and every aimed one that is in the scope, at every window."""
 
     def subjects(bench: Workbench) -> Iterator[Windowed]:
+        bench.need(CORPUS, AIMED)
         for evidence in (*bench.corpus, *aimed_evidence(bench)):
             for s in windows(evidence.system.n):
                 if scope.holds(subject := Windowed(evidence, s)):

@@ -22,7 +22,7 @@ from operator import mul
 from typing import Any
 
 from ..trust import checker
-from .listed import Integers, Listed, NotCovered, added, independent, times, unit
+from .listed import Integers, Listed, NotCovered, added, independent, times, triangular, unit
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
 
 Json = Any
@@ -98,7 +98,9 @@ def written(terms: Sequence[Terms]) -> str:
 
 
 def _window_ranks(s: Json, w: Json) -> Terms:
-    system, prime, rows = Listed(s["system"]), _prime(w), _rows(w["kernel"])
+    if "kernel_modulo" in w:
+        raise NotCovered("the checks in Rocq need exact kernel rows, and these are known modulo a prime alone")
+    system, prime, rows = Listed(s["system"]), _prime(w), _rows(w)
     r, etas, ranks = _index(s["normal_rank"]), naturals(_indices(s["left_minimal_indices"])), naturals(_indices(s.get("window_ranks", [])))
     name = system.named("system")
     formula = f"(forall s, \\rank (window {name} s) = s * {natural(r)} + \\sum_(eta <- {etas}) minn s eta)%N"
@@ -140,7 +142,7 @@ def _inclusion(s: Json, w: Json) -> Terms:
             _named("inner", inner),
             _named("outer", outer),
             _modulus(prime),
-            ("rows", "seq kernel_row", _rows(w["kernel"])),
+            ("rows", "seq kernel_row", _rows(w, s.get("window"))),
             _words("ws", outer, outer.n + 1, prime),
         ),
         call("check_inclusion", inner.n, inner.m, *outer.sizes, "l inner outer rows ws"),
@@ -157,7 +159,7 @@ def _equality(s: Json, w: Json) -> Terms:
         _named("first", first),
         _named("second", second),
         _modulus(prime),
-        ("rows", "seq kernel_row", _rows(w["kernel"])),
+        ("rows", "seq kernel_row", _rows(w, s.get("window"))),
         _words("ws", first, first.n + 1 if window is None else window, prime),
         _words("ws'", second, second.n + 1 if window is None else window, prime),
     )
@@ -189,7 +191,7 @@ def _difference(s: Json, w: Json) -> Terms:
 def _fault_space(s: Json, w: Json) -> Terms:
     system, prime, window = Listed(s["system"]), _prime(w), None if s["window"] is None else _window(s["window"])
     width = system.n + system.p
-    kernel = [[_integers(c) for c in row["coefficients"]] for row in w["kernel"]]
+    kernel = [row for _, row in _kernel(w, window)]
     basis, d = _cleared(s["basis"])
     pivots = [next((j for j, x in enumerate(row) if x), width) for row in basis]
     beyond = max((len(row) - 1 for row in kernel), default=0) if window is None else window
@@ -204,7 +206,7 @@ def _fault_space(s: Json, w: Json) -> Terms:
         (
             _named("system", system),
             _modulus(prime),
-            ("rows", "seq kernel_row", _rows(w["kernel"])),
+            ("rows", "seq kernel_row", _rows(w, s.get("window"))),
             _words("ws", system, system.n + 1 if window is None else window, prime),
             ("d", "Z", whole(d)),
             ("basis", "table", table(basis)),
@@ -225,7 +227,7 @@ def _first_column_only(s: Json, w: Json) -> Terms:
         (
             _named("system", system),
             _modulus(prime),
-            ("rows", "seq kernel_row", _rows(w["kernel"])),
+            ("rows", "seq kernel_row", _rows(w, s.get("window"))),
             _words("ws", system, window, prime),
             ("d", "Z", whole(d)),
             ("f", "vector", vector(z[: system.n])),
@@ -356,8 +358,14 @@ def _integers(values: Json) -> list[int]:
     return [checker.rational(value, "a number", integral=True)[0] for value in values]
 
 
-def _rows(kernel: Json) -> str:
-    return sequence(f"({natural(_index(row['pivot']))}%N, {table(_integers(c) for c in row['coefficients'])})" for row in kernel)
+def _kernel(w: Json, window: int | None = None) -> list[tuple[int, Integers]]:
+    """Returns pivots and coefficients of kernel rows; with hints those of degree below the window, made triangular by their pivots."""
+    rows = [(_index(row["pivot"]), [_integers(c) for c in row["coefficients"]]) for row in w["kernel"]]
+    return triangular([row for row in rows if window is None or len(row[1]) <= window]) if "mix" in w else rows
+
+
+def _rows(w: Json, window: int | None = None) -> str:
+    return sequence(f"({natural(pivot)}%N, {table(row)})" for pivot, row in _kernel(w, window))
 
 
 def _named(name: str, system: Listed) -> tuple[str, str, str]:

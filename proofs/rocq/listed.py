@@ -3,6 +3,7 @@
     Listed        a system over Q: its term, its words modulo a prime, the conditions of its kernel rows
     NotCovered    raised where the checks in Rocq do not speak of a kind or a field
     independent   rows reduced modulo a prime: pivots, and the combinations that lead there
+    triangular    kernel rows combined until their leading coefficients are triangular by their pivots
     unit, times, added   a row of the identity, a row times a matrix, a sum modulo a prime
     Integers      a list of rows of integers
 
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cached_property
+from math import gcd
 from typing import Any
 
 from flint import nmod_mat
@@ -112,6 +114,25 @@ def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[
         pivot = next((j for j in range(width) if line[j]), None)
         if pivot is not None:
             found.append((pivot, line[width:]))
+    return found
+
+
+def triangular(rows: Iterable[tuple[int, Integers]]) -> list[tuple[int, Integers]]:
+    """Returns rows with the same combinations and degrees, ascending: from each the earlier ones are taken, times powers of q."""
+    found = list[tuple[int, Integers]]()
+    for pivot, row in rows:
+        given = row
+        for place, earlier in found:
+            bits = sum(abs(x).bit_length() for part in (*row, *earlier) for x in part)
+            checker.charge(1000 + 200 * sum(map(len, row)) + bits * max(map(int.bit_length, (row[-1][place], earlier[-1][place]))) // 500)
+            if (c := row[-1][place]) and len(earlier) <= len(row):
+                shifted = [[0] * len(row[-1])] * (len(row) - len(earlier)) + earlier
+                row = [[x * earlier[-1][place] - c * y for x, y in zip(a, b, strict=True)] for a, b in zip(row, shifted, strict=True)]
+                content = gcd(*(x for part in row for x in part)) or 1
+                row = [[x // content for x in part] for part in row]
+        if row is not given or not row[-1][pivot]:
+            pivot = next((j for j, x in enumerate(row[-1]) if x), pivot)
+        found.append((pivot, row))
     return found
 
 

@@ -14,7 +14,8 @@ Covered, over the rational numbers (kind: theorem, in the file):
     fault-space: solutions_sound, limit_sound; first-column-only: first_column_sound               CheckSolutions.v
     not-left-invertible: not_left_invertible_sound; inversion-delay: delay_sound, no_delay_sound   CheckInversion.v
     matrix-rank: observability_sound, reachability_sound, toeplitz_sound, window_sound, hankel_sound, excitation_sound   CheckMatrices.v
-Not covered: left-invertible-line, schur-stable, finite-zeros, infinite-zeros, moesp-limit, input-limit; and Q(a) and GF(p).
+Not covered: left-invertible-line, schur-stable, finite-zeros, infinite-zeros, moesp-limit, input-limit; Q(a) and GF(p); and window-ranks
+whose kernel rows are known modulo a prime alone. Of what a certificate hints at, point and mix, Rocq makes no use: it sees from words.
 
 Measured: window-ranks of a dense system with n = 20, m = 2, p = 3 takes Rocq five seconds of processor time, half of it for simulating
 words, a third for reading the file. What takes longer than SECONDS is left undecided.

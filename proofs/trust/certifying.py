@@ -97,7 +97,7 @@ MAKERS: dict[str, _Kind] = {
     "not-left-invertible": _Kind((), (), lambda s: _left_invertible(s, "not-left-invertible")),
     "schur-stable": _Kind((), (), structure.schur_stable),
     "window-equality": _Kind(("other", "window"), (), _window_equality),
-    "window-ranks": _Kind((), (), lambda s: structure.window_ranks(kernel_representation(s))),
+    "window-ranks": _Kind((), (), structure.window_ranks_of),
 }  # fmt: skip
 OF_LIMITS = ("input-limit", "moesp-limit")
 

@@ -14,10 +14,9 @@ import hashlib
 import json
 from collections.abc import Sequence
 from itertools import combinations
-from math import gcd, prod
 from typing import Any
 
-from flint import fmpz, fmpz_poly, nmod_poly
+from flint import fmpz
 
 from ...base.sheets import counted
 from ...exact.algebra.fields import Field, NumberField, PrimeField
@@ -28,14 +27,14 @@ from ...exact.pairs.linear_determinants import linear_determinant
 from ...exact.structure.behavior import Separation, separation
 from ...exact.structure.fault_columns import FaultSpace
 from ...exact.structure.inversion import ambiguous_word, delay_known_state, delay_unknown_state, left_inverse
-from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow, column_conditions
+from ...exact.structure.kernel_rows import KernelRepresentation, column_conditions, kernel_representation
 from ...exact.structure.pencil import finite_diagonal, infinite_diagonal, right_null_polynomial
 from ...exact.structure.signals import excitation_matrix, hankel, simulate
-from ...exact.structure.zero_output import zero_output_chain
-from ...exact.system.modular import LARGEST_PRIME, image, primes_below, reduce_matrix
+from ...exact.system.modular import LARGEST_PRIME, image, reduce_matrix
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix, toeplitz_matrix, window_matrix
 from . import checker
+from .kernel_witnesses import common_witness, generic_witness, irreducible, kernel_witness, named_image, point_witness, window_witness
 
 Certificate = dict[str, Any]
 
@@ -58,15 +57,14 @@ def accept(certificate: Certificate) -> None:
 
 
 def window_ranks(kernel: KernelRepresentation) -> Certificate:
-    """Return the certificate of rank [O_s T_s] for every s."""
-    system = kernel.system
-    statement = {
-        "system": system.to_json(),
-        "normal_rank": kernel.normal_rank,
-        "left_minimal_indices": list(kernel.left_minimal_indices),
-        "window_ranks": [kernel.rank(s) for s in range(1, system.n + 4)],
-    }
-    return _certificate("window-ranks", statement, _kernel_witness(kernel, kernel.rows))
+    """Return the certificate of rank [O_s T_s] for every s, with exact rows."""
+    return _window_ranks(kernel.system, kernel.left_minimal_indices, kernel_witness(kernel))
+
+
+def window_ranks_of(system: ResidualSystem) -> Certificate:
+    """Return the certificate of rank [O_s T_s] for every s, with rows modulo a prime alone where these are enough, else with exact rows."""
+    found = generic_witness(system)
+    return window_ranks(kernel_representation(system)) if found is None else _window_ranks(system, *found)
 
 
 def left_invertible(kernel: KernelRepresentation) -> Certificate:
@@ -74,12 +72,12 @@ def left_invertible(kernel: KernelRepresentation) -> Certificate:
     system = kernel.system
     statement = {"system": system.to_json()}
     if kernel.normal_rank == system.m:
-        return _certificate("left-invertible", statement, _image_witness(kernel))
+        return _certificate("left-invertible", statement, point_witness(kernel))
     null = right_null_polynomial(system)
     if null is None:
         raise ArithmeticError("normal rank below m without a right null vector")
     witness = {"state": null.state.to_json(), "fault": null.fault.to_json()}
-    return _certificate("not-left-invertible", statement, witness | _irreducible(system.field))
+    return _certificate("not-left-invertible", statement, witness | irreducible(system.field))
 
 
 def left_invertible_line(first: ResidualSystem, second: ResidualSystem) -> Certificate:
@@ -100,7 +98,7 @@ def inversion_delay(kernel: KernelRepresentation, *, known_state: bool) -> Certi
     system = kernel.system
     delay = delay_known_state(kernel) if known_state else delay_unknown_state(kernel)
     statement = {"system": system.to_json(), "initial_state": "known" if known_state else "unknown", "delay": delay}
-    witness = _irreducible(system.field)
+    witness = irreducible(system.field)
     if delay is not None:
         inverse = left_inverse(system, delay, known_state=known_state)
         if inverse is None:
@@ -119,7 +117,7 @@ def behaviour_inclusion(inner: ResidualSystem, outer: KernelRepresentation) -> C
     if separation(inner, outer) is not None:
         raise Unprovable("the inner behaviour has a word that the outer one has not")
     statement = {"inner": inner.to_json(), "outer": outer.system.to_json()}
-    return _certificate("behaviour-inclusion", statement, _kernel_witness(outer, outer.rows))
+    return _certificate("behaviour-inclusion", statement, kernel_witness(outer))
 
 
 def behaviour_equality(first: KernelRepresentation, second: KernelRepresentation) -> Certificate:
@@ -127,7 +125,7 @@ def behaviour_equality(first: KernelRepresentation, second: KernelRepresentation
     if separation(first.system, second) is not None or separation(second.system, first) is not None:
         raise Unprovable("the behaviours differ")
     statement = {"first": first.system.to_json(), "second": second.system.to_json()}
-    return _certificate("behaviour-equality", statement, _common_image(second.system, first) | {"kernel": _written_rows(first.rows)})
+    return _certificate("behaviour-equality", statement, common_witness(second.system, first))
 
 
 def window_equality(first: KernelRepresentation, second: KernelRepresentation, window: int) -> Certificate:
@@ -137,8 +135,7 @@ def window_equality(first: KernelRepresentation, second: KernelRepresentation, w
         if found is not None and found.window <= window:
             raise Unprovable(f"the behaviours differ on {counted(found.window, 'sample')}")
     statement = {"first": first.system.to_json(), "second": second.system.to_json(), "window": window}
-    rows = {"kernel": _written_rows(first.rows_within(window))}
-    return _certificate("window-equality", statement, _common_image(second.system, first, window) | rows)
+    return _certificate("window-equality", statement, window_witness(second.system, first, window))
 
 
 def behaviour_difference(first: ResidualSystem, second: KernelRepresentation) -> Certificate:
@@ -148,13 +145,13 @@ def behaviour_difference(first: ResidualSystem, second: KernelRepresentation) ->
         raise Unprovable("every word of the first system is one of the second")
     statement = {"first": first.to_json(), "second": second.system.to_json(), "window": found.window}
     witness = {"x0": _column(found.x0), "v": found.v.to_json(), "row": found.row.coefficients.to_json()}
-    return _certificate("behaviour-difference", statement, witness | _irreducible(first.field))
+    return _certificate("behaviour-difference", statement, witness | irreducible(first.field))
 
 
 def fault_space(kernel: KernelRepresentation, space: FaultSpace) -> Certificate:
     """Return the certificate of the solution space of problem (11) at the window of `space`, or of its limit."""
     statement = {"system": kernel.system.to_json(), "window": space.window, "basis": space.basis.to_json()}
-    return _certificate("fault-space", statement, _kernel_witness(kernel, kernel.rows_within(space.window)))
+    return _certificate("fault-space", statement, kernel_witness(kernel, space.window))
 
 
 def first_column_only(kernel: KernelRepresentation, window: int, column: Matrix) -> Certificate:
@@ -168,7 +165,7 @@ def first_column_only(kernel: KernelRepresentation, window: int, column: Matrix)
     if all(found.is_zero() for found in conditions):
         raise Unprovable("every block column is annihilated")
     statement = {"system": kernel.system.to_json(), "window": window, "column": _column(column)}
-    return _certificate("first-column-only", statement, _kernel_witness(kernel, kernel.rows_within(window)))
+    return _certificate("first-column-only", statement, kernel_witness(kernel, window))
 
 
 def matrix_rank(name: str, system: ResidualSystem, *, window: int | None = None) -> Certificate:
@@ -200,7 +197,7 @@ def schur_stable(system: ResidualSystem) -> Certificate:
     """
     if not is_stable(system.A):
         raise Unprovable("an eigenvalue of A lies on the unit circle or outside")
-    return _certificate("schur-stable", {"system": system.to_json()}, _irreducible(system.field))
+    return _certificate("schur-stable", {"system": system.to_json()}, irreducible(system.field))
 
 
 def finite_zeros(system: ResidualSystem) -> Certificate:
@@ -234,46 +231,11 @@ def _certificate(kind: str, statement: dict[str, Any], witness: dict[str, Any]) 
     return {"format": "faultspace-certificate/1", "kind": kind, "statement": statement, "witness": witness}
 
 
-def _kernel_witness(kernel: KernelRepresentation, rows: Sequence[KernelRow]) -> dict[str, Any]:
-    return _image_witness(kernel) | {"kernel": _written_rows(rows)}
-
-
-def _written_rows(rows: Sequence[KernelRow]) -> list[dict[str, Any]]:
-    return [{"pivot": row.pivot, "coefficients": row.coefficients.to_json()} for row in rows]
-
-
-def _image_witness(kernel: KernelRepresentation) -> dict[str, Any]:
-    return _named_image(kernel.image.prime, kernel.image.root, kernel.system.field)
-
-
-def _named_image(prime: int, root: int | None, field: Field) -> dict[str, Any]:
-    if isinstance(field, PrimeField):
-        return {}
-    witness: dict[str, Any] = {"prime": prime}
-    if root is not None:
-        witness["root"] = root
-    return witness | _irreducible(field)
-
-
-def _common_image(other: ResidualSystem, kernel: KernelRepresentation, window: int | None = None) -> dict[str, Any]:
-    """Return a prime modulo which both systems have the gaps of `kernel`, on the window (None: for ever)."""
-    field = kernel.system.field
-    if isinstance(field, PrimeField):
-        return {}
-    samples = max(kernel.system.n, other.n) + 1 if window is None else window
-    largest = kernel.image.prime
-    while True:
-        pictures = [image(system, largest=largest) for system in (kernel.system, other)]
-        largest = min(picture.prime for picture in pictures)
-        if all(picture.prime == largest and _has_gaps(picture.system, kernel, samples) for picture in pictures):
-            return _named_image(largest, pictures[0].root, field)
-        if pictures[0].prime == pictures[1].prime:
-            largest -= 1
-
-
-def _has_gaps(system: ResidualSystem, kernel: KernelRepresentation, samples: int) -> bool:
-    chain = zero_output_chain(system)
-    return all(chain.gap(k) == kernel.gap(k) for k in range(samples))
+def _window_ranks(system: ResidualSystem, indices: Sequence[int], witness: dict[str, Any]) -> Certificate:
+    r = system.p - len(indices)
+    ranks = [s * r + sum(min(s, mu) for mu in indices) for s in range(1, system.n + 4)]
+    statement = {"system": system.to_json(), "normal_rank": r, "left_minimal_indices": list(indices), "window_ranks": ranks}
+    return _certificate("window-ranks", statement, witness)
 
 
 def _coprime_minors(first: ResidualSystem, second: ResidualSystem) -> tuple[list[dict[str, Any]], Matrix]:
@@ -316,7 +278,7 @@ def _line_image(first: ResidualSystem, second: ResidualSystem, multiples: Matrix
         if largest == picture.prime:
             reduced = reduce_matrix(multiples, picture.prime, picture.root)
             if reduced is not None and rank(reduced) == multiples.ncols and largest > first.n:
-                return _named_image(picture.prime, picture.root, first.field)
+                return named_image(picture.prime, picture.root, first.field)
             largest -= 1
 
 
@@ -352,7 +314,7 @@ def _rank_image(system: ResidualSystem, built: Matrix, size: int) -> dict[str, A
     while True:
         reduced = reduce_matrix(built, picture.prime, picture.root)
         if reduced is not None and rank(reduced) == size:
-            return _named_image(picture.prime, picture.root, system.field)
+            return named_image(picture.prime, picture.root, system.field)
         picture = image(system, largest=picture.prime - 1)
 
 
@@ -377,29 +339,4 @@ def _diagonal_witness(form: SmithDiagonal, field: Field) -> dict[str, Any]:
         "left_inverse": table(form.left_inverse),
         "right": table(form.right),
         "right_inverse": table(form.right_inverse),
-    } | _irreducible(field)
-
-
-def _irreducible(field: Field) -> dict[str, Any]:
-    """Return, over Q(a) with d >= 2, a prime modulo which f is irreducible, or Eisenstein after a shift; nothing where neither is found."""
-    if not isinstance(field, NumberField) or field.degree < 2:
-        return {}
-    coefficients = [int(c) for c in field.integer_polynomial.coeffs()]
-    bad = coefficients[-1] * prod(c.denominator for c in field.minimal_polynomial)
-    for prime in sorted(primes_below(997)):
-        if bad % prime and _is_irreducible(nmod_poly(coefficients, prime)):
-            return {"irreducible": {"modulo": prime}}
-    for shift in range(-20, 21):
-        shifted = field.integer_polynomial(fmpz_poly([shift, 1]))
-        values = [int(c) for c in shifted.coeffs()]
-        content = gcd(*values)
-        values = [value // content for value in values]
-        for prime in sorted(primes_below(97)):
-            if values[-1] % prime and all(c % prime == 0 for c in values[:-1]) and values[0] % prime**2:
-                return {"irreducible": {"eisenstein": {"prime": prime, "shift": shift}}}
-    return {}
-
-
-def _is_irreducible(poly: nmod_poly) -> bool:
-    _, factors = poly.factor()
-    return len(factors) == 1 and factors[0][1] == 1
+    } | irreducible(field)

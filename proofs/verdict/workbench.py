@@ -10,70 +10,107 @@ accepted      certificates, each put before the checker once more: headline cert
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
 from typing import Any, TypeVar
 
 from ...base.progress import Progress
 from ...exact.limits.experiments import Experiment
 from ...exact.system.systems import ResidualSystem
-from ..evidence.alternatives import AlternativeEvidence, PairEvidence, alternatives, compared_pairs
-from ..evidence.corpus import Evidence, corpus, describe, examine
-from ..evidence.experiments import LimitEvidence, certified_limits, examine_experiment
-from ..evidence.pairs_by_polynomial import PairByPolynomial, pairs_by_polynomial
-from ..evidence.search import Box, Facts, Flags, Known, chunks, smallest
+from ..evidence.alternatives import ALTERNATIVES, PAIRS, AlternativeEvidence, PairEvidence
+from ..evidence.corpus import CORPUS, Evidence, describe, examine
+from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment
+from ..evidence.material import Made, Material, Wanted, made
+from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial
+from ..evidence.search import Box, Facts, Flags, Known, first_of_orbits, smallest
 from ..trust.structure_certificates import Certificate, accept
 from .verdicts import Outcome, Verdict
 
 Show = Callable[[ResidualSystem], Iterable[Certificate]]
 Test = Callable[[Evidence], bool]
 Item = TypeVar("Item", PairEvidence, AlternativeEvidence, PairByPolynomial, LimitEvidence)
-Made = TypeVar("Made")
 
 
 @dataclass
 class Workbench:
-    """The effort ("quick" or "full"), the number of processes, where progress goes, and the certified material of a run."""
+    """The effort ("quick" or "full"), the number of processes, where progress goes, and the certified material of a run.
+
+    Where there is a `shelf`, material is read from that folder, and `Wanted` is raised for what is not there; else it is made here.
+    """
 
     effort: str
     jobs: int
     progress: Progress
+    shelf: Path | None = None
 
     @cached_property
     def corpus(self) -> tuple[Evidence, ...]:
         """These are single systems, with the structure that accepted certificates state."""
-        return corpus(self.effort, self.jobs, self.progress)
+        return self.material(CORPUS)
 
     @cached_property
     def pairs(self) -> tuple[PairEvidence, ...]:
         """These are pairs of systems with accepted certificates."""
-        return compared_pairs(self.effort, self.jobs, self.progress)
+        return self.material(PAIRS)
 
     @cached_property
     def alternatives(self) -> tuple[AlternativeEvidence, ...]:
         """These are systems with other fault matrices for the same (A, C)."""
-        return alternatives(self.effort, self.jobs, self.progress)
+        return self.material(ALTERNATIVES)
 
     @cached_property
     def pairs_by_polynomial(self) -> tuple[PairByPolynomial, ...]:
         """These are pairs (Fhat P, Ghat P) with D(q; P) and accepted certificates."""
-        return pairs_by_polynomial(self.effort, self.jobs, self.progress)
+        return self.material(PAIRS_BY_POLYNOMIAL)
 
     @cached_property
     def limits(self) -> tuple[LimitEvidence, ...]:
         """Experiments with certified population limits."""
-        return certified_limits(self.effort, self.jobs, self.progress)
+        return self.material(LIMITS)
 
-    def records(self, name: str, make: Callable[[], list[Made]]) -> list[Made]:
-        """Certified material that several ablations share, made the first time it is asked for."""
-        if name not in self._made:
-            self._made[name] = make()
-        return self._made[name]
+    def material(self, kind: Material) -> tuple[Any, ...]:
+        """Return certified material of a kind, made or read the first time it is asked for. Raises what its making raised."""
+        if kind.name not in self._made:
+            if self.shelf is None:
+                self.make([kind])
+            elif (file := self.shelf / kind.name).exists():
+                self._made[kind.name] = pickle.loads(file.read_bytes())
+            else:
+                raise Wanted(kind)
+        found = self._made[kind.name]
+        if isinstance(found, Exception):
+            raise found
+        return found
+
+    def put(self, kind: Material, found: Sequence[Any]) -> None:
+        """Take this as the material of a kind."""
+        self._made[kind.name] = tuple(found)
+
+    def need(self, *kinds: Material) -> None:
+        """Raise `Wanted` for those of the kinds that are not on the shelf, so that they are made together and not one after the other."""
+        if self.shelf is not None:
+            missing = [kind for kind in kinds if kind.name not in self._made and not (self.shelf / kind.name).exists()]
+            if missing:
+                raise Wanted(*missing)
+
+    def make(self, kinds: Sequence[Material], shelf: Path | None = None) -> None:
+        """Make material of these kinds, all of it at once, and put it on a shelf for other processes too where one is given."""
+        for name, found in made(kinds, self, self.jobs, self.progress).items():
+            self._made[name] = found
+            if shelf is not None:
+                (shelf / name).write_bytes(pickle.dumps(found, pickle.HIGHEST_PROTOCOL))
+
+    @property
+    def corpus_in_words(self) -> str:
+        """This says how the corpus was made, with counts; it is empty where no claim of the run asked for it."""
+        return describe(self.corpus) if "corpus" in vars(self) or CORPUS.name in self._made else ""
 
     def searched(self, box: Box) -> Iterator[Facts]:
-        """Yield the systems of a box in order, with what earlier searches of this run found out about them."""
-        return chunks(box, self._known)
+        """Yield the systems of a box in order, one of each orbit, with what earlier searches of this run found out about them."""
+        return first_of_orbits(box, self._known)
 
     def examined(self, system: ResidualSystem) -> Evidence:
         """Return the evidence on a system that a search came upon, made the first time: several searches come upon the same."""
@@ -88,7 +125,7 @@ class Workbench:
         return self._examined_experiments[experiment]
 
     @cached_property
-    def _made(self) -> dict[str, list[Any]]:
+    def _made(self) -> dict[str, Made]:
         return {}
 
     @cached_property

@@ -55,8 +55,9 @@ def refutations_are_smallest_and_true(report: dict[str, Any], certificates: list
 
 
 def test_the_certificates_of_the_tree_are_accepted_by_a_lone_checker(tmp_path: Path) -> None:
-    lone = tmp_path / "checker.py"
-    shutil.copy(ROOM / "trust" / "checker.py", lone)
+    lone = tmp_path / "checker_limits.py"
+    for name in ("checker.py", lone.name):
+        shutil.copy(ROOM / "trust" / name, tmp_path / name)
     files = sorted(map(str, HEADLINES.glob("*-*.json")))
     assert len(files) > 50
     run = subprocess.run([sys.executable, "-I", "-O", str(lone), *files], capture_output=True, text=True, cwd=tmp_path, check=False)

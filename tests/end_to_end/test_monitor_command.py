@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import faultspace as fs
 from faultspace.numeric import StateSpaceModel
 from faultspace.numeric.data.streams import RESTARTED, TableStream, followed
 from tests.end_to_end.commands import ROOT, Run, call, command, environment
@@ -42,6 +43,8 @@ def plant(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "model.json").write_text(json.dumps(MODEL.to_json() | {"inputs": ["valve"], "outputs": ["flow", "level"]}))
     (folder / "healthy.csv").write_text(table(1, 400))
     (folder / "stream.csv").write_text(table(2, 250, fault=1.0))
+    watch = fs.Monitor(MODEL, folder / "healthy.csv", inputs="valve", outputs=["flow", "level"], level=1e-3, window=5)
+    watch.save(folder / "watch.json")
     return folder
 
 
@@ -66,6 +69,23 @@ def test_a_stream_and_a_file_give_the_same_alarms(plant: Path) -> None:
     first = streamed.out.splitlines()[0]
     assert first.startswith("sample 15") and "outputs level, since about sample 1" in first
     assert "monitor of 2 outputs and 1 input" in streamed.out and "healthy samples cannot show 0.001 false alarms" in from_file.err
+
+
+def test_a_model_with_monitoring_needs_nothing_beside_it_and_a_saved_monitor_goes_on(plant: Path, tmp_path: Path) -> None:
+    learned = json.loads((plant / "watch.json").read_text())
+    (tmp_path / "model.json").write_text(json.dumps(json.loads((plant / "model.json").read_text()) | {"monitoring": learned}))
+    head, *lines = (plant / "stream.csv").read_text().splitlines()
+    (tmp_path / "one.csv").write_text("\n".join([head, *lines[:152]]) + "\n")
+    (tmp_path / "two.csv").write_text("\n".join([head, *lines[152:]]) + "\n")
+    alone = call("monitor", str(tmp_path), "--follow", str(plant / "stream.csv"), "--idle", "0.1", "--level", "0.001", "--json")
+    kept = str(tmp_path / "kept.json")
+    parts = [
+        call("monitor", model, "--follow", str(tmp_path / file), "--idle", "0.1", "--save", kept, "--json")
+        for model, file in ((str(tmp_path), "one.csv"), (kept, "two.csv"))
+    ]
+    beside = followed_run(plant, plant / "stream.csv", "--json")
+    assert alarms(alone) == alarms(beside) == alarms(parts[0]) + alarms(parts[1]) != []
+    assert alone.out.splitlines()[-1] == parts[1].out.splitlines()[-1] and "healthy samples cannot show" in alone.err
 
 
 def test_json_lines_end_with_the_summary(plant: Path) -> None:
@@ -99,8 +119,14 @@ def test_an_empty_field_is_a_missing_sample(plant: Path, tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("words", "parts"),
     [
-        (["monitor", "{plant}"], "--healthy, --healthy-until: got neither, expected one"),
-        (["monitor", "{plant}", "--healthy", "x.csv", "--healthy-until", "9"], "got both, expected one"),
+        (["monitor", "{plant}"], 'model.json: the model has no "monitoring"'),
+        (["monitor", "{plant}/watch.json", "--healthy", "x.csv"], "watch.json: got a saved monitor, which is calibrated"),
+        (["monitor", "{plant}/watch.json", "--window", "7"], "--window: got 7, but the file is calibrated for windows of 5"),
+        (["monitor", "{plant}/watch.json", "--outputs", "a"], "watch.json: got 'a' for 2 outputs"),
+        (["monitor", "{plant}/watch.json", "--level", "0"], "--level: got '0', expected a positive number"),
+        (["monitor", "{plant}/watch.json", "--save", "{plant}/stream.csv"], "stream.csv: is there, and no saved monitor"),
+        (["monitor", "{plant}/watch.json", "--save", "{plant}/no/x.json", "--follow", "{plant}/stream.csv"], "x.json: cannot be written"),
+        (["monitor", "{plant}", "--healthy", "x.csv", "--healthy-until", "9"], "got both, expected one at most"),
         (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--idle", "1"], "--idle: got no --follow"),
         (["monitor", "{plant}", "--healthy", "{plant}/healthy.csv", "--follow", "{plant}/none.csv"], "none.csv: is no file"),
         (["monitor", "{plant}", "--healthy", "none.csv"], "none.csv: cannot be read"),

@@ -44,7 +44,7 @@ from faultspace.exact.structure.pencil import (
     zero_dynamics_polynomial,
 )
 from faultspace.exact.structure.record import analyze
-from faultspace.exact.structure.relations import integer_relations, relations_over_prime_field
+from faultspace.exact.structure.relations import coefficients_of, integer_relations, relations_over_prime_field
 from faultspace.exact.structure.signals import simulate
 from faultspace.exact.structure.zero_output import chain_from_rest, zero_output_chain
 from faultspace.exact.system.modular import image
@@ -148,8 +148,7 @@ def check_relations(system: Json) -> None:
     else:
         coordinates = integer_relations(exact, leads, image(exact).prime)
         assert coordinates is not None
-        entries = [[[exact.field.from_coordinates(x) for x in row] for row in relation] for relation in coordinates]
-        found = [Matrix.from_elements(exact.field, len(rows), exact.p, rows) for rows in entries]
+        found = [coefficients_of(relation, exact) for relation in coordinates]
     assert [relation.nrows for relation in found] == [mu + 1 for mu, _ in leads]
     for relation in found:
         assert (_side_by_side(relation) @ window_matrix(exact, relation.nrows)).is_zero()

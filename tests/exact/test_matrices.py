@@ -37,7 +37,7 @@ from faultspace.exact.algebra.matrices import (
 from faultspace.exact.algebra.writing import sum_of_powers
 from faultspace.exact.structure.kernel_rows import KernelRow, annihilates
 from faultspace.exact.structure.pencil import characteristic_polynomial
-from faultspace.exact.structure.relations import integer_relations, relations_over_prime_field
+from faultspace.exact.structure.relations import coefficients_of, integer_relations, relations_over_prime_field
 from faultspace.exact.system.systems import ResidualSystem
 from tests.oracle.families import FIELDS
 from tests.oracle.strategies import SEEDS
@@ -311,4 +311,4 @@ def test_a_lead_too_early_has_no_relation() -> None:
                 relations_over_prime_field(system, [(1, 0)])
         else:
             found = integer_relations(system, [(1, 0)], 101)
-            assert found is not None and not annihilates(KernelRow(0, Matrix.of([[x[0] for x in row] for row in found[0]])), system)
+            assert found is not None and not annihilates(KernelRow(0, coefficients_of(found[0], system)), system)

@@ -368,4 +368,4 @@ def test_a_healthy_record_of_its_own_says_what_healthy_samples_say(tmp_path: Any
         identify(y, u, healthy=recorded(y, u, outputs="abc", inputs="de"))
     both = joined(recorded(y, u, outputs="abc", inputs="de"), recorded(y, u, outputs="abc", inputs="de"))
     assert len(both) == 2 * (K + M) and np.array_equal(both.y[K + M :], y)
-    assert np.array_equal(both.ending(5).y, both.y[5:])
+    assert np.array_equal(both.part(5, len(both)).y, both.y[5:])

@@ -8,6 +8,7 @@ import scipy.stats
 from numpy.typing import NDArray
 
 from faultspace.base.errors import InvalidData
+from faultspace.numeric.count import unlike_healthy
 from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy, fault_direction_against_healthy
 from faultspace.numeric.count.healthy_model import healthy_reference, spectra
 from faultspace.numeric.count.largest_root import largest_root_probability, largest_root_quantile
@@ -141,3 +142,16 @@ def test_bad_data_are_refused_with_a_reason() -> None:
     ):
         with pytest.raises(InvalidData, match=says):
             call()
+
+
+def test_the_largest_of_later_values_stays_within_its_ratio_of_the_largest_healthy_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With exponential tails about as rarely as the level says, and with normal ones more rarely; of few healthy values nothing follows."""
+    monkeypatch.setattr(unlike_healthy, "LEVEL", 0.1)
+    draw = np.random.default_rng(31)
+    most = unlike_healthy.largest_ratio(200, 1000)
+    beyond = {
+        name: np.mean([np.max(values(1000)) > most * np.max(values(200)) for _ in range(1000)])
+        for name, values in (("exponential", draw.standard_exponential), ("normal", lambda count: np.abs(draw.standard_normal(count))))
+    }
+    assert 0.002 < beyond["exponential"] < 0.1 and beyond["normal"] < beyond["exponential"]
+    assert unlike_healthy.largest_ratio(2, 1000) == np.inf

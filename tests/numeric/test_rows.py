@@ -20,6 +20,7 @@ from faultspace.base.errors import InvalidData
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
+from faultspace.numeric import record_from
 from faultspace.numeric.model.asymptotic_likelihood import arx_reduction
 from faultspace.numeric.rows import bootstrap, laws, remainder
 from faultspace.numeric.rows.degree import least_degree
@@ -83,8 +84,26 @@ def test_units_and_experiments() -> None:
     assert fitted(joint_moments(broken, free, 3), (3,)).level > level + 1
     with pytest.raises(InvalidData, match="same channels"):
         joint_moments_experiments([(y, u), (y[:, :2], u)], 3)
-    with pytest.raises(InvalidData, match="bands"):
-        joint_moments_experiments([(y, u), (y[:100], u[:100])], 3)
+    with pytest.raises(InvalidData, match="samples"):
+        joint_moments_experiments([(y, u), (y[:30], u[:30])], 3)
+
+
+def test_faults_are_counted_from_several_experiments() -> None:
+    """One experiment, a list of it alone and a record in pieces give the same bytes; short ones are left out; a seam belongs to none."""
+    y, u = joint_record(plant(11, 3, 1), 11, 1000, 20)
+    alone = count_faults(y, u, order=3)
+    in_pieces = record_from([(y[:37], u[:37]), (y[37:], u[37:])])
+    for same in (count_faults([(y, u)], None, order=3), count_faults(in_pieces, None, order=3)):
+        assert same.n_v == 1 and [each.level for each in same.tests] == [each.level for each in alone.tests]
+    parts = [(y[first:last], u[first:last]) for first, last in ((0, 400), (430, 1000), (400, 430))]
+    found = count_faults(parts, None, order=3)
+    assert found.n_v == 1 and found.decided and "1 of 3 experiments are too short" in found.reason, found.reason
+    careful = laws.bootstrapped(Evidence(parts[:2], 3), found.tests[-1], 2)
+    assert careful.flatness != found.tests[-1].flatness
+    with pytest.raises(InvalidData, match="same channels"):
+        count_faults([(y, u), (y[:, :2], u)], None, order=3)
+    with pytest.raises(InvalidData, match="u is missing"):
+        count_faults([], None, order=3)
 
 
 def complex_normal(rng: np.random.Generator, count: int, k: int) -> Any:
@@ -222,8 +241,9 @@ def test_a_sensor_fault_of_the_colour_of_the_noise_is_noise() -> None:
 
 def test_without_noise_ranks_count() -> None:
     y, u = joint_record(plant(17, 3, 2), 17, 600, None)
-    found = count_faults(y, u, order=3)
-    assert found.n_v == 2 and found.tests == () and "no noise" in found.reason
+    for data in ((y, u), ([(y[:250], u[:250]), (y[250:], u[250:])], None)):
+        found = count_faults(*data, order=3)
+        assert found.n_v == 2 and found.tests == () and "no noise" in found.reason
 
 
 def test_what_is_refused() -> None:
@@ -392,8 +412,8 @@ def test_two_hundred_samples() -> None:
 
 
 def test_the_bootstrap_finds_the_misfit() -> None:
-    y, u = joint_record(plant(21, 3, 1), 21, 500, 40)
-    evidence = Evidence(y, u, 3)
+    y, u = joint_record(plant(22, 3, 1), 22, 500, 40)
+    evidence = Evidence([(y, u)], 3)
     quick = laws.tested(evidence, 2)
     careful = laws.bootstrapped(evidence, quick, 4)
     assert quick.holds and careful.holds

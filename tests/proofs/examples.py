@@ -6,7 +6,7 @@ experiments        what the kinds moesp-limit and input-limit are about, small
 limit_certificates those of one experiment
 forged_inputs      what output_error_inputs makes of B and D that are not the solution
 certificates       certificates of every kind about them, as they come out of files
-base               one certificate of a kind
+base, hinted       one certificate of a kind, without hints and with them; by_chain: one whose hints are taken away
 spoiled            a copy of a certificate with something replaced or deleted
 RANKS, ...         the certificates that the tests spoil
 """
@@ -24,10 +24,11 @@ from faultspace.exact.limits.experiments import Experiment, read_experiment
 from faultspace.exact.limits.inputs import InputLimit
 from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.fault_columns import fault_space
-from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.trust import limit_certificates as make_limit
 from faultspace.proofs.trust import structure_certificates as make
+from faultspace.proofs.trust.kernel_witnesses import chain_witness
 
 Certificate = dict[str, Any]
 CUBIC = NumberField(("1", "-3", "-1", "4"))  # type: ignore[arg-type]
@@ -148,7 +149,8 @@ def certificates(field: Field) -> Iterator[Certificate]:
         found += [make.matrix_rank(name, system, window=3) for name in ("observability", "reachability", "toeplitz", "window")]
         found += [make.matrix_rank(name, system, window=0) for name in ("toeplitz", "window")]
         found += [make.data_rank(name, system, x0, v, s) for name in ("residual-hankel", "excitation") for s in (0, 2, 5)]
-        yield from map(written, found)
+        yield from map(written, [*found, make.window_ranks_of(system)])
+        yield from (by_chain(written(certificate), kernel) for certificate in found if "point" in certificate["witness"])
     kernel = kernel_representation(seen(field))
     yield written(make.behaviour_difference(free(field), kernel))
     yield written(make.first_column_only(kernel, 2, Matrix.of([[0], [1], [0]], field)))
@@ -175,11 +177,25 @@ def spoiled(certificate: Certificate, *changes: tuple[str, Any]) -> Certificate:
 
 
 def base(kind: str, field: Field = QQ, system: ResidualSystem | None = None, **more: Any) -> Certificate:
-    """Return the certificate of that kind that gets spoiled, about `seen` by default."""
+    """Return the certificate of that kind that gets spoiled, about `seen` by default, without hints."""
+    return by_chain(hinted(kind, field, system, **more), kernel_representation(system or seen(field)))
+
+
+def by_chain(certificate: Certificate, kernel: KernelRepresentation) -> Certificate:
+    """Return the certificate without hints, as all were once: where it has rows, those below its window."""
+    if not {"point", "mix"} & {*certificate["witness"]}:
+        return certificate
+    bare = chain_witness(kernel, certificate["statement"].get("window"))
+    return written({**certificate, "witness": {key: bare[key] for key in bare if key != "kernel" or key in certificate["witness"]}})
+
+
+def hinted(kind: str, field: Field = QQ, system: ResidualSystem | None = None, **more: Any) -> Certificate:
+    """Return the certificate of that kind as it is made today."""
     system = system or seen(field)
     kernel = kernel_representation(system)
     makers: dict[str, Callable[[], Certificate]] = {
         "window-ranks": lambda: make.window_ranks(kernel),
+        "generic": lambda: make.window_ranks_of(system),
         "left-invertible": lambda: make.left_invertible(kernel),
         "inversion-delay": lambda: make.inversion_delay(kernel, known_state=more["known"]),
         "behaviour-equality": lambda: make.behaviour_equality(kernel, kernel),
@@ -206,6 +222,7 @@ S = "statement.system"
 K = "witness.kernel"
 RANKS, CUBED, ROOTED = (base("window-ranks", field) for field in (QQ, CUBIC, SQRT2))
 FLAT_RANKS = base("window-ranks", system=FLAT)
+HINTED, GENERIC, INVERTIBLE = (hinted(kind) for kind in ("window-ranks", "generic", "left-invertible"))
 DELAY, OPEN = (base("inversion-delay", known=known, system=LINE) for known in (True, False))
 NULL, FINITE = base("left-invertible", system=TWICE), base("finite-zeros", system=ZERO)
 SPACE, COLUMN = base("fault-space"), base("first-column-only")

@@ -9,10 +9,10 @@ from itertools import product
 
 import pytest
 
-from faultspace.proofs.evidence import corpus
+from faultspace.proofs.evidence.corpus import CORPUS
 from faultspace.proofs.evidence.search import Box, chunks
 from faultspace.proofs.hypotheses import ablations
-from faultspace.proofs.hypotheses.aimed import HIDDEN_ZEROS, aimed_systems
+from faultspace.proofs.hypotheses.aimed import AIMED, HIDDEN_ZEROS, aimed_systems
 from faultspace.proofs.hypotheses.facets import degenerate, flags
 from faultspace.proofs.hypotheses.systems import gap, range_of_f, rank_formula
 from faultspace.proofs.rocq.sources import sources
@@ -157,10 +157,9 @@ def test_a_counterexample_to_what_is_proved_is_an_error() -> None:
 def bench() -> Workbench:
     """Return a workbench with every ninth system of the quick corpus and every fourth of the aimed ones, twenty for each hypothesis."""
     made = Workbench("quick", 1, quiet)
-    sources = list(corpus._sources("quick"))[::9]
-    made.corpus = tuple(corpus.examine(*source) for source in sources)
+    made.corpus = tuple(one for item in list(CORPUS.items(made))[::9] for one in CORPUS.make(item))
     few = [*HIDDEN_ZEROS, *list(aimed_systems(80))[::4]]
-    made.records("aimed systems", lambda: [corpus.examine("aimed", system) for system in few])
+    made.put(AIMED, [one for system in few for one in AIMED.make(system)])
     return made
 
 

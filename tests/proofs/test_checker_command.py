@@ -14,9 +14,10 @@ import pytest
 from faultspace.exact.algebra.fields import QQ
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
-from tests.proofs.examples import CUBED, GONE, HUGE, RANKS, ZERO, base, seen, spoiled, systems
+from tests.proofs.examples import CUBED, GONE, HUGE, LEADING, RANKS, ZERO, base, seen, spoiled, systems
 
 SOURCE = Path(checker.__file__)
+LIMITS = SOURCE.with_name("checker_limits.py")
 
 
 class Lone:
@@ -215,3 +216,23 @@ def test_each_file_has_the_whole_of_the_work(lone: Lone, monkeypatch: pytest.Mon
 def test_a_kind_carries_its_proof() -> None:
     for name, kind in checker.KINDS.items():
         assert kind.proof.endswith(".") and 40 < len(kind.proof) < 200, name
+
+
+def test_each_file_of_the_checker_runs_alone_or_beside_the_core(tmp_path: Path) -> None:
+    """The core decides ranks and behaviours alone, and names the file for other kinds; that one, beside the core, decides every kind."""
+    shutil.copy(SOURCE, tmp_path / "checker.py")
+    certificates = {"ranks": RANKS, "line": base("left-invertible-line"), "zeros": base("finite-zeros"), "limit": LEADING}
+    files = [tmp_path / f"{name}.json" for name in certificates]
+    for file, certificate in zip(files, certificates.values(), strict=True):
+        file.write_text(json.dumps(certificate), "utf-8")
+
+    def said(program: str) -> list[str]:
+        command = [sys.executable, "-I", "-O", program, "--json", *map(str, files)]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.stderr == ""
+        return [one["result"] if one["result"] == "verified" else one["reason"] for one in json.loads(done.stdout)]
+
+    other = "kind: unknown, or one of checker_limits.py, which is another file"
+    assert said("checker.py") == ["verified", other, other, other]
+    shutil.copy(LIMITS, tmp_path / "checker_limits.py")
+    assert said("checker_limits.py") == ["verified"] * 4

@@ -9,8 +9,7 @@ import pytest
 
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
-from faultspace.proofs.evidence import experiments
-from faultspace.proofs.evidence.experiments import FAMILIES, LimitEvidence, examine_experiment
+from faultspace.proofs.evidence.experiments import FAMILIES, LIMITS, LimitEvidence, examine_experiment
 from faultspace.proofs.hypotheses.consistency import consistency, driven
 from faultspace.proofs.verdict.ablation import ablate
 from faultspace.proofs.verdict.ledger import expected_without
@@ -29,7 +28,7 @@ def bench() -> Workbench:
     """Return a workbench with experiments of each family, fourteen in a thorough run, and more of those in which v is independent of u."""
     made = Workbench("quick", 1, quiet)
     counts = {name: 120 if name == "v independent of u" else 30 if "independent" in name else 14 for name in FAMILIES}
-    made.limits = tuple(experiments._all([(name, seed) for name, count in counts.items() for seed in range(0, count, every())]))
+    made.limits = tuple(one for name, count in counts.items() for seed in range(0, count, every()) for one in LIMITS.make((name, seed)))
     return made
 
 

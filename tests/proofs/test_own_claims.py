@@ -10,10 +10,9 @@ from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.pairs.witnesses import BadPair, bad_pair, good_columns
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.claims import bad_set, canonical_form, one_determinant, sharp_windows, zero_assignment, zeros_of_pairs
-from faultspace.proofs.evidence import pairs_by_polynomial as pairs_by_polynomial
-from faultspace.proofs.evidence.alternatives import alternatives
+from faultspace.proofs.evidence.alternatives import ALTERNATIVES
 from faultspace.proofs.evidence.families import adversarial
-from faultspace.proofs.evidence.pairs_by_polynomial import PairByPolynomial, examine_by_polynomial, pencil_of
+from faultspace.proofs.evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial, examine_by_polynomial, pencil_of
 from faultspace.proofs.verdict.verdicts import Verdict
 from faultspace.proofs.verdict.workbench import Workbench
 from tests.oracle import truth
@@ -27,8 +26,8 @@ def quiet(stage: str, done: int, total: int) -> None:
 def bench() -> Workbench:
     """Return a workbench with the pairs of every sixth system of the quick run."""
     made = Workbench("quick", 1, quiet)
-    made.pairs_by_polynomial = tuple(pairs_by_polynomial._all(list(pairs_by_polynomial._systems(False))[::6]))
-    made.alternatives = alternatives("quick", 1, quiet)[::9]
+    made.pairs_by_polynomial = tuple(one for item in list(PAIRS_BY_POLYNOMIAL.items(made))[::6] for one in PAIRS_BY_POLYNOMIAL.make(item))
+    made.alternatives = tuple(one for item in list(ALTERNATIVES.items(made))[::9] for one in ALTERNATIVES.make(item))
     return made
 
 

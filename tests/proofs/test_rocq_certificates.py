@@ -23,6 +23,7 @@ from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomput
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.trust import checker
 from tests.end_to_end.commands import call
+from tests.oracle import truth
 from tests.proofs.examples import RANKS, ROOTED, K, S, certificates, spoiled, written
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems
 from tests.thorough import THOROUGH
@@ -35,8 +36,9 @@ FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
 
 def covered(certificate: dict[str, Any]) -> bool:
-    """Return whether the certificate is of a covered kind, over the rational numbers."""
-    return certificate["kind"] in COVERED and '"field"' not in json.dumps(certificate)
+    """Return whether the certificate is of a covered kind, over the rational numbers, with exact rows where it has rows."""
+    text = json.dumps(certificate)
+    return certificate["kind"] in COVERED and '"field"' not in text and '"kernel_modulo"' not in text
 
 
 def small_ones() -> list[dict[str, Any]]:
@@ -66,7 +68,7 @@ def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
 def test_rocq_and_the_checker_agree_on_mutations() -> None:
     every = [(c, path, value) for c in small_ones() for path, value in mutations(c)]
     candidates = [mutated(*one) for one in every[::EVERY]]
-    terms, verdicts = list[Terms](), list[bool]()
+    terms, verdicts, tried = list[Terms](), list[bool](), list[dict[str, Any]]()
     for candidate in candidates:
         try:
             checker.verify(candidate)
@@ -78,11 +80,14 @@ def test_rocq_and_the_checker_agree_on_mutations() -> None:
         try:
             terms.append(translated(candidate))
             verdicts.append(verdict)
+            tried.append(candidate)
         except NotCovered:
             continue
         except (checker.Rejected, checker.Malformed):
             assert not verdict, candidate
-    assert decided(terms, theory()) == verdicts
+    for ours, rocq, candidate in zip(verdicts, decided(terms, theory()), tried, strict=True):
+        # Of hints Rocq makes no use: where one does not serve the checker refuses, and what is stated may be true all the same.
+        assert ours == rocq or (rocq and {"point", "mix"} & {*candidate["witness"]} and truth(candidate["kind"], candidate["statement"]))
     assert min(verdicts.count(True), verdicts.count(False)) > 20
 
 

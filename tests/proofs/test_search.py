@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from itertools import islice, product
+from itertools import islice, permutations, product
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import pytest
 
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.evidence import search
-from faultspace.proofs.evidence.search import Box, Facts, Flags, chunks, ranks, smallest, systems_in_order
+from faultspace.proofs.evidence.search import Box, Facts, Flags, chunks, first_of_orbits, ranks, smallest, systems_in_order
 from tests.oracle import inspect_slowly
 from tests.thorough import THOROUGH
 
@@ -39,6 +39,36 @@ def test_order_is_the_stated_one() -> None:
     fast = [system.to_json() for system in systems_in_order(box, everything)]
     assert fast == slowly(4, (1, 1, 2))
     assert len(fast) == 3**4 + 3**6
+
+
+def moved_slowly(entries: tuple[int, ...], n: int, m: int, p: int) -> set[tuple[int, ...]]:
+    """Return what renumbering and signs of states, outputs and faults make of a system, entry by entry."""
+    table = [entries[: n * n], entries[n * n : n * (n + m)], entries[n * (n + m) : n * (n + m + p)], entries[n * (n + m + p) :]]
+    shapes = ((n, n), (n, m), (p, n), (p, m))
+    found = set()
+    signed = [[(order, signs) for order in permutations(range(k)) for signs in product((1, -1), repeat=k)] for k in (n, p, m)]
+    for states, outputs, faults in product(*signed):
+        sides = ((states, states), (states, faults), (outputs, states), (outputs, faults))
+        image: list[int] = []
+        for part, (rows, cols), (left, right) in zip(table, shapes, sides, strict=True):
+            for i, j in product(range(rows), range(cols)):
+                image.append(left[1][i] * right[1][j] * part[left[0][i] * cols + right[0][j]])
+        found.add(tuple(image))
+    return found
+
+
+@pytest.mark.parametrize(("n", "m", "p"), [(1, 1, 1), (1, 2, 1), (1, 1, 2), (2, 1, 1), (1, 2, 2)])
+def test_first_of_orbits_are_the_least_of_what_renumbering_and_signs_make_of_them(n: int, m: int, p: int) -> None:
+    box = Box(total=n + m + p, largest_n=n, largest_m=m, largest_p=p, least_m=m)
+    seen: set[tuple[int, ...]] = set()
+    slow = []
+    for entries in product((-1, 0, 1), repeat=(n + m) * (n + p)):
+        if entries not in seen:
+            slow.append(entries)
+            seen |= moved_slowly(entries, n, m, p)
+    kept = [facts for facts in first_of_orbits(box) if (facts.n, facts.m, facts.C.shape[1]) == (n, m, p)]
+    parts = [np.concatenate([getattr(facts, name).reshape(len(facts.A), -1) for name in "AFCG"], axis=1) for facts in kept]
+    assert [tuple(row) for row in np.concatenate(parts).tolist()] == slow
 
 
 def test_a_box_without_entries_says_so() -> None:

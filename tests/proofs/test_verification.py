@@ -8,7 +8,7 @@ import pytest
 
 from faultspace.base.errors import InvalidInput
 from faultspace.proofs import verification
-from faultspace.proofs.evidence import corpus
+from faultspace.proofs.evidence.corpus import CORPUS
 from faultspace.proofs.trust import checker
 from faultspace.proofs.verdict import workbench
 from faultspace.proofs.verdict.ledger import Claim, Reading, load
@@ -26,8 +26,7 @@ def quiet(stage: str, done: int, total: int) -> None:
 def bench() -> Workbench:
     """A workbench with a corpus small enough for tests: every fifteenth system of the quick one."""
     made = Workbench("quick", 1, quiet)
-    sources = list(corpus._sources("quick"))[::15]
-    made.corpus = tuple(corpus.examine(*source) for source in sources)
+    made.corpus = tuple(one for item in list(CORPUS.items(made))[::15] for one in CORPUS.make(item))
     return made
 
 
@@ -136,18 +135,18 @@ def test_assumption_4_on_the_small_corpus(bench: Workbench, reading: str) -> Non
     assert check(bench).verdict == Verdict.CERTIFIED
 
 
-def test_a_broken_recursion_does_not_go_unnoticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With the fault left out of W_(k+1), certificates of the example are no longer accepted: ERROR, not a wrong verdict."""
+def test_a_wrong_shape_of_the_rows_does_not_go_unnoticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the fault left out of the state, certificates of the example are no longer accepted: ERROR, not a wrong verdict."""
     from faultspace.exact.algebra.matrices import Matrix
     from faultspace.exact.structure import kernel_rows as kernel_representation
-    from faultspace.exact.structure import zero_output
+    from faultspace.exact.structure import modular_rows
     from faultspace.exact.system.systems import ResidualSystem
     from faultspace.proofs.claims import example_v
 
-    def without_fault(system: ResidualSystem) -> zero_output.ZeroOutputChain:
-        return zero_output.zero_output_chain(system.with_faults(Matrix.zero(system.field, system.n, system.m), system.G))
+    def without_fault(system: ResidualSystem) -> modular_rows.ModularRows | None:
+        return modular_rows.rows_modulo(system.with_faults(Matrix.zero(system.field, system.n, system.m), system.G))
 
-    monkeypatch.setattr(kernel_representation, "zero_output_chain", without_fault)
+    monkeypatch.setattr(kernel_representation, "rows_modulo", without_fault)
     monkeypatch.setattr(kernel_representation, "image", lambda system, largest=0: _first_image(system, largest))
     example_v._certificates.cache_clear()
     report = verification.verify(["example-v"], jobs=1)

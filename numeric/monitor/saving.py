@@ -1,0 +1,69 @@
+"""The file of a saved monitor: written whole or not at all, and never over a file that is another.
+
+write    a document into a file
+read     the document in a file, or in the model.json of a folder that `identify` wrote
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from ...base.errors import InvalidInput, quote_path
+from .learned import FORMAT
+
+MODEL = "model.json"  # what `identify` calls it; a test compares the two
+HEAD = 200  # characters of a file that is there already, in which its format stands
+
+
+def write(path: str | os.PathLike[str], document: dict[str, Any]) -> None:
+    """Write the document of a monitor. Raises InvalidInput where that cannot be, or where a file that is none is there already."""
+    target = Path(path)
+    refuse(target)
+    try:
+        descriptor, temporary = tempfile.mkstemp(prefix=".unfinished-", dir=target.parent)
+        try:
+            with open(descriptor, "w", encoding="utf-8") as stream:
+                stream.write(json.dumps(document, allow_nan=False) + "\n")
+            os.chmod(temporary, 0o644)
+            os.replace(temporary, target)
+        except BaseException:
+            os.unlink(temporary)
+            raise
+    except OSError as error:
+        raise InvalidInput(f"{quote_path(str(target))}: cannot be written ({_reason(error)}), expected another path") from None
+
+
+def refuse(path: Path) -> None:
+    """Raise InvalidInput where a file is there that is no saved monitor, or where there is no folder to write into: before a long watch."""
+    if not path.parent.is_dir():
+        raise InvalidInput(f"{quote_path(str(path))}: cannot be written (there is no such folder), expected another path")
+    try:
+        if not os.path.lexists(path):
+            return
+        with open(path, encoding="utf-8") as stream:
+            if f'"format": "{FORMAT}"' in stream.read(HEAD):
+                return
+    except (OSError, UnicodeDecodeError):
+        pass
+    raise InvalidInput(f"{quote_path(str(path))}: is there, and no saved monitor; it is left as it is: name another file")
+
+
+def read(path: str | os.PathLike[str]) -> Any:
+    """Return the document in the file. Raises InvalidInput where there is none in JSON."""
+    source = Path(path)
+    source = source / MODEL if source.is_dir() else source
+    try:
+        return json.loads(source.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise InvalidInput(f"{quote_path(str(source))}: cannot be read ({_reason(error)}), expected a saved monitor or a model") from None
+    except (ValueError, RecursionError):
+        raise InvalidInput(f"{quote_path(str(source))}: got no JSON, expected a saved monitor or a model.json of identify") from None
+
+
+def _reason(error: OSError) -> str:
+    text = error.strerror or str(error)
+    return text[:1].lower() + text[1:]

@@ -1,0 +1,133 @@
+"""What a run has to find out, on all cores: what becomes of each reading, and of each claim without its hypotheses.
+
+    Check, Without    a function of claims/, and an ablation: each is a task
+    decided           what each of some tasks comes to
+
+Whatever a task rests on is made once, for all. So every task is tried at first: one that asks for certified material says which, and is
+tried again when that is there, while those that ask for none are done. What is asked for is made on all cores too, all of it at once.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from joblib import Parallel, delayed, effective_n_jobs
+
+from ..base.progress import silent
+from .evidence.material import Material, Wanted
+from .hypotheses import ablations
+from .trust.checker import Malformed, Rejected
+from .verdict.ablation import ablate
+from .verdict.ledger import expected_without
+from .verdict.verdicts import Outcome, Row, Verdict
+from .verdict.workbench import Workbench
+
+
+@dataclass(frozen=True)
+class Check:
+    """The function of claims/ with this name, "file.function"; it comes to an Outcome."""
+
+    name: str
+
+    def done(self, bench: Workbench) -> Outcome:
+        """Return what the function finds; an ERROR where it raises, or says something that no accepted certificate bears."""
+        file, _, name = self.name.partition(".")
+        try:
+            outcome: Outcome = getattr(import_module(f".claims.{file}", __package__), name)(bench)
+        except (Malformed, Rejected) as error:
+            outcome = Outcome(Verdict.ERROR, f"the checker refused a certificate: {error}")
+        except Exception as error:  # whatever it is, this check did not finish, and the others go on
+            outcome = Outcome(Verdict.ERROR, f"{type(error).__name__}: {error}")
+        if outcome.verdict in (Verdict.CERTIFIED, Verdict.REFUTED) and not (outcome.certificates and outcome.accepted):
+            outcome = Outcome(Verdict.ERROR, f"{outcome.verdict}, and yet no certificate was accepted: {outcome.evidence}")
+        return outcome
+
+    def __str__(self) -> str:
+        return self.name.replace("_", "-").replace(".", ": ")
+
+
+@dataclass(frozen=True)
+class Without:
+    """The ablation with this name; it comes to rows of the table of hypotheses."""
+
+    name: str
+
+    def done(self, bench: Workbench) -> tuple[Row, ...]:
+        """Return the rows, or one in ERROR where they did not finish."""
+        ablation = next(one for one in ablations() if one.name == self.name)
+        try:
+            return ablate(bench, ablation, expected_without()[ablation.name])
+        except Exception as error:  # as for a check: it did not finish, and the others go on
+            words = f"{type(error).__name__}: {error}"
+            return (Row(ablation.name, ablation.claim, ablation.conclusion, (), Verdict.ERROR, words, None, (), 0),)
+
+    def __str__(self) -> str:
+        return f"{self.name} without its hypotheses"
+
+
+Task = Check | Without
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a task came to, and the seconds that it took where it was done."""
+
+    found: Any
+    seconds: float
+
+
+def decided(bench: Workbench, tasks: Sequence[Task]) -> dict[Task, Answer]:
+    """Return what each task comes to. `bench` then has the material that was made."""
+    if effective_n_jobs(bench.jobs) == 1:
+        answers: dict[Task, Answer] = {}
+        for task in tasks:
+            bench.progress(str(task), len(answers), len(tasks))
+            answers[task] = _done(task, bench)
+        return answers
+    with TemporaryDirectory(prefix="faultspace-") as folder:
+        return _in_rounds(bench, tasks, Path(folder))
+
+
+def _in_rounds(bench: Workbench, tasks: Sequence[Task], shelf: Path) -> dict[Task, Answer]:
+    answers: dict[Task, Answer] = {}
+    # The claims without their hypotheses take longest, so that they come first.
+    waiting = sorted(tasks, key=lambda task: isinstance(task, Check))
+    while waiting:
+        wanted: dict[str, Material] = {}
+        later = []
+        stream = Parallel(n_jobs=bench.jobs, return_as="generator")(delayed(_tried)(task, bench.effort, str(shelf)) for task in waiting)
+        for task, answer in zip(waiting, stream, strict=True):
+            if isinstance(answer, Answer):
+                answers[task] = answer
+                bench.progress(str(task), len(answers), len(tasks))
+            else:
+                wanted |= {kind.name: kind for kind in answer}
+                later.append(task)
+        bench.make(list(wanted.values()), shelf)
+        waiting = later
+    return answers
+
+
+def _tried(task: Task, effort: str, shelf: str) -> Answer | tuple[Material, ...]:
+    try:
+        return _done(task, _bench(effort, shelf))
+    except Wanted as wanted:
+        return wanted.kinds
+
+
+@lru_cache(maxsize=1)
+def _bench(effort: str, shelf: str) -> Workbench:
+    """Return the workbench of this process, which keeps what it read and found out for the next task."""
+    return Workbench(effort, 1, silent, Path(shelf))
+
+
+def _done(task: Task, bench: Workbench) -> Answer:
+    started = time.perf_counter()
+    return Answer(task.done(bench), time.perf_counter() - started)

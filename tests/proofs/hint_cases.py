@@ -1,0 +1,34 @@
+"""These are certificates whose hints, or whose rows beside hints, were spoiled: name -> (part of the checker's reason, certificate).
+
+REJECTED_HINTS     well formed, and they prove nothing
+MALFORMED_HINTS    not of the format
+"""
+
+from __future__ import annotations
+
+from faultspace.exact.system.systems import ResidualSystem
+from tests.proofs.examples import EQUAL, GENERIC, GONE, HINTED, INVERTIBLE, Certificate, K, S, hinted, spoiled
+
+SHIFT = ResidualSystem.of([[0, 1], [0, 0]], [[], []], [[1, 0]], [[]], n=2, m=0, p=1)
+TIMES = [[0, 1], [-1, -1], [1, 0]]  # the row of `seen` times q - 1
+REJECTED_HINTS: dict[str, tuple[str, Certificate]] = {
+    "a row is missing with hints": ("there may be more rows", spoiled(HINTED, (K, []))),
+    "a pivot whose minor is zero": ("at the pivots are dependent", spoiled(HINTED, (f"{K}.0.pivot", 1))),
+    "a row times q - 1": ("may have a common factor", spoiled(HINTED, (f"{K}.0.coefficients", TIMES))),
+    "a prime below the degree": (
+        "not above the sum of the left minimal indices",
+        spoiled(hinted("window-ranks", system=SHIFT), ("witness.prime", 2), ("witness.point", 1), ("witness.mix", 1)),
+    ),
+    "a row that annihilates nothing, modulo the prime": ("does not annihilate", spoiled(GENERIC, (f"{K}_modulo.0.coefficients.1.1", 1))),
+    "windows that could be larger": ("that their shape allows", spoiled(GENERIC, (f"{K}_modulo.0.coefficients", TIMES))),
+    "a point at a zero": ("smaller rank at that point", spoiled(INVERTIBLE, (f"{S}.F", [[0]]), (f"{S}.G", [[0], [0]]))),
+}
+MALFORMED_HINTS: dict[str, tuple[str, Certificate]] = {
+    "a point alone": ("point and mix go together", spoiled(HINTED, ("witness.mix", GONE))),
+    "a mix alone": ("point and mix go together", spoiled(EQUAL, ("witness.mix", 1))),
+    "rows twice": ("expected one of kernel and kernel_modulo", spoiled(HINTED, (f"{K}_modulo", []))),
+    "no rows": ("expected one of kernel and kernel_modulo", spoiled(HINTED, (K, GONE))),
+    "rows modulo, without hints": ("needs a point and a mix", spoiled(GENERIC, ("witness.point", GONE), ("witness.mix", GONE))),
+    "a point outside the field": ("point: expected an integer in 0..", spoiled(HINTED, ("witness.point", 2**40))),
+    "a mix outside the field": ("mix: expected an integer in 0..", spoiled(HINTED, ("witness.mix", 2**40))),
+}

@@ -1,0 +1,90 @@
+"""Kernel rows with hints: structured mutations are refused or true, and each check of the checker is needed for that.
+
+`python -m tests.proofs.basis_mutants 100000` tries so many; here it is a sample.
+"""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.structure.short_rows import short_rows
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import structure_certificates as make
+from tests.proofs.basis_mutants import Rows, is_true, tried
+from tests.proofs.examples import FLAT, Certificate, seen, written
+
+PRIME = 2**30 - 35
+VANISHES = ResidualSystem.of([[0]], [[1]], [[PRIME], [0]], [[0], [1]])  # modulo the prime the first output is zero
+LONG = ResidualSystem.of([[0, 1, 0], [0, 0, 1], [0, 0, 0]], [[]] * 3, [[1, 0, 0], [0, 0, PRIME]], [[]] * 2, n=3, m=0, p=2)
+
+
+def stated(system: ResidualSystem, rows: Rows, pivots: list[int], key: str = "kernel") -> Certificate:
+    """Return the certificate that these rows would give."""
+    found = written(make.window_ranks(kernel_representation(system)))
+    s, w = found["statement"], found["witness"]
+    indices, r = [len(row) - 1 for row in rows], system.p - len(rows)
+    ranks = [k * r + sum(min(k, mu) for mu in indices) for k in range(1, system.n + 4)]
+    found["statement"] = s | {"normal_rank": r, "left_minimal_indices": indices, "window_ranks": ranks}
+    written_rows = [{"pivot": pivot, "coefficients": row} for pivot, row in zip(pivots, rows, strict=True)]
+    found["witness"] = {"prime": PRIME, "point": w["point"], "mix": w["mix"], key: written_rows}
+    return found
+
+
+# The reason that is left out -> a false statement that then passes.
+NEEDED: dict[str, Certificate] = {
+    "at the pivots are dependent": stated(FLAT, [[[1, 0]], [[0, 1], [1, 0]]], [0, 1]),
+    "may have a common factor": stated(seen(), [[[0, 1], [-1, -1], [1, 0]]], [0]),
+    "there may be more rows": stated(seen(), [], []),
+    "does not annihilate the system": stated(VANISHES, [[[1, 0]]], [0]),
+    "that their shape allows": stated(VANISHES, [[[1, 0]]], [0], "kernel_modulo"),
+}
+
+
+@pytest.mark.parametrize("reason", NEEDED)
+def test_without_one_of_the_checks_something_false_passes(reason: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert not is_true(NEEDED[reason]["statement"])
+    with pytest.raises(checker.Rejected, match=reason):
+        checker.verify(NEEDED[reason])
+    strict = checker.require
+    monkeypatch.setattr(checker, "require", lambda condition, why, *error: strict(condition or reason in why, why, *error))
+    checker.verify(NEEDED[reason])
+
+
+def test_structured_mutations_are_refused_or_true() -> None:
+    counts, wrong = tried(Random(16), 1200)
+    assert wrong == []
+    assert counts.true_accepted > 200 and counts.false_refused > 400
+
+
+def test_degrees_that_only_add_up_are_not_enough_modulo_a_prime() -> None:
+    # Modulo the prime the second output is zero, with index 0; the first has 3: they add up to n, and their windows could be larger.
+    false = stated(LONG, [[[0, 1]], [[0, 0], [0, 0], [0, 0], [1, 0]]], [1, 0], "kernel_modulo")
+    assert not is_true(false["statement"])
+    with pytest.raises(checker.Rejected, match="that their shape allows"):
+        checker.verify(false)
+
+
+def test_exact_rows_that_vanish_in_different_slots_do_not_cancel() -> None:
+    """What two rows leave over cannot add up to zero in the one number in which both stand."""
+    true = written(make.window_ranks(kernel_representation(FLAT)))
+    checker.verify(true)
+    one, other = ([[x, y]] for x, y in ((1, 0), (0, 1)))
+    system = checker.System({"A": [], "F": [], "C": [[], []], "G": [[1], [-1]], "n": 0, "m": 1, "p": 2})
+    for shift in range(12):
+        assert any(system.seen([[[2**shift, 0]], other], system.F, system.G)) and any(system.seen([one, other], system.F, system.G))
+    assert not any(system.seen([[[1, 1]], [[5, 5]]], system.F, system.G))
+
+
+def test_short_rows_are_shorter_and_span_the_same() -> None:
+    rng = Random(3)
+    system = ResidualSystem.of(*([[rng.randint(-9, 9) for _ in range(w)] for _ in range(h)] for h, w in ((9, 9), (9, 2), (5, 9), (5, 2))))
+    kernel = kernel_representation(system)
+    rows = [[[int(x) for x in c] for c in row.coefficients.elements()] for row in kernel.rows]
+    short = short_rows(rows, [row.pivot for row in kernel.rows])
+    bits = [max(abs(x).bit_length() for row in some for c in row for x in c) for some in (rows, short)]
+    assert bits[1] < 0.6 * bits[0] and [*map(len, short)] == [*map(len, rows)]
+    checker.verify(written(make.window_ranks(kernel)))

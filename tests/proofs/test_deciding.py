@@ -1,0 +1,95 @@
+"""Tasks in rounds: what they ask for is made once and read by other processes; what fails there is an error of those who ask."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from faultspace.proofs import deciding
+from faultspace.proofs.deciding import Check, decided
+from faultspace.proofs.evidence.material import Material, Wanted
+from faultspace.proofs.trust.checker import Rejected
+from faultspace.proofs.verdict.workbench import Workbench
+
+
+def quiet(stage: str, done: int, total: int) -> None:
+    """Return a progress that nobody watches."""
+
+
+def three(bench: Any) -> Iterator[int]:
+    return iter(range(3))
+
+
+def twice(item: int) -> list[int]:
+    return [item, 10 * item]
+
+
+def refused(item: int) -> list[int]:
+    if item == 2:
+        raise Rejected("two is not accepted")
+    return [item]
+
+
+def without_items(bench: Any) -> Iterator[int]:
+    raise ArithmeticError("no items")
+
+
+TWICE = Material("twice", "counting", three, twice, 2)
+REFUSED = Material("refused", "counting", three, refused, 1)
+NOTHING = Material("nothing", "counting", without_items, twice, 1)
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_material_is_in_order_and_an_error_is_kept_for_who_asks(jobs: int, tmp_path: Path) -> None:
+    bench = Workbench("quick", jobs, quiet)
+    bench.make([TWICE, REFUSED, NOTHING], tmp_path)
+    for reader in (bench, Workbench("quick", 1, quiet, tmp_path)):
+        assert reader.material(TWICE) == (0, 0, 1, 10, 2, 20)
+        with pytest.raises(Rejected, match="two is not accepted"):
+            reader.material(REFUSED)
+        with pytest.raises(ArithmeticError, match="no items"):
+            reader.material(NOTHING)
+
+
+def test_what_is_not_on_the_shelf_is_wanted_all_at_once(tmp_path: Path) -> None:
+    reader = Workbench("quick", 1, quiet, tmp_path)
+    (tmp_path / TWICE.name).write_bytes(pickle.dumps((1, 2)))
+    with pytest.raises(Wanted) as raised:
+        reader.need(REFUSED, TWICE, NOTHING)
+    assert raised.value.kinds == (REFUSED, NOTHING)
+    with pytest.raises(Wanted):
+        reader.material(REFUSED)
+    reader.need(TWICE)
+    Workbench("quick", 1, quiet).need(REFUSED)  # made where it is asked for
+
+
+def test_processes_decide_as_one_does() -> None:
+    tasks = [Check("example_v.one_fault"), Check("bad_set.codimension_unobservable"), Check("nowhere.at_all")]
+    alone, together = (decided(Workbench("quick", jobs, quiet), tasks) for jobs in (1, 2))
+    assert {task: answer.found for task, answer in alone.items()} == {task: answer.found for task, answer in together.items()}
+    assert "No module named" in together[tasks[2]].found.evidence
+
+
+def test_a_task_that_asks_is_tried_again_when_that_is_there(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Each round makes what the one before asked for; a task that asks for nothing is done once."""
+    monkeypatch.setattr(deciding, "Parallel", lambda **options: lambda calls: (call(*args, **names) for call, args, names in calls))
+    tried: list[str] = []
+
+    class Asking:
+        def done(self, bench: Workbench) -> object:
+            tried.append("asking")
+            return bench.material(TWICE) + bench.material(Material("later", "counting", three, twice, 2))
+
+    class Free:
+        def done(self, bench: Workbench) -> str:
+            tried.append("free")
+            return "done"
+
+    tasks: Any = [Asking(), Free()]
+    answers = deciding._in_rounds(Workbench("quick", 1, quiet), tasks, tmp_path)
+    assert tried == ["asking", "free", "asking", "asking"]
+    assert [answers[task].found for task in tasks] == [(0, 0, 1, 10, 2, 20) * 2, "done"]
