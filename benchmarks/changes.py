@@ -66,7 +66,7 @@ def told(kind: str, drawn: Drawn) -> dict[str, Any]:
     values["outcome"] = _outcome(kind, answer, drawn.channel)
     space, model = answer.fault_space, answer.model
     values["n_z"] = None
-    if space is not None and model is not None:
+    if space is not None and space.n_v is not None and model is not None:
         most = largest_fault_space(model.A, model.C, space.n_v)
         values |= {"n_z": space.n_z, "decided": space.decided, "allowed": space.n_v <= space.n_z <= most}
     for name, found in (("space", answer.isolation), ("shift", answer.shift_isolation)):

@@ -215,12 +215,13 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
     dead, eps = np.finfo(float).tiny, np.finfo(float).eps
     columns = data.reshape(len(data), -1)
 
-    def products(g: Array) -> tuple[Array, Array, Array, Array]:
+    def at(g: Array) -> tuple[Array, Array, Array, Array, float]:
+        """Return S_b g and Q_b g of all bands, numerators and denominators, and the cost."""
         sg, qg = data @ g, gains @ g
-        return sg, qg, np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
+        a, d = np.maximum(sg @ g, 0.0), np.maximum(qg @ g, 1e-12)
+        return sg, qg, a, d, float(np.sum(a / d))
 
-    sg, qg, a, d = products(g)
-    cost = float(np.sum(a / d))
+    sg, qg, a, d, cost = at(g)
     flat = False
     # Of a cost that rounding makes, as without noise, no slope is known: steps would turn g by the root of rounding.
     if cost <= _rounding(data, gains, g):
@@ -239,18 +240,15 @@ def _descend(data: Array, gains: Array, g: Array) -> tuple[Array, float, bool]:
             except np.linalg.LinAlgError:
                 return g, cost, True
             step -= g * (g @ step)
-            trial = g + step
-            trial /= np.linalg.norm(trial)
-            tried = products(trial)
-            new = float(np.sum(tried[2] / tried[3]))
-            if new < cost or damping > 1e8:
+            trial = (g + step) / np.linalg.norm(g + step)
+            there = at(trial)
+            if there[-1] < cost or damping > 1e8:
                 break
             damping *= 8.0
-        if not new < cost:
+        if not there[-1] < cost:
             return g, cost, True
-        drop = np.log(cost / max(new, dead))
-        g, cost, damping = trial, new, max(damping / 6.0, 1e-10)
-        sg, qg, a, d = tried
+        drop = np.log(cost / max(there[-1], dead))
+        g, (sg, qg, a, d, cost), damping = trial, there, max(damping / 6.0, 1e-10)
         if drop < FLAT:
             flat = True
             break

@@ -144,30 +144,33 @@ def scan(read: Reader, first: int, last: int, p: int, lags: int, earliest: int) 
 
 def _counted(edges: Numbers, rows: Array, p: int, at: Numbers, kept: tuple[int, ...]) -> Scan:
     """Return the ratios of the columns `kept` of the rows, and the chance of the largest of them."""
-    (M, held, _), some = rows.shape, np.ix_(np.arange(len(rows)), np.array(kept), np.array(kept))
+    M, held, _ = rows.shape
     scale = _usual(held * np.concatenate([at, M - at, [M]]), len(kept), p)
-    ratios = _ratios(_squares(rows)[some], held, p, at) / scale
-    largest, exceeded = float(ratios.max()), 0
-    tried = 0
+
+    def scaled(sums: Array) -> Array:
+        return np.asarray(_ratios(_of_columns(sums, kept), held, p, at) / scale)
+
+    ratios = scaled(_squares(rows))
+    exceeded = np.zeros(0, dtype=np.intp)
     for sums in _without_change(rows, p, int(at[np.argmax(ratios)])):
-        larger = np.flatnonzero((_ratios(sums[:, some[0], some[1], some[2]], held, p, at) / scale).max(axis=1) >= largest)
-        if exceeded + len(larger) >= CLEAR:
-            return Scan(edges, rows, p, kept, at, ratios, CLEAR / (tried + 1 + int(larger[CLEAR - exceeded - 1])))
-        exceeded, tried = exceeded + len(larger), tried + len(sums)
-    return Scan(edges, rows, p, kept, at, ratios, (exceeded + 1) / (DRAWS + 1))
+        reached = exceeded[-1] if len(exceeded) else 0
+        exceeded = np.append(exceeded, reached + np.cumsum(scaled(sums).max(axis=-1) >= ratios.max()))
+        if exceeded[-1] >= CLEAR:
+            return Scan(edges, rows, p, kept, at, ratios, CLEAR / (int(np.argmax(exceeded == CLEAR)) + 1))
+    return Scan(edges, rows, p, kept, at, ratios, float(exceeded[-1] + 1) / (DRAWS + 1))
 
 
 def changed_outputs(found: Scan) -> Array:
     """Return for each output alone the chance (p,) of so large a ratio at the best edge without a change."""
     p, held = found.p, found.rows.shape[1]
     at = np.array([found.best])
-    columns = [np.array([c for c in found.kept if c == 0 or (c - 1) % p == j]) for j in range(p)]
+    own = [tuple(c for c in found.kept if c == 0 or (c - 1) % p == j) for j in range(p)]
 
     def alone(sums: Array) -> Array:
-        return np.array([_ratios(sums[..., kept[:, None], kept], held, 1, at)[..., 0] for kept in columns])
+        return np.concatenate([_ratios(_of_columns(sums, kept), held, 1, at) for kept in own], axis=-1)
 
-    seen = alone(_squares(found.rows))[:, None]
-    exceeded = sum(((alone(sums) >= seen).sum(axis=1) for sums in _without_change(found.rows, p, found.best)), np.zeros(p))
+    seen = alone(_squares(found.rows))
+    exceeded = sum(((alone(sums) >= seen).sum(axis=0) for sums in _without_change(found.rows, p, found.best)), np.zeros(p))
     return np.asarray((exceeded + 1) / (DRAWS + 1))
 
 
@@ -198,8 +201,13 @@ def _squares(rows: Array) -> Array:
     return np.asarray(np.swapaxes(rows, -1, -2) @ rows)
 
 
+def _of_columns(sums: Array, kept: Sequence[int]) -> Array:
+    """Return the sums (..., q, q) of these columns of the rows alone."""
+    return np.asarray(sums[..., np.array(kept)[:, None], np.array(kept)])
+
+
 def _without_change(rows: Array, p: int, edge: int) -> Iterator[Array]:
-    """Yield, many at a time, the sums (count, M, q, q) of DRAWS records like the rows (M, L, q) that have no change: one autoregression,
+    """Yield the sums (any, M, q, q) of DRAWS records like the rows (M, L, q) that have no change, some at a time: one autoregression,
     driven by the innovations of both sides of the edge, the parts of which are put in another order."""
     M, L, q = rows.shape
     lags = (q - 1) // p - 1

@@ -149,6 +149,19 @@ class FaultOnset(Shown):
         }
 
 
+@dataclass(frozen=True, eq=False)
+class _Stretch:
+    """These are samples first .. last - 1: what reads them in their units, the outputs that move there, the lags, and the scan, which is
+    None where nothing moves or the samples are too few."""
+
+    first: int
+    last: int
+    read: Reader
+    moving: NDArray[np.bool_]
+    lags: int
+    found: Scan | None
+
+
 @dataclass(frozen=True)
 class _Change:
     """A change before it is measured: the sample, its interval, the chances."""
@@ -192,18 +205,15 @@ def fault_onset(
         raise InvalidData(f"level: got {level}; a chance of {2 * LEAST} or more, below 1, is needed, for example 0.01")
     if not 0 < confidence < 1:
         raise InvalidData(f"confidence: got {confidence}; a number between 0 and 1 is needed, for example 0.95")
-    read, moving = _scaled(store, 0, N)
-    width = int(moving.sum())
-    if not width:
+    record = _scanned(store, 0, N, known or 0)
+    if not record.moving.any():
         return _nothing(store, known, level, confidence, 0, None, "the residual never changes at all")
-    lags = choose_lags(read, 0, N, width)
-    whole_scan = scan(read, 0, N, width, lags, known or 0)
-    if whole_scan is None:
-        return _nothing(store, known, level, confidence, lags, None, f"{counted(N, 'sample')} are too few to look for a change")
-    changes = _changes(store, 0, N, known or 0, level, confidence, whole_scan)
+    if record.found is None:
+        return _nothing(store, known, level, confidence, record.lags, None, f"{counted(N, 'sample')} are too few to look for a change")
+    changes, p_value = _changes(store, record, known or 0, level, confidence), record.found.p_value
     if not changes:
-        return _nothing(store, known, level, confidence, lags, whole_scan.p_value, _alike(known, whole_scan.p_value, level))
-    return _measured(store, changes, known, level, confidence, whole_scan.p_value, lags)
+        return _nothing(store, known, level, confidence, record.lags, p_value, _alike(known, p_value, level))
+    return _measured(store, changes, known, level, confidence, p_value, record.lags)
 
 
 def _scaled(store: SampleStore, start: int, stop: int) -> tuple[Reader, NDArray[np.bool_]]:
@@ -218,24 +228,25 @@ def _scaled(store: SampleStore, start: int, stop: int) -> tuple[Reader, NDArray[
     return read, moving
 
 
-def _changes(
-    store: SampleStore, first: int, last: int, earliest: int, level: float, confidence: float, found: Scan | None = None
-) -> list[_Change]:
-    """Return the changes of samples first .. last - 1 at `earliest` or later, in the order of time; `found` is their scan, if there."""
+def _scanned(store: SampleStore, first: int, last: int, earliest: int) -> _Stretch:
+    """Return samples first .. last - 1, scanned for a change at `earliest` or later."""
     read, moving = _scaled(store, first, last)
     p = int(moving.sum())
-    if not p:
-        return []
-    if found is None:
-        found = scan(read, first, last, p, choose_lags(read, first, last, p), earliest)
+    lags = choose_lags(read, first, last, p) if p else 0
+    return _Stretch(first, last, read, moving, lags, scan(read, first, last, p, lags, earliest) if p else None)
+
+
+def _changes(store: SampleStore, stretch: _Stretch, earliest: int, level: float, confidence: float) -> list[_Change]:
+    """Return the changes of a stretch that was scanned from `earliest` on, in the order of time."""
+    found = stretch.found
     if found is None or found.p_value > level:
         return []
     chances = np.ones(store.width)
-    chances[moving] = changed_outputs(found)
-    sample, interval = located(read, found, earliest, confidence)
-    change = _Change(sample, interval, found.p_value, chances)
-    before = _changes(store, first, interval[0], earliest, level, confidence)
-    return [*before, change, *_changes(store, interval[1], last, interval[1] + 1, level, confidence)]
+    chances[stretch.moving] = changed_outputs(found)
+    sample, interval = located(stretch.read, found, earliest, confidence)
+    change, (start, stop) = _Change(sample, interval, found.p_value, chances), interval
+    before = _changes(store, _scanned(store, stretch.first, start, earliest), earliest, level, confidence)
+    return [*before, change, *_changes(store, _scanned(store, stop, stretch.last, stop + 1), stop + 1, level, confidence)]
 
 
 def _measured(

@@ -1,6 +1,6 @@
 """No file makes the checker hang, fill the memory or trace back: an answer or a refusal within 5 seconds and 400 MB.
 
-FAULTSPACE_FLOODS=all   tries every file of `floods`; without it one in `every(20)`, and the WORST; those that cost most of all, the
+FAULTSPACE_FLOODS=all   tries every file of `floods`; without it one in `every(40)`, and the WORST; those that cost most of all, the
                         DEAREST, are tried by a test of their own
 
 Seconds are of the processor, measured in a process of its own for each file; on a machine that does many other things a second of it does
@@ -73,12 +73,14 @@ def code_in_time(one: Flood, file: Path) -> int:
 
 @pytest.mark.timeout(3000)
 def test_floods_are_answered_or_refused_in_time(tmp_path: Path) -> None:
-    step = 1 if os.environ.get("FAULTSPACE_FLOODS") == "all" else every(20)
-    every_one = [one for one in floods() if one.name not in DEAREST]
-    tried = [one for i, one in enumerate(every_one) if i % step == 0 or one.name in WORST]
-    codes = {code_in_time(one, tmp_path / "flood.json") for one in tried}
-    assert len(tried) > 9 and codes >= {0, 1, 2}
-    assert {one.kind for one in floods()} >= set(checker.KINDS), "every kind must be asked for more than it may do"
+    step = 1 if os.environ.get("FAULTSPACE_FLOODS") == "all" else every(40)
+    codes, kinds = [], set[str]()
+    for i, one in enumerate(floods()):
+        kinds.add(one.kind)
+        if (i % step == 0 or one.name in WORST) and one.name not in DEAREST:
+            codes.append(code_in_time(one, tmp_path / "flood.json"))
+    assert len(codes) > 8 and set(codes) >= {0, 1, 2}
+    assert kinds >= set(checker.KINDS), "every kind must be asked for more than it may do"
 
 
 @pytest.mark.slow  # that the checker charges for such work, the next test sees as well
