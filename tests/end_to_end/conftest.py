@@ -1,5 +1,7 @@
 """These are fixtures of the tests of commands.
 
+record        the packaged record
+csv_file      the same as a table
 rendered      a test that asks for it has its pictures rendered; of all others they are drawn, and a line of words is written as the file
 """
 
@@ -10,6 +12,19 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
+from faultspace import example_data as made
+from tests.end_to_end.identify_runs import small_csv
+
+
+@pytest.fixture(scope="session")
+def record() -> made.FaultyRecord:
+    return made.faulty_record()
+
+
+@pytest.fixture
+def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
+    return small_csv(tmp_path, made.csv_text(record), made.FILE_NAME)
 
 
 @pytest.fixture

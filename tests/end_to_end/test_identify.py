@@ -1,6 +1,5 @@
 """`faultspace identify`: whole runs on data whose answer is known, and what it says where the data cannot tell.
 
-csv_file        the packaged record as a table
 answered        a run on it with pictures, order and sample time given, that several tests read, and its folder, of which they make a copy
 response        what a fault column does to the outputs, whatever the basis of the states
 """
@@ -44,16 +43,6 @@ from tests.end_to_end.identify_runs import identified, refused, small_csv, valid
 Array = NDArray[np.float64]
 
 needs_matplotlib = pytest.mark.skipif(importlib.util.find_spec("matplotlib") is None, reason="matplotlib is not installed")
-
-
-@pytest.fixture(scope="module")
-def record() -> made.FaultyRecord:
-    return made.faulty_record()
-
-
-@pytest.fixture
-def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
-    return small_csv(tmp_path, made.csv_text(record), made.FILE_NAME)
 
 
 @pytest.fixture(scope="module")

@@ -174,7 +174,7 @@ def test_a_sensor_that_only_hums_since_it_died_is_no_zero() -> None:
     assert answer.n_v is None and "smaller than while healthy" in words, words
 
 
-@pytest.mark.parametrize("length", [1, 3])
+@pytest.mark.parametrize("length", [1, pytest.param(3, marks=pytest.mark.slow)])
 def test_a_short_spike_in_a_long_record_is_no_zero(length: int) -> None:
     draw = np.random.default_rng(13)
     u = draw.standard_normal((20000, 2))
@@ -193,8 +193,10 @@ def test_much_louder_inputs_make_no_fault_of_the_error_of_the_model(seed: int) -
     assert answer.at_least == 0 and "the error of the model can look like a fault" in words, words
 
 
-@pytest.mark.parametrize("sample", [300, 900])
-@pytest.mark.parametrize("size", [1e12, 1e150])
+@pytest.mark.parametrize(
+    ("sample", "size"),
+    [(300, 1e150), (900, 1e12), pytest.param(300, 1e12, marks=pytest.mark.slow), pytest.param(900, 1e150, marks=pytest.mark.slow)],
+)
 def test_an_outlier_beyond_all_numbers_is_no_crash(sample: int, size: float) -> None:
     y, u = biased(15, START)
     y[sample, 1] = size
@@ -244,7 +246,7 @@ def test_a_bias_beside_few_samples_is_seen_or_undecided(until: int) -> None:
         assert answer.moved and answer.at_least == 1, words
 
 
-@pytest.mark.parametrize("first", [100, 400, 700])
+@pytest.mark.parametrize("first", [100, pytest.param(400, marks=pytest.mark.slow), 700])
 def test_a_fault_among_the_healthy_samples_gives_no_zero(first: int) -> None:
     answer, _, words = answered(*biased(first, first))
     assert answer.n_v != 0, words

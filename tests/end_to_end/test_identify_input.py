@@ -34,16 +34,6 @@ Array = NDArray[np.float64]
 needs_pyarrow = pytest.mark.skipif(importlib.util.find_spec("pyarrow") is None, reason="pyarrow is not installed")
 
 
-@pytest.fixture(scope="module")
-def record() -> made.FaultyRecord:
-    return made.faulty_record()
-
-
-@pytest.fixture
-def csv_file(tmp_path: Path, record: made.FaultyRecord) -> Path:
-    return small_csv(tmp_path, made.csv_text(record), made.FILE_NAME)
-
-
 # Formats
 
 

@@ -4,6 +4,7 @@
                     that runs the check
     homes           where a function is defined, whichever file that is
     spoil           puts the spoiled function in place of the original wherever it was imported
+    noticed         a check passes, and fails once the function is spoiled
 
 Parts are compared as syntax trees, so that a function may be formatted anew or move to another file. The part must occur exactly once in
 the function, so that the table cannot grow stale in silence. Over Q a wrong shape makes
@@ -388,13 +389,17 @@ def spoil(monkeypatch: pytest.MonkeyPatch, broken: Broken) -> None:
             monkeypatch.setattr(place, key, namespace[name])
 
 
-@pytest.mark.parametrize("name", list(BROKEN))
-def test_it_is_noticed(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    broken = BROKEN[name]
+def noticed(monkeypatch: pytest.MonkeyPatch, broken: Broken) -> None:
+    """Assert that a check passes, and fails once a function is spoiled."""
     broken.check(*broken.arguments)
     spoil(monkeypatch, broken)
     with pytest.raises(AssertionError):
         broken.check(*broken.arguments)
+
+
+@pytest.mark.parametrize("name", list(BROKEN))
+def test_it_is_noticed(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    noticed(monkeypatch, BROKEN[name])
 
 
 @pytest.mark.parametrize("name", list(BROKEN))

@@ -55,7 +55,7 @@ def _adapter(tmp_path: Path, body: str, head: str = "") -> str:
         ("held = [np.ones(1 << 22) for _ in range(1 << 12)]", "broken", "GiB"),
         pytest.param("np.ones(1 << 50)", "broken", "MemoryError", marks=pytest.mark.slow),
         ("return np.ones((2, 2)) > 1", "broken", "number"),
-        ("raise KeyboardInterrupt", "broken", "ended without an answer"),
+        pytest.param("raise KeyboardInterrupt", "broken", "ended without an answer", marks=pytest.mark.slow),
     ],
 )
 def test_what_breaks_is_told_and_the_run_goes_on(tmp_path: Path, body: str, verdict: str, words: str) -> None:
