@@ -219,9 +219,11 @@ def of_kernel_rows() -> Iterator[Flood]:
         width = n + p
         silent = {**system(n, m, p, lambda i, j: rng.randrange(10**6)), "C": [[0] * n] * p, "G": [[0] * m] * p}
         loud = system(n, m, p, lambda i, j: rng.randrange(10**6))
-        units = [{"pivot": i, "coefficients": [[int(i == j) for j in range(p)]]} for i in range(p)]
+        units: list[dict[str, Any]] = [{"pivot": i, "coefficients": [[int(i == j) for j in range(p)]]} for i in range(p)]
         rows = max(1, min(p, BYTES // (200 * (p + 1))))
-        long = [{"pivot": i, "coefficients": [[1] * p] * min(4096, BYTES // (4 * rows * (p + 1)))} for i in range(rows)]
+        long: list[dict[str, Any]] = [
+            {"pivot": i, "coefficients": [[1] * p] * min(4096, BYTES // (4 * rows * (p + 1)))} for i in range(rows)
+        ]
         for about, kernel in ((silent, units), (loud, units), (loud, long)):
             witness = {"prime": LARGE_PRIME, "kernel": kernel}
             name = f"{n} {m} {p} {'silent' if about is silent else 'loud'} {'units' if kernel is units else 'long'}"
@@ -240,7 +242,7 @@ def of_kernel_rows() -> Iterator[Flood]:
                 "system": about,
                 "normal_rank": p - len(kernel),
                 "left_minimal_indices": [len(row["coefficients"]) - 1 for row in kernel],
-            }  # type: ignore[arg-type]
+            }
             yield flood(f"ranks by hints {name}", dumped, "window-ranks", ranks, hints)
             modulo = {key: value for key, value in hints.items() if key != "kernel"} | {"kernel_modulo": kernel}
             yield flood(f"ranks modulo {name}", dumped, "window-ranks", ranks, modulo)
