@@ -252,25 +252,31 @@ def _of_arx(found: PopulationLimits, arx: ARXLimit | None) -> Iterator[tuple[str
         yield "lags", "none for which it is unique"
         return
     asked = found.experiment.s
-    fewer = "" if arx.lags == asked else f"; {asked} leave a combination of outputs exact, for want of noise (w_filter)"
-    yield "lags", f"{arx.lags}{fewer}"
+    yield "lags", f"{arx.lags}"
+    if arx.lags != asked:
+        yield "", f"with {asked} the limit is not unique: some"
+        yield "", "output has no noise (w_filter)"
     bias = found.arx_bias(arx)
     if all(matrix.is_zero() for matrix in bias):
-        yield "its plant", "the true one: reduced to the order it stays so, whatever colour the input has"
+        yield "its plant", "the true one: reduced to the order it"
+        yield "", "stays so, whatever colour the input has"
         return
     sizes = [abs(float(Fraction(int(x.p), int(x.q)))) for matrix in bias for row in matrix.elements() for x in row]
-    yield "its plant", f"not the true one: its first Markov parameters miss by up to {max(sizes):.3g}"
+    yield "its plant", "not the true one: its first Markov"
+    yield "", f"parameters miss by up to {max(sizes):.3g}"
     if not arx.open_loop:
-        yield "", "the input follows the faults or leads them: more lags do not help"
+        yield "", "the input follows the faults or leads"
+        yield "", "them: more lags do not help"
     elif arx.misfit is None:
-        yield "its misfit", "not known: some combination of outputs is predicted exactly, for want of noise (w_filter)"
+        yield "its misfit", "not known: an output is predicted"
+        yield "", "exactly, for want of noise (w_filter)"
     else:
         share = float(arx.misfit)
-        yield (
-            "its misfit",
-            f"{share:.3g} of the power of what no prediction can know; of the plant reduced to the order at most {4 * share:.3g}",
-        )
-        yield "", "both tend to 0 with more lags, and no state is lost to the colour of the input"
+        yield "its misfit", f"{share:.3g} of the power of what no"
+        yield "", "prediction can know; of the plant"
+        yield "", f"reduced to the order at most {4 * share:.3g}"
+        yield "", "both tend to 0 with more lags, and no"
+        yield "", "state is lost to the input's colour"
 
 
 def _lines(name: str, matrix: Matrix) -> Iterator[tuple[str, str]]:

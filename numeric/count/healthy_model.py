@@ -56,6 +56,7 @@ FEW_TAPERS = 4
 FREEDOM = 8
 """A covariance has so many degrees of freedom for each channel: at eight the whitening costs an eighth of a fault."""
 MOST_LAGS = 32
+STRETCH = 1 << 13  # rows that a triangle takes at a time
 SPENT = 8
 """At most the eighth part of the healthy samples is spent on coefficients of the predictor."""
 
@@ -350,15 +351,27 @@ def _about_means(past: Array, now: Array) -> tuple[Array, Array]:
     return past - past.mean(axis=0), now - now.mean(axis=0)
 
 
+def _triangle(r: Array, u: Array, lags: int) -> Array:
+    """Return the triangle of [u(k), r(k-1) u(k-1) .. r(k-lags) u(k-lags), r(k)] over k = lags .. N - 1: fewer lags are leading columns.
+
+    The rows come STRETCH at a time, so that memory does not grow with the record.
+    """
+    triangle = np.zeros((0, u.shape[1] + (r.shape[1] + u.shape[1]) * lags + r.shape[1]))
+    for start in range(0, max(len(r) - lags, 1), STRETCH):
+        stretch = slice(start, start + STRETCH + lags)
+        past, now = lagged(r[stretch], u[stretch], lags)
+        split = past.shape[1] - u.shape[1]
+        rows = np.vstack([triangle, np.hstack([past[:, split:], past[:, :split], now])])
+        triangle = np.asarray(scipy.linalg.qr(rows, mode="r", overwrite_a=True, check_finite=False)[0])[: rows.shape[1]]
+    return triangle
+
+
 def number_of_lags(r: Array, u: Array) -> int:
     """Return the lags of the predictor; one triangle serves every number of them, over the same samples."""
     samples, p = r.shape
     width, n_u = p + u.shape[1], u.shape[1]
     most = int(np.clip((samples // SPENT - n_u) // width, 0, MOST_LAGS))
-    past, now = lagged(r, u, most)
-    # u(k) first, then the lags, so that fewer lags are leading columns.
-    ordered = np.hstack([past[:, width * most :], past[:, : width * most], now])
-    triangle = np.asarray(scipy.linalg.qr(ordered, mode="r", overwrite_a=True, check_finite=False)[0])[: ordered.shape[1]]
+    triangle = _triangle(r, u, most)
     sizes = np.abs(np.diag(triangle))
     norms = np.linalg.norm(triangle, axis=0)
     if np.any(sizes[-p:] <= 1e-12 * norms[-p:]):
@@ -366,7 +379,7 @@ def number_of_lags(r: Array, u: Array) -> int:
             "healthy: channels are constant, or exact combinations of others and of their past: there is no noise to compare with; "
             "count the faults of such residuals with fault_dimension"
         )
-    count = len(past)
+    count = samples - most
     best, chosen = np.inf, 0
     for lags in range(most + 1):
         spent = n_u + width * lags

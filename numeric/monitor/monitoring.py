@@ -18,6 +18,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData, shorten
 from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
+from ..count.healthy_model import MOST_LAGS
 from ..data.plain import plain
 from ..data.records import Record, recorded
 from ..data.sources import Source, record_from
@@ -35,6 +36,7 @@ SIMULATED = 5_000  # samples of the disturbance of a reduced model, where no hea
 SEED = 1
 LEVEL = 1e-4  # false alarms a sample, where none are stated
 MOST = 100_000  # samples of an Identification that are used: as many as LEVEL needs to be seen
+NUMBERS = 1 << 24  # and no more than the channels with their lags make so many numbers of, 128 MiB
 WINDOW, SHIFT = 20, 1.0  # of the chi-square test, and of the CUSUM, where none are stated
 
 
@@ -384,7 +386,7 @@ def learned_of(found: Any, settings: Settings | None = None) -> Learned:
     record = replace(found.record, offset=np.zeros_like(found.record.offset))  # a stream comes as it is measured
 
     def of(samples: int, *notes: str) -> Learned:
-        part = record.beginning(min(samples, MOST))
+        part = record.beginning(min(samples, MOST, NUMBERS // (MOST_LAGS * (record.p + record.n_u))))
         fitted = innovation_form(plant, part.y, part.u, with_inputs=True)
         allowed = max(2, min(WINDOW, len(fitted.errors) // (LEAST_BLOCKS * MEMORY)))
         small = f"so few samples allow a window of {allowed} samples, not of {WINDOW}"

@@ -12,8 +12,9 @@ from faultspace.exact.system.windows import window_matrix
 from faultspace.proofs.evidence import corpus
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
+from faultspace.proofs.verdict.workbench import Workbench
 
-SOURCES = list(corpus._sources("quick"))[::12]
+SOURCES = list(corpus._sources(Workbench("quick", 1)))[::12]
 ONE_STATE = ResidualSystem.of([[0]], [[1]], [[1]], [[0]])
 
 

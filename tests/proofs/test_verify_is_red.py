@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,14 +13,15 @@ import pytest
 
 from faultspace.cli import verifying
 from faultspace.proofs import verification
+from faultspace.proofs.deciding import Answer, Check
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import theorems as machine_checked
 from faultspace.proofs.rocq.build import DIGESTS, NoRocq, compile_file, compiled_again, compiled_theory
 from faultspace.proofs.rocq.locks import held
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.statements import read
-from faultspace.proofs.verdict.ledger import Reading, load
-from faultspace.proofs.verdict.verdicts import Outcome, ReadingResult, Verdict
+from faultspace.proofs.verdict.ledger import load
+from faultspace.proofs.verdict.verdicts import Outcome, Verdict
 
 CLAIM = "proposition-3"
 TEXTS = sources()
@@ -30,10 +31,12 @@ TEXTS = sources()
 def _no_systems(monkeypatch: pytest.MonkeyPatch) -> None:
     """The systems say what the ledger expects, at once: what is tried here is Rocq's part."""
 
-    def agrees(reading: Reading, bench: object, decided: object) -> ReadingResult:
-        return ReadingResult(reading, Outcome(Verdict(reading.expected), "as expected"), 0.0)
+    expected = {reading.check: reading.expected for claim in load() for reading in claim.readings if claim.id == CLAIM}
 
-    monkeypatch.setattr(verification, "_check", agrees)
+    def agrees(bench: object, tasks: Sequence[Check]) -> dict[Check, Answer]:
+        return {task: Answer(Outcome(Verdict(expected[task.name]), "as expected"), 0.0) for task in tasks}
+
+    monkeypatch.setattr(verification, "decided", agrees)
     monkeypatch.setattr(verification, "ablations", tuple)
 
 
