@@ -52,8 +52,8 @@ def true_angle(system: StudySystem, model: StateSpaceModel, basis: Array) -> flo
 
 
 def test_the_angle_holds_where_one_valley_says_too_little(weak: tuple[StudySystem, Array, Array, ReducedModel]) -> None:
-    """The truth is more than twice as far as the covariance at the estimate says, and inside the angle over all valleys. (Of the first twelve
-    records of this plant, chosen as one whose poles hardly show, the angle held in eight: it is no promise for the weakest plants.)"""
+    """The truth is more than twice as far as the covariance at the estimate says, and inside the angle over all valleys. (Of the first
+    twelve records of this plant, chosen as one whose poles hardly show, the angle held in eight: no promise for the weakest plants.)"""
     system, y, u, model = weak
     found = identified_fault_space(y, u, model, n_v=2)
     assert found.n_z == 4 and found.uncertainty is not None and len(found.uncertainty.valleys) > 1

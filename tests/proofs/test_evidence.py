@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from faultspace.base.progress import silent
 from faultspace.exact.algebra.matrices import Matrix, beside, rank, row_echelon
 from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.record import analyze
@@ -14,7 +15,7 @@ from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
 from faultspace.proofs.verdict.workbench import Workbench
 
-SOURCES = list(corpus._sources(Workbench("quick", 1)))[::12]
+SOURCES = list(corpus._sources(Workbench("quick", 1, silent)))[::12]
 ONE_STATE = ResidualSystem.of([[0]], [[1]], [[1]], [[0]])
 
 
