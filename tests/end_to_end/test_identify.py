@@ -339,7 +339,7 @@ def late_faults(folder: Path, loudness: float, number: int) -> Path:
     return path
 
 
-@pytest.mark.parametrize("number", [1, 2])
+@pytest.mark.parametrize("number", [pytest.param(1, marks=pytest.mark.slow), 2])
 def test_faults_are_counted_against_healthy_samples(number: int, tmp_path: Path) -> None:
     path, channels = late_faults(tmp_path, 1.0, number), ("--inputs", "u", "--outputs", "y")
     alone = identified(path, tmp_path / "alone", "--json", "--order", "3", channels=channels).json

@@ -180,6 +180,7 @@ def test_what_the_rank_of_the_limit_does_not_tell(name: str, rank: int, told: st
     assert answer["limit_rank"] == rank and answer["leading_vectors_span_observability_range"] == leading
 
 
+@pytest.mark.slow
 def test_ten_states_four_inputs_twelve_block_rows_in_ten_seconds(tmp_path: Path) -> None:
     from benchmarks.limits import experiment
 

@@ -201,7 +201,7 @@ def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> flo
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc to read the peak of memory from")
 @pytest.mark.long
-@pytest.mark.parametrize("format", ["csv", pytest.param("parquet", marks=pytest.mark.slow), pytest.param("npy", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("format", [pytest.param("csv", marks=pytest.mark.slow), pytest.param("parquet", marks=pytest.mark.slow), "npy"])
 def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> None:
     if format == "parquet" and importlib.util.find_spec("pyarrow") is None:
         pytest.skip("pyarrow is not installed")
@@ -221,8 +221,6 @@ def test_memory_does_not_grow_with_the_record(format: str, tmp_path: Path) -> No
             importlib.import_module("pyarrow.parquet").write_table(pyarrow.table(columns), path, row_group_size=20_000)
         peaks.append(peak(path, channels))
     numbers = 8 * 5 * (sizes[1] - sizes[0]) / 2**20  # MiB of the record alone, the residual and the signal not counted
-    # What the C library keeps differs by some 10 MiB from run to run; what the record takes it takes in every run.
-    if peaks[1] - peaks[0] >= numbers / 2:
-        peaks[1] = min(peaks[1], peak(path, channels))
     print(f"{format}: {peaks[0]:.0f} MiB at {sizes[0]} samples, {peaks[1]:.0f} at {sizes[1]}; {numbers:.0f} MiB more numbers")
-    assert peaks[1] - peaks[0] < numbers / 2, peaks
+    # What the C library keeps differs by 10 MiB from run to run. Were the record held in memory, so would be the residual: 22 MiB together.
+    assert peaks[1] - peaks[0] < numbers, peaks

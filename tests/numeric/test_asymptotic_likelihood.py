@@ -114,6 +114,7 @@ def test_a_state_too_many_costs_little() -> None:
     assert divergences(order=3).mean() < 2 * ATTAINED
 
 
+@pytest.mark.slow
 def test_a_flat_weight_does_not_attain_the_bound(monkeypatch: pytest.MonkeyPatch) -> None:
     """The measure notices an estimator that is broken on purpose."""
     whole = reduced_model.reduction_problem
@@ -327,6 +328,7 @@ def test_a_closed_loop_is_told_and_a_delay_in_it_does_no_harm() -> None:
     assert "u follows what disturbed y" in at_once.notes[-1] and at_once.model.D[0, 0] < -3 * at_once.uncertainty.markov(1)[0, 0, 0]
 
 
+@pytest.mark.slow
 def test_an_open_loop_is_called_closed_as_seldom_as_is_said() -> None:
     """The chance is uniform in open loop, whatever the colour of u: of 200, each tenth holds 20, with a deviation of 4.2."""
     chances = []

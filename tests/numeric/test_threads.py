@@ -66,6 +66,7 @@ def with_threads(number: int, jobs: int) -> list[str]:
     return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.split()
 
 
+@pytest.mark.slow
 def test_answers_are_the_same_bytes_whatever_the_threads_and_the_jobs() -> None:
     assert with_threads(1, 1) == with_threads(2, 2)
 

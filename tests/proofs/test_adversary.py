@@ -70,6 +70,7 @@ def test_without_its_sign_test_the_engine_does_not_find_it(monkeypatch: pytest.M
     assert trial.evaluations > 100
 
 
+@pytest.mark.slow
 def test_where_no_zero_is_rational_two_exact_points_of_opposite_sign_prove_one() -> None:
     one = attack("proposition-1.two-sided-range by a double pole and a moving average")
     assert one.exact is not None

@@ -146,6 +146,7 @@ def once(again: Callable[[Mapping[str, str]], dict[str, bytes]]) -> Callable[[Ma
 
 @pytest.mark.long
 @pytest.mark.timeout(900)
+@pytest.mark.slow
 def test_a_poisoned_cache_is_told(place: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """It is poisoned in four ways, one after the other, each with digests that are right; what was there before each is put back.
     What coqc makes of our vocabularies, to compare with, is made once."""
