@@ -147,6 +147,7 @@ def test_records_without_noise_have_their_states_exactly() -> None:
 
 
 def test_the_frame_counts_samples_in_each_experiment() -> None:
+    pytest.importorskip("pandas")
     frame = found_in_three().to_pandas()
     numbers = frame[("experiment", "number")].to_numpy()
     assert np.array_equal(np.bincount(numbers), [0, 300, 250, 400]) and list(frame.index[298:302]) == [298, 299, 0, 1]
