@@ -13,11 +13,12 @@ from rich.text import Text
 
 from ..base.errors import quote_path
 from ..base.messages import say
+from ..base.writing import write_text
 from ..example_data import FILE_NAME, INPUTS, OUTPUTS, csv_text, faulty_record
 from ..packaged_examples import DESCRIPTIONS, EXPERIMENTS, PREFIX, content
 from .consoles import answers, paragraph, print_json
 from .failures import ANSWERED
-from .reading_files import prepare_folder, write_json, write_text
+from .reading_files import prepare_folder, write_json
 
 RESULT = "result"  # the folder beside the record that the printed command writes into
 

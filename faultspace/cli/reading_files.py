@@ -3,7 +3,7 @@
     read_json       the document in a file, strictly: UTF-8, no key twice, no NaN, bounded size
     read_system     the system in a file; the model of `identify` too, where floats are taken exactly
     read_experiment the experiment in a file
-    write_json      a document into a file, whole or not at all; write_text a text
+    write_json      a document into a file, whole or not at all
     prepare_folder  makes a folder to write into, or says why not
 
 A name is a path, "-" for standard input or "example:NAME" for an example that comes with the package. Everything that is wrong raises
@@ -13,7 +13,6 @@ InvalidInput with one line: the file, the place in it, what was got, what was ex
 from __future__ import annotations
 
 import json
-import os
 import sys
 import tempfile
 from collections.abc import Callable
@@ -23,6 +22,7 @@ from typing import Any
 
 from .. import packaged_examples
 from ..base.errors import InvalidInput, in_file, quote_path, shorten
+from ..base.writing import reason, write_text
 from ..exact.algebra.validation import MAX_FILE_BYTES
 from ..exact.limits.experiments import Experiment
 from ..exact.limits.experiments import read_experiment as experiment_of
@@ -88,22 +88,6 @@ def write_json(path: Path, document: object) -> None:
     write_text(path, json.dumps(document, indent=1, sort_keys=True) + "\n")
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write the text beside the file at `path` and rename it, so that no half-written file is ever seen there."""
-    try:
-        descriptor, temporary = tempfile.mkstemp(prefix=".unfinished-", dir=path.parent)
-        try:
-            with open(descriptor, "w", encoding="utf-8") as stream:
-                stream.write(text)
-            os.chmod(temporary, 0o644)
-            os.replace(temporary, path)
-        except BaseException:
-            os.unlink(temporary)
-            raise
-    except OSError as error:
-        raise InvalidInput(f"{quote_path(str(path))}: cannot be written ({_reason(error)})") from None
-
-
 def prepare_folder(folder: Path) -> None:
     """Make the folder and try to write into it, before anything else is done. Raises InvalidInput when that fails."""
     try:
@@ -112,7 +96,7 @@ def prepare_folder(folder: Path) -> None:
             pass
     except (OSError, ValueError) as error:
         name = quote_path(str(folder))
-        raise InvalidInput(f"{name}: cannot be written into ({_reason(error)}), expected a folder that can") from None
+        raise InvalidInput(f"{name}: cannot be written into ({reason(error)}), expected a folder that can") from None
 
 
 def _system_of_model(model: dict[str, object]) -> dict[str, object]:
@@ -153,15 +137,10 @@ def _content(name: str) -> bytes:
     except InvalidInput:
         raise
     except (OSError, ValueError) as error:
-        raise InvalidInput(f"cannot be read ({_reason(error)}), expected a JSON file") from None
+        raise InvalidInput(f"cannot be read ({reason(error)}), expected a JSON file") from None
     if len(content) > MAX_FILE_BYTES:
         raise InvalidInput(f"got more than {MAX_FILE_BYTES} bytes, expected at most that")
     return content
-
-
-def _reason(error: Exception) -> str:
-    text = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-    return text[:1].lower() + text[1:]
 
 
 def _object(pairs: list[tuple[str, object]]) -> dict[str, object]:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
 from ...base.errors import InvalidInput, quote_path
+from ...base.writing import reason, write_text
 from .learned import FORMAT
 
 MODEL = "model.json"  # what `identify` calls it; a test compares the two
@@ -23,18 +23,7 @@ def write(path: str | os.PathLike[str], document: dict[str, Any]) -> None:
     """Write the document of a monitor. Raises InvalidInput where that cannot be, or where a file that is none is there already."""
     target = Path(path)
     refuse(target)
-    try:
-        descriptor, temporary = tempfile.mkstemp(prefix=".unfinished-", dir=target.parent)
-        try:
-            with open(descriptor, "w", encoding="utf-8") as stream:
-                stream.write(json.dumps(document, allow_nan=False) + "\n")
-            os.chmod(temporary, 0o644)
-            os.replace(temporary, target)
-        except BaseException:
-            os.unlink(temporary)
-            raise
-    except OSError as error:
-        raise InvalidInput(f"{quote_path(str(target))}: cannot be written ({_reason(error)}), expected another path") from None
+    write_text(target, json.dumps(document, allow_nan=False) + "\n")
 
 
 def refuse(path: Path) -> None:
@@ -59,11 +48,6 @@ def read(path: str | os.PathLike[str]) -> Any:
     try:
         return json.loads(source.read_text(encoding="utf-8-sig"))
     except OSError as error:
-        raise InvalidInput(f"{quote_path(str(source))}: cannot be read ({_reason(error)}), expected a saved monitor or a model") from None
+        raise InvalidInput(f"{quote_path(str(source))}: cannot be read ({reason(error)}), expected a saved monitor or a model") from None
     except (ValueError, RecursionError):
         raise InvalidInput(f"{quote_path(str(source))}: got no JSON, expected a saved monitor or a model.json of identify") from None
-
-
-def _reason(error: OSError) -> str:
-    text = error.strerror or str(error)
-    return text[:1].lower() + text[1:]
