@@ -97,9 +97,10 @@ def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:
 
 
 def noise_mix(answer: Findings) -> Array | None:
-    """Return the mixture (p, p) of the outputs that has white noise across them by the healthy samples; None without such samples."""
+    """Return the mixture (p, p) of the outputs that has white noise across them by the healthy samples; None without such samples, and for
+    a model of PI-MOESP, of which the space is sought in the outputs themselves."""
     rest = answer.residual
-    if not answer.healthy or rest is None or rest.fitted or rest.covariance is None:
+    if not isinstance(answer.model, ReducedModel) or not answer.healthy or rest is None or rest.fitted or rest.covariance is None:
         return None
     return whitening(rest.covariance)
 

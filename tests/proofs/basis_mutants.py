@@ -74,7 +74,7 @@ def quadratic(rng: Random, rows: Rows) -> None:
 
 
 def left_out(rng: Random, rows: Rows) -> None:
-    """A row less."""
+    """Leave a row out."""
     del rows[rng.randrange(len(rows))]
 
 
