@@ -240,13 +240,18 @@ def determinant_polynomial(table: list[list[list[int]]], degree: int, prime: int
     A polynomial of that degree is the one that has its values at 0, ..., degree, by divided differences.
     """
     size, longest = len(table), max((len(f) for row in table for f in row), default=0)
-    if size == 1:
-        return (table[0][0] + [0] * degree)[: degree + 1]
-    charge((degree + 1) * (2000 + size**2 * (300 + 80 * longest + 40 * size) + 250 * degree), 200 * (degree + size**2 + longest))
-    values = list[int]()
+    if size < 2:
+        return ((table[0][0] if table else [1]) + [0] * degree)[: degree + 1]
+    charge(
+        (degree + 1) * (2000 + size**2 * (500 + 40 * longest + 40 * size) + 250 * degree + 200 * longest),
+        200 * size**2 * (degree + longest),
+    )
+    width, values, entries = slot(prime, longest), list[int](), [f + [0] * (longest - len(f)) for row in table for f in row]
+    coefficients = [packed(column, width) for column in zip(*entries, strict=True)]
     for q in range(degree + 1):
-        powers = [*accumulate(repeat(q, longest - 1), lambda power, q: power * q % prime, initial=1)]
-        values.append(determinant([[sum(map(mul, f, powers)) % prime for f in row] for row in table], prime))
+        powers = accumulate(repeat(q, longest - 1), lambda power, q: power * q % prime, initial=1)
+        found = unpacked(sum(map(mul, coefficients, powers)), width, size**2, prime)
+        values.append(determinant([found[i : i + size] for i in range(0, size**2, size)], prime))
     for k in range(1, degree + 1):
         inverse = pow(k, -1, prime)
         values[k:] = [(y - x) * inverse % prime for x, y in zip(values[k - 1 :], values[k:], strict=False)]
@@ -466,10 +471,12 @@ class System:
         first = determinant_polynomial([[[c[n + j] for c in row] for j in pivots] for row in conditions], degree, prime)
         require(first[degree], "the leading coefficients of the rows at the pivots are dependent")
         charge(len(rows) * (n + self.p) * (1500 + 80 * terms), 80 * len(rows) * (n + self.p + terms))
-        powers = [*accumulate(repeat(mix, n + self.p - 1), lambda power, mix: power * mix % prime, initial=mix)]
-        columns = [[pow(power, b + 1, prime) for power in powers] for b in range(len(rows))]
-        mixed = [[[sum(map(mul, c, column)) % prime for c in row] for column in columns] for row in conditions]
-        require(coprime(first, determinant_polynomial(mixed, degree, prime), prime), "the rows may have a common factor")
+        powers = accumulate(repeat(mix, n + self.p - 1), lambda power, mix: power * mix % prime, initial=mix)
+        size, count = slot(prime, n + self.p), len(rows)
+        weights = [packed([pow(power, b + 1, prime) for b in range(count)], size) for power in powers]
+        mixed = [[*zip(*(unpacked(sum(map(mul, c, weights)), size, count, prime) for c in row), strict=True)] for row in conditions]
+        second = determinant_polynomial([[[*f] for f in row] for row in mixed], degree, prime)
+        require(coprime(first, second, prime), "the rows may have a common factor")
         require(self.pencil_rank(w) >= n + self.p - len(rows), "there may be more rows")
 
     def unhinted(self, pivots: list[int], rows: list[Vectors], window: int | None) -> None:
