@@ -160,6 +160,12 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
     if answer.n_v == 0 and answer.count is None:
         answer = replace(answer, reason=f"{answer.reason}; a fault that is constant over the whole record would not be seen")
     if answer.means_removed:
+        if answer.n_v == 0 and not answer.operating_point.stated:
+            reason = (
+                f"{answer.reason}; but a constant fault would have gone with the means, which are the operating point unless one acts: "
+                'operating_point="means" says that none does'
+            )
+            return replace(answer, n_v=None, possible=(), reason=reason, counted_by=None)
         return answer
     mean = mean_about_zero(r[:MEANS_FROM])
     notes = answer.notes

@@ -196,18 +196,24 @@ def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u:
     return found
 
 
-def mean_about_zero(r: ArrayLike, *, level: float = LEVEL) -> MeanShift:
-    """Test whether the mean of a residual r (N, p) differs from zero, by its own noise at frequency zero. It is undecided as `mean_shift`
-    is."""
-    residual, _ = residual_and_inputs(r, None)
+def mean_about_zero(r: ArrayLike, u: ArrayLike | None = None, *, level: float = LEVEL) -> MeanShift:
+    """Test whether r (N, p) with inputs u (N, n_u) needs a constant beside its lags, by its own noise at frequency zero.
+
+    `shift` is then where r rests with the inputs at zero: its mean where there are none. It is undecided as `mean_shift` is. The error of
+    the coefficients counts as it does there, with the means that a rest at zero would give.
+    """
+    residual, inputs = residual_and_inputs(r, u)
     try:
-        reference = mean_reference(residual)
+        reference = _learnt(residual, inputs)
     except InvalidData as error:
         return MeanShift(None, str(error), level)
     if reference.nearest * reference.samples < UNIT_ROOT:
         return MeanShift(None, "the residual wanders like a random walk: its mean says nothing", level)
-    e = np.asarray(reference.still @ (residual.mean(axis=0) / reference.scales))
-    return _judged(reference, e, 1.0 / reference.samples, level)
+    means = _regressors(residual / reference.scales, inputs / reference.input_scales, reference.lags)[0].mean(axis=0)
+    still = means.copy()
+    still[0] = 0.0
+    h = float(np.sum((reference.root @ (means - _expected(reference, still))) ** 2))
+    return _judged(reference, reference.coefficients[0], h, level)
 
 
 def _tested(reference: MeanReference, r: Array, u: Array, level: float) -> MeanShift:
