@@ -298,8 +298,10 @@ def test_numbers_of_single_precision_are_answered() -> None:
 def test_without_healthy_samples_a_mean_is_reported_and_decides_nothing() -> None:
     y, u = biased(9, 0)
     answer = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
-    assert answer.n_v is None and any("an operating point, or a constant fault" in note for note in answer.notes)
-    assert valid("identify", report.document(answer, "record") | {"files": []})["mean_shift"]["against"] == "zero"
+    assert answer.n_v is None and answer.operating_point.of == "whole record"
+    kept = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3, operating_point="zero")
+    assert kept.n_v is None and any("an operating point, or a constant fault" in note for note in kept.notes)
+    assert valid("identify", report.document(kept, "record") | {"files": []})["mean_shift"]["against"] == "zero"
     still = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3, operating_point="means")
     assert still.mean is None and not still.moved
 
