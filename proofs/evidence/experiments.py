@@ -24,11 +24,11 @@ from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.algebra.stability import is_stable, rational_characteristic_polynomial
 from ...exact.limits.experiments import Experiment, read_experiment
-from ...exact.limits.moesp import PopulationLimits, limit
+from ...exact.limits.moesp import limit
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
-from ..trust import limit_certificates as make
-from ..trust.structure_certificates import Certificate, Unprovable, accept
+from ..trust.limit_certificates import certificates_of
+from ..trust.structure_certificates import accept
 from .material import Material
 from .seasonal_inputs import in_order, seasonal
 
@@ -101,17 +101,6 @@ class LimitEvidence:
     def one_sided(self) -> bool:
         """This says whether u and v are uncorrelated at all lags l >= 0, as the assumption is printed."""
         return self.past_lags and self.same_time
-
-
-def certificates_of(found: PopulationLimits) -> list[Certificate]:
-    """Certificates of both limits, and of each regression that has a unique limit."""
-    made = [make.past_input_limit(found), make.past_input_and_output_limit(found)]
-    for regression in (make.output_error_inputs, make.moesp_inputs):
-        try:
-            made.append(regression(found))
-        except Unprovable:
-            continue
-    return made
 
 
 def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:

@@ -20,9 +20,10 @@ from ...exact.limits.lyapunov import solve
 from ...exact.limits.moesp import PopulationLimits, limit
 from ...exact.system.systems import ResidualSystem
 from ..claims.proposition_1 import show_words
-from ..evidence.experiments import LIMITS, LimitEvidence, certificates_of, examine_experiment
+from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment
 from ..evidence.material import Material
 from ..trust import structure_certificates as make
+from ..trust.limit_certificates import certificates_of
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, first_found
 from ..verdict.workbench import Workbench
