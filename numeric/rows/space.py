@@ -42,6 +42,7 @@ from ..space.uncertainty import space_uncertainty, turned_by_model
 from .bootstrap import redrawn
 from .degree import MISFITS, LeastDegree, freedom, least_degree, likelihood_ratio
 from .evidence import longest_degree
+from .from_above import from_above
 from .joint import JointMoments, course, even_split, fitted, joint_moments, joint_moments_experiments, padded, refitted
 
 Experiments = Sequence[tuple[Array, Array]]
@@ -243,7 +244,7 @@ def _fitted(
     if noise_level is not None:
         powers = (noise_deviations(noise_level, p) / data.scale[:p]) ** 2
         shares = powers / np.exp(np.mean(np.log(powers)))
-    fits = course(data, rows, seen + BEYOND, shares=shares)
+    fits = from_above(data, course(data, rows, seen + BEYOND, shares=shares), shares=shares)
     chosen = least_degree(data, fits, n + faults - largest, seen)
     misfits: Sequence[float] = MISFITS
     if draws:
