@@ -57,7 +57,7 @@ def three() -> tuple[Pair, ...]:
 
 @cache
 def found_in_three() -> Identification:
-    return fs.identify(*columns(three()), order=2, remove_means=True)
+    return fs.identify(*columns(three()), order=2, operating_point="means")
 
 
 def in_states_of(model: StateSpaceModel) -> Array:
@@ -92,7 +92,7 @@ def test_no_window_goes_across_two_experiments() -> None:
     first, second, third = three()
     joint = found_in_three().model
     assert isinstance(joint, ReducedModel)
-    swapped = fs.identify(*columns([third, first, second]), order=2, n_v=0, remove_means=True).model
+    swapped = fs.identify(*columns([third, first, second]), order=2, n_v=0, operating_point="means").model
     assert swapped is not None and np.allclose(swapped.model.markov(6), joint.model.markov(6), atol=1e-6)
     across = arx_reduction(np.vstack([first[0], second[0], third[0]]), np.vstack([first[1], second[1], third[1]]), order=2)
     assert np.max(np.abs(across.model.markov(6) - joint.model.markov(6))) > 1e-3
