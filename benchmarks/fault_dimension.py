@@ -160,8 +160,8 @@ def constants(trials: int, seed: int, samples: int) -> None:
                 u = inputs if cell.model == "identified" else None
                 for name, factor in answers:
                     with patch.object(residual_laws, name, usual[name] * factor):
-                        found = fault_dimension(r, u=u).n_v
-                    answers[name, factor]["undecided" if found is None else "right" if found == cell.m else "wrong"] += 1
+                        n_v = fault_dimension(r, u=u).n_v
+                    answers[name, factor]["undecided" if n_v is None else "right" if n_v == cell.m else "wrong"] += 1
     print(f"right/wrong of {trials * len(cells)} records, N = {samples}, seed {seed}, by factor")
     print(f"{'':>12} {'now':>6} " + " ".join(f"{factor:>7g}" for factor in FACTORS) + f"  most right with under {MOST_WRONG:.0%} wrong")
     for name in CONSTANTS:

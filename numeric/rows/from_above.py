@@ -49,7 +49,7 @@ def divided(rows: Sequence[Array], degrees: Sequence[int]) -> list[Array]:
     product = np.zeros((highest + 1, highest))
     product[np.arange(highest), np.arange(highest)] = -root
     product[np.arange(1, highest + 1), np.arange(highest)] = 1.0
-    quotient = np.linalg.lstsq(product, np.tensordot(mix, stacked, axes=1), rcond=None)[0]
+    quotient: Array = np.asarray(np.linalg.lstsq(product, np.tensordot(mix, stacked, axes=1), rcond=None)[0], dtype=np.float64)
     longest = [i for i, row in enumerate(rows) if len(row) == highest + 1]
     replaced = max(longest, key=lambda i: abs(mix[i]))
     kept = [quotient if i == replaced else row for i, row in enumerate(rows)]

@@ -226,7 +226,7 @@ class _Point:
     W = (N Y)^-1 (bands, k, k), and tr[W E] a row in each band, `power` (bands,)."""
 
     h: Array
-    X: ComplexArray
+    X: ComplexArray | Array
     Y: ComplexArray
     E: ComplexArray | Array
     W: ComplexArray
