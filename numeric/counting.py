@@ -93,6 +93,8 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
     assert sizes is not None
     try:
         y, u = record.stretch(*looked_at(answer))
+        # Beside an estimated model, what it errs by is small and has no clear rank; outputs and inputs have theirs without it.
+        r = y if answer.exact and isinstance(answer.model, ReducedModel) else r
         found = fault_dimension(r.astype(np.float32) if record.single and answer.exact else r, u=u)
     except InvalidData as error:
         return replace(answer, reason=str(error))

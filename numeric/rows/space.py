@@ -44,6 +44,7 @@ from ..space.uncertainty import space_uncertainty, turned_by_model
 from .bootstrap import redrawn
 from .degree import SLACK, LeastDegree, freedom, least_degree, likelihood_ratio, misfits
 from .evidence import arx_of, longest_degree
+from .from_above import from_above
 from .joint import JointMoments, course, even_split, joint_moments, joint_moments_experiments, padded, polished, refitted
 from .remainder import as_signals, loose_samples
 
@@ -275,7 +276,7 @@ def _fitted(
     if noise_level is not None:
         powers = (noise_deviations(noise_level, p) / data.scale[:p]) ** 2
         shares = powers / np.exp(np.mean(np.log(powers)))
-    coarse = course(data, rows, seen + BEYOND, shares=shares)
+    coarse = from_above(data, course(data, rows, seen + BEYOND, shares=shares), shares=shares)
     data = pooled(records, data.degree, _narrow(data))
     fits = polished(data, coarse, n + faults - largest, shares)
     expected = misfits(len(fits) - 1, data, _loose(records, data, fits[-1], shares, n, arx))
