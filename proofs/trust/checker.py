@@ -371,7 +371,8 @@ class Field:
         steps, most = max(map(len, rows), default=0), max((abs(x) for row in rows for v in row for x in v), default=0)
         w = most.bit_length() + steps * max(den, largest).bit_length() + 1
         wide, factors = w * len(rows), steps * den.bit_length()  # bits of a number with all rows, of the last factor
-        charge(steps * cells * (150 + (wide >> 6) + (size * wide >> 10)), (len(A) + len(C)) * wide // 3)
+        entries = sum(x.bit_length() for column in states + faults for x in column)
+        charge(steps * (cells * (150 + (wide >> 6)) + (entries * wide >> 10)), (len(A) + len(C)) * wide // 3)
         charge(steps * len(C) * (len(rows) * (300 + (wide >> 4)) + (wide * factors >> 10)), len(C) * (wide + factors) // 3)
         carried, factor, found = [0] * len(A), 1, []
         for k in reversed(range(steps)):
@@ -501,6 +502,7 @@ class System:
     def window_ranks(self, s: Json, w: Json) -> None:
         r, p = index(s["normal_rank"], "normal_rank"), self.p
         expect(("kernel" in w) != ("kernel_modulo" in w), "witness: expected one of kernel and kernel_modulo")
+        expect("kernel_modulo" in w or "nulling" not in w, "witness: nulling goes with kernel_modulo")
         pivots, rows = self.field.kernel_rows(w.get("kernel", w.get("kernel_modulo")), p)
         if "kernel" in w:
             self.spanned_by(pivots, rows, w)
@@ -515,14 +517,20 @@ class System:
     def spanned_modulo(self, pivots: list[int], rows: list[Vectors], w: Json) -> None:
         """Reject unless that holds modulo the prime, and no window can have a rank above p s - sum of max(0, s - mu) whatever the rows are.
 
-        [O_s T_s] has p s rows and n + m s columns. Where there are no rows, p s is the bound. Else let there be p - m, with degrees that
-        add up to n and differ by one at most: for s up to the least the bound is p s, from the largest on it is p s - (p - m) s + n.
+        [O_s T_s] has p s rows and n + m s columns, of which d + e s are seen to depend on others (`nulled`: none, where nothing is said).
+        Where there are no rows, p s is the bound. Else let there be p - m + e, with degrees that add up to n - d and differ by one at most:
+        for s up to the least the bound is p s, from the largest on it is p s - (p - m + e) s + n - d.
         """
         expect(not self.field.prime and {"mix", "point"} <= {*w}, "witness: kernel_modulo needs a point and a mix, and no prime field")
-        degrees = [len(row) - 1 for row in rows]
-        generic = not rows or (len(rows) == self.p - self.m and sum(degrees) == self.n and degrees[-1] - degrees[0] <= 1)
+        degrees, (d, e) = [len(row) - 1 for row in rows], self.nulled(w["nulling"]) if "nulling" in w else (0, 0)
+        generic = not rows or (len(rows) == self.p - self.m + e and sum(degrees) == self.n - d and degrees[-1] - degrees[0] <= 1)
         require(generic, "the indices are not those of windows that have all the rank that their shape allows")
         self.minimal(pivots, [self.field.residues(row) for row in rows], w)
+
+    def nulled(self, given: Json) -> tuple[int, int]:
+        """Return (d, e) where [O_s T_s] is seen to have d + e s independent null vectors for every s."""
+        expect(False, "witness: nulling is for checker_structure.py, which is another file")
+        return 0, 0
 
     def left_invertible(self, s: Json, w: Json) -> None:
         expect("point" in w, "witness: without a point it is for checker_fields.py, which is another file")
@@ -563,7 +571,7 @@ class Kind(NamedTuple):
 
 KINDS: dict[str, Kind] = {
     "window-ranks": Kind(System.window_ranks, "system normal_rank left_minimal_indices window_ranks?",
-        f"{MODULAR} kernel? kernel_modulo? point? mix?",
+        f"{MODULAR} kernel? kernel_modulo? nulling? point? mix?",
         "for every s >= 1: rank [O_s T_s] = {normal_rank} s + sum of min(s, eta), eta the left minimal indices {left_minimal_indices}",
         "Both bounds on the rank of [O_s T_s] are p s - sum of max(0, s - mu), which is this formula, r being p minus the number of rows."),
     "left-invertible": Kind(System.left_invertible, "system", f"{MODULAR} point?",
