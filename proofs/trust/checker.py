@@ -17,8 +17,6 @@ these arguments (KINDS says in a line how each kind follows from them):
   lower bounds  Ranks modulo a prime never exceed the true ones. There the rows are seen to be a minimal basis of all that vanish, once for
                 every s (`System.minimal`).
   together      Where both bounds meet, the left null space of [O_s T_s] is spanned by the rows and their shifts.
-  packing       Vectors of residues, and integer rows, stand in slots of one number, wide enough that nothing is carried from one to the
-                next (`packed`, `Field.seen`).
 
 Conventions, the same everywhere (FORMAT.md says them with the notation). Signals are columns: [O_s T_s] has the block rows r(0), ...,
 r(s-1) and the block columns x(0), v(0), ..., v(s-1). Kernel rows and left null rows are rows, and multiply from the left; a row has one
@@ -60,10 +58,7 @@ if 0 < sys.get_int_max_str_digits() < 19730:  # Python's own bound is below that
 class Meter:
     """This is what a certificate has cost so far: work in all, and the bytes that its matrices hold now."""
 
-    __slots__ = ("held", "work")
-
-    def __init__(self) -> None:
-        self.held = self.work = 0
+    held = work = 0
 
 
 _meter: ContextVar[Meter] = ContextVar("meter")
@@ -223,30 +218,29 @@ def determinant(rows: list[list[int]], prime: int) -> int:
     """Return a determinant modulo a prime."""
     value, rows = 1, rows[:]
     while rows:
-        lead = next((row for row in rows if row[-1]), None)
-        if lead is None:
+        k = next((k for k, row in enumerate(rows) if row[-1]), None)
+        if k is None:
             return 0
-        value = value * lead[-1] * (-1 if (len(rows) - 1 - rows.index(lead)) % 2 else 1) % prime
-        rows.remove(lead)
-        inverse, lead = pow(lead[-1], -1, prime), lead[:-1]
-        rest = ((row[:-1], row[-1] * inverse % prime) for row in rows)
-        rows = [[(x - c * y) % prime for x, y in zip(row, lead, strict=True)] if c else row for row, c in rest]
+        *lead, last = rows.pop(k)
+        value, inverse = value * (-last if (len(rows) - k) % 2 else last) % prime, pow(last, -1, prime)
+        weighted = ((row, row[-1] * inverse % prime) for row in rows)
+        rows = [[(x - c * y) % prime for x, y in zip(row, lead, strict=False)] for row, c in weighted]
     return value
 
 
-def determinant_polynomial(table: list[list[list[int]]], degree: int, prime: int) -> list[int]:
+def determinant_polynomial(table: Sequence[Sequence[Sequence[int]]], degree: int, prime: int) -> list[int]:
     """Return det of a square matrix of polynomials modulo a prime above its degree, which is `degree` at most: degree + 1 coefficients.
 
     A polynomial of that degree is the one that has its values at 0, ..., degree, by divided differences.
     """
     size, longest = len(table), max((len(f) for row in table for f in row), default=0)
     if size < 2:
-        return ((table[0][0] if table else [1]) + [0] * degree)[: degree + 1]
+        return [*(table[0][0] if table else [1]), *[0] * degree][: degree + 1]
     charge(
         (degree + 1) * (2000 + size**2 * (500 + 40 * longest + 40 * size) + 250 * degree + 200 * longest),
         200 * size**2 * (degree + longest),
     )
-    width, values, entries = slot(prime, longest), list[int](), [f + [0] * (longest - len(f)) for row in table for f in row]
+    width, values, entries = slot(prime, longest), list[int](), [[*f] + [0] * (longest - len(f)) for row in table for f in row]
     coefficients = [packed(column, width) for column in zip(*entries, strict=True)]
     for q in range(degree + 1):
         powers = accumulate(repeat(q, longest - 1), lambda power, q: power * q % prime, initial=1)
@@ -405,7 +399,8 @@ class System:
         expect(self.n + self.m + self.p <= MAX_DIMENSION, f"system: n + m + p is above {MAX_DIMENSION}")
         blocks = [self.block(data[name], sizes[nr], sizes[nc], name) for name, nr, nc in self.SHAPES if name in data]
         self.A, self.F, self.C, self.G = blocks[:4]
-        self.nu, self.inputs = sizes.get("nu", 0), blocks[4:]
+        self.nu = sizes.get("nu", 0)
+        self.inputs: Sequence[Table] = blocks[4:]
         self.data, self.image = data, Vectors()
         self.key: tuple[Any, ...] = (self.field.key, self.n, self.m, self.p, blocks[:4])
 
@@ -476,8 +471,7 @@ class System:
         size, count = slot(prime, n + self.p), len(rows)
         weights = [packed([pow(power, b + 1, prime) for b in range(count)], size) for power in powers]
         mixed = [[*zip(*(unpacked(sum(map(mul, c, weights)), size, count, prime) for c in row), strict=True)] for row in conditions]
-        second = determinant_polynomial([[[*f] for f in row] for row in mixed], degree, prime)
-        require(coprime(first, second, prime), "the rows may have a common factor")
+        require(coprime(first, determinant_polynomial(mixed, degree, prime), prime), "the rows may have a common factor")
         require(self.pencil_rank(w) >= n + self.p - len(rows), "there may be more rows")
 
     def unhinted(self, pivots: list[int], rows: list[Vectors], window: int | None) -> None:
@@ -489,9 +483,7 @@ class System:
         require(not any(self.field.seen(self, rows, self.F, self.G)), "a row does not annihilate the system")
 
     def spanned_by(self, pivots: list[int], rows: list[Vectors], w: Json, window: int | None = None) -> None:
-        """Reject unless the rows, those of degree below any window, and their shifts span the left null space of [O_s T_s], on that window
-        or on every one.
-        """
+        """Reject unless the rows of degree below s and their shifts span the left null space of [O_s T_s]: s = window, or every s."""
         expect(("mix" in w) == ("point" in w), "witness: point and mix go together")
         if "mix" in w:
             self.minimal(pivots, [self.field.residues(row) for row in rows], w)
@@ -600,9 +592,7 @@ def subject(data: Json) -> System:
 
 
 def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified:
-    """Return the statement, once verified. Raises Malformed or Rejected. Every one of `systems` (JSON or read) must be one of the
-    statement's.
-    """
+    """Return the statement, once verified; each of `systems` (JSON or read) must be one of its own. Raises Malformed, Rejected."""
     insisted = [data if isinstance(data, System) else subject(data) for data in systems]
     begin()
     keys(certificate, "format kind statement witness", "certificate")

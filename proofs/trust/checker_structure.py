@@ -198,6 +198,7 @@ class System(fields.System):
     F: Mat
     C: Mat
     G: Mat
+    inputs: Sequence[Mat]
 
     def block(self, value: core.Json, nr: int, nc: int, where: str) -> Mat:
         return matrix(self.field, value, nr, nc, where)
