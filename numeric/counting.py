@@ -82,13 +82,13 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
 
 def _counted(answer: Findings, faults: int | None, on_progress: Progress) -> Findings:
     """Count on the samples that are held. Raises LinAlgError where numbers are too unequal."""
-    assert answer.residual is not None
-    r = beyond_rounding(answer)
+    rest, r = answer.residual, beyond_rounding(answer)
+    assert rest is not None
     answer = _by_ranks(answer, r)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         # Not those set to zero: rounding is held against rounding.
         if answer.healthy:
-            answer = _against_healthy(answer, answer.residual.store.read(*answer.held), faults, on_progress)
+            answer = _against_healthy(answer, rest.store.read(*answer.held), faults, on_progress)
         else:
             answer = _about_zero(answer if answer.exact else for_each(_by_laws(answer, on_progress), with_changes), r)
         return beside_changes(answer)
