@@ -57,7 +57,7 @@ def asked_for(operating_point: object) -> str | None:
     if operating_point is None or (isinstance(operating_point, str) and operating_point in ASKED):
         return operating_point
     choices = " or ".join(f'"{word}"' for word in ASKED)
-    raise InvalidData(f"operating_point: got {shorten(operating_point)}; {choices} is needed, or None to have it found")
+    raise InvalidData(f"operating_point: got {shorten(operating_point)}; {choices} is needed, or leave it out to have it found")
 
 
 def with_operating_point(record: Record, healthy: int | None, asked: str | None) -> tuple[Record, OperatingPoint]:
@@ -67,8 +67,7 @@ def with_operating_point(record: Record, healthy: int | None, asked: str | None)
     if asked == ZERO:
         return record, OperatingPoint(ZERO, "as stated", stated, nothing)
     part = record if healthy is None else record.beginning(healthy)
-    longest = max(part.experiments, key=len)
-    if not stated and obeys_exactly(*longest.stretch(0, SCREENED), single=record.single):
+    if not stated and _without_noise(part):
         return record, OperatingPoint(ZERO, "the samples have no noise, and obey a law as they are", stated, nothing)
     if healthy is not None:
         means = part.channels.mean
@@ -83,6 +82,14 @@ def with_operating_point(record: Record, healthy: int | None, asked: str | None)
     if record.lengths:
         return record.about_own_means(), OperatingPoint(EACH, reason, stated, None)
     return record.about_means(), OperatingPoint(WHOLE, reason, stated, record.channels.mean)
+
+
+def _without_noise(record: Record) -> bool:
+    """Say whether the longest experiment obeys a law to rounding: each channel about its mean, beside which what it does may be rounding
+    too, and one of two outputs that are the same left out, for no noise comes between these."""
+    y, u = max(record.experiments, key=len).stretch(0, SCREENED)
+    y, u = np.unique(y - y.mean(axis=0), axis=1), u - u.mean(axis=0)
+    return obeys_exactly(y, u, single=record.single)
 
 
 def _not_zero(record: Record) -> str:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import numpy as np
+import pytest
 
 from benchmarks.changes_records import KINDS, SETTINGS, record
 from faultspace import numeric
 from faultspace.base.arrays import Array
-from faultspace.numeric import StateSpaceModel, identify
+from faultspace.base.errors import InvalidData
+from faultspace.numeric import StateSpaceModel, identify, read_record
 
 PLANT = StateSpaceModel([[0.8, 0.2], [-0.2, 0.7]], [[1.0], [0.2]], [[1.0, 0.0], [0.5, 1.0], [0.0, 1.0]], np.zeros((3, 1)))
 K = 250
@@ -39,3 +42,50 @@ def test_the_shape_of_what_laws_leave_is_a_likelihood_ratio() -> None:
     shapes = [test["sphericity"] for test in document["laws"]["tests"] if test["sphericity"]]
     assert shapes and all(set(shape) == {"log_likelihood_ratio", "expected"} for shape in shapes)
     jsonschema.validate(document | {"files": []}, json.loads(SCHEMA.read_text("utf-8")))
+
+
+@pytest.mark.parametrize(
+    ("factor", "at", "words"),
+    [
+        (1e300, slice(None), "'y2' reaches .*e.30[01], whose square no float holds: use other units, or mend a slip"),
+        (1e-300, slice(None), "'y2' varies by .*e-300, whose square no float holds: use other units"),
+        (1e-310, slice(None), "'y2' varies by .*, whose square no float holds"),
+        (1e307, 77, "'y2' reaches .*e.30[67], whose square no float holds"),
+        (0.0, slice(None), "output 'y2' is constant .-?0.: it tells nothing of the system"),
+    ],
+)
+def test_numbers_that_no_square_holds_are_refused_by_name(factor: float, at: Any, words: str) -> None:
+    y, u = measured(4)
+    y[at, 1] *= factor
+    for healthy in (None, 100):
+        with pytest.raises(InvalidData, match=words):
+            identify(y, u, healthy=healthy)
+
+
+def test_outputs_that_are_all_constant_are_named_together() -> None:
+    y, u = measured(4)
+    with pytest.raises(InvalidData, match=r"outputs .y1., .y2., .y3. are constant: they tell nothing .*; leave them out"):
+        identify(np.ones_like(y), u)
+
+
+def test_a_step_is_an_input_though_no_state_is_found_by_it() -> None:
+    draw = np.random.default_rng(1)
+    u = 1.0 * (np.arange(400)[:, None] > 50)
+    y = StateSpaceModel([[0.8]], [[1.0]], [[1.0], [0.5]], [[0.0], [1.0]]).simulate(draw.standard_normal((400, 1)))
+    found = identify(y + 0.1 * draw.standard_normal((400, 2)), u)
+    assert found.model is not None and found.model.order == 0 and found.n_v == 1 and found.fault_space is not None
+
+
+def test_levels_far_beyond_the_noise_are_levels_and_not_rounding() -> None:
+    y, u = measured(5)
+    found = identify(y + np.array([1e15, 1e12, -1e14]), u + 1e12, order=2)
+    assert found.operating_point.of == "whole record" and not found.exact and found.model is not None
+
+
+def test_times_that_run_backwards_are_told_and_no_time_is_negative(tmp_path: Path) -> None:
+    y, u = measured(6)
+    path = tmp_path / "back.csv"
+    time = 0.1 * np.arange(len(y))[::-1, None]
+    np.savetxt(path, np.hstack([time, u, y]), delimiter=",", header="time,u,a,b,c", comments="")
+    clock = read_record(path, inputs="u", outputs="a,b,c").clock
+    assert clock is not None and clock.dt == pytest.approx(0.1) and clock.backwards == len(y) - 1 and clock.first_odd == 1
