@@ -1,6 +1,7 @@
 """This is what `identify` writes and says of the residual, its onsets and single causes.
 
 onset_lines       the onsets, in lines of Markdown
+after_healthy     which sample of the record after a healthy one of its own a sample is
 isolation_lines   which single cause explains a shift of the mean, and which the faults, with the angles in a table
 told              all of it in JSON
 residual_table    residual.csv: a line a sample
@@ -41,12 +42,13 @@ def onset_lines(answer: Findings) -> Iterator[str]:
         return
     for onset in found.onsets:
         first, last = onset.interval
-        begins = answer.healthy_record and onset.sample == found.healthy
-        where = f"sample {onset.sample}" + (", the first of the record after the healthy one" if begins else "")
+        where = f"sample {onset.sample}{after_healthy(answer, onset.sample)}"
         within = f"between {first} and {last} with probability {found.confidence:g}"
         yield f"onset at **{where}**, {within}; chance without a change: {onset.p_value:.2g}"
         changed = ", ".join(outputs[j] for j in onset.changed) or "none by itself, all of them together"
         yield f"outputs that change: {changed}"
+    if answer.healthy_record and any(onset.interval[0] <= (found.healthy or 0) <= onset.interval[1] for onset in found.onsets):
+        yield "an onset where the healthy record ends: both differ from the first sample on, by a fault, or by how the plant was run"
     yield "size of the fault's part in each output after it, in sigmas; how far the mean moves, in sigmas; the factor of the deviation:"
     width = max(6, *(len(name) for name in outputs))
     yield f"    {'from sample':>12}  {'output':<{width}}  {'sigmas':>8}  {'mean':>8}  {'deviation':>9}"
@@ -56,6 +58,13 @@ def onset_lines(answer: Findings) -> Iterator[str]:
     start, stop = found.reference
     yield f"one sigma is the deviation of the residual in samples {start} to {stop - 1}: {_sizes(outputs, found.deviation)}"
     yield f"why: {found.reason}; {RESIDUAL} has the residual, sample by sample"
+
+
+def after_healthy(answer: Findings, sample: int) -> str:
+    """Return which sample of the record after the healthy one this is, where that is a record of its own."""
+    if not answer.healthy_record or answer.healthy is None or sample < answer.healthy:
+        return ""
+    return f", sample {sample - answer.healthy} of the record after the healthy one"
 
 
 def isolation_lines(answer: Findings) -> Iterator[str]:

@@ -22,7 +22,7 @@ from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
 from ..operating_point import ZERO
 from .by_experiment import experiment_lines
-from .causes import isolation_lines, onset_lines
+from .causes import after_healthy, isolation_lines, onset_lines
 from .physical import mode_lines
 
 if TYPE_CHECKING:
@@ -240,10 +240,11 @@ def _changed_all_the_same(answer: Findings) -> Iterator[str]:
     """Yield, where no number is told, that the residual has become another one all the same."""
     onset = answer.onset
     if answer.n_v is None and onset is not None and onset.onsets:
-        names = _several([answer.record.outputs[i] for i in onset.onsets[0].changed])
+        first = onset.onsets[0]
+        names = _several([answer.record.outputs[i] for i in first.changed]) or "all outputs together"
         yield (
-            f"something changes at sample {onset.onsets[0].sample}, in {names} (see the onset); open is how many independent faults that "
-            "takes, and whether it is a fault or the plant driven elsewhere"
+            f"something changes at sample {first.sample}{after_healthy(answer, first.sample)}, in {names} (see the onset); open is how many "
+            "independent faults that takes, and whether it is a fault or the plant driven elsewhere"
         )
 
 
