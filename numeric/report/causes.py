@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ..space.shift_isolation import ShiftIsolation
 
 RESIDUAL = "residual.csv"
+MOST_ONSETS = 6  # that the summary tells
 CAUSES_DRAWN = ("residual.png", "isolation.png")
 
 
@@ -40,19 +41,24 @@ def onset_lines(answer: Findings) -> Iterator[str]:
     if not found.onsets:
         yield f"**no onset**: {found.reason}"
         return
-    for onset in found.onsets:
+    for onset in found.onsets[:MOST_ONSETS]:
         first, last = onset.interval
         where = f"sample {onset.sample}{after_healthy(answer, onset.sample)}"
         within = f"between {first} and {last} with probability {found.confidence:g}"
         yield f"onset at **{where}**, {within}; chance without a change: {onset.p_value:.2g}"
         changed = ", ".join(outputs[j] for j in onset.changed) or "none by itself, all of them together"
         yield f"outputs that change: {changed}"
+    if len(found.onsets) > MOST_ONSETS:
+        yield (
+            f"{len(found.onsets)} onsets in all, of which the first {MOST_ONSETS} are told here, and all in {RESIDUAL} and the JSON: noise "
+            "whose power comes and goes, or a plant that is driven elsewhere, has so many; a fault that comes and stays has one or a few"
+        )
     if answer.healthy_record and any(onset.interval[0] <= (found.healthy or 0) <= onset.interval[1] for onset in found.onsets):
         yield "an onset where the healthy record ends: both differ from the first sample on, by a fault, or by how the plant was run"
     yield "size of the fault's part in each output after it, in sigmas; how far the mean moves, in sigmas; the factor of the deviation:"
     width = max(6, *(len(name) for name in outputs))
     yield f"    {'from sample':>12}  {'output':<{width}}  {'sigmas':>8}  {'mean':>8}  {'deviation':>9}"
-    for onset in found.onsets:
+    for onset in found.onsets[:MOST_ONSETS]:
         rows = zip(outputs, onset.size, onset.shift, onset.growth, strict=True)
         yield from (f"    {onset.sample:>12}  {name:<{width}}  {a:>8.3g}  {b:>8.3g}  {c:>9.3g}" for name, a, b, c in rows)
     start, stop = found.reference

@@ -243,8 +243,8 @@ def _changed_all_the_same(answer: Findings) -> Iterator[str]:
         first = onset.onsets[0]
         names = _several([answer.record.outputs[i] for i in first.changed]) or "all outputs together"
         yield (
-            f"something changes at sample {first.sample}{after_healthy(answer, first.sample)}, in {names} (see the onset); open is how many "
-            "independent faults that takes, and whether it is a fault or the plant driven elsewhere"
+            f"something changes at sample {first.sample}{after_healthy(answer, first.sample)}, in {names} (see the onset); open is how "
+            "many independent faults that takes, and whether it is a fault or the plant driven elsewhere"
         )
 
 
