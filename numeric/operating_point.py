@@ -39,17 +39,20 @@ class OperatingPoint:
 
     `of` says what it is: "zero", or the means of the "healthy samples", of the "whole record", or of the "single experiments", each by
     itself. `reason` says why. `stated` says that the caller asked for it. `values` (k,), inputs before outputs, are zeros for zero, and
-    None where each experiment has its own.
+    None where each experiment has its own, which are `by_experiment`.
     """
 
     of: str
     reason: str
     stated: bool
     values: Array | None
+    by_experiment: tuple[Array, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict."""
-        return {"of": self.of, "reason": self.reason, "stated": self.stated, "values": plain(self.values)}
+        return {"of": self.of, "reason": self.reason, "stated": self.stated, "values": plain(self.values)} | {
+            "by_experiment": [plain(one) for one in self.by_experiment]
+        }
 
 
 def asked_for(operating_point: object) -> str | None:
@@ -80,7 +83,8 @@ def with_operating_point(record: Record, healthy: int | None, asked: str | None)
         )
     reason = f"{why}; a fault that is constant over all samples goes with them, and only samples without fault can tell it (healthy=K)"
     if record.lengths:
-        return record.about_own_means(), OperatingPoint(EACH, reason, stated, None)
+        means = tuple(one.channels.mean for one in record.experiments)
+        return record.about_own_means(), OperatingPoint(EACH, reason, stated, None, means)
     return record.about_means(), OperatingPoint(WHOLE, reason, stated, record.channels.mean)
 
 

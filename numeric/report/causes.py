@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 RESIDUAL = "residual.csv"
 MOST_ONSETS = 6  # that the summary tells
+EARLY = 4  # onsets in the first of so many parts of a record may be its start
 CAUSES_DRAWN = ("residual.png", "isolation.png")
 
 
@@ -52,6 +53,12 @@ def onset_lines(answer: Findings) -> Iterator[str]:
         yield (
             f"{len(found.onsets)} onsets in all, of which the first {MOST_ONSETS} are told here, and all in {RESIDUAL} and the JSON: noise "
             "whose power comes and goes, or a plant that is driven elsewhere, has so many; a fault that comes and stays has one or a few"
+        )
+    start = found.onsets[-1].stretch[0]
+    if found.healthy is None and EARLY * start <= found.samples:
+        yield (
+            f"from sample {start} on the residual is alike to the end: a start-up that had not died out, or a fault from early on; identified "
+            f"again without the first {start} samples, a start-up has no onset"
         )
     if answer.healthy_record and any(onset.interval[0] <= (found.healthy or 0) <= onset.interval[1] for onset in found.onsets):
         yield "an onset where the healthy record ends: both differ from the first sample on, by a fault, or by how the plant was run"

@@ -14,7 +14,7 @@ from benchmarks.changes_records import KINDS, SETTINGS, record
 from faultspace import numeric
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
-from faultspace.numeric import StateSpaceModel, identify, read_record
+from faultspace.numeric import Monitor, StateSpaceModel, identify, read_record
 
 PLANT = StateSpaceModel([[0.8, 0.2], [-0.2, 0.7]], [[1.0], [0.2]], [[1.0, 0.0], [0.5, 1.0], [0.0, 1.0]], np.zeros((3, 1)))
 K = 250
@@ -89,3 +89,27 @@ def test_times_that_run_backwards_are_told_and_no_time_is_negative(tmp_path: Pat
     np.savetxt(path, np.hstack([time, u, y]), delimiter=",", header="time,u,a,b,c", comments="")
     clock = read_record(path, inputs="u", outputs="a,b,c").clock
     assert clock is not None and clock.dt == pytest.approx(0.1) and clock.backwards == len(y) - 1 and clock.first_odd == 1
+
+
+def test_a_monitor_of_several_experiments_learns_from_the_longest_at_its_own_point() -> None:
+    lengths, levels = (200, 400, 200), (0.0, 50.0, -30.0)
+    pieces = [measured(20 + k, length) for k, length in enumerate(lengths)]
+    found = identify([y + level for (y, _), level in zip(pieces, levels, strict=True)], [u - 3.0 for _, u in pieces], order=2)
+    watch = Monitor(found, level=1e-3)
+    assert any("of experiment 2, the longest," in note for note in watch.notes)
+    y, u = measured(30, 300)
+    y[200:, 1] += 1.0
+    alarms = watch.extend(y + 50.0, u - 3.0).alarms
+    # At the level of another experiment the first samples would give an alarm, and all tests would.
+    assert min(alarm.sample for alarm in alarms) > 10 and len({alarm.test for alarm in alarms if 200 <= alarm.sample < 205}) >= 3
+
+
+def test_a_start_up_is_named_beside_its_onset() -> None:
+    y, u = measured(6, 600)
+    y += 5.0 * np.exp(-np.arange(600) / 25.0)[:, None] * [1.0, 0.3, 0.0]
+    found = identify(y, u, order=2)
+    words = found.summary()
+    assert found.onset is not None and found.onset.onsets and "a start-up that had not died out, or a fault from early on" in words
+    late, _ = measured(7, 600)
+    late[400:, 1] += 1.0
+    assert "start-up" not in identify(late, measured(7, 600)[1], order=2).summary()
