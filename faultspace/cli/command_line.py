@@ -2,6 +2,7 @@
 
 main         runs it and returns the exit code
 app          the commands, for typer
+parser       what typer makes of them, once a process: their signatures take longer to read than most commands to run
 Plain        a command whose help shows its arguments as they are typed
 """
 
@@ -12,12 +13,13 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from enum import StrEnum
-from functools import wraps
+from functools import cache, wraps
 from pathlib import Path
 from typing import Annotated, Any, ParamSpec
 
 import typer
 from typer.core import TyperCommand
+from typer.main import get_command
 
 from .. import __version__
 from ..base.errors import shorten
@@ -104,6 +106,12 @@ Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as t
 OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", show_default=False, help="A system file, - or example:NAME.")]
 
 
+@cache
+def parser() -> Any:
+    """Return the group of all commands, which parses and runs one."""
+    return get_command(app)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (`sys.argv` when no arguments are given) and return the exit code. It never raises for bad input."""
     for name in ("stdout", "stderr"):
@@ -114,7 +122,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     try:
         given = list(sys.argv[1:] if arguments is None else arguments)
-        code = app(args=given, prog_name="faultspace", standalone_mode=False)
+        code = parser()(args=given, prog_name="faultspace", standalone_mode=False)
         if code == INTERRUPTED:
             say("interrupted")
         return code if isinstance(code, int) else 0

@@ -103,6 +103,6 @@ def test_stores_are_closed_with_their_owners() -> None:
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always")
         numeric.identify(RECORD.y, RECORD.u, order=3, block_rows=8)
-        numeric.arx_reduction(RECORD.y, RECORD.u, lags=3)
+        numeric.arx_reduction(RECORD.y, RECORD.u, order=3, lags=3)
         gc.collect()
     assert not [warning for warning in heard if issubclass(warning.category, ResourceWarning)]
