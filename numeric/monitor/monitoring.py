@@ -417,8 +417,8 @@ def learned_of(found: Any, settings: Settings | None = None) -> Learned:
             return made
     return of(
         len(record),
-        f"no samples were stated to be without fault: all{which or ' that the model is from'} count as such, so that a fault like one that acted there "
-        "gives no alarm; a record without fault beside the model mends that",
+        f"no samples were stated to be without fault: all{which or ' that the model is from'} count as such, so that a fault like one that "
+        "acted there gives no alarm; a record without fault beside the model mends that",
     )
 
 

@@ -57,8 +57,8 @@ def onset_lines(answer: Findings) -> Iterator[str]:
     start = found.onsets[-1].stretch[0]
     if found.healthy is None and EARLY * start <= found.samples:
         yield (
-            f"from sample {start} on the residual is alike to the end: a start-up that had not died out, or a fault from early on; identified "
-            f"again without the first {start} samples, a start-up has no onset"
+            f"from sample {start} on the residual is alike to the end: a start-up that had not died out, or a fault from early on; "
+            f"identified again without the first {start} samples, a start-up has no onset"
         )
     if answer.healthy_record and any(onset.interval[0] <= (found.healthy or 0) <= onset.interval[1] for onset in found.onsets):
         yield "an onset where the healthy record ends: both differ from the first sample on, by a fault, or by how the plant was run"
