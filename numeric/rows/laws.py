@@ -108,7 +108,8 @@ class Laws:
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of the numbers that the answer rests on; the ratio of sphericity is null of a single row."""
-        shape = None if self.sphericity is None else {"nats": plain(self.sphericity.nats), "expected": plain(self.sphericity.expected)}
+        found = self.sphericity
+        shape = None if found is None else {"log_likelihood_ratio": plain(found.nats), "expected": plain(found.expected)}
         return {
             "rows": self.count,
             "holds": self.holds,

@@ -197,9 +197,11 @@ class _Solved:
 
 def _turn(outputs: Array, target: StateSpaceModel, source: StateSpaceModel) -> Array:
     """Return the map (n, n) of the states of one model to those of another, by least squares of what the outputs show of them."""
+    if not target.n or not source.n:
+        return np.zeros((target.n, source.n))
     sizes = np.tile(channel_sizes(outputs), 2 * target.n)[:, None]
     seen, given = (observability_matrix(model.A, model.C, 2 * target.n) / sizes for model in (target, source))
-    return np.asarray(np.linalg.lstsq(seen, given, rcond=None)[0], dtype=np.float64) if target.n else np.zeros((0, 0))
+    return np.asarray(np.linalg.lstsq(seen, given, rcond=None)[0], dtype=np.float64)
 
 
 def _of_states(uncertainty: Uncertainty) -> Array:
