@@ -276,14 +276,16 @@ def identify(
             help="A CSV, Parquet, NPZ, NPY or MAT file of measurements; several are experiments of one plant.",
         ),
     ],
-    inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
-    outputs: Annotated[list[str], typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")],
+    inputs: Annotated[
+        list[str] | None, typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")
+    ] = None,
+    outputs: Annotated[list[str] | None, typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")] = None,
     out: Annotated[
-        Path,
+        Path | None,
         typer.Option(
             metavar="DIR", show_default=False, help="Write model, fault space, signal, plots there; only our own files are replaced."
         ),
-    ],
+    ] = None,
     order: Annotated[
         int | None, typer.Option(metavar="N", parser=_number(int, 1, 3), help="Number of states.", show_default="chosen from the data")
     ] = None,
@@ -318,7 +320,14 @@ def identify(
             show_default=False,
         ),
     ] = None,
-    remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
+    operating_point: Annotated[
+        str | None,
+        typer.Option(
+            metavar="means|zero",
+            help="About what the plant is linear.",
+            show_default="means of the healthy samples, else of the record unless zero may be it",
+        ),
+    ] = None,
     gaps: Annotated[
         bool, typer.Option("--gaps", help="Samples are missing: take the parts between them as experiments of one plant.")
     ] = False,
@@ -335,7 +344,8 @@ def identify(
 ) -> int:
     """Find model and faults in measured data.
 
-    That is: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell, which is an answer too: exit 0.
+    --inputs, --outputs and --out are needed; without them the message tells the channels of DATA, and a command to try.
+    The answer: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell, which is one too: exit 0.
     DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
 
     Several files of the same channels give one model, one number of faults and one fault space; onset, changes and signal are of each.
@@ -345,8 +355,8 @@ def identify(
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, remove_means=remove_means, dt=dt, gaps=gaps)
-    return identifying.run(data, known, inputs=inputs, outputs=outputs, out=out, as_json=json)
+    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, operating_point=operating_point, dt=dt, gaps=gaps)
+    return identifying.run(data, known, inputs=inputs or [], outputs=outputs or [], out=out, as_json=json)
 
 
 @_command()
