@@ -26,6 +26,7 @@ from faultspace.numeric.data import files as data_files
 from faultspace.numeric.data.files import read_record
 from faultspace.numeric.data.selectors import split_names
 from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.pipeline import identify as whole_identify
 from faultspace.numeric.report import files as report
 from tests.end_to_end.identify_runs import identified, refused, small_csv
 
@@ -259,10 +260,10 @@ def test_a_failure_in_writing_leaves_no_half_answer(csv_file: Path, tmp_path: Pa
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    real, found = identifying.identify, list[Any]()
+    found: list[Any] = []
 
     def identify(*records: Any, **options: Any) -> Any:
-        found.append(found[0] if found else real(*records, **options))
+        found.append(found[0] if found else whole_identify(*records, **options))
         return found[-1]
 
     monkeypatch.setattr(report, "_signal_table", full)
