@@ -35,6 +35,8 @@ def _as_rational(value: object, where: str) -> fmpq:
     """
     if isinstance(value, fmpq):
         return value
+    if type(value) in (int, str):
+        return parse_rational(value, where)
     if isinstance(value, fmpz):
         return fmpq(value)
     if isinstance(value, Fraction) or is_rational(value):
@@ -333,3 +335,8 @@ def base_matrix(field: Field, rows: int, cols: int, scalars: list[Any]) -> Any:
     if isinstance(field, PrimeField):
         return flint.nmod_mat(rows, cols, scalars, field.p)
     return flint.fmpq_mat(rows, cols, scalars)
+
+
+def base_zero(field: Field, rows: int, cols: int) -> Any:
+    """The result is the flint matrix of zeros over the base field."""
+    return flint.nmod_mat(rows, cols, field.p) if isinstance(field, PrimeField) else flint.fmpq_mat(rows, cols)
