@@ -21,7 +21,7 @@ from flint import fmpz
 
 from ...base.sheets import counted
 from ...exact.algebra.fields import Field, NumberField, PrimeField
-from ...exact.algebra.matrices import Matrix, beside, rank, row_profile, solve_left, stacked
+from ...exact.algebra.matrices import Matrix, beside, rank, row_echelon, stacked
 from ...exact.algebra.polynomials import Poly, PolyMatrix, SmithDiagonal, monic, multiply, written
 from ...exact.algebra.stability import is_stable
 from ...exact.pairs.linear_determinants import linear_determinant
@@ -310,17 +310,15 @@ def _rank_certificate(statement: dict[str, Any], system: ResidualSystem, built: 
     """Return the certificate of the rank. Upper bound: integer rows that vanish on the matrix, triangular by their pivots. Lower bound:
     the rank modulo a prime.
     """
-    independent = row_profile(built)
-    dependent = [i for i in range(built.nrows) if i not in set(independent)]
-    relations = solve_left(built.rows(independent), built.rows(dependent))
-    if relations is None:
-        raise ArithmeticError("the row profile does not span")
+    form = row_echelon(built.transposed())  # a column beside the pivots says of which independent rows that row is a combination
+    independent, relations = form.pivots, form.matrix.elements()
+    zero, one = system.field.element(0), system.field.element(1)
     rows = []
-    for a, pivot in enumerate(dependent):
-        entries = [system.field.element(0)] * built.nrows
-        for b, i in enumerate(independent):
-            entries[i] = -relations[a, b]
-        entries[pivot] = system.field.element(1)
+    for pivot in (i for i in range(built.nrows) if i not in set(independent)):
+        entries = [zero] * built.nrows
+        for i, combined in zip(independent, relations, strict=True):
+            entries[i] = -combined[pivot]
+        entries[pivot] = one
         rows.append({"pivot": pivot, "row": _integral(entries, system.field)})
     statement["rank"] = len(independent)
     kernel_image = _rank_image(system, built, len(independent))
