@@ -98,9 +98,10 @@ def charge(work: int, room: int = 0, kept: int = 0) -> Meter:
     meter.work += work
     if meter.work > MAX_WORK:  # asked before, so that the words are put together only where they are needed
         require(False, f"checking takes more than {MAX_WORK} units of work")
-    if meter.held + max(room, kept) > MAX_MEMORY:
-        require(False, f"checking takes more than {MAX_MEMORY} bytes of memory")
-    meter.held += kept
+    if room or kept:
+        if meter.held + room > MAX_MEMORY or meter.held + kept > MAX_MEMORY:
+            require(False, f"checking takes more than {MAX_MEMORY} bytes of memory")
+        meter.held += kept
     return meter
 
 

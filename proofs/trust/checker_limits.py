@@ -19,6 +19,7 @@ import sys
 from functools import partial, reduce
 from itertools import accumulate, repeat
 from math import gcd
+from operator import add
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,20 +49,32 @@ def inside_circle(f: list[int]) -> bool:
 
 
 def product(left: Polynomial, right: Polynomial) -> Polynomial:
-    """Return the product of polynomial matrices."""
-    terms = Polynomial()
-    for (i, a), (j, b) in ((x, y) for x in left.items() for y in right.items()):
-        terms[i + j] = terms[i + j] + a @ b if i + j in terms else a @ b
-    return {k: term for k, term in terms.items() if term}
+    """Return the product of polynomial matrices: of all coefficients of the one, stacked, with those of the other, side by side."""
+    if not (left and right):
+        return {}
+    one, two = next(iter(left.values())), next(iter(right.values()))
+    field, height, width, terms = one.field, len(one.rows), two.nc, dict[int, core.Vectors]()
+    above = structure.assembled(field, [[a] for a in left.values()], one.nc // field.degree)
+    whole = above @ structure.assembled(field, [[*right.values()]], len(right) * width // field.degree)
+    core.charge(
+        len(left) * len(right) * height * (1000 + width * (100 + (whole.bits >> 4))), core.room(len(whole.rows), whole.nc, whole.bits)
+    )
+    for r, i in enumerate(left):
+        for c, j in enumerate(right):
+            block = [row[c * width : c * width + width] for row in whole.rows[r * height : r * height + height]]
+            before = terms.get(i + j)
+            terms[i + j] = [[*map(add, x, y)] for x, y in zip(before, block, strict=True)] if before else block
+    return {k: term for k, rows in terms.items() if (term := structure.Mat(field, rows, width, whole.den))}
 
 
 def polynomial(field: core.Field, value: core.Json, nr: int, nc: int, where: str) -> Polynomial:
     """Return a POLYMATRIX of that shape."""
     table = [[core.items(f, where) for f in core.items(row, where, nc, nc)] for row in core.items(value, where, nr, nr)]
-    powers = range(max((len(f) for row in table for f in row), default=0))
-    return {
-        k: c for k in powers if (c := structure.matrix(field, [[f[k] if k < len(f) else 0 for f in row] for row in table], nr, nc, where))
-    }
+    powers, width = range(max((len(f) for row in table for f in row), default=0)), nc * field.degree
+    # The coefficients side by side, read at once.
+    whole = field.matrix([[f[k] if k < len(f) else 0 for k in powers for f in row] for row in table], nr, nc * len(powers), where)
+    parts = ((k, [row[k * width : k * width + width] for row in whole.rows]) for k in powers)
+    return {k: part for k, rows in parts if (part := structure.Mat(field, rows, width, whole.den))}
 
 
 def schur_stable(system: structure.System, s: core.Json, w: core.Json) -> None:
