@@ -93,9 +93,10 @@ def charge(work: int, room: int = 0, kept: int = 0) -> Meter:
     meter.work += work
     if meter.work > MAX_WORK:  # asked before, so that the words are put together only where they are needed
         require(False, f"checking takes more than {MAX_WORK} units of work")
-    if meter.held + max(room, kept) > MAX_MEMORY:
-        require(False, f"checking takes more than {MAX_MEMORY} bytes of memory")
-    meter.held += kept
+    if room or kept:
+        if meter.held + room > MAX_MEMORY or meter.held + kept > MAX_MEMORY:
+            require(False, f"checking takes more than {MAX_MEMORY} bytes of memory")
+        meter.held += kept
     return meter
 
 
@@ -591,25 +592,19 @@ def subject(data: Json) -> System:
     return SUBJECTS["experiment" if type(data) is dict and "u_filter" in data and "experiment" in SUBJECTS else "system"](data)
 
 
+class Decided(NamedTuple):
+    """This is a certificate that was accepted: its kind, its statement, what the statement is about, and whether it assumes nothing."""
+
+    kind: Kind
+    statement: dict[str, Json]
+    about: list[System]
+    proven: bool
+
+
 def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified:
     """Return the statement, once verified; each of `systems` (JSON or read) must be one of its own. Raises Malformed, Rejected."""
     insisted = [data if isinstance(data, System) else subject(data) for data in systems]
-    begin()
-    keys(certificate, "format kind statement witness", "certificate")
-    expect(certificate["format"] == "faultspace-certificate/1", "format: expected faultspace-certificate/1")
-    known = type(name := certificate["kind"]) is str and name in KINDS
-    other = [file for file, names in ELSEWHERE.items() if name in names.split()]
-    expect(known, f"kind: unknown{''.join(f' here: {file} decides it, which is another file' for file in other)}")
-    kind = KINDS[name]
-    s = keys(certificate["statement"], kind.statement, "statement")
-    w = keys(certificate["witness"], f"irreducible? {kind.witness}", "witness")
-    about = [reader(s[key]) for key, reader in SUBJECTS.items() if key in s]
-    alike = all(system.field.key == about[0].field.key and system.p == about[0].p for system in about)
-    expect(alike, "the two systems differ in field or number of outputs")
-    for system in about if "prime" in kind.witness else []:
-        system.field.reduce(w)
-    kind.check(about[0], s, w, *about[1:])
-    proven = about[0].field.irreducible(w)
+    kind, s, about, proven = decide(certificate)
     for system in insisted:
         require(any(system.key == other.key[: len(system.key)] for other in about), f"the statement is not about {system.words}")
     words = kind.words.format_map({key: shorten(value) for key, value in s.items()})
@@ -619,6 +614,30 @@ def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified
         return Verified(words, [])
     assumed = f"f is irreducible, with the coefficients {shorten(about[0].field.key)} (ascending)"
     return Verified(f"assuming f irreducible: {words}", [assumed])
+
+
+def decide(certificate: Json, read: Callable[[str, Json], System] = lambda key, data: SUBJECTS[key](data)) -> Decided:
+    """Return what was verified, without words. Raises Malformed or Rejected. `read` reads what stands under a key of the statement; it may
+    give what it read before of the same JSON, from which everything is taken away here that another witness left.
+    """
+    begin()
+    keys(certificate, "format kind statement witness", "certificate")
+    expect(certificate["format"] == "faultspace-certificate/1", "format: expected faultspace-certificate/1")
+    known = type(name := certificate["kind"]) is str and name in KINDS
+    other = [file for file, names in ELSEWHERE.items() if name in names.split()]
+    expect(known, f"kind: unknown{''.join(f' here: {file} decides it, which is another file' for file in other)}")
+    kind = KINDS[name]
+    s = keys(certificate["statement"], kind.statement, "statement")
+    w = keys(certificate["witness"], f"irreducible? {kind.witness}", "witness")
+    about = [read(key, s[key]) for key in SUBJECTS if key in s]
+    alike = all(system.field.key == about[0].field.key and system.p == about[0].p for system in about)
+    expect(alike, "the two systems differ in field or number of outputs")
+    for system in about:
+        system.image, system.field.modulus = Vectors(), system.field.prime
+    for system in about if "prime" in kind.witness else []:
+        system.field.reduce(w)
+    kind.check(about[0], s, w, *about[1:])
+    return Decided(kind, s, about, about[0].field.irreducible(w))
 
 
 def content(path: str) -> bytes:
