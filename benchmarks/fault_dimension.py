@@ -11,6 +11,10 @@ decibels over the outputs. One seed a trial: rates do not depend on the order of
     identified     with the model that PI-MOESP finds in the same faulty record (order given, s = 20), u handed over
     without u      the same, u kept back
     healthy        identified, against the residual of a second record of the same plant without fault and the same model
+
+With --constants: how often the rules of `numeric/count/residual_laws.py` are right and wrong when one of their constants is multiplied by a
+factor, on the noisy cells where they are asked. A constant stands where it loosens the rules as far as it can while no more answers are
+wrong: LOOSENS tells by which way, and the line of a constant ends with the loosest value of such a kind, of those within a factor of two.
 """
 
 from __future__ import annotations
@@ -19,18 +23,35 @@ import argparse
 import time
 from collections import Counter
 from dataclasses import dataclass
+from unittest.mock import patch
 
 import numpy as np
 import scipy.signal
 from numpy.typing import NDArray
 
+from faultspace.numeric.count import residual_laws
 from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy
 from faultspace.numeric.count.healthy_model import healthy_reference
+from faultspace.numeric.count.one_row import WindowMoments
 from faultspace.numeric.count.rank_gap import fault_dimension
+from faultspace.numeric.count.residual_laws import LawLevel, law_level
 from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.model.residuals import residual
 
 Array = NDArray[np.float64]
+# Which way each constant of the rules is loosened: by a larger value (1), or by a smaller one (-1).
+LOOSENS = {
+    "ALARM": 1,
+    "CLEAR": -1,
+    "CLEAR_LAST": -1,
+    "CLEAR_SINGLE": -1,
+    "SLACK": 1,
+    "SLACK_LAST": 1,
+    "SETTLED": 1,
+    "STEEP": 1,
+    "SPARSE": -1,
+}
+FACTORS = (0.5, 0.7, 1.0, 1.4, 2.0)
 
 
 @dataclass(frozen=True)
@@ -104,7 +125,16 @@ def noise(random: np.random.Generator, samples: int, levels: Array) -> Array:
 
 def answer(cell: Cell, random: np.random.Generator, samples: int) -> int | None:
     """This is the n_v that one trial of a cell finds."""
-    plant = random_plant(random, cell.p, cell.m)
+    r, u, quiet, before = residuals(cell, random, samples)
+    if cell.model == "healthy":
+        return fault_dimension_against_healthy(r, healthy_reference(quiet, before), u=u).n_v
+    return fault_dimension(r, u=u if cell.model == "identified" else None).n_v
+
+
+def residuals(cell: Cell, random: np.random.Generator, samples: int) -> tuple[Array, Array, Array, Array]:
+    """Return the residual of one trial of a cell with its inputs, and those of a record without fault, which are empty where none is
+    asked."""
+    plant, none = random_plant(random, cell.p, cell.m), np.zeros((0, cell.p))
     state, u, v = random.standard_normal(5), random.standard_normal((samples, 1)), fault_signals(random, samples, cell.m)
     by_fault, by_input = plant.respond(state, u, v)
     levels = np.zeros(cell.p)
@@ -112,17 +142,45 @@ def answer(cell: Cell, random: np.random.Generator, samples: int) -> int | None:
         levels = (by_fault + by_input).std(axis=0) * 10.0 ** (-cell.decibel / 20.0) * np.geomspace(1.0, 1.0 / cell.spread, cell.p)
         by_fault = by_fault + noise(random, samples, levels)
     if cell.model == "true":
-        return fault_dimension(by_fault).n_v
+        return by_fault, u, none, none
     model = pi_moesp(by_fault + by_input, u, order=5, block_rows=20).model
     r = residual(by_fault + by_input, u, model).r
-    if cell.model == "identified":
-        return fault_dimension(r, u=u).n_v
-    if cell.model == "without u":
-        return fault_dimension(r).n_v
+    if cell.model != "healthy":
+        return r, u, none, none
     before = random.standard_normal((samples, 1))
     quiet = sum(plant.respond(random.standard_normal(5), before, np.zeros((samples, cell.m)))) + noise(random, samples, levels)
-    reference = healthy_reference(residual(quiet, before, model).r, before)
-    return fault_dimension_against_healthy(r, reference, u=u).n_v
+    return r, u, residual(quiet, before, model).r, before
+
+
+def constants(trials: int, seed: int, samples: int) -> None:
+    """Print right and wrong answers by the factor of each constant; what the laws leave of a record is computed once."""
+    answers: dict[tuple[str, float], Counter[str]] = {(name, factor): Counter() for name in LOOSENS for factor in FACTORS}
+    usual = {name: float(getattr(residual_laws, name)) for name in LOOSENS}
+    cells = [cell for cell in CELLS if cell.model in ("true", "identified") and np.isfinite(cell.decibel)]
+    for cell in cells:
+        for trial in range(trials):
+            random = np.random.default_rng((seed, cell.p, cell.m, trial))
+            known: dict[tuple[int, bytes], LawLevel] = {}
+
+            def level(moments: WindowMoments, mixes: tuple[Array, ...], known: dict[tuple[int, bytes], LawLevel] = known) -> LawLevel:
+                key = (moments.channels, b"".join(mix.tobytes() for mix in mixes))
+                return known[key] if key in known else known.setdefault(key, law_level(moments, mixes))
+
+            with patch.object(residual_laws, "law_level", level):
+                r, inputs, _, _ = residuals(cell, random, samples)
+                u = inputs if cell.model == "identified" else None
+                for name, factor in answers:
+                    with patch.object(residual_laws, name, usual[name] * factor):
+                        found = fault_dimension(r, u=u).n_v
+                    answers[name, factor]["undecided" if found is None else "right" if found == cell.m else "wrong"] += 1
+    print(f"right/wrong of {trials * len(cells)} records, N = {samples}, seed {seed}, by factor")
+    print(f"{'':>12} {'now':>6} " + " ".join(f"{factor:>7g}" for factor in FACTORS) + "  loosest")
+    for name, way in LOOSENS.items():
+        found = [answers[name, factor] for factor in FACTORS]
+        allowed = min(each["wrong"] for each in found)
+        loosest = max((factor for factor, each in zip(FACTORS, found, strict=True) if each["wrong"] == allowed), key=lambda one: way * one)
+        figures = " ".join(f"{'{}/{}'.format(each['right'], each['wrong']):>7}" for each in found)
+        print(f"{name:>12} {usual[name]:>6g} {figures}  {usual[name] * loosest:.3g}")
 
 
 def main() -> None:
@@ -133,7 +191,11 @@ def main() -> None:
     parser.add_argument("--samples", type=int, default=1001)
     parser.add_argument("--model", choices=sorted({cell.model for cell in CELLS}), help="only these cells")
     parser.add_argument("--markdown", action="store_true", help="print a table in Markdown")
+    parser.add_argument("--constants", action="store_true", help="what the constants of the rules are worth")
     arguments = parser.parse_args()
+    if arguments.constants:
+        constants(arguments.trials, arguments.seed, arguments.samples)
+        return
     heads = ("model", "outputs", "faults", "noise", "spread", "right", "undecided", "wrong", "answers", "seconds")
     print(f"{arguments.trials} trials a row, N = {arguments.samples}")
     row = "{:>10} {:>7} {:>6} {:>7} {:>6} {:>5} {:>9} {:>5}  {} {}"

@@ -10,8 +10,9 @@ signal there, of the sizes that the answer to the first says are seen with a cha
     constant, white           share of the faults of the stated size that are found
 
 With --inputs the records have no fault, and inputs that are so many times as loud after the healthy samples, or so many deviations away:
-how often is a fault found where no answer is left undecided for their sake? LOUDER and AWAY of `numeric/count/unlike_healthy.py` stand for
-the largest of either at which no more alarms are false than where the inputs stay as they were.
+how often is a fault found where no answer is left undecided for their sake? LOUDER of `numeric/count/unlike_healthy.py` stands for the
+largest that was tried at which no more alarms are false than where the inputs stay as they were. An input that has moved counts by its
+power about the healthy mean, and so many deviations by themselves are printed beside.
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ from faultspace.numeric.pipeline import identify
 Array = NDArray[np.float64]
 
 HEALTHY = (300, 600, 1500)
+LOUDNESSES, DISTANCES = (1.25, 1.5, 1.75, 2.0, 3.0, 5.0), (2.0, 3.0, 10.0)
 OUTPUTS, INPUTS = ("y1", "y2", "y3"), ("u1", "u2")
 
 
@@ -75,20 +77,30 @@ def false_alarm(random: np.random.Generator, until: int, louder: float, away: fl
     u = random.standard_normal((samples, 2))
     u[until:] = louder * u[until:] + away
     y = plant(random).simulate(u) + noise(random, samples)
-    with patch.multiple(unlike_healthy, LOUDER=np.inf, AWAY=np.inf):
+    with patch.object(unlike_healthy, "LOUDER", np.inf):
         return identify(recorded(y, u, outputs=OUTPUTS, inputs=INPUTS), order=3, healthy=until).at_least > 0
 
 
 def inputs(trials: int, seed: int) -> None:
-    """Print how often it is, by the change of the inputs and the number of healthy samples."""
-    print(f"false alarms of {trials} records; LOUDER is {unlike_healthy.LOUDER:g}, AWAY is {unlike_healthy.AWAY:g}")
-    for louder, away in (
-        [(1.0, 0.0)] + [(louder, 0.0) for louder in (1.5, 2.0, 3.0, 5.0, 10.0)] + [(1.0, away) for away in (3.0, 10.0, 30.0)]
-    ):
-        found = [
-            sum(false_alarm(np.random.default_rng((seed, until, k)), until, louder, away) for k in range(trials)) for until in HEALTHY[::2]
-        ]
-        print(f"{louder:4g} times as loud, {away:3g} deviations away: {found} with {list(HEALTHY[::2])} healthy samples", flush=True)
+    """Print how often it is, by the change of the inputs and the number of healthy samples, and the largest without more false alarms."""
+    lengths = HEALTHY[::2]
+    print(f"false alarms of {trials} records; LOUDER is {unlike_healthy.LOUDER:g}")
+
+    def alarms(louder: float, away: float) -> list[int]:
+        found = [sum(false_alarm(np.random.default_rng((seed, until, k)), until, louder, away) for k in range(trials)) for until in lengths]
+        print(f"{louder:4g} times as loud, {away:3g} deviations away: {found} with {list(lengths)} healthy samples", flush=True)
+        return found
+
+    usual, largest = sum(alarms(1.0, 0.0)), 1.0
+    for louder in LOUDNESSES:
+        if sum(alarms(louder, 0.0)) > usual:
+            break
+        largest = louder
+    print(f"LOUDER: {largest:g} is the largest that was tried with no more alarms than where the inputs stay as they were", flush=True)
+    away = (unlike_healthy.LOUDER**2 - 1) ** 0.5
+    print(f"moved by {away:.3g} deviations, as much power: {sum(alarms(1.0, away))}, and {usual} where they stay", flush=True)
+    for distance in DISTANCES:
+        alarms(1.0, distance)
 
 
 def main() -> None:

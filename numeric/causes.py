@@ -20,7 +20,7 @@ from .findings import Findings
 from .rows.known_noise import state_units
 from .signal.onset import fault_onset
 from .space.isolation import isolate
-from .space.shift_isolation import isolate_shift, stays
+from .space.shift_isolation import gain_errors, isolate_shift, stays
 
 SETTLED = 1e-4  # of the response to a step, what may be left where its mean is taken for the steady one
 
@@ -114,6 +114,6 @@ def _moved(answer: Findings, against: tuple[int, int], samples: tuple[int, int])
     r = answer.residual.store
     try:
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            return mean_shift(r.read(*after), u, r.read(*before), u_before)
+            return mean_shift(r.read(*after), u, r.read(*before), u_before, gain_errors=gain_errors(answer.model))
     except (InvalidData, np.linalg.LinAlgError):  # constant channels, exact combinations, numbers too unequal
         return None

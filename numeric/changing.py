@@ -19,6 +19,7 @@ from .changes.predictor import LEARNT_FROM, Stretch
 from .changes.testing import LEVEL, changes_within, parameters, responses, table
 from .count.rank_gap import fault_dimension
 from .findings import Findings
+from .space.shift_isolation import gain_errors
 
 
 def with_changes(answer: Findings) -> Findings:
@@ -38,7 +39,8 @@ def with_changes(answer: Findings) -> Findings:
         return replace(answer, changes=found)
     start = max(answer.healthy - LEARNT_FROM, 0)
     parts = (_stretch(answer, start, answer.healthy), _stretch(answer, first, last))
-    return replace(answer, changes=table(*parts, names, LEVEL))
+    after = replace(parts[1], gain_errors=gain_errors(answer.model))
+    return replace(answer, changes=table(parts[0], after, names, LEVEL))
 
 
 def _stretch(answer: Findings, first: int, last: int) -> Stretch:

@@ -38,6 +38,7 @@ from .rows.evidence import LONG
 from .rows.fault_count import count_faults
 from .rows.joint import affordable
 from .signal.residual_sizes import loudest
+from .space.shift_isolation import gain_errors
 
 HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
 AS_MANY = "as many faults as outputs look like noise in every output"
@@ -160,6 +161,12 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
     if answer.n_v == 0 and answer.count is None:
         answer = replace(answer, reason=f"{answer.reason}; a fault that is constant over the whole record would not be seen")
     if answer.means_removed:
+        if answer.n_v == 0 and not answer.operating_point.stated:
+            reason = (
+                f"{answer.reason}; but a constant fault would have gone with the means, which are the operating point unless one acts: "
+                'operating_point="means" says that none does'
+            )
+            return replace(answer, n_v=None, possible=(), reason=reason, counted_by=None)
         return answer
     mean = mean_about_zero(r[:MEANS_FROM])
     notes = answer.notes
@@ -185,7 +192,8 @@ def _against_healthy(answer: Findings, r: Array, faults: int | None, on_progress
     answer = for_each(answer, with_changes)
     start = max(until - HELD // (record.p + record.n_u), 0)
     healthy, before, u = rest.store.read(start, until), record.stretch(start, until)[1], record.stretch(*answer.held)[1]
-    mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[-MEANS_FROM:], before[-MEANS_FROM:])
+    last = slice(-MEANS_FROM, None)
+    mean = mean_shift(r[:MEANS_FROM], u[:MEANS_FROM], healthy[last], before[last], gain_errors=gain_errors(answer.model))
     if rest.fitted:
         mean = replace(mean, shifted=None, reason="the model is too unstable to be run on from the healthy samples", visible=None)
     answer = replace(answer, mean=mean)

@@ -19,6 +19,7 @@ from .model.moesp_model import MoespModel
 from .model.order_evidence import OrderEvidence
 from .model.reduced_model import ReducedModel
 from .model.residuals import ResidualSignal
+from .operating_point import ZERO, OperatingPoint
 from .rows.fault_count import FaultCount
 from .signal.onset import FaultOnset
 from .signal.reconstruction import Reconstruction
@@ -40,7 +41,7 @@ class Findings:
 
     record: Record
     block_rows: int
-    means_removed: bool
+    operating_point: OperatingPoint
     order_given: bool
     singular_values: Array
     model: MoespModel | ReducedModel | None
@@ -79,6 +80,11 @@ class Findings:
     doubts: Doubts | None = None
     initial_states: tuple[Array, ...] = ()
     parts: tuple[Findings, ...] = ()
+
+    @property
+    def means_removed(self) -> bool:
+        """Say whether means were taken off the channels."""
+        return self.operating_point.of != ZERO
 
     @property
     def modelled(self) -> int:

@@ -49,6 +49,7 @@ from .doubt.asking import doubts
 from .experiments import completed, for_each, long_enough, residual_by_experiment, with_parts
 from .findings import Findings
 from .modelling import modelled, window_default
+from .operating_point import asked_for, with_operating_point
 from .result import Identification
 from .signal.residual_sizes import residual_sizes
 
@@ -63,7 +64,7 @@ def identify(
     n_v: int | None = None,
     healthy: int | Source | None = None,
     noise_level: ArrayLike | None = None,
-    remove_means: bool = False,
+    operating_point: str | None = None,
     inputs: str | Sequence[str] | None = None,
     outputs: str | Sequence[str] | None = None,
     dt: float | None = None,
@@ -91,8 +92,9 @@ def identify(
     the number of faults, each found from the data where it is not stated; `healthy` says how many samples, from the first on, are without
     fault, or is another record of the same channels that has none (a Record, a path, a frame, a tuple (y, u), an iterator of pieces),
     which then comes first in the record that the answer is about; `noise_level`, one number or one an output, is the standard deviation
-    of the sensors' noise in units of y, by which faults are told from noise where no samples are healthy; `remove_means` takes the means
-    off, of the healthy samples where there are any, else of each experiment. `dt` is the time from sample to sample in seconds, which a
+    of the sensors' noise in units of y, by which faults are told from noise where no samples are healthy; `operating_point`, "means" or
+    "zero", says about what the plant is linear: the means of the healthy samples unless stated, and without such samples those of each
+    experiment unless zero may be it, which `found.operating_point` tells. `dt` is the time from sample to sample in seconds, which a
     time column of the data may tell instead; the exports have it, and with it the summary tells frequencies and damping.
     `on_progress(stage, done, total)` hears how far it has come.
     Raises InvalidInput for a file that cannot be read, and InvalidData for data from which no model can be had; what cannot be told after
@@ -110,9 +112,7 @@ def identify(
     on_progress = on_progress or silent
     counted_healthy = None if _is_record(healthy) else healthy
     order, block_rows, n_v, until = _integers(order, block_rows, n_v, counted_healthy)
-    if not isinstance(remove_means, bool | np.bool_):
-        raise InvalidData(f"remove_means: got {shorten(remove_means)}; True or False is needed")
-    dt = _seconds(dt)
+    asked, dt = asked_for(operating_point), _seconds(dt)
     record = one_record(y, u, inputs=inputs, outputs=outputs, on_progress=on_progress)
     if n_v is not None and n_v > record.p:
         raise InvalidData(f"n_v: got {n_v} for {counted(record.p, 'output')}; at most as many can be told apart: state fewer")
@@ -127,9 +127,9 @@ def identify(
         before = healthy_from(healthy, record, on_progress)
         record, until = joined(before, record), len(before)
     level = None if noise_level is None else noise_deviations(noise_level, record.p)
-    found = _findings(record, order, block_rows, n_v, until, counted_healthy is None, level, bool(remove_means), on_progress)
+    found = _findings(record, order, block_rows, n_v, until, counted_healthy is None, level, asked, on_progress)
     part = found.record if until is None else found.record.beginning(until)
-    raised = doubts(part, found.model, dt=dt, means_removed=bool(remove_means))
+    raised = doubts(part, found.model, dt=dt, means_removed=found.means_removed)
     if dt is None and record.clock is not None:
         dt = record.clock.dt
     known = {"dt": dt, "doubts": raised}
@@ -173,7 +173,7 @@ def _findings(
     healthy: int | None,
     apart: bool,
     noise_level: Array | None,
-    remove_means: bool,
+    operating_point: str | None,
     on_progress: Progress,
 ) -> Findings:
     """Go through the chain of the module's docstring; `apart`: the `healthy` samples are a record of their own, before the other."""
@@ -187,14 +187,12 @@ def _findings(
     except InvalidData as error:
         raise error if healthy is None else InvalidData(f"healthy: the model is from these samples alone: {error}") from None
     notes = left_out
-    if remove_means and healthy is None:
-        record = part = record.about_own_means()
-    elif remove_means:
-        record, part = record.about(part.channels.mean), part.about_means()
+    record, point = with_operating_point(record, healthy, operating_point)
+    part = record if healthy is None else record.beginning(healthy)
     found = modelled(part, order, block_rows, on_progress)
     if noise_level is not None and healthy is not None:
         notes += ("noise_level is not used: the healthy samples show the noise themselves",)
-    answer = Findings(record, found.window, remove_means, order is not None, found.singular_values, found.model, found.exact, found.way)
+    answer = Findings(record, found.window, point, order is not None, found.singular_values, found.model, found.exact, found.way)
     answer = replace(answer, n_v_given=n_v is not None, healthy=healthy, noise_level=noise_level, notes=notes + found.notes)
     answer = replace(answer, healthy_record=apart and healthy is not None)
     if found.model is None:

@@ -1,6 +1,7 @@
 """These are stationary covariances of an experiment's signals, and of windows of them.
 
     Covariances        of a joint process: sequences and block Toeplitz matrices
+    toeplitz           the block Toeplitz matrix of a sequence
     covariances        from an Experiment; solves the Lyapunov equation
     WindowCovariances  the blocks that the limits are made of, with Yf = (y(k); ...; y(k+s-1)), Up = (u(k-past); ...; u(k-1)) and so on
     window_covariances from an Experiment and its Covariances; refuses inputs that do not excite s + past block rows
@@ -10,10 +11,12 @@ Lags: sequence(a, b, l) is Cov(a(k+l), b(k)).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...base.errors import InvalidInput
-from ..algebra.matrices import Matrix, beside, rank, stacked
+from ..algebra.fields import QQ, base_matrix
+from ..algebra.matrices import Matrix, rank
 from .experiments import Experiment
 from .lyapunov import state_covariance
 from .process import JointProcess, Signal, joint_process
@@ -46,18 +49,27 @@ class Covariances:
 
     def sequence(self, a: Signal, b: Signal, least: int, most: int) -> dict[int, Matrix]:
         """The result is Cov(a(k+l), b(k)) for l = least..most, either sign."""
-        result = {}
+        result, ahead = {}, list[Matrix]()
         if most >= 0:
-            result = {lag: block for lag, block in enumerate(self.forward(a, b, most)) if lag >= least}
+            ahead = self.forward(a, b, most)
+            result = {lag: block for lag, block in enumerate(ahead) if lag >= least}
         if least < 0:
-            backward = self.forward(b, a, -least)
+            backward = ahead if a is b and len(ahead) > -least else self.forward(b, a, -least)
             result |= {-lag: backward[lag].transposed() for lag in range(max(1, -most), -least + 1)}
         return result
 
     def windows(self, a: Signal, b: Signal, rows: range, columns: range) -> Matrix:
         """The result is the block matrix Cov(a(k+i), b(k+j)), i in `rows` and j in `columns`, both consecutive."""
-        blocks = self.sequence(a, b, rows[0] - columns[-1], rows[-1] - columns[0])
-        return stacked(*(beside(*(blocks[i - j] for j in columns)) for i in rows))
+        return toeplitz(self.sequence(a, b, rows[0] - columns[-1], rows[-1] - columns[0]), rows, columns)
+
+
+def toeplitz(blocks: Mapping[int, Matrix], rows: range, columns: range) -> Matrix:
+    """The result is the block matrix of the blocks[i - j], i in `rows` and j in `columns`, neither of them empty."""
+    tables = {lag: block.flint.tolist() for lag, block in blocks.items()}
+    height, width = blocks[rows[0] - columns[0]].shape
+    entries = [x for i in rows for r in range(height) for j in columns for x in tables[i - j][r]]
+    shape = len(rows) * height, len(columns) * width
+    return Matrix(QQ, *shape, base_matrix(QQ, *shape, entries))
 
 
 @dataclass(frozen=True)
@@ -86,7 +98,9 @@ def window_covariances(experiment: Experiment, known: Covariances) -> WindowCova
     s, past = experiment.s, experiment.past
     u, y = known.process.u, known.process.y
     future, before = range(s), range(-past, 0)
-    whole = known.windows(u, u, range(s + past), range(s + past))
+    # From the lags of each two signals that any of the windows has, found once.
+    inputs, crossed = known.sequence(u, u, -past - s + 1, past + s - 1), known.sequence(y, u, -past - s + 1, past + s - 1)
+    whole = toeplitz(inputs, range(s + past), range(s + past))
     excited = rank(whole)
     if excited < whole.nrows:
         raise InvalidInput(
@@ -94,10 +108,10 @@ def window_covariances(experiment: Experiment, known: Covariances) -> WindowCova
             f"{whole.nrows}: try an input with more independent noise, or fewer block rows"
         )
     return WindowCovariances(
-        uf_uf=known.windows(u, u, future, future),
-        uf_up=known.windows(u, u, future, before),
-        uf_yp=known.windows(u, y, future, before),
-        yf_uf=known.windows(y, u, future, future),
-        yf_up=known.windows(y, u, future, before),
+        uf_uf=toeplitz(inputs, future, future),
+        uf_up=toeplitz(inputs, future, before),
+        uf_yp=toeplitz({-lag: block.transposed() for lag, block in crossed.items()}, future, before),
+        yf_uf=toeplitz(crossed, future, future),
+        yf_up=toeplitz(crossed, future, before),
         yf_yp=known.windows(y, y, future, before),
     )

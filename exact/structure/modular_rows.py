@@ -17,7 +17,7 @@ from random import Random
 from flint import fmpz_mat, nmod_mat
 
 from ..system.systems import ResidualSystem
-from .window_columns import null_vectors, window_columns
+from .window_columns import null_vectors, residues, window_columns
 
 Lead = tuple[int, int]
 
@@ -57,15 +57,11 @@ def rows_modulo(system: ResidualSystem) -> ModularRows | None:
 
 def pencil_rank_at(system: ResidualSystem, point: int) -> int:
     """Return the rank of [[A - qI, F], [C, G]] at a point q, over a prime field."""
-    n, m, entries = system.n, system.m, list[int]()
-    for left, right in ((system.A, system.F), (system.C, system.G)):
-        states, faults = ([*map(int, block.flint.entries())] for block in (left, right))
-        if left is system.A:
-            states[:: n + 1] = [x - point for x in states[:: n + 1]]
-        for i in range(left.nrows):
-            entries += states[i * n : i * n + n]
-            entries += faults[i * m : i * m + m]
-    return int(nmod_mat(fmpz_mat(n + system.p, n + m, entries), system.field.p).rank())  # type: ignore[union-attr]
+    A, F, C, G = (residues(block.flint) for block in (system.A, system.F, system.C, system.G))
+    for i, row in enumerate(A):
+        row[i] -= point
+    table = [x for left, right in ((A, F), (C, G)) for row, more in zip(left, right, strict=True) for x in (*row, *more)]
+    return int(nmod_mat(fmpz_mat(system.n + system.p, system.n + system.m, table), system.field.p).rank())  # type: ignore[union-attr]
 
 
 def _leads(system: ResidualSystem, s: int) -> dict[Lead, list[list[int]]]:

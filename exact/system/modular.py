@@ -2,7 +2,7 @@
 
 Image           the system over GF(l), the prime l, and over Q(a) the simple root of f that a goes to
 image           the image at the first good prime at or below a given one
-good_primes     the primes that serve, descending from the largest below 2^30, a size that plain Python multiplies fastest
+good_primes     the primes that serve, descending from the largest below 2^27: sums of up to 1023 products of residues fit into 64 bits
 rank lower bound: a minor that is not zero modulo l is not zero; ranks modulo l never exceed the true ones
 """
 
@@ -18,7 +18,7 @@ from ..algebra.fields import NumberField, PrimeField, Rationals
 from ..algebra.matrices import Matrix
 from .systems import ResidualSystem
 
-LARGEST_PRIME = 2**30 - 35
+LARGEST_PRIME = 2**27 - 39
 
 
 @dataclass(frozen=True)

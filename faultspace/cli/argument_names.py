@@ -15,18 +15,19 @@ from contextlib import contextmanager
 from ..base.errors import InvalidInput
 
 OPTIONS = {
-    "order": "--order", "block_rows": "--block-rows", "n_v": "--faults", "healthy": "--healthy-until", "remove_means": "--remove-means",
-    "dt": "--dt", "noise_level": "--noise-level",
+    "order": "--order", "block_rows": "--block-rows", "n_v": "--faults", "healthy": "--healthy-until",
+    "operating_point": "--operating-point", "dt": "--dt", "noise_level": "--noise-level",
     "command": "--exec", "peer": "--peer",
 }  # fmt: skip
-_ARGUMENT = re.compile(r"\b(" + "|".join(OPTIONS) + r")=(?:True\b|(\w+))?")
+_ARGUMENT = re.compile(r"\b(" + "|".join(OPTIONS) + r")=(?:True\b|\"?(\w+)\"?)?")
 _SUBJECT = re.compile(r"(?:^|(?<=: ))(" + "|".join(OPTIONS) + "): ")
 
 _HEALTHY = re.compile(r"(?:^|(?<=: ))healthy: ")
 
 
 def as_options(message: str) -> str:
-    """Return the message in options: `order=3` becomes `--order 3`, and `remove_means=True` becomes `--remove-means`.
+    """Return the message in options: `order=3` becomes `--order 3`, and `operating_point="means"` becomes
+    `--operating-point means`.
 
     What begins with `n_v: `, be it after a file's name, is about `--faults`.
     """

@@ -2,6 +2,7 @@
 
 main         runs it and returns the exit code
 app          the commands, for typer
+parser       what typer makes of them, once a process: their signatures take longer to read than most commands to run
 Plain        a command whose help shows its arguments as they are typed
 """
 
@@ -12,12 +13,13 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from enum import StrEnum
-from functools import wraps
+from functools import cache, wraps
 from pathlib import Path
 from typing import Annotated, Any, ParamSpec
 
 import typer
 from typer.core import TyperCommand
+from typer.main import get_command
 
 from .. import __version__
 from ..base.errors import shorten
@@ -104,6 +106,12 @@ Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as t
 OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", show_default=False, help="A system file, - or example:NAME.")]
 
 
+@cache
+def parser() -> Any:
+    """Return the group of all commands, which parses and runs one."""
+    return get_command(app)
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (`sys.argv` when no arguments are given) and return the exit code. It never raises for bad input."""
     for name in ("stdout", "stderr"):
@@ -114,7 +122,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     try:
         given = list(sys.argv[1:] if arguments is None else arguments)
-        code = app(args=given, prog_name="faultspace", standalone_mode=False)
+        code = parser()(args=given, prog_name="faultspace", standalone_mode=False)
         if code == INTERRUPTED:
             say("interrupted")
         return code if isinstance(code, int) else 0
@@ -268,14 +276,16 @@ def identify(
             help="A CSV, Parquet, NPZ, NPY or MAT file of measurements; several are experiments of one plant.",
         ),
     ],
-    inputs: Annotated[list[str], typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")],
-    outputs: Annotated[list[str], typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")],
+    inputs: Annotated[
+        list[str] | None, typer.Option("--inputs", metavar="NAME,...", show_default=False, help="Input channels; may be repeated.")
+    ] = None,
+    outputs: Annotated[list[str] | None, typer.Option("--outputs", metavar="NAME,...", show_default=False, help="Output channels.")] = None,
     out: Annotated[
-        Path,
+        Path | None,
         typer.Option(
             metavar="DIR", show_default=False, help="Write model, fault space, signal, plots there; only our own files are replaced."
         ),
-    ],
+    ] = None,
     order: Annotated[
         int | None, typer.Option(metavar="N", parser=_number(int, 1, 3), help="Number of states.", show_default="chosen from the data")
     ] = None,
@@ -310,7 +320,14 @@ def identify(
             show_default=False,
         ),
     ] = None,
-    remove_means: Annotated[bool, typer.Option("--remove-means", help="Take every channel about its mean.")] = False,
+    operating_point: Annotated[
+        str | None,
+        typer.Option(
+            metavar="means|zero",
+            help="About what the plant is linear.",
+            show_default="means of the healthy samples, else of the record unless zero may be it",
+        ),
+    ] = None,
     gaps: Annotated[
         bool, typer.Option("--gaps", help="Samples are missing: take the parts between them as experiments of one plant.")
     ] = False,
@@ -327,7 +344,8 @@ def identify(
 ) -> int:
     """Find model and faults in measured data.
 
-    That is: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell, which is an answer too: exit 0.
+    --inputs, --outputs and --out are needed; without them the message tells the channels of DATA, and a command to try.
+    The answer: model, number of faults, fault space and fault signal; "undecided" where the data cannot tell, which is one too: exit 0.
     DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
 
     Several files of the same channels give one model, one number of faults and one fault space; onset, changes and signal are of each.
@@ -337,8 +355,8 @@ def identify(
     from . import identifying
 
     settings = {"order": order, "block_rows": block_rows, "faults": faults, "healthy_until": healthy_until}
-    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, remove_means=remove_means, dt=dt, gaps=gaps)
-    return identifying.run(data, known, inputs=inputs, outputs=outputs, out=out, as_json=json)
+    known = identifying.Known(**settings, healthy=healthy, noise_level=noise_level, operating_point=operating_point, dt=dt, gaps=gaps)
+    return identifying.run(data, known, inputs=inputs or [], outputs=outputs or [], out=out, as_json=json)
 
 
 @_command()

@@ -39,12 +39,12 @@ class Known:
     healthy_until: int | None
     healthy: str | None
     noise_level: Sequence[float] | None
-    remove_means: bool
+    operating_point: str | None
     dt: float | None
     gaps: bool = False
 
 
-def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: Sequence[str], out: Path, as_json: bool) -> int:
+def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: Sequence[str], out: Path | None, as_json: bool) -> int:
     """Identify and write the files of `report.NAMES` into `out`; the exit code is 0 whenever there is an answer, "undecided" included.
 
     Several files are experiments of one plant, and with `known.gaps` so are the parts of a file between missing samples.
@@ -54,6 +54,10 @@ def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: S
     """
     if known.healthy is not None and known.healthy_until is not None:
         raise InvalidInput("--healthy: got --healthy-until as well, expected one of them: a file without fault, or the number of samples")
+    if not (inputs and outputs):
+        read_record(files[0], inputs=inputs, outputs=outputs)  # refuses, and says what there is
+    if out is None:
+        raise InvalidInput("--out: got none, expected a folder for the answer: try --out answer")
     worded = as_options if known.healthy is None else of_file
     read = [*files, *([known.healthy] if known.healthy else [])]
     data = _named(files)
@@ -77,7 +81,7 @@ def run(files: Sequence[str], known: Known, *, inputs: Sequence[str], outputs: S
                     n_v=known.faults,
                     healthy=healthy,
                     noise_level=_one_or_each(known.noise_level),
-                    remove_means=known.remove_means,
+                    operating_point=known.operating_point,
                     dt=known.dt,
                     on_progress=tell,
                 )

@@ -41,13 +41,14 @@ LEARNT_FROM = 1 << 14
 class Stretch:
     """These are consecutive samples: the residual r (M, p), the outputs y (M, p), the inputs u (M, n_u) and the responses of the model to
     each input alone, (n_u, M, p), None where there is no stable model. `fitted` parameters of the model for each output were fitted to
-    them."""
+    them. `gain_errors` (K, p, n_u) are those of the static gain of a model that was fitted to others, where they are known."""
 
     r: Array
     y: Array
     u: Array
     responses: Array | None
     fitted: float = 0.0
+    gain_errors: Array | None = None
 
     def __len__(self) -> int:
         return len(self.r)
@@ -55,7 +56,7 @@ class Stretch:
     def part(self, first: int, last: int) -> Stretch:
         """Return samples first .. last - 1."""
         responses = None if self.responses is None else self.responses[:, first:last]
-        return Stretch(self.r[first:last], self.y[first:last], self.u[first:last], responses, self.fitted)
+        return Stretch(self.r[first:last], self.y[first:last], self.u[first:last], responses, self.fitted, self.gain_errors)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,8 +1,9 @@
 """A mean that has moved since the healthy part, and a drift: constants and slopes in the residual, each output by itself.
 
 A constant or slope d of r is (I - sum A_j) d in the innovations e. The estimate of d is that of e times the inverse, for all outputs
-together, so that what moves in one output is not put down to another. Their power stands at the lowest frequencies, where a residual that
-wanders has more than any healthy part can tell: undecided there.
+together, so that what moves in one output is not put down to another. Where the standard errors of the model's static gain are known, what
+they make of a constant or slope of the inputs is in the variance too, of which few lags of the inputs hold part. The power of both kinds
+stands at the lowest frequencies, where a residual that wanders has more than any healthy part can tell: undecided there.
 
     slow_changes    a row for the mean and one for the drift of each output
     drifting        the outputs that drift within the healthy part
@@ -23,14 +24,17 @@ from .rows import DRIFT, MEAN, Estimate, Evidence, by_student, estimate, undecid
 WANDERS = "the healthy residual wanders: means and slopes say nothing (an integrating plant, a drift, a fault in it?)"
 
 
-def slow_changes(learnt: Predictor, after: Stretch, e: Array, names: Sequence[str], level: float) -> Iterator[Evidence]:
+def slow_changes(learnt: Predictor, before: Stretch, after: Stretch, e: Array, names: Sequence[str], level: float) -> Iterator[Evidence]:
     """Yield the rows of mean and drift, from the innovations e (M - lags, p) of the part `after`, each tested at `level`."""
     length = len(e)
     for kind, pattern in ((MEAN, np.ones(length)), (DRIFT, _slope(length))):
         if learnt.wanders or length < 3:
             yield from (undecided(kind, name, WANDERS if learnt.wanders else "too few samples") for name in names)
             continue
-        for i, found in enumerate(_amplitudes(learnt, after, e, pattern)):
+        rest = before.u.mean(axis=0) if kind == MEAN else 0.0
+        wrong = _wrong(after, pattern @ after.u[len(after) - length :] / float(pattern @ pattern) - rest) / learnt.scales
+        for i, one in enumerate(_amplitudes(learnt, after, e, pattern)):
+            found = replace(one, deviation=float(np.hypot(one.deviation, wrong[i])))
             yield by_student(kind, names[i], found, level, learnt.scales[i], learnt.spread[i])
 
 
@@ -48,6 +52,13 @@ def about_slope(values: Array) -> Array:
     pattern = _slope(len(values))
     values = values - values.mean(axis=0)
     return np.asarray(values - np.outer(pattern, pattern @ values) / float(pattern @ pattern))
+
+
+def _wrong(part: Stretch, moved: Array) -> Array:
+    """Return the deviations (p,) of what the model makes of inputs with this mean or slope (n_u,); zero where nothing is known of them."""
+    if part.gain_errors is None:
+        return np.zeros(part.r.shape[1])
+    return np.asarray(np.sqrt(np.sum((part.gain_errors @ moved) ** 2, axis=0)))
 
 
 def _slope(length: int) -> Array:

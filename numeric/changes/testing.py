@@ -26,6 +26,7 @@ from ..count.unlike_healthy import beyond_healthy_inputs
 from ..data.validation import signal, whole
 from ..model.models import StateSpaceModel
 from ..model.residuals import HasModel, growing_modes
+from ..space.shift_isolation import gain_errors
 from .freezing import frozen_sensors
 from .gains import changed_gains
 from .lines import sinusoids
@@ -78,7 +79,8 @@ def changes_since_healthy(
     if until >= len(whole_part):
         raise InvalidData(f"healthy: got {until} for {counted(len(whole_part), 'sample')}; some must follow: state fewer")
     whole_part = replace(whole_part, responses=responses(model, whole_part.u), fitted=parameters(model))
-    return table(whole_part.part(0, until), whole_part.part(until, len(whole_part)), names, level)
+    after = replace(whole_part.part(until, len(whole_part)), gain_errors=gain_errors(model))
+    return table(whole_part.part(0, until), after, names, level)
 
 
 @one_thread()
@@ -160,7 +162,7 @@ def _tested(
             e = learnt.innovations(after)
             if not np.all(np.isfinite(e)) or not np.all(np.isfinite(e**2)):
                 raise InvalidData("numbers of the residual are too unequal to compute with, as outliers make them")
-            evidence += [*slow_changes(learnt, after, e, outputs, one), *changed_variances(learnt, before, after, e, outputs, one)]
+            evidence += [*slow_changes(learnt, before, after, e, outputs, one), *changed_variances(learnt, before, after, e, outputs, one)]
             if set(kinds) == set(KINDS):
                 evidence += [*sinusoids(learnt, after, e, outputs, one), *changed_gains(learnt, before, after, names, one)]
         except (InvalidData, np.linalg.LinAlgError) as error:

@@ -165,9 +165,19 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
     )
 
 
-def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u: ArrayLike | None, *, level: float = LEVEL) -> MeanShift:
+def mean_shift(
+    r: ArrayLike,
+    u: ArrayLike | None,
+    healthy: ArrayLike,
+    healthy_u: ArrayLike | None,
+    *,
+    level: float = LEVEL,
+    gain_errors: ArrayLike | None = None,
+) -> MeanShift:
     """Test whether the mean of r (M, p), with inputs u (M, n_u), has left that of the healthy residual (K, p) with its inputs.
 
+    `gain_errors` (k, p, n_u) are those of the static gain of the model, as `space/shift_isolation.py` has them, None where nothing is known
+    of it.
     `level` (0, 1): probability of finding a shift where there is none. What the healthy record cannot bear is an undecided answer, never an
     error. Source: head of the module.
     """
@@ -181,7 +191,10 @@ def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u:
         return MeanShift(
             None, f"there are {counted(len(after), 'sample')}, fewer than the {reference.lags + 1} that the healthy noise remembers", level
         )
-    found = _tested(reference, after, inputs, level)
+    off = None
+    if gain_errors is not None and inputs.shape[1]:
+        off = np.asarray(gain_errors) @ (inputs.mean(axis=0) - inputs_before.mean(axis=0))
+    found = _tested(reference, after, inputs, level, off)
     if reference.nearest * reference.samples < UNIT_ROOT:
         reason = "the healthy residual wanders: its mean says nothing (an integrating plant, a drift, a fault in it?)"
         return MeanShift(None, reason, level, found.shift)
@@ -196,37 +209,48 @@ def mean_shift(r: ArrayLike, u: ArrayLike | None, healthy: ArrayLike, healthy_u:
     return found
 
 
-def mean_about_zero(r: ArrayLike, *, level: float = LEVEL) -> MeanShift:
-    """Test whether the mean of a residual r (N, p) differs from zero, by its own noise at frequency zero. It is undecided as `mean_shift`
-    is."""
-    residual, _ = residual_and_inputs(r, None)
+def mean_about_zero(r: ArrayLike, u: ArrayLike | None = None, *, level: float = LEVEL) -> MeanShift:
+    """Test whether r (N, p) with inputs u (N, n_u) needs a constant beside its lags, by its own noise at frequency zero.
+
+    `shift` is then where r rests with the inputs at zero: its mean where there are none. It is undecided as `mean_shift` is. The error of
+    the coefficients counts as it does there, with the means that a rest at zero would give.
+    """
+    residual, inputs = residual_and_inputs(r, u)
     try:
-        reference = mean_reference(residual)
+        reference = _learnt(residual, inputs)
     except InvalidData as error:
         return MeanShift(None, str(error), level)
     if reference.nearest * reference.samples < UNIT_ROOT:
         return MeanShift(None, "the residual wanders like a random walk: its mean says nothing", level)
-    e = np.asarray(reference.still @ (residual.mean(axis=0) / reference.scales))
-    return _judged(reference, e, 1.0 / reference.samples, level)
+    means = _regressors(residual / reference.scales, inputs / reference.input_scales, reference.lags)[0].mean(axis=0)
+    still = means.copy()
+    still[0] = 0.0
+    h = float(np.sum((reference.root @ (means - _expected(reference, still))) ** 2))
+    return _judged(reference, reference.coefficients[0], h, level)
 
 
-def _tested(reference: MeanReference, r: Array, u: Array, level: float) -> MeanShift:
-    """Do the test itself."""
+def _tested(reference: MeanReference, r: Array, u: Array, level: float, off: Array | None = None) -> MeanShift:
+    """Do the test itself; `off` (k, p) are errors of the model in the mean of r, in its units."""
     scaled = r / reference.scales
     X, now = _regressors(scaled, u / reference.input_scales, reference.lags)
     e = (now - X @ reference.coefficients).mean(axis=0)
     h = 1.0 / len(now) + float(np.sum((reference.root @ _expected(reference, X.mean(axis=0))) ** 2))
     before, last = scaled[: reference.lags][::-1], scaled[len(now) :][::-1]
-    return _judged(reference, e, h, level, reference.ends @ (before - last).ravel() / len(now), len(now))
+    return _judged(reference, e, h, level, reference.ends @ (before - last).ravel() / len(now), len(now), off)
 
 
-def _judged(reference: MeanReference, e: Array, h: float, level: float, ends: Array | None = None, samples: int = 1) -> MeanShift:
+def _judged(
+    reference: MeanReference, e: Array, h: float, level: float, ends: Array | None = None, samples: int = 1, off: Array | None = None
+) -> MeanShift:
     """Return the verdict on the mean e (p,) of what the predictor leaves, of covariance W h where there is no shift; `ends` is P, none
-    where the lags miss nothing, of so many samples M."""
-    statistic = float(e @ np.linalg.solve(reference.long_run, e)) / h
+    where the lags miss nothing, of so many samples M; `off` (k, p) are errors of the model in the mean of r."""
+    own = reference.long_run * h
+    if off is not None:
+        wrong = off / reference.scales @ reference.still.T
+        own = own + wrong.T @ wrong
+    statistic = float(e @ np.linalg.solve(own, e))
     threshold = reference.threshold(level)
     back = np.linalg.inv(reference.still)
-    own = reference.long_run * h
     if ends is not None:
         e, own = e + ends, own + 2.0 * reference.ends @ reference.past @ reference.ends.T / samples**2
     V = back @ own @ back.T

@@ -9,8 +9,8 @@ slower than an exponential. For such tails of scale s the largest of K independe
 probability of level / 2, and the largest of N of p channels stays below s log(2 p N / level) but for as much: so the ratio of the two is
 bounded without knowing s. Normal noise has thinner tails, for which the bound is safe even where dependent values count for fewer than K.
 
-How much louder an input may be, and how far away, is calibrated: `benchmarks/identify_healthy.py --inputs` prints how often a record
-without a fault is called faulty for either, while nothing is left undecided on their account.
+How much louder an input may be is calibrated: `benchmarks/identify_healthy.py --inputs` prints how often a record without a fault is called
+faulty, while nothing is left undecided on that account. An input that has moved is as loud as its power about the healthy mean.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from ...base.arrays import Array
 from ...base.errors import shorten
 from .healthy_model import LEVEL
 
-# An input of more than so many times its healthy deviation drives model error that the healthy samples do not show; and so does one that
-# moved by more than so many.
-LOUDER, AWAY = 1.5, 10.0
+# An input of more than so many times its healthy size drives model error that the healthy samples do not show. `identify_healthy.py
+# --inputs` prints it: of 64 records without a fault 1 is called faulty where inputs stay, 1 where they are 1.5 times as loud, 4 at 1.75.
+LOUDER = 1.5
 # Of less than this share of its healthy size a residual is other noise, or none: what `noise_level` of `count_faults` means, too, may be
 # wrong by two and no more.
 QUIET = 0.5
@@ -33,11 +33,13 @@ QUIET = 0.5
 
 def beyond_healthy_inputs(before: Array, u: Array, names: Sequence[str]) -> str:
     """Say why the model's error need not be as the healthy samples show it, or nothing."""
-    sizes = np.where(before.std(axis=0) > 0.0, before.std(axis=0), 1.0)
-    louder, away = u.std(axis=0) / sizes, np.abs(u.mean(axis=0) - before.mean(axis=0)) / sizes
+    middle, deviations = before.mean(axis=0), before.std(axis=0)
+    sizes = np.where(deviations > 0.0, deviations, 1.0)
+    power, spread = np.mean((u - middle) ** 2, axis=0), u.std(axis=0)
     for i, name in enumerate(names):
-        if louder[i] > LOUDER or away[i] > AWAY:
-            how = f"{louder[i]:.3g} times as loud" if louder[i] > LOUDER else f"{away[i]:.3g} deviations away"
+        if power[i] > (LOUDER * sizes[i]) ** 2:
+            away = abs(u[:, i].mean() - middle[i]) / sizes[i]
+            how = f"{away:.3g} deviations away" if away * sizes[i] > spread[i] else f"{power[i] ** 0.5 / sizes[i]:.3g} times as loud"
             return f"input {shorten(name)} is {how} after the healthy samples, so that the error of the model can look like a fault"
     return ""
 

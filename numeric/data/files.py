@@ -39,6 +39,7 @@ from ...base.arrays import Array
 from ...base.errors import InvalidData, InvalidInput, in_file, quote_path, shorten
 from ...base.progress import Progress, silent
 from ...base.sheets import counted
+from .choosing import nothing_chosen
 from .clocks import Clock, first_clock, whole_clock
 from .hdf5 import hdf5_arrays
 from .records import Record, RecordWriter
@@ -148,9 +149,6 @@ def _opened(
 ) -> tuple[str, _Opened, list[str], list[str]]:
     """Return the format, the chosen channels of a file, open until the stack closes, and the names of inputs and outputs."""
     chosen = {"inputs": split_names(inputs), "outputs": split_names(outputs)}
-    for option, names in chosen.items():
-        if not names:
-            raise InvalidInput(f"got no {option}, expected at least one channel: try --{option} NAME,NAME")
     names = [*chosen["inputs"], *chosen["outputs"]]
     named_once(chosen["inputs"], chosen["outputs"])
     try:
@@ -163,8 +161,14 @@ def _opened(
     if read_as is None:
         suffix = shorten(Path(path).suffix)
         raise InvalidInput(f"got a file whose name ends in {suffix}, expected {', '.join(FORMATS)}: rename or convert it")
+
+    def read(wanted: Sequence[str]) -> _Opened:
+        return READERS[read_as](Path(path), wanted, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
+
     with _readable(read_as):
-        found = READERS[read_as](Path(path), names, lambda done, total: heard(f"reading {quote_path(path)}", done, total), stack)
+        if not (chosen["inputs"] and chosen["outputs"]):
+            raise nothing_chosen(path, chosen["inputs"], chosen["outputs"], read)
+        found = read(names)
     labels = [labels_of(name, width) for name, width in zip(names, found.widths, strict=True)]
     u_names = [label for group in labels[: len(chosen["inputs"])] for label in group]
     y_names = [label for group in labels[len(chosen["inputs"]) :] for label in group]

@@ -4,7 +4,7 @@ split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not
 named_once      the refusal of a channel that is named more than once
 labels_of       the names of the channels that a selector stands for
 picked          what a selector stands for, out of arrays by name
-missing         the refusal of a name that is not there
+missing         the refusal of a name that is not there, a Missing
 
 Of an array, NAME is all columns, NAME[:,j] or NAME[j] column j, NAME[:,i:j] several, NAME[i,:] row i, NAME[i,j] channel (i, j) of an array
 whose first of three axes is time. Indices count from 0. Everything wrong raises InvalidInput or InvalidData.
@@ -12,6 +12,7 @@ whose first of three axes is time. Indices count from 0. Everything wrong raises
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -21,6 +22,7 @@ import numpy as np
 from ...base.errors import InvalidData, InvalidInput, shorten
 
 MOST_NAMED = 12  # names that a refusal lists
+MOST_COMPARED = 1000  # names that one which is not there is compared with
 _SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
 
 
@@ -93,11 +95,20 @@ def _range(text: str) -> slice:
     return slice(first, last)
 
 
-def missing(name: str, there: Sequence[str], what: str) -> InvalidInput:
+class Missing(InvalidInput):
+    """This is the refusal of a name that is not among those that are `there`, which are `columns` or whole arrays."""
+
+    def __init__(self, message: str, there: Sequence[str], *, columns: bool) -> None:
+        super().__init__(message)
+        self.there, self.columns = tuple(there), columns
+
+
+def missing(name: str, there: Sequence[str], what: str) -> Missing:
     """Return the refusal of a name that is not among those that are there, which `what` calls columns, arrays or variables."""
     if not there:
-        return InvalidInput(f"got no {what} at all, expected {shorten(name)}")
+        return Missing(f"got no {what} at all, expected {shorten(name)}", there, columns=what.startswith("column"))
     listed = ", ".join(there[:MOST_NAMED]) + (f", ... ({len(there)} in all)" if len(there) > MOST_NAMED else "")
     near = [other for other in there if other.lower().strip() == name.lower().strip()]
+    near = near or difflib.get_close_matches(name, there[:MOST_COMPARED], n=1)
     advice = f"; did you mean {shorten(near[0])}?" if near else ""
-    return InvalidInput(f"there is no {what} {shorten(name)}, expected one of: {listed}{advice}")
+    return Missing(f"there is no {what} {shorten(name)}, expected one of: {listed}{advice}", there, columns=what.startswith("column"))

@@ -84,7 +84,7 @@ def _operating_points(known: Channels, names: Sequence[str], moving: Sequence[in
             far,
             f"the mean of {named(far)} exceeds its deviation",
             "the model is the same, but what the outputs are at rest stays in the residual, where it looks like a constant fault",
-            "try remove_means=True, unless zero is known to be the resting point",
+            'try operating_point="means", unless zero is known to be the resting point',
         )
 
 

@@ -375,6 +375,7 @@ def _learned(model: Any, plant: StateSpaceModel, settings: Settings, record: Rec
     return learn(plant, *_simulated(model), settings, with_inputs=False, notes=(note,))
 
 
+@one_thread()
 def learned_of(found: Any, settings: Settings | None = None) -> Learned:
     """Return what the record of an Identification teaches: of the samples that were stated to be healthy; else of those before the first
     onset that leaves enough; else of the whole record. A note says which, where none were stated.

@@ -20,6 +20,7 @@ from ...base.sheets import counted
 from ..count.mean_shift import POWER
 from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
+from ..operating_point import ZERO
 from .by_experiment import experiment_lines
 from .causes import isolation_lines, onset_lines
 from .physical import mode_lines
@@ -52,7 +53,8 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
     yield f"# {quote_path(data)}"
     several = f" of {len(record.lengths)} experiments" if record.lengths else ""
     yield f"{counted(len(record), 'sample')}{several}, inputs {_several(record.inputs)}, outputs {_several(record.outputs)}"
-    yield f"windows of {answer.block_rows} samples{', means removed' if answer.means_removed else ''}"
+    yield f"windows of {answer.block_rows} samples"
+    yield worded(operating_point_line(answer))
     yield ""
     yield "## Model"
     if model is None:
@@ -80,7 +82,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield ""
         yield "## Faults"
         yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"
-        yield f"why: {answer.reason}"
+        yield f"why: {worded(answer.reason)}"
         said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
         if any(word in reason for reason in said for word in (" law", " row")):
             yield (
@@ -109,6 +111,17 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
     yield ""
     yield "## What to try next"
     yield from (f"- {worded(line)}" for line in advice(answer))
+
+
+def operating_point_line(answer: Findings) -> str:
+    """Return about which point the channels were taken, and why."""
+    point = answer.operating_point
+    if point.of == ZERO:
+        return f"operating point: zero ({point.reason})"
+    where = (
+        "" if point.values is None else f", {_several([f'{n} {v:.4g}' for n, v in zip(answer.record.names, point.values, strict=True)])}"
+    )
+    return f"operating point: the means of the {point.of}{where} ({point.reason})"
 
 
 def missed_levels(answer: Findings, explained: Array) -> list[str]:
@@ -365,9 +378,10 @@ def advice(answer: Findings) -> list[str]:
     lines = []
     explained = fit(answer)
     if explained is not None and missed_levels(answer, explained):
-        lines.append("remove_means=True, before anything else: the levels of the channels hide what moves, and look like faults")
+        lines.append('operating_point="means", before anything else: the levels of the channels hide what moves, and look like faults')
     if not model.model.is_stable:
-        lines.append("the model is not stable: a lower order=, remove_means=True, or a record without drift, unless the plant is unstable")
+        means = "" if answer.means_removed else 'operating_point="means", '
+        lines.append(f"the model is not stable: a lower order=, {means}or a record without drift, unless the plant is unstable")
     if orders is not None and not orders.decided:
         lines.append(f"order=K, for another of the orders {orders.least} to {orders.most}: what follows from it should stay as it is")
     if answer.n_v is None:

@@ -32,7 +32,7 @@ from ...base.errors import InvalidData
 from ..count.windows import channel_sizes
 from ..data.validation import signals
 from ..space.basis import FLAT, KernelBasis, kernel_basis, refined_basis
-from ..space.tapered_moments import BANDS, CrossMoments, pooled_moments
+from ..space.tapered_moments import BANDS, CrossMoments, about_means, pooled_moments
 
 # Turns of colour and rows: the level moves by less than a thousandth of a nat afterwards.
 ROUNDS = 5
@@ -90,6 +90,8 @@ def joint_moments(y: ArrayLike, u: ArrayLike, degree: int, bands: int = BANDS) -
 def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]], degree: int, bands: int = BANDS) -> JointMoments:
     """Return the moments of several experiments (y, u) of one system, each from its own initial state, weighted by their lengths.
 
+    Of those about their means, N_i(1) times these is unknown to what the ends of the record make of it, and each window has a constant.
+
     Raises InvalidData as `joint_moments`, of the shortest experiment, and for experiments with other numbers of channels.
     """
     records = [signals(y, u) for y, u in experiments]
@@ -100,7 +102,8 @@ def joint_moments_experiments(experiments: Sequence[tuple[ArrayLike, ArrayLike]]
     lengths = np.array([len(y) for y, _ in records], dtype=float)
     sizes = np.array([_deviations(np.hstack(record)) for record in records])
     scale = np.sqrt(lengths @ sizes**2 / lengths.sum())
-    pooled = pooled_moments([np.hstack(record) / scale for record in records], degree, bands)
+    joint = [np.hstack(record) / scale for record in records]
+    pooled = pooled_moments(joint, degree, bands, constants=[about_means(one) for one in joint])
     return JointMoments(pooled, scale, records[0][0].shape[1])
 
 

@@ -5,7 +5,7 @@ space iff N_y (g + C (q - A)^-1 f) vanishes, that is iff it meets the conditions
 row ([G25] problem (11)). Of k rows with degrees eta_i there are sum (eta_i + 1) conditions, exactly n + p - n_z, so that rows and A, C
 that do not fit exactly contradict each other nowhere: N_y O_s = 0, which holds for true ones, need not be imposed.
 
-    pooled                  the moments of several experiments, in bands that most of their samples carry
+    pooled                  the moments of the experiments that carry such rows, as they are counted on
     fault_space_by_rows     the space, its dimension with a probability, and the angle by which it may be off where A, C are right
     identified_fault_space  the same for an identified model, whose error is in the angle
     n_z                     n_v + n - (total degree of the rows): of an order that is too high by one, one too many
@@ -38,17 +38,13 @@ from ..model.valleys import valleys
 from ..space.basis import KernelBasis
 from ..space.largest import largest_fault_space
 from ..space.result import FaultSpaceEstimate, SpaceOfValley, SpaceUncertainty, everything, kernel_conditions, orthonormal
-from ..space.tapered_moments import BANDS
 from ..space.uncertainty import space_uncertainty, turned_by_model
 from .bootstrap import redrawn
 from .degree import MISFITS, LeastDegree, freedom, least_degree, likelihood_ratio
+from .evidence import longest_degree
 from .joint import JointMoments, course, even_split, fitted, joint_moments, joint_moments_experiments, padded, refitted
 
 Experiments = Sequence[tuple[Array, Array]]
-# The share of the samples that sets how many bands all experiments have: a few short ones must not make them wide. A rule of thumb.
-MOST = 0.9
-# Windows for each band, as `tapered_moments` takes them.
-A_BAND = 8
 # Total degrees beyond the order by which it is tested.
 BEYOND = 1
 SEED = 20251123
@@ -73,7 +69,7 @@ def fault_space_by_rows(
     """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
 
     Where u is None, y is a list of pairs (y, u), each an experiment of the same system with an initial state of its own; experiments too
-    short for the frequency bands of the others are left out.
+    short for the rows are left out.
 
     The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`); with `draws` their misfit is measured
     on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right:
@@ -214,14 +210,11 @@ def _outputs(records: Experiments) -> Array:
 
 
 def pooled(records: Experiments, degree: int) -> JointMoments:
-    """Return the moments of all experiments (y, u) for rows up to this degree, in as many bands as experiments with MOST of the samples
-    carry; shorter ones are left out, for the bands of all must be the same. Raises InvalidData as `joint_moments`."""
-    if len(records) == 1:
-        return joint_moments(*records[0], degree)
-    lengths = sorted((len(y) for y, _ in records), reverse=True)
-    least = lengths[int(np.searchsorted(np.cumsum(lengths), MOST * sum(lengths)))]
-    kept = [record for record in records if len(record[0]) >= least]
-    return joint_moments_experiments(kept, degree, min(BANDS, max((least - degree) // A_BAND, 1)))
+    """Return the moments of the experiments (y, u) that are long enough for rows up to this degree: all of one, so that it says itself what
+    it lacks. Bands follow from the samples of all together, which a short one need not fill by itself. Raises InvalidData as
+    `joint_moments`."""
+    kept = [record for record in records if longest_degree(*record) >= degree]
+    return joint_moments_experiments(kept or [max(records, key=lambda record: len(record[0]))], degree)
 
 
 def _fitted(

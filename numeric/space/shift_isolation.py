@@ -6,6 +6,7 @@ there is none.
 
 isolate_shift     the answer for a shift, its covariance and the model that the residual is of
 stays             whether a shift is the same earlier and later
+gain_errors       the errors of the static gain of an identified model
 ShiftIsolation    it, with a row for each sensor and each input
 ShiftCause        one row
 
@@ -213,6 +214,15 @@ def stays(earlier: Array, later: Array, covariance: Array, freedom: int | None) 
     """Say whether two shifts (p,), whose difference has this covariance (p, p), differ by no more than chance at level EXCLUDED."""
     gap = later - earlier
     return _Law(freedom).chance(float(gap @ np.linalg.solve(covariance, gap)), len(gap)) >= EXCLUDED
+
+
+def gain_errors(model: Matrices | Identified | None) -> Array | None:
+    """Return the errors (K, p, n_u) of the static gain of an identified model, whose sum of squares over K is their variance: what it makes
+    of inputs whose mean moves by m is wrong by errors @ m. None where the model has no standard errors, or no static gain."""
+    uncertainty = getattr(model, "uncertainty", None)
+    if uncertainty is None or _unsteady(uncertainty.model, uncertainty, steady=True):
+        return None
+    return _static_gain(uncertainty.model, uncertainty.root)[1]
 
 
 def _checked(shift: ArrayLike, covariance: ArrayLike, p: int) -> tuple[Array, Array]:

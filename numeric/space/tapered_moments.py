@@ -8,7 +8,9 @@
                     frequency, more than noise through a low-pass leaves near its null, where the weights are largest
     samples         independent samples that the tapered ones are worth
 
-Segments overlap by an edge, so that little is lost on long records.
+Segments overlap by an edge, so that little is lost on long records. Of a record about its means each entry of psi gets a constant of its
+own: the means are those of all samples, those of shifted windows are others by the ends of the record over N, and after such a row of large
+signals that would be far above little noise at frequency zero.
 """
 
 from __future__ import annotations
@@ -30,6 +32,7 @@ BANDS = 64
 SEGMENT = 8192
 # Share of a segment in its two edges together.
 EDGES = 0.1
+HALF_THE_DIGITS = float(np.sqrt(np.finfo(np.float64).eps))
 
 
 @dataclass(frozen=True)
@@ -86,22 +89,32 @@ def tapered_moments(r: Array, degree: int, most: int = BANDS) -> CrossMoments:
     return pooled_moments([r], degree, most)
 
 
-def pooled_moments(experiments: Sequence[Array], degree: int, most: int = BANDS) -> CrossMoments:
-    """Return the moments of several records (N_i, p) of one system, weighted by their lengths, in bands that all of them fill together.
+def pooled_moments(experiments: Sequence[Array], degree: int, most: int = BANDS, *, constants: Sequence[bool] = ()) -> CrossMoments:
+    """Return the moments of several records (N_i, p) of one system, weighted by their lengths, in bands that all of them fill together;
+    `constants` tells of which the windows may have one.
 
     Raises InvalidData where the windows of one of them are fewer than twice their own size.
     """
     windows = np.array([len(r) - degree for r in experiments])
-    bands = max(4, min(most, int(windows.sum()) // 8))
-    parts = [_moments(r, degree, bands) for r in experiments]
+    # Each has two frequencies of the longest, of which a constant may take one: a band that no record reaches says nothing.
+    bands = max(4, min(most, int(windows.sum()) // 8, int(windows.max()) // 4))
+    with_constant = list(constants) or [False] * len(experiments)
+    parts = [_moments(r, degree, bands, one) for r, one in zip(experiments, with_constant, strict=True)]
     share = windows / windows.sum()
     moments = np.tensordot(share, np.array([part.moments for part in parts]), 1)
     weights = np.tensordot(share, np.array([part.weights for part in parts]), 1)
     return replace(parts[0], moments=moments, weights=weights, samples=sum(part.samples for part in parts))
 
 
-def _moments(r: Array, degree: int, bands: int) -> CrossMoments:
-    """Return the moments of one record (N, p); a short one leaves some of so many bands empty."""
+def about_means(r: Array) -> bool:
+    """Say whether the means have been taken off r (N, p): what is left of them is rounding beside what chance leaves, a deviation over the
+    root of N, of which it has no half of the digits."""
+    return bool(np.all(np.abs(r.mean(axis=0)) * np.sqrt(len(r)) <= HALF_THE_DIGITS * r.std(axis=0)))
+
+
+def _moments(r: Array, degree: int, bands: int, constant: bool) -> CrossMoments:
+    """Return the moments of one record (N, p), of windows about a `constant` or as they are; a short one leaves some of so many bands
+    empty."""
     N, p = r.shape
     windows, size = N - degree, p * (degree + 1)
     if windows < 2 * size:
@@ -120,13 +133,20 @@ def _moments(r: Array, degree: int, bands: int) -> CrossMoments:
     doubled[-1] = 2.0 - (length % 2 == 0)
     band = np.minimum(np.arange(frequencies) * 2 * bands // length, bands - 1)
     moments = np.zeros((bands, size, size), dtype=np.complex128)
+    centre = np.zeros(size)
+    if constant:
+        # Fitted at frequency zero, of which one number in so many pieces is gone with it.
+        sums = [np.concatenate([taper @ r[start + j : start + j + length] for j in range(degree + 1)]) for start in starts]
+        centre = np.mean(sums, axis=0) / taper.sum()
     for start in starts:
-        psi = np.hstack([r[start + j : start + j + length] for j in range(degree + 1)]) * taper[:, None]
+        psi = (np.hstack([r[start + j : start + j + length] for j in range(degree + 1)]) - centre) * taper[:, None]
         spectrum = np.fft.rfft(psi, axis=0) * np.sqrt(doubled)[:, None]
         for b in range(bands):
             part = spectrum[band == b]
             moments[b] += part.T @ part.conj()
     moments /= pieces * length * float(np.sum(taper**2))
+    if constant:
+        doubled[0] -= 1 / pieces
     weights = np.bincount(band, weights=doubled, minlength=bands) / doubled.sum()
     coverage = np.zeros(windows)
     for start in starts:

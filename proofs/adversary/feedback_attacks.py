@@ -29,7 +29,8 @@ from ...exact.limits.moments import covariances, window_covariances
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.windows import observability_matrix
 from ..evidence.attacks import Aim, Attack, Block, Family, Floats, Point, Witness
-from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
+from ..evidence.experiments import LimitEvidence, examine_experiment
+from ..trust.limit_certificates import certificates_of
 from .float_limits import Drawn, exact_experiment, float_limits, outside
 from .limit_attacks import POLE, chain, describe
 from .witnesses import confirmed

@@ -18,7 +18,8 @@ from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances, window_covariances
 from ...exact.system.windows import observability_matrix
 from ..evidence.attacks import Family, Point, Witness
-from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment
+from ..evidence.experiments import LimitEvidence, examine_experiment
+from ..trust.limit_certificates import certificates_of
 from .float_limits import Drawn, exact_experiment
 from .spectra import Shaped, shaped_input
 from .witnesses import confirmed

@@ -19,10 +19,11 @@ from ...exact.limits.hidden_states import hides_a_state
 from ...exact.limits.moesp import limit
 from ...exact.limits.moments import covariances
 from ...exact.parametric.leads import lead_identities
-from ..evidence.experiments import NILPOTENT, Drive, LimitEvidence, certificates_of, examine_experiment, experiments_in_order, leading
+from ..evidence.experiments import NILPOTENT, Drive, LimitEvidence, examine_experiment, experiments_in_order, leading
 from ..evidence.kept_experiments import WITHOUT_RANK, kept
 from ..evidence.seasonal_inputs import BOX as BOX_OF_PERIOD
 from ..evidence.seasonal_inputs import in_order, seasonal
+from ..trust.limit_certificates import certificates_of
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, certify_records, counterexample, witnessed

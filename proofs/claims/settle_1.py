@@ -5,8 +5,9 @@ from __future__ import annotations
 from functools import partial
 
 from ...exact.limits.moesp import PopulationLimits, limit
-from ..evidence.experiments import LimitEvidence, certificates_of, examine_experiment, following
+from ..evidence.experiments import LimitEvidence, examine_experiment, following
 from ..evidence.kept_experiments import kept
+from ..trust.limit_certificates import certificates_of
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, accepted, witnessed
 from .proposition_1 import certify_limits, show_words, smallest_limit

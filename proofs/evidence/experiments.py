@@ -23,12 +23,15 @@ from typing import Any
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix, rank
 from ...exact.algebra.stability import is_stable, rational_characteristic_polynomial
+from ...exact.limits.column_space import StatePart
 from ...exact.limits.experiments import Experiment, read_experiment
+from ...exact.limits.lyapunov import solve
 from ...exact.limits.moesp import PopulationLimits, limit
+from ...exact.limits.moments import toeplitz
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
-from ..trust import limit_certificates as make
-from ..trust.structure_certificates import Certificate, Unprovable, accept
+from ..trust.limit_certificates import certificates_of
+from ..trust.structure_certificates import accept
 from .material import Material
 from .seasonal_inputs import in_order, seasonal
 
@@ -43,7 +46,8 @@ class LimitEvidence:
 
     `observable`: on s - 1 samples already, which shift invariance takes; `long_past`: past >= n. `within`: the limit of PI-MOESP lies in
     the range of O_s; `equal`: is that range; the same for PO-MOESP. `inputs_right`: every regression that has a unique limit gives the true
-    B and D. `weight` is 1.
+    B and D. `state` is the (A, C) that the columns of PI-MOESP's limit carry, None where they carry none; `predicted`: u(k) less its best
+    prediction from u(k-1), ..., u(k-s) is uncorrelated with all of its past. `weight` is 1.
     """
 
     origin: str
@@ -63,6 +67,8 @@ class LimitEvidence:
     limit_rank: int
     inputs_right: bool
     state_inputs: tuple[Matrix, Matrix] | None
+    state: StatePart | None
+    predicted: bool
     weight: int
     accepted: int
 
@@ -103,17 +109,6 @@ class LimitEvidence:
         return self.past_lags and self.same_time
 
 
-def certificates_of(found: PopulationLimits) -> list[Certificate]:
-    """Certificates of both limits, and of each regression that has a unique limit."""
-    made = [make.past_input_limit(found), make.past_input_and_output_limit(found)]
-    for regression in (make.output_error_inputs, make.moesp_inputs):
-        try:
-            made.append(regression(found))
-        except Unprovable:
-            continue
-    return made
-
-
 def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
     """The evidence on an experiment: its limits certified, and what its signals are like."""
     found = limit(experiment)
@@ -146,9 +141,26 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
         limit_rank=inside["limit_rank"],
         inputs_right=all((says["B"], says["D"]) == true for says in inputs),
         state_inputs=state_inputs,
+        state=found.past_inputs.state,
+        predicted=_predicted(found, experiment.s),
         weight=1,
         accepted=len(certificates),
     )
+
+
+def _predicted(found: PopulationLimits, order: int) -> bool:
+    """Return whether u(k) less its best prediction from u(k-1..k-order) is uncorrelated with all of its past.
+
+    Beyond `order` these correlations are powers of the joint state's matrix between two fixed ones, so that as many as it has rows decide
+    (Cayley-Hamilton).
+    """
+    known, u = found.known, found.known.process.u
+    near, now = range(-order, 0), range(1)
+    far = range(-order - known.process.Phi.nrows - 1, -order)
+    lags = dict(enumerate(known.forward(u, u, -far[0])))
+    lags |= {-lag: block.transposed() for lag, block in lags.items()}
+    weights = solve(toeplitz(lags, near, near), toeplitz(lags, near, now)).transposed()
+    return toeplitz(lags, now, far) == weights @ toeplitz(lags, near, far)
 
 
 def _sources(bench: Any) -> list[tuple[str, int]]:

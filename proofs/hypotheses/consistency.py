@@ -16,13 +16,13 @@ from functools import cached_property, partial
 from ...exact.algebra.fields import QQ
 from ...exact.algebra.matrices import Matrix
 from ...exact.limits.experiments import Experiment
-from ...exact.limits.lyapunov import solve
-from ...exact.limits.moesp import PopulationLimits, limit
+from ...exact.limits.moesp import limit
 from ...exact.system.systems import ResidualSystem
 from ..claims.proposition_1 import show_words
-from ..evidence.experiments import LIMITS, LimitEvidence, certificates_of, examine_experiment
+from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment
 from ..evidence.material import Material
 from ..trust import structure_certificates as make
+from ..trust.limit_certificates import certificates_of
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, first_found
 from ..verdict.workbench import Workbench
@@ -111,23 +111,9 @@ def _ablation(name: str, hypotheses: Mapping[str, Callable[[Driven], bool]]) -> 
 
 def driven(record: LimitEvidence) -> Driven:
     """Return the subject that is made of an experiment with certified limits."""
-    found = limit(record.experiment)
-    state, residual = found.past_inputs.state, record.experiment.system.residual
+    state, residual = record.state, record.experiment.system.residual
     read = None if state is None else similarity(_without_faults(residual), _model(state.A, state.C))
-    return Driven(record, read is not None, autoregressive(found, record.experiment.s))
-
-
-def autoregressive(found: PopulationLimits, order: int) -> bool:
-    """Whether u(k) less its best prediction from u(k-1..k-order) is uncorrelated with all of its past.
-
-    Beyond `order` these correlations are powers of the joint state's matrix between two fixed ones, so that as many as it has rows decide
-    (Cayley-Hamilton).
-    """
-    known, u = found.known, found.known.process.u
-    near, now = range(-order, 0), range(1)
-    far = range(-order - known.process.Phi.nrows - 1, -order)
-    weights = solve(known.windows(u, u, near, near), known.windows(u, u, near, now)).transposed()
-    return known.windows(u, u, now, far) == weights @ known.windows(u, u, near, far)
+    return Driven(record, read is not None, record.predicted)
 
 
 def _subjects(bench: Workbench) -> Iterator[Driven]:

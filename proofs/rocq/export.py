@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from operator import mul
 from typing import Any
 
-from ..trust import checker
+from ..trust import checker, checker_structure
 from .listed import Integers, Listed, NotCovered, added, independent, times, unit
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
 
@@ -269,7 +269,7 @@ def _inversion_delay(s: Json, w: Json) -> Terms:
 
 def _matrix_rank(s: Json, w: Json) -> Terms:
     system, prime, r, name = Listed(s["system"]), _prime(w), _index(s["rank"]), s["matrix"]
-    checker.expect(type(name) is str and name in checker.MATRICES, "matrix: unknown name")
+    checker.expect(type(name) is str and name in checker_structure.MATRICES, "matrix: unknown name")
     n, m, p = system.sizes
     samples, e, given = _window(s["window"]) if "window" in s else n, system.den, list[tuple[str, str, str]]()
     system.bounded(samples)

@@ -33,7 +33,7 @@ class Listed:
     """A SYSTEM over Q is listed with matrices transposed and multiplied by their common denominator."""
 
     def __init__(self, data: Json) -> None:
-        system = checker.System(data)
+        system = checker.SUBJECTS["system"](data)
         if system.field.key != "Q":
             raise NotCovered("the checks in Rocq are over the rational numbers only")
         self.sizes = self.n, self.m, self.p = system.n, system.m, system.p

@@ -1,26 +1,22 @@
-"""The second file of the checker: population limits, stability, zeros, lines of faults; beside `checker.py`, which it needs.
+"""Population limits, stability and zeros: the fourth file of the checker, beside the three that it needs and that are read first.
 
     python -I -O checker_limits.py [--json] [--system FILE]... CERTIFICATE...
 
-It decides every kind: those of `checker.py`, which is to be read first, by that file, and those of KINDS below. Exit codes, output and
-limits are those of `checker.py`. Besides that file, with the Python that runs it, these arguments have to be believed:
+It needs `checker.py`, `checker_fields.py` and `checker_structure.py`, and decides their kinds and those of KINDS below. Besides them
+these arguments have to be believed:
 
-  lines         The maximal minors of the pencil at a point are binary forms of degree m. Once their multiples by the forms of degree m - 1
-                span all of degree 2m - 1 modulo the prime, they do over K, and leave no common zero over any extension.
   stability     Exact. The characteristic polynomial of the blocks is the product over all embeddings. A polynomial f of degree d, f* the
                 same reversed, has all its roots inside the unit circle iff |f_d| > |f_0| and (f_d f - f_0 f*) / q has (Schur and Cohn).
   covariances   Exact. With Phi stable, P = Phi P Phi' + Gamma Gamma' has one solution, the stationary covariance. The others follow.
   regressions   Exact. What minimises a sum of squares are the solutions of the normal equations; that there is one only is seen by ranks.
   zeros         Exact. Unimodular multipliers keep the normal rank and the invariant polynomials.
-
-To have this file is to have its kinds: it adds them to those of `checker.py`.
 """
 
 from __future__ import annotations
 
 import importlib.util
 import sys
-from functools import reduce
+from functools import partial, reduce
 from itertools import accumulate, repeat
 from math import gcd
 from pathlib import Path
@@ -28,28 +24,16 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING or __package__:
     from . import checker as core
-else:  # alone: the file of that name in the same folder
-    spec = importlib.util.spec_from_file_location("checker", Path(__file__).with_name("checker.py"))
-    core = importlib.util.module_from_spec(spec)
-    sys.modules["checker"] = core
-    spec.loader.exec_module(core)
+    from . import checker_structure as structure
+else:  # alone: the files of these names in the same folder
+    for name in ("checker", "checker_fields", "checker_structure"):
+        if name not in sys.modules:
+            spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
+            sys.modules[name] = importlib.util.module_from_spec(spec)
+            spec.loader.exec_module(sys.modules[name])
+    core, structure = sys.modules["checker"], sys.modules["checker_structure"]
 
-Polynomial = dict[int, "core.Mat"]  # a polynomial matrix: the nonzero coefficients by their powers
-
-
-def binary_form(rows: list[list[int]], prime: int) -> list[int]:
-    """Return det(a X + b Y) modulo a prime from the m rows of [X Y]: the coefficients of a^m, a^(m-1) b, ..., b^m."""
-    m, minors = len(rows), {0: [1]}  # the minors of the rows so far by their columns, as the bits of a number
-    core.charge((1000 + 100 * m) * (m + 1) << m, (400 + 50 * m) << m)
-    for row in rows:
-        larger = dict[int, list[int]]()
-        for columns, f in minors.items():
-            for j in (j for j in range(m) if not columns >> j & 1):
-                x, y = (-c if (columns >> j).bit_count() % 2 else c for c in (row[j], row[m + j]))
-                terms = zip(larger.get(columns | 1 << j, repeat(0)), [*f, 0], [0, *f], strict=False)
-                larger[columns | 1 << j] = [(old + x * c + y * d) % prime for old, c, d in terms]
-        minors = larger
-    return minors[2**m - 1]
+Polynomial = dict[int, "structure.Mat"]  # a polynomial matrix: the nonzero coefficients by their powers
 
 
 def inside_circle(f: list[int]) -> bool:
@@ -75,33 +59,16 @@ def polynomial(field: core.Field, value: core.Json, nr: int, nc: int, where: str
     """Return a POLYMATRIX of that shape."""
     table = [[core.items(f, where) for f in core.items(row, where, nc, nc)] for row in core.items(value, where, nr, nr)]
     powers = range(max((len(f) for row in table for f in row), default=0))
-    return {k: c for k in powers if (c := field.matrix([[f[k] if k < len(f) else 0 for f in row] for row in table], nr, nc, where))}
+    return {
+        k: c for k in powers if (c := structure.matrix(field, [[f[k] if k < len(f) else 0 for f in row] for row in table], nr, nc, where))
+    }
 
 
-def left_invertible_line(system: core.System, s: core.Json, w: core.Json, second: core.System) -> None:
-    n, m, prime, multiples = system.n, system.m, system.field.modulus[0], list[list[int]]()
-    alike = (n, m) == (second.n, second.m) and [system.A, system.C] == [second.A, second.C]
-    core.expect(alike, "the two systems differ in A, C or number of faults")
-    table = system.field.assembled([[system.A, system.F, second.F], [system.C, system.G, second.G]], n + 2 * m).residues()
-    for minor in core.items(w["minors"], "minors"):
-        q = core.index(core.keys(minor, "point rows", "minor")["point"], "point", prime - 1)
-        rows = [core.index(i, "rows", n + system.p - 1) for i in core.items(minor["rows"], "rows", n + m, n + m)]
-        core.expect(rows == sorted({*rows}), "rows: they do not ascend")
-        core.charge(20000 + len(rows) * (n + 2 * m) * 300, (2 * m + len(multiples)) * m * 100)
-        pencil = ([(x - q * (i == j < n)) % prime for j, x in enumerate(table[i])] for i in rows)  # up to the sign of its first n rows
-        form = core.echelon(pencil, prime)
-        rest = [row[n:] for pivot, row in form if pivot >= n]  # what is left to do once the columns of the state are eliminated
-        if len(rest) == m == len(form) - n:  # else the minor is zero
-            core.charge(m * m * 100)
-            multiples += [[0] * j + binary_form(rest, prime) + [0] * (m - 1 - j) for j in range(m)]
-    core.require(len(core.echelon(multiples, prime)) == 2 * m, "the minors may have a common zero")
-
-
-def schur_stable(system: core.System, s: core.Json, w: core.Json) -> None:
-    size, den, one = system.A.nc, system.A.den, system.field.scalar(system.n, system.n, 1)
+def schur_stable(system: structure.System, s: core.Json, w: core.Json) -> None:
+    size, den, one = system.A.nc, system.A.den, structure.scalar(system.field, system.n, system.n, 1)
     core.expect(not system.field.prime, "field: a finite one has no unit circle")
     core.charge(size * ((size * den.bit_length()) ** 2 >> 9), size**2 * den.bit_length() // 7)
-    scaled, power, f = core.Mat(system.field, system.A.rows, size), one, [1]
+    scaled, power, f = structure.Mat(system.field, system.A.rows, size), one, [1]
     for k in range(1, size + 1):  # Faddeev and LeVerrier: det(qI - den A), coefficients descending
         power = scaled @ power
         core.charge(size * (100 + (power.bits >> 4)))
@@ -112,15 +79,15 @@ def schur_stable(system: core.System, s: core.Json, w: core.Json) -> None:
     core.require(inside_circle([c * den ** (size - k) for k, c in enumerate(f)]), "an eigenvalue is not inside the unit circle")
 
 
-def zeros(system: core.System, s: core.Json, w: core.Json) -> None:
-    field, nr, nc, one = system.field, system.n + system.p, system.n + system.m, system.field.scalar(1, 1, 1)
-    constant = field.assembled([[system.A.times(-1), system.F.times(-1)], [system.C, system.G]], nc)
-    slope = field.assembled([[field.scalar(system.n, nc, 1)], [field.scalar(system.p, nc)]], nc)
+def zeros(system: structure.System, s: core.Json, w: core.Json) -> None:
+    field, nr, nc, one = system.field, system.n + system.p, system.n + system.m, structure.scalar(system.field, 1, 1, 1)
+    constant = structure.assembled(field, [[system.A.times(-1), system.F.times(-1)], [system.C, system.G]], nc)
+    slope = structure.assembled(field, [[structure.scalar(field, system.n, nc, 1)], [structure.scalar(field, system.p, nc)]], nc)
     pencil = {k: part for k, part in enumerate([constant, slope] if "normal_rank" in s else [slope, constant]) if part}
     left, left_inverse = (polynomial(field, w[key], nr, nr, key) for key in ("left", "left_inverse"))
     right, right_inverse = (polynomial(field, w[key], nc, nc, key) for key in ("right", "right_inverse"))
-    core.require(product(left, left_inverse) == ({0: field.scalar(nr, nr, 1)} if nr else {}), "left is not unimodular")
-    core.require(product(right, right_inverse) == ({0: field.scalar(nc, nc, 1)} if nc else {}), "right is not unimodular")
+    core.require(product(left, left_inverse) == ({0: structure.scalar(field, nr, nr, 1)} if nr else {}), "left is not unimodular")
+    core.require(product(right, right_inverse) == ({0: structure.scalar(field, nc, nc, 1)} if nc else {}), "right is not unimodular")
     diagonal = core.items(w["diagonal"], "diagonal", min(nr, nc), min(nr, nc))
     target = polynomial(field, [[diagonal[i] if i == j else [] for j in range(nc)] for i in range(nr)], nr, nc, "diagonal")
     core.require(product(product(left, pencil), right) == target, "the multipliers do not give the diagonal")
@@ -136,7 +103,7 @@ def zeros(system: core.System, s: core.Json, w: core.Json) -> None:
         core.require(found and found == product(stated, {0: found[max(found)]}), "the product of the diagonal is not the polynomial")
 
 
-class Experiment(core.System):
+class Experiment(structure.System):
     """An EXPERIMENT. f = (u; v; w) is filtered white noise: f = N_0 e + s_1, s_i(k+1) = s_(i+1)(k) + N_i e(k) - d_i f(k) for i = 1..L.
     With xi = (x; s_1; ...; s_L): xi(k+1) = Phi xi(k) + Gamma e(k), z = (u; y) = H xi + J e."""
 
@@ -151,15 +118,23 @@ class Experiment(core.System):
         u = self.filter(data["u_filter"], self.nu, "u_filter")
         v = self.filter(data["v_filter"], self.m, "v_filter", u[0][0].nc)
         w = self.filter(data.get("w_filter", [[[]] * self.p]), self.p, "w_filter")
-        self.chain = list[tuple[core.Mat, core.Mat]]()  # N_i and -d_i
+        self.chain = list[tuple[structure.Mat, structure.Mat]]()  # N_i and -d_i
         for i in range(max(map(len, (u, v, w)))):
             (a, c), (b, d), (g, h) = (one[i] if i < len(one) else (one[0][0].times(0), one[0][1].times(0)) for one in (u, v, w))
-            self.chain.append((self.field.diagonal(self.field.assembled([[a], [b]], a.nc), g), self.field.diagonal(c, d, h)))
+            self.chain.append(
+                (
+                    structure.diagonal(self.field, structure.assembled(self.field, [[a], [b]], a.nc), g),
+                    structure.diagonal(self.field, c, d, h),
+                )
+            )
         self.key += ([self.nu, self.s, self.past, len(self.chain), u[0][0].nc, w[0][0].nc], self.inputs, self.chain)
-        told = ", ".join(f"{name}={core.shorten(data[name])}" for name in ("B", "D", *self.OWN) if name in data)
-        self.words += f" with nu={self.nu}, {told}"
+        self.told = ", ".join(f"{name}={core.shorten(data[name])}" for name in ("B", "D", *self.OWN) if name in data)
 
-    def filter(self, value: core.Json, height: int, where: str, width: int | None = None) -> list[tuple[core.Mat, core.Mat]]:
+    @property
+    def words(self) -> str:
+        return f"{super().words} with nu={self.nu}, {self.told}"
+
+    def filter(self, value: core.Json, height: int, where: str, width: int | None = None) -> list[tuple[structure.Mat, structure.Mat]]:
         """Return N_i and -d_i of a FILTER, i = 0, 1, ..."""
         given = core.keys(value, "num den", where) if type(value) is dict else {"num": value, "den": [1]}
         num, den = (core.items(given[key], where, core.MAX_DIMENSION, 1) for key in ("num", "den"))
@@ -170,13 +145,20 @@ class Experiment(core.System):
         core.require(inside_circle([top * (common // bottom) for top, bottom in pairs]), f"{where}: the denominator is not stable")
         if width is None:
             width = len(core.items(rows[0], where, core.MAX_DIMENSION)) if (rows := core.items(num[0], where, height)) else 0
-        unit, extra = self.field.scalar(height, height, 1), [0] * abs(len(num) - len(den))
-        forward = [self.field.matrix(part, height, width, where) for part in num] + [self.field.scalar(height, width) for _ in extra]
+        unit, extra = structure.scalar(self.field, height, height, 1), [0] * abs(len(num) - len(den))
+        forward = [structure.matrix(self.field, part, height, width, where) for part in num] + [
+            structure.scalar(self.field, height, width) for _ in extra
+        ]
         return list(zip(forward, [unit.times(-top, bottom) for top, bottom in pairs] + [unit.times(0) for _ in extra], strict=False))
 
-    def process(self, B: core.Mat, D: core.Mat) -> tuple[core.Mat, core.Mat, core.Mat, core.Mat]:
+    def process(self, B: structure.Mat, D: structure.Mat) -> tuple[structure.Mat, structure.Mat, structure.Mat, structure.Mat]:
         """Return Phi, Gamma, H, J with these in the place of B and D."""
-        zero, joined, first, steps = self.field.scalar, self.field.assembled, self.chain[0][0], range(1, len(self.chain))
+        zero, joined, first, steps = (
+            partial(structure.scalar, self.field),
+            partial(structure.assembled, self.field),
+            self.chain[0][0],
+            range(1, len(self.chain)),
+        )
         height, size = len(first.rows), len(first.rows) * len(steps)
         core.charge(400 * len(steps) ** 2, 40 * len(steps) ** 2)
         unit, blank = zero(height, height, 1), zero(height, height)
@@ -189,8 +171,8 @@ class Experiment(core.System):
         return Phi, joined([[into @ first], *enter], first.nc), H, direct @ first
 
     def covariances(
-        self, value: core.Json, samples: int, width: int, B: core.Mat, D: core.Mat
-    ) -> tuple[core.Mat, core.Mat, core.Mat, core.Mat]:
+        self, value: core.Json, samples: int, width: int, B: structure.Mat, D: structure.Mat
+    ) -> tuple[structure.Mat, structure.Mat, structure.Mat, structure.Mat]:
         """Return Phi, H, Cov(xi(k+1), t(k)) and Cov(z(0..samples-1), t(0..samples-1)), t the first `width` of the channels of z: u, or all.
 
         The value is Cov(xi), or for t = u the part Cov(xi, (s_1; ...; s_L)) that is enough.
@@ -200,14 +182,14 @@ class Experiment(core.System):
         Phi, Gamma, H, J = self.process(B, D)
         part, some = range(self.n if width == self.nu else 0, Phi.nc), range(width)
         a, b, h, j = Phi.at(part, part), Gamma.at(part, range(Gamma.nc)), H.at(some, part), J.at(some, range(J.nc))
-        P = self.field.matrix(value, Phi.nc, len(part), "covariance")
+        P = structure.matrix(self.field, value, Phi.nc, len(part), "covariance")
         core.require(Phi @ P @ a.T + Gamma @ b.T == P, "the covariance does not solve the Lyapunov equation")
         following, backward = Phi @ P @ h.T + Gamma @ j.T, a @ P.T @ H.T + b @ J.T
         later = [H @ block for block in accumulate(repeat(Phi, samples - 2), lambda block, step: step @ block, initial=following)]
         sooner = [(h @ block).T for block in accumulate(repeat(a, samples - 2), lambda block, step: step @ block, initial=backward)]
         lags = [*reversed(sooner), H @ P @ h.T + J @ j.T, *later]  # Cov(z(k), t(0)) at len(sooner) + k
         grid = [lags[len(sooner) + i - samples + 1 : len(sooner) + i + 1][::-1] for i in range(samples)]
-        return Phi, H, following, self.field.assembled(grid, samples * width)
+        return Phi, H, following, structure.assembled(self.field, grid, samples * width)
 
     def places(self, samples: range, channels: range, width: int) -> list[int]:
         """Return where these channels stand in (z(0); z(1); ...) with `width` channels a sample."""
@@ -224,10 +206,10 @@ class Experiment(core.System):
         limit = moments.at(rows, self.places(past, range(right), right))
         size = first.nc
         core.require(first.at(range(size), range(size)).rank() == size, "the covariance of the inputs may be singular")
-        seen = field.assembled([[field.scalar(size, self.n)], [self.window(self.s, faults=False)]], self.n)
+        seen = structure.assembled(field, [[structure.scalar(field, size, self.n)], [self.window(self.s, faults=False)]], self.n)
         for name, parts in (("limit", [limit]), ("observability", [seen]), ("joint", [limit, seen])):
-            table = field.assembled([[first, *parts]], size + sum(part.nc for part in parts))
-            field.ranked(table, size + core.index(s[f"{name}_rank"], f"{name}_rank"), w.get(name, w["joint"]))
+            table = structure.assembled(field, [[first, *parts]], size + sum(part.nc for part in parts))
+            structure.ranked(table, size + core.index(s[f"{name}_rank"], f"{name}_rank"), w.get(name, w["joint"]))
 
     def input_limit(self, s: core.Json, w: core.Json) -> None:
         field, n, p, nu, true = self.field, self.n, self.p, self.nu, s["regression"] == "true-AC"
@@ -236,7 +218,10 @@ class Experiment(core.System):
         core.expect(
             given == ({"errors", "series"} if true else {"response", "inverse"}), "witness: errors and series, or response and inverse"
         )
-        window, stated = n + 1 if true else self.s, [field.matrix(s["B"], n, nu, "B"), field.matrix(s["D"], p, nu, "D")]
+        window, stated = (
+            n + 1 if true else self.s,
+            [structure.matrix(field, s["B"], n, nu, "B"), structure.matrix(field, s["D"], p, nu, "D")],
+        )
         *_, moments = self.covariances(w["covariance"], window, nu, *self.inputs)
         outputs, size = self.places(range(window), range(nu, nu + p), nu + p), nu * window
         inputs = moments.at(self.places(range(window), range(nu), nu + p), range(size))
@@ -246,19 +231,28 @@ class Experiment(core.System):
         if true:
             errors = (mine + other.times(-1) for mine, other in zip(self.inputs, stated, strict=True))
             Phi, H, following, present = self.covariances(w["errors"], 1, nu, *errors)  # y is here what the stated B and D leave of it
-            series = field.matrix(w["series"], n, Phi.nc, "series")  # sum of A'^k C' (the rows of y in H) Phi^k
+            series = structure.matrix(field, w["series"], n, Phi.nc, "series")  # sum of A'^k C' (the rows of y in H) Phi^k
             solved = self.A.T @ series @ Phi + self.C.T @ H.at(range(nu, nu + p), range(Phi.nc))
             core.require(solved == series, "the series does not solve its equation")
             core.require(not series @ following, "the error is correlated with the past inputs")
             core.require(not present.at(range(nu, nu + p), range(nu)), "the error is correlated with the present input")
             return
-        response, inverse = field.matrix(w["response"], p * window, size, "response"), field.matrix(w["inverse"], n, p * window, "inverse")
+        response, inverse = (
+            structure.matrix(field, w["response"], p * window, size, "response"),
+            structure.matrix(field, w["inverse"], n, p * window, "inverse"),
+        )
         core.require(response @ inputs == moments.at(outputs, range(size)), "the response is not that of the future inputs")
         core.require(seen.T @ (seen @ inverse) == seen.T, "the inverse does not project on the observability matrix")
-        column = field.assembled([[field.scalar(p, n), field.scalar(p, p, 1)], [before, field.scalar(p * window - p, p)]], n + p)
-        theta, slope = field.assembled([[part.times(-1)] for part in stated], nu), field.scalar(n + p, nu)
+        column = structure.assembled(
+            field,
+            [[structure.scalar(field, p, n), structure.scalar(field, p, p, 1)], [before, structure.scalar(field, p * window - p, p)]],
+            n + p,
+        )
+        theta, slope = structure.assembled(field, [[part.times(-1)] for part in stated], nu), structure.scalar(field, n + p, nu)
         for j in range(window):  # block column j of response - T_s(B, D), and what of it is orthogonal to the observability matrix
-            shifted = field.assembled([[field.scalar(p * j, n + p)], [column.at(range(p * (window - j)), range(n + p))]], n + p)
+            shifted = structure.assembled(
+                field, [[structure.scalar(field, p * j, n + p)], [column.at(range(p * (window - j)), range(n + p))]], n + p
+            )
             rest = response.at(range(p * window), range(nu * j, nu * j + nu)) + shifted @ theta
             slope = slope + shifted.T @ (rest + seen @ (inverse @ rest).times(-1))
         core.require(not slope, "the normal equations fail")
@@ -266,9 +260,6 @@ class Experiment(core.System):
 
 DIAGONAL = "diagonal left left_inverse right right_inverse"
 KINDS: dict[str, core.Kind] = {
-    "left-invertible-line": core.Kind(left_invertible_line, "first second", f"{core.MODULAR} minors",
-        "left-invertible with faults a F + b F' and a G + b G' for every (a : b) over every extension of the field",
-        "A common zero (a : b) of the minors would be one of all forms of degree 2m - 1, among them a^(2m-1) and b^(2m-1)."),
     "schur-stable": core.Kind(schur_stable, "system", "",
         "all eigenvalues of A lie inside the unit circle (over Q(a): for every root a)",
         "The characteristic polynomial of the blocks is the product over the roots a, and Schur and Cohn decide it."),

@@ -25,16 +25,18 @@ from flint import fmpz_mat, fmpz_poly, nmod_mat, nmod_poly
 
 from ...exact.algebra.fields import Field, NumberField, PrimeField, Rationals
 from ...exact.algebra.matrices import Matrix, pivot_columns
+from ...exact.structure.generic_rows import generic_rows
 from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow
-from ...exact.structure.modular_rows import pencil_rank_at, rows_modulo
+from ...exact.structure.modular_rows import pencil_rank_at
 from ...exact.structure.short_rows import short_rows
+from ...exact.structure.window_columns import residues
 from ...exact.structure.zero_output import zero_output_chain
 from ...exact.system.modular import Image, image, primes_below, reduce_matrix
 from ...exact.system.systems import ResidualSystem
 from . import checker
 
 Witness = dict[str, Any]
-DRAWS = 8  # modulo a prime of 30 bits one in ten thousand fails, at most; modulo a small one most may
+DRAWS = 8  # modulo a prime of 27 bits one in a thousand fails, at most; modulo a small one most may
 
 
 def image_witness(kernel: KernelRepresentation) -> Witness:
@@ -87,19 +89,13 @@ def generic_witness(system: ResidualSystem) -> tuple[tuple[int, ...], Witness] |
     None for any other system, and where the first prime misleads: it takes exact rows to see what that one is.
     """
     picture = image(system)
-    found = None if isinstance(system.field, PrimeField) else rows_modulo(picture.system)
-    if found is None:
+    found = None if isinstance(system.field, PrimeField) else generic_rows(picture.system)
+    hints = None if found is None else _mixed([picture.system], found.rows, found.pivots, picture.prime)
+    if found is None or hints is None:
         return None
-    indices = tuple(mu for mu, _ in found.leads)
-    n, m, p = system.n, system.m, system.p
-    if indices and (len(indices) != p - m or sum(indices) != n or indices[-1] - indices[0] > 1):
-        return None
-    rows = [KernelRow(output, Matrix.of(row, picture.system.field)) for (_, output), row in zip(found.leads, found.rows, strict=True)]
-    hints = _hints([picture.system], rows, picture)
-    if hints is None:
-        return None
-    written = [{"pivot": output, "coefficients": row} for (_, output), row in zip(found.leads, found.rows, strict=True)]
-    return indices, _named_image(picture, system.field) | hints | {"kernel_modulo": written}
+    written = [{"pivot": pivot, "coefficients": row} for pivot, row in zip(found.pivots, found.rows, strict=True)]
+    witness = _named_image(picture, system.field) | {"point": found.point} | hints | {"kernel_modulo": written}
+    return tuple(len(row) - 1 for row in found.rows), witness
 
 
 def irreducible(field: Field) -> Witness:
@@ -210,24 +206,28 @@ def _point(systems: Sequence[ResidualSystem], missing: int) -> Witness:
 
 def _hints(systems: Sequence[ResidualSystem], rows: Sequence[KernelRow], picture: Image) -> Witness | None:
     """Return a point and a mix with which the checker sees the rows to be a minimal basis for each of the systems over GF(l)."""
-    prime, degree = picture.prime, sum(row.degree for row in rows)
-    reduced = [reduce_matrix(row.coefficients, prime, picture.root) for row in rows]
+    reduced = [reduce_matrix(row.coefficients, picture.prime, picture.root) for row in rows]
     point = _point(systems, len(rows))
-    if prime <= degree or not point or any(one is None for one in reduced):
+    if not point or any(one is None for one in reduced):
         return None
-    p, longest = systems[0].p, max((row.degree for row in rows), default=-1)
-    tables = [[int(x) for x in row.flint.entries()] for row in reduced if row is not None]
-    coefficients = [
-        nmod_mat(len(rows), p, [x for t in tables for x in (t[k * p : k * p + p] or [0] * p)], prime) for k in range(longest + 1)
-    ]
+    mix = _mixed(systems, [residues(one.flint) for one in reduced if one is not None], [row.pivot for row in rows], picture.prime)
+    return None if mix is None else point | mix
+
+
+def _mixed(systems: Sequence[ResidualSystem], rows: Sequence[list[list[int]]], pivots: Sequence[int], prime: int) -> Witness | None:
+    """Return a mix for rows of residues, with these pivots."""
+    degree, p = sum(len(row) - 1 for row in rows), systems[0].p
+    if prime <= degree:
+        return None
+    blank, longest = [0] * p, max(map(len, rows), default=0)
+    coefficients = [nmod_mat(len(rows), p, [x for row in rows for x in (row[k] if k < len(row) else blank)], prime) for k in range(longest)]
     checker.begin()
     try:
-        places = [[int(i == row.pivot) for row in rows] for i in range(p)]
+        places = [[int(i == pivot) for pivot in pivots] for i in range(p)]
         first = checker.determinant_polynomial(_polynomials(coefficients, places, prime), degree, prime)
-        mix = _mix(systems, coefficients, first, prime)
+        return _mix(systems, coefficients, first, prime)
     except checker.Rejected:  # the determinants take more work than there may be
         return None
-    return None if mix is None else point | mix
 
 
 def _mix(systems: Sequence[ResidualSystem], coefficients: Sequence[nmod_mat], first: list[int], prime: int) -> Witness | None:

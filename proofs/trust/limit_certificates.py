@@ -2,6 +2,7 @@
 
     past_input_limit, past_input_and_output_limit    the ranks of L, O_s and [O_s L], by PI-MOESP's and PO-MOESP's instruments
     output_error_inputs, moesp_inputs                B and D of the two regressions with the true A and C
+    certificates_of                                  all of these that there are
 
 Each takes the PopulationLimits of an experiment and returns a JSON-ready certificate, untrusted as all are. The covariances of the witness
 are in the coordinates of FORMAT.md, xi = (x; s_1; ...; s_L), s_i a block of the filters' own states, which need not be those in which
@@ -11,6 +12,7 @@ the limits were computed; `Chain` is that realisation.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz
@@ -47,28 +49,136 @@ class Chain:
         return stein(A, self.a, source, self.annihilator)
 
 
+@dataclass(frozen=True, eq=False)
+class Certified:
+    """The certificates of one experiment's limits, each a method, and what several of them need, found once."""
+
+    limits: PopulationLimits
+
+    @cached_property
+    def chain(self) -> Chain:
+        """These are the filters of the experiment."""
+        return _chain(self.limits.experiment)
+
+    @cached_property
+    def own(self) -> Matrix:
+        """This is the covariance of the filters' states."""
+        return self.chain.covariance()
+
+    @cached_property
+    def across(self) -> Matrix:
+        """This is Cov(x, s)."""
+        experiment = self.limits.experiment
+        return self.chain.with_states(experiment.system.residual.A, _into(experiment, experiment.system.B), self.own)
+
+    @cached_property
+    def part(self) -> list[list[object]]:
+        """This is Cov(xi, s), which is enough where inputs alone are asked for."""
+        return stacked(self.across, self.own).to_json()
+
+    @cached_property
+    def seen(self) -> Matrix:
+        """This is O_s."""
+        return observability_matrix(self.limits.experiment.system.residual, self.limits.experiment.s)
+
+    @cached_property
+    def response(self) -> Matrix:
+        """This is Cov(Yf, Uf) Cov(Uf)^-1."""
+        blocks = self.limits.blocks
+        return solve(blocks.uf_uf, blocks.yf_uf.transposed()).transposed()
+
+    def past_input_limit(self) -> Certificate:
+        """Return the certificate of the ranks of the limit of PI-MOESP."""
+        blocks = self.limits.blocks
+        return self._ranks("past-inputs", self.part, blocks.uf_up, blocks.yf_up, self.limits.past_inputs.matrix)
+
+    def past_input_and_output_limit(self) -> Certificate:
+        """Return the certificate of the ranks of the limit of PO-MOESP."""
+        experiment, blocks, chain = self.limits.experiment, self.limits.blocks, self.chain
+        A, into = experiment.system.residual.A, _into(experiment, experiment.system.B)
+        driven, direct = into @ chain.c, into @ chain.first
+        crossed = A @ self.across @ driven.transposed()
+        source = crossed + crossed.transposed() + driven @ self.own @ driven.transposed() + direct @ direct.transposed()
+        states = stein(A, A, source, _ascending(A))
+        covariance = stacked(beside(states, self.across), beside(self.across.transposed(), self.own)).to_json()
+        inputs, outputs = beside(blocks.uf_up, blocks.uf_yp), beside(blocks.yf_up, blocks.yf_yp)
+        return self._ranks("past-inputs-and-outputs", covariance, inputs, outputs, self.limits.past_outputs.matrix)
+
+    def output_error_inputs(self) -> Certificate:
+        """Return the certificate of B and D of output error. Raises Unprovable."""
+        limits, chain = self.limits, self.chain
+        if limits.true_AC is None:
+            raise Unprovable("the minimiser is not unique")
+        experiment, (B, D) = limits.experiment, (limits.true_AC.B, limits.true_AC.D)
+        residual, u = experiment.system.residual, limits.known.process.u
+        into = _into(experiment, experiment.system.B - B)
+        turned, C = residual.A.transposed(), residual.C
+        gramian = stein(turned, turned, C.transposed() @ C, _ascending(residual.A))
+        seen = beside(experiment.system.D - D, residual.G, Matrix.identity(QQ, residual.p))
+        source = (turned @ gramian @ into + C.transposed() @ seen) @ chain.c
+        series = beside(gramian, stein(turned, chain.a.transposed(), source, chain.annihilator))
+        window = range(residual.n + 1)
+        prime = _prime(limits.known.windows(u, u, window, window), observability_matrix(residual, residual.n))
+        witness = {
+            "prime": prime,
+            "covariance": self.part,
+            "errors": stacked(chain.with_states(residual.A, into, self.own), self.own).to_json(),
+            "series": series.to_json(),
+        }
+        return _input_certificate(experiment, "true-AC", B, D, witness)
+
+    def moesp_inputs(self) -> Certificate:
+        """Return the certificate of B and D of MOESP's regression. Raises Unprovable."""
+        limits, seen = self.limits, self.seen
+        if limits.moesp is None:
+            raise Unprovable("the regression has more than one solution")
+        experiment = limits.experiment
+        witness = {
+            "prime": _prime(limits.blocks.uf_uf, observability_matrix(experiment.system.residual, experiment.s - 1)),
+            "covariance": self.part,
+            "response": self.response.to_json(),
+            "inverse": solve(seen.transposed() @ seen, seen.transposed()).to_json(),
+        }
+        return _input_certificate(experiment, "moesp", limits.moesp.B, limits.moesp.D, witness)
+
+    def all(self) -> list[Certificate]:
+        """Return the certificates of both limits, and of each regression that has a unique limit."""
+        made = [self.past_input_limit(), self.past_input_and_output_limit()]
+        for regression in (self.output_error_inputs, self.moesp_inputs):
+            try:
+                made.append(regression())
+            except Unprovable:
+                continue
+        return made
+
+    def _ranks(self, instruments: str, covariance: list[list[object]], inputs: Matrix, outputs: Matrix, limit: Matrix) -> Certificate:
+        """Return the rows that vanish on L, O_s or both, continued to (Uf; Yf) so that they vanish on the covariances and no inverse is
+        needed.
+        """
+        experiment, blocks, seen = self.limits.experiment, self.limits.blocks, self.seen
+        named = {"limit": limit, "observability": seen, "joint": beside(limit, seen)}
+        profiles = {name: row_profile(matrix) for name, matrix in named.items()}
+        statement: dict[str, Any] = {"experiment": experiment.to_json(), "instruments": instruments}
+        statement |= {f"{name}_rank": len(profile) for name, profile in profiles.items()}
+        first, behind = stacked(blocks.uf_uf, blocks.yf_uf), stacked(inputs, outputs)
+        below = stacked(Matrix.zero(QQ, first.ncols, seen.ncols), seen)
+        tables = {"limit": beside(first, behind), "observability": beside(first, below), "joint": beside(first, behind, below)}
+        bordered = [(tables[name], first.ncols + len(profile)) for name, profile in profiles.items()]
+        witness: dict[str, Any] = {"prime": _prime_of_ranks([(blocks.uf_uf, first.ncols), *bordered]), "covariance": covariance}
+        for name, profile in profiles.items():
+            if name == "joint" or len(profile) < len(profiles["joint"]):  # else the rows of both serve
+                witness[name] = _left_null(named[name], profile, self.response)
+        return _certificate("moesp-limit", statement, witness)
+
+
 def past_input_limit(limits: PopulationLimits) -> Certificate:
     """The certificate of the ranks of the limit of PI-MOESP."""
-    experiment, blocks, found = limits.experiment, limits.blocks, limits.past_inputs
-    chain = _chain(experiment)
-    into, own = _into(experiment, experiment.system.B), chain.covariance()
-    covariance = stacked(chain.with_states(experiment.system.residual.A, into, own), own)
-    return _rank_certificate(limits, "past-inputs", covariance, blocks.uf_up, blocks.yf_up, found.matrix)
+    return Certified(limits).past_input_limit()
 
 
 def past_input_and_output_limit(limits: PopulationLimits) -> Certificate:
     """The certificate of the ranks of the limit of PO-MOESP."""
-    experiment, blocks, found = limits.experiment, limits.blocks, limits.past_outputs
-    A, chain = experiment.system.residual.A, _chain(experiment)
-    into, own = _into(experiment, experiment.system.B), chain.covariance()
-    across = chain.with_states(A, into, own)
-    driven, direct = into @ chain.c, into @ chain.first
-    crossed = A @ across @ driven.transposed()
-    source = crossed + crossed.transposed() + driven @ own @ driven.transposed() + direct @ direct.transposed()
-    states = stein(A, A, source, _ascending(A))
-    covariance = stacked(beside(states, across), beside(across.transposed(), own))
-    inputs, outputs = beside(blocks.uf_up, blocks.uf_yp), beside(blocks.yf_up, blocks.yf_yp)
-    return _rank_certificate(limits, "past-inputs-and-outputs", covariance, inputs, outputs, found.matrix)
+    return Certified(limits).past_input_and_output_limit()
 
 
 def output_error_inputs(limits: PopulationLimits) -> Certificate:
@@ -76,44 +186,17 @@ def output_error_inputs(limits: PopulationLimits) -> Certificate:
 
     Raises Unprovable when they are not unique, and where n + 1 block rows of u have a singular covariance.
     """
-    if limits.true_AC is None:
-        raise Unprovable("the minimiser is not unique")
-    experiment, (B, D) = limits.experiment, (limits.true_AC.B, limits.true_AC.D)
-    residual, u = experiment.system.residual, limits.known.process.u
-    chain = _chain(experiment)
-    into, own = _into(experiment, experiment.system.B - B), chain.covariance()
-    plain = chain.with_states(residual.A, _into(experiment, experiment.system.B), own)
-    turned, C = residual.A.transposed(), residual.C
-    gramian = stein(turned, turned, C.transposed() @ C, _ascending(residual.A))
-    seen = beside(experiment.system.D - D, residual.G, Matrix.identity(QQ, residual.p))
-    source = (turned @ gramian @ into + C.transposed() @ seen) @ chain.c
-    series = beside(gramian, stein(turned, chain.a.transposed(), source, chain.annihilator))
-    window = range(residual.n + 1)
-    prime = _prime(limits.known.windows(u, u, window, window), observability_matrix(residual, residual.n))
-    witness = {
-        "prime": prime,
-        "covariance": stacked(plain, own).to_json(),
-        "errors": stacked(chain.with_states(residual.A, into, own), own).to_json(),
-        "series": series.to_json(),
-    }
-    return _input_certificate(experiment, "true-AC", B, D, witness)
+    return Certified(limits).output_error_inputs()
 
 
 def moesp_inputs(limits: PopulationLimits) -> Certificate:
     """Return the certificate of B and D of MOESP's regression with the true A and C. Raises Unprovable when they are not unique."""
-    if limits.moesp is None:
-        raise Unprovable("the regression has more than one solution")
-    experiment, blocks, chain = limits.experiment, limits.blocks, _chain(limits.experiment)
-    residual, s, own = experiment.system.residual, experiment.s, chain.covariance()
-    covariance = stacked(chain.with_states(residual.A, _into(experiment, experiment.system.B), own), own)
-    seen = observability_matrix(residual, s)
-    witness = {
-        "prime": _prime(blocks.uf_uf, observability_matrix(residual, s - 1)),
-        "covariance": covariance.to_json(),
-        "response": solve(blocks.uf_uf, blocks.yf_uf.transposed()).transposed().to_json(),
-        "inverse": solve(seen.transposed() @ seen, seen.transposed()).to_json(),
-    }
-    return _input_certificate(experiment, "moesp", limits.moesp.B, limits.moesp.D, witness)
+    return Certified(limits).moesp_inputs()
+
+
+def certificates_of(limits: PopulationLimits) -> list[Certificate]:
+    """Return the certificates of both limits, and of each regression that has a unique limit."""
+    return Certified(limits).all()
 
 
 # -- parts -------------------------------------------------------------------------------------------------------------
@@ -172,30 +255,6 @@ def _diagonal(entries: list[Any]) -> Matrix:
 
 def _ascending(A: Matrix) -> list[Any]:
     return [fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)]
-
-
-def _rank_certificate(
-    limits: PopulationLimits, instruments: str, covariance: Matrix, inputs: Matrix, outputs: Matrix, limit: Matrix
-) -> Certificate:
-    """Return the rows that vanish on L, O_s or both, continued to (Uf; Yf) so that they vanish on the covariances and no inverse is
-    needed.
-    """
-    experiment, blocks = limits.experiment, limits.blocks
-    seen = observability_matrix(experiment.system.residual, experiment.s)
-    response = solve(blocks.uf_uf, blocks.yf_uf.transposed()).transposed()
-    named = {"limit": limit, "observability": seen, "joint": beside(limit, seen)}
-    profiles = {name: row_profile(matrix) for name, matrix in named.items()}
-    statement: dict[str, Any] = {"experiment": experiment.to_json(), "instruments": instruments}
-    statement |= {f"{name}_rank": len(profile) for name, profile in profiles.items()}
-    first, behind = stacked(blocks.uf_uf, blocks.yf_uf), stacked(inputs, outputs)
-    below = stacked(Matrix.zero(QQ, first.ncols, seen.ncols), seen)
-    tables = {"limit": beside(first, behind), "observability": beside(first, below), "joint": beside(first, behind, below)}
-    bordered = [(tables[name], first.ncols + len(profile)) for name, profile in profiles.items()]
-    witness = {"prime": _prime_of_ranks([(blocks.uf_uf, first.ncols), *bordered]), "covariance": covariance.to_json()}
-    for name, profile in profiles.items():
-        if name == "joint" or len(profile) < len(profiles["joint"]):  # else the rows of both serve
-            witness[name] = _left_null(named[name], profile, response)
-    return _certificate("moesp-limit", statement, witness)
 
 
 def _left_null(matrix: Matrix, profile: tuple[int, ...], response: Matrix) -> list[dict[str, Any]]:

@@ -382,11 +382,12 @@ def test_means_far_from_zero_are_told_and_removed(tmp_path: Path, record: made.F
     path = tmp_path / "lifted.npz"
     np.savez(path, u=record.u + 20, y=record.y - 100)
     channels = ("--inputs", "u", "--outputs", "y")
-    plain = identified(path, tmp_path / "a", "--json", "--order", "3", channels=channels)
-    assert plain.code == 0 and any("--remove-means" in row["advice"] for row in plain.json["doubts"]["rows"])
-    run = identified(path, tmp_path / "b", "--json", "--remove-means", channels=channels)
+    plain = identified(path, tmp_path / "a", "--json", "--order", "3", "--operating-point", "zero", channels=channels)
+    assert plain.code == 0 and any("--operating-point means" in row["advice"] for row in plain.json["doubts"]["rows"])
+    run = identified(path, tmp_path / "b", "--json", channels=channels)
+    assert run.json["operating_point"]["of"] == "whole record" and not run.json["operating_point"]["stated"]
     assert (run.code, run.json["order"], run.json["n_v"]) == (0, 3, 1)
-    assert not any("--remove-means" in row["advice"] for row in run.json["doubts"]["rows"])
+    assert not any("--operating-point means" in row["advice"] for row in run.json["doubts"]["rows"])
 
 
 def test_as_given_is_said_of_what_was_given_only(csv_file: Path, tmp_path: Path) -> None:
@@ -431,7 +432,9 @@ def test_the_hair_dryer(tmp_path: Path) -> None:
     path = tmp_path / "hairdryer.csv"
     np.savetxt(path, values, delimiter=",", header="voltage,temperature", comments="", fmt="%.10g")
     channels = ("--inputs", "voltage", "--outputs", "temperature")
-    run = identified(path, tmp_path / "out", "--json", "--remove-means", "--order", "4", "--block-rows", "15", channels=channels)
+    run = identified(
+        path, tmp_path / "out", "--json", "--operating-point", "means", "--order", "4", "--block-rows", "15", channels=channels
+    )
     assert run.code == 0, run.err
     assert run.json["order"] == 4 and 88 < run.json["fit"][0] < 96
     # A slow mode lies about the unit circle: an unstable estimate is told, never altered.
@@ -439,8 +442,8 @@ def test_the_hair_dryer(tmp_path: Path) -> None:
     assert run.json["stable"] != any("not stable" in note for note in run.json["notes"])
     assert run.json["n_v"] is None and run.json["fault_space"] is None  # one output: a fault cannot be told from noise
     assert run.json["n_v_reason"]
-    remembered = identified(path, tmp_path / "means", "--json", "--order", "4", channels=channels)
-    assert any("--remove-means" in row["advice"] for row in remembered.json["doubts"]["rows"])
+    remembered = identified(path, tmp_path / "means", "--json", "--order", "4", "--operating-point", "zero", channels=channels)
+    assert any("--operating-point means" in row["advice"] for row in remembered.json["doubts"]["rows"])
 
 
 def test_examples_write_the_record(tmp_path: Path, record: made.FaultyRecord) -> None:

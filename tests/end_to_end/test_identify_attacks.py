@@ -96,7 +96,7 @@ def test_no_fault_is_counted_as_zero(name: str, means: bool) -> None:
     y = clean(u) + noise(draw, N)
     y[START:] += FAULTS[name](np.arange(N - START), draw) * LEVELS
     units = np.array([1e-6, 1.0, 1e6])
-    answer, document, words = answered(y * units + 100.0 * units * means, u, remove_means=means)
+    answer, document, words = answered(y * units + 100.0 * units * means, u, operating_point="means" if means else "zero")
     assert answer.n_v != 0 and answer.at_least >= 1, words
     assert document["n_v_at_least"] >= 1 and "n_v: **0" not in words
 
@@ -298,9 +298,11 @@ def test_numbers_of_single_precision_are_answered() -> None:
 def test_without_healthy_samples_a_mean_is_reported_and_decides_nothing() -> None:
     y, u = biased(9, 0)
     answer = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3)
-    assert answer.n_v is None and any("an operating point, or a constant fault" in note for note in answer.notes)
-    assert valid("identify", report.document(answer, "record") | {"files": []})["mean_shift"]["against"] == "zero"
-    still = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3, remove_means=True)
+    assert answer.n_v is None and answer.operating_point.of == "whole record"
+    kept = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3, operating_point="zero")
+    assert kept.n_v is None and any("an operating point, or a constant fault" in note for note in kept.notes)
+    assert valid("identify", report.document(kept, "record") | {"files": []})["mean_shift"]["against"] == "zero"
+    still = identify(recorded(y, u, outputs=made.OUTPUTS, inputs=made.INPUTS), order=3, operating_point="means")
     assert still.mean is None and not still.moved
 
 

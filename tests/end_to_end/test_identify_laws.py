@@ -48,7 +48,7 @@ def _at(output: int, values: Any) -> Array:
 @pytest.mark.parametrize(
     ("added", "said"),
     [
-        (_at(0, 2.0), "an operating point, or a constant fault"),
+        (_at(0, 2.0), "a constant fault would have gone with the means"),
         (_at(1, 60 * NOISE * (np.arange(N) % 97 == 5)), "'y2' has spikes beyond"),
     ],
     ids=["constant", "spikes"],

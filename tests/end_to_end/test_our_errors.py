@@ -24,7 +24,7 @@ BROKEN = {
     "audit": ("faultspace.cli.auditing.audit", ["audit"]),
     "verify": ("faultspace.cli.verifying.verify", ["verify"]),
     "examples": ("faultspace.cli.example_listing.answers", ["examples"]),
-    "before a command": ("faultspace.cli.command_line.app", ["--version"]),
+    "before a command": ("faultspace.cli.command_line.parser", ["--version"]),
 }
 
 

@@ -27,7 +27,7 @@ from tests.oracle.strategies import SEEDS, systems
 from tests.thorough import examples
 
 Json = Any
-FIRST = int(sympy.prevprime(2**30))
+FIRST = int(sympy.prevprime(2**27))
 SECOND = int(sympy.prevprime(FIRST))
 L, M = str(FIRST), str(SECOND)
 

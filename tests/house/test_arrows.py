@@ -20,7 +20,8 @@ ROOMS = {
     "front": {"base", "exact", "numeric", "audit", "proofs"},
 }
 CHECKER = "faultspace.proofs.trust.checker"
-ALONE = {CHECKER: set[str](), f"{CHECKER}_limits": {CHECKER}}  # what these files may import beside the standard library
+CHAIN = (CHECKER, f"{CHECKER}_fields", f"{CHECKER}_structure", f"{CHECKER}_limits")
+ALONE = {name: {*CHAIN[:k]} for k, name in enumerate(CHAIN)}  # what these files may import beside the standard library
 
 
 def room_of(name: str) -> str | None:
@@ -84,6 +85,7 @@ BROKEN = [
     ("proofs.trust.checker", "from faultspace.exact import fields"),
     ("proofs.trust.checker", "from .structure_certificates import Certificate"),
     ("proofs.trust.checker", "from . import checker_limits"),
+    ("proofs.trust.checker_fields", "from . import checker_structure"),
     ("proofs.trust.checker_limits", "from .structure_certificates import Certificate"),
 ]
 SOUND = [

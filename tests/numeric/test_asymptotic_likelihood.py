@@ -83,35 +83,44 @@ def divergence(model: StateSpaceModel, data: Faulty) -> float:
     return Reduction(angles, plant, weight, data.spectra.input(angles), len(data.y)).cost(system_matrix(model), model.n)
 
 
-def divergences(order: int = 2) -> Array:
+def divergences(models: list[ReducedModel]) -> Array:
     """Of our models, record by record."""
-    records = [faulty(seed) for seed in SEEDS]
-    return np.array([divergence(arx_reduction(data.y, data.u, order=order).model, data) for data in records])
+    return np.array([divergence(model.model, faulty(seed)) for seed, model in zip(SEEDS, models, strict=True)])
+
+
+def reductions(order: int) -> list[ReducedModel]:
+    """The models of all records."""
+    return [arx_reduction(data.y, data.u, order=order) for data in map(faulty, SEEDS)]
+
+
+@pytest.fixture(scope="module")
+def reduced() -> list[ReducedModel]:
+    return reductions(2)
 
 
 # The mean of twelve chi-squared numbers with eight degrees of freedom is 8, its deviation 1.2: four deviations.
 ATTAINED = PARAMETERS + 4.6
 
 
-def test_models_attain_the_bound_where_pi_moesp_does_not() -> None:
-    assert divergences().mean() < ATTAINED
+def test_models_attain_the_bound_where_pi_moesp_does_not(reduced: list[ReducedModel]) -> None:
+    assert divergences(reduced).mean() < ATTAINED
     records = [faulty(seed) for seed in SEEDS]
     others = [divergence(pi_moesp(data.y, data.u, order=2, block_rows=10).model, data) for data in records]
     assert np.median(others) > 10 * PARAMETERS
 
 
-def test_errors_are_about_the_bound() -> None:
+def test_errors_are_about_the_bound(reduced: list[ReducedModel]) -> None:
     ratios = []
-    for seed in SEEDS:
+    for seed, found in zip(SEEDS, reduced, strict=True):
         data = faulty(seed)
         bound = cramer_rao(data.plant, data.spectra, len(data.y))
-        ratios.append(relative_error(arx_reduction(data.y, data.u, order=2).model, data.plant, bound))
+        ratios.append(relative_error(found.model, data.plant, bound))
     assert 0.6 < np.median(ratios) < 1.4 and max(ratios) < 3
 
 
 def test_a_state_too_many_costs_little() -> None:
     # Four parameters more, and what a spurious pole may catch.
-    assert divergences(order=3).mean() < 2 * ATTAINED
+    assert divergences(reductions(3)).mean() < 2 * ATTAINED
 
 
 @pytest.mark.slow
@@ -124,7 +133,7 @@ def test_a_flat_weight_does_not_attain_the_bound(monkeypatch: pytest.MonkeyPatch
         return replace(problem, weight=np.broadcast_to(np.eye(2, dtype=complex), problem.weight.shape))
 
     monkeypatch.setattr(reduced_model, "reduction_problem", flat)
-    assert divergences().mean() > 2 * ATTAINED
+    assert divergences(reductions(2)).mean() > 2 * ATTAINED
 
 
 def test_without_the_ladder_descent_sticks(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -139,11 +148,10 @@ def test_without_the_ladder_descent_sticks(monkeypatch: pytest.MonkeyPatch) -> N
     assert costs[0] <= 1.01 * costs[2] and 2 * costs[1] < costs[3]
 
 
-def test_stated_deviations_are_honest() -> None:
+def test_stated_deviations_are_honest(reduced: list[ReducedModel]) -> None:
     inside, sizes = [], []
-    for seed in SEEDS:
+    for seed, found in zip(SEEDS, reduced, strict=True):
         data = faulty(seed)
-        found = arx_reduction(data.y, data.u, order=2)
         wrong = np.abs(found.model.markov(20) - data.plant.markov(20))
         inside.append(wrong <= 1.96 * found.uncertainty.markov(20))
         bound = cramer_rao(data.plant, data.spectra, len(data.y))

@@ -336,7 +336,7 @@ def test_nothing_of_the_model_is_from_the_faulty_part() -> None:
     _, y, u = plain(20)
     other = y.copy()
     other[K:] = 50.0 + 3.0 * np.random.default_rng(21).standard_normal((M, 3))
-    one, two = (identify(values, u, order=3, healthy=K, remove_means=True) for values in (y, other))
+    one, two = (identify(values, u, order=3, healthy=K, operating_point="means") for values in (y, other))
     assert one.model is not None and two.model is not None and one.residual is not None and two.residual is not None
     for name in "ABCD":
         assert np.array_equal(getattr(one.model, name), getattr(two.model, name))

@@ -15,7 +15,15 @@ import faultspace as fs
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData
 from faultspace.base.progress import silent
-from faultspace.numeric import ReducedModel, StateSpaceModel, arx_reduction, fault_space_by_rows, identified_fault_space, read_stretches
+from faultspace.numeric import (
+    ReducedModel,
+    StateSpaceModel,
+    arx_reduction,
+    count_faults,
+    fault_space_by_rows,
+    identified_fault_space,
+    read_stretches,
+)
 from faultspace.numeric import experiments as by_experiment
 from faultspace.numeric.data.joining import one_record
 from faultspace.numeric.data.records import recorded
@@ -49,7 +57,7 @@ def three() -> tuple[Pair, ...]:
 
 @cache
 def found_in_three() -> Identification:
-    return fs.identify(*columns(three()), order=2, remove_means=True)
+    return fs.identify(*columns(three()), order=2, operating_point="means")
 
 
 def in_states_of(model: StateSpaceModel) -> Array:
@@ -84,7 +92,7 @@ def test_no_window_goes_across_two_experiments() -> None:
     first, second, third = three()
     joint = found_in_three().model
     assert isinstance(joint, ReducedModel)
-    swapped = fs.identify(*columns([third, first, second]), order=2, n_v=0, remove_means=True).model
+    swapped = fs.identify(*columns([third, first, second]), order=2, n_v=0, operating_point="means").model
     assert swapped is not None and np.allclose(swapped.model.markov(6), joint.model.markov(6), atol=1e-6)
     across = arx_reduction(np.vstack([first[0], second[0], third[0]]), np.vstack([first[1], second[1], third[1]]), order=2)
     assert np.max(np.abs(across.model.markov(6) - joint.model.markov(6))) > 1e-3
@@ -160,7 +168,7 @@ def test_the_frame_counts_samples_in_each_experiment() -> None:
 def test_the_space_of_rows_takes_experiments_and_leaves_short_ones_out() -> None:
     pairs = [(y - y.mean(axis=0), u - u.mean(axis=0)) for y, u in three()]
     joint = fault_space_by_rows(pairs, None, A, C, n_v=1, noise_level=NOISE)
-    again = fault_space_by_rows([*pairs, experiment(9, 40)], None, A, C, n_v=1, noise_level=NOISE)
+    again = fault_space_by_rows([*pairs, experiment(9, 20)], None, A, C, n_v=1, noise_level=NOISE)
     assert np.allclose(joint.basis, again.basis, atol=1e-9) and joint.n_z == 1 and joint.decided
     column = np.concatenate([F[:, 0], G[:, 0]]) / np.linalg.norm(np.concatenate([F, G]))
     assert np.linalg.norm(column - joint.basis @ (joint.basis.T @ column)) < 0.05
@@ -174,6 +182,14 @@ def test_the_space_of_rows_takes_experiments_and_leaves_short_ones_out() -> None
     for one in wrong:
         with pytest.raises(InvalidData, match="u is missing"):
             identified_fault_space(one, None, model, n_v=1)
+
+
+def test_experiments_that_fill_no_band_by_themselves_are_counted_on_and_searched_together() -> None:
+    short = [experiment(seed, 60) for seed in range(20)]
+    assert 1 in count_faults(short, None, order=2).possible
+    found = fault_space_by_rows([(y - y.mean(axis=0), u - u.mean(axis=0)) for y, u in short], None, A, C, n_v=1, noise_level=NOISE)
+    column = np.concatenate([F[:, 0], G[:, 0]]) / np.linalg.norm(np.concatenate([F, G]))
+    assert np.linalg.norm(column - found.basis @ (found.basis.T @ column)) < 0.05
 
 
 WRONG: tuple[tuple[Callable[[], object], str], ...] = (

@@ -138,7 +138,7 @@ def test_noise_alone_is_undecided(p: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("decibel", "factor"), [*product((None,), (1e6, 1e-12, 1e200, -1.0)), *product((40.0,), (1e200, 1e6, 1e-12, -1.0)[:: every()])]
+    ("decibel", "factor"), [*product((None,), (1e6, 1e-12, 1e200, -1.0)), *product((40.0,), (1e200, 1e6, 1e-12, -1.0)[:: every(2)])]
 )
 def test_units_do_not_matter(decibel: float | None, factor: float) -> None:
     exact = structured_residual((1,), (1, 2), 0)

@@ -29,7 +29,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"healthy": 0}, "healthy: got 0; an integer of at least 1 is needed"),
     ({"healthy": 600}, "healthy: got 600 for 600 samples; some must follow: state fewer"),
     ({"n_v": 4}, "n_v: got 4 for 3 outputs; at most as many can be told apart: state fewer"),
-    *(({"remove_means": value}, "remove_means: got .*; True or False is needed") for value in ("no", 1, None)),
+    *(({"operating_point": value}, 'operating_point: got .*; "means" or "zero" is needed') for value in ("no", 1, True)),
     *(({"dt": value}, "dt: got .*; the seconds from sample to sample") for value in ("1", True, 1j, [1.0], float("nan"))),
     ({"inputs": "valve"}, "inputs: got 1 name for 2 channels: one name a channel is needed, in the order of the columns; got 'valve'"),
     ({"inputs": []}, "inputs: got 0 names for 2 channels.*got none"),
@@ -103,6 +103,6 @@ def test_stores_are_closed_with_their_owners() -> None:
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always")
         numeric.identify(RECORD.y, RECORD.u, order=3, block_rows=8)
-        numeric.arx_reduction(RECORD.y, RECORD.u, lags=3)
+        numeric.arx_reduction(RECORD.y, RECORD.u, order=3, lags=3)
         gc.collect()
     assert not [warning for warning in heard if issubclass(warning.category, ResourceWarning)]

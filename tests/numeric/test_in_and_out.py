@@ -234,7 +234,7 @@ def test_a_frame_has_channels_residual_and_fault_by_time(found: Any, tmp_path: P
     assert np.array_equal(again.y, found.record.y) and again.clock is not None and again.clock.dt == pytest.approx(found.dt)
     text = pandas.read_csv(io.StringIO(frame["residual"].to_csv()), index_col=0)
     assert np.array_equal(text.to_numpy(), found.residual.r)
-    unknown = identify(Y, U, order=2, remove_means=True).to_pandas()
+    unknown = identify(Y, U, order=2, operating_point="means").to_pandas()
     assert unknown.index.name == "sample" and np.array_equal(unknown["output"].to_numpy(), Y)
 
 

@@ -14,7 +14,7 @@ from faultspace.numeric.rows.degree import least_degree
 from tests.numeric.planted import joint_record, planted
 
 
-@pytest.mark.parametrize(("seed", "zeros"), [(22, ()), (6, (0.5,))])
+@pytest.mark.parametrize(("seed", "zeros"), [(22, ()), pytest.param(6, (0.5,), marks=pytest.mark.slow)])
 def test_a_surplus_state_leaves_the_zeros_undecided(seed: int, zeros: tuple[float, ...]) -> None:
     system = planted(seed, zeros, n=3)
     y, u = joint_record(system, seed, 1000, 40)

@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 from scipy.signal import lfilter
 
 from faultspace.base.errors import InvalidData
+from faultspace.numeric import StateSpaceModel, arx_reduction, changes_since_healthy, residual
 from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy
 from faultspace.numeric.count.detectable import visible_white_faults
 from faultspace.numeric.count.healthy_model import healthy_reference
 from faultspace.numeric.count.mean_shift import mean_about_zero, mean_reference, mean_shift
 from faultspace.numeric.signal.explained_share import noise_share
+from faultspace.numeric.space.shift_isolation import gain_errors
 
 Array = NDArray[np.float64]
 UNITS = np.array([1e-6, 1.0, 1e6])
@@ -143,3 +145,23 @@ def test_a_fault_that_varies_at_one_output_leans_into_no_other(kind: str) -> Non
         worst.append(np.abs(found.shift[1:] / found.deviations[1:]).max())
     # Of twelve normal numbers the largest has a median of 1.9; ends that are left out make it 10 and more.
     assert np.median(worst) < 3.0
+
+
+def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_rest_elsewhere() -> None:
+    plant = StateSpaceModel([[0.8]], [[1.0]], [[1.0], [-0.5]], [[0.0], [0.0]])
+    K, without, beside, rows = 150, 0, 0, [0, 0]
+    for k in range(12):
+        draw = np.random.default_rng([5, k])
+        u = draw.standard_normal((450, 1))
+        u[K:] += 2.0
+        y = plant.simulate(u) + lfilter([1.0], [1.0, -0.6], draw.standard_normal((450, 2)), axis=0)
+        y, u = y - y[:K].mean(axis=0), u - u[:K].mean(axis=0)
+        found = arx_reduction(y[:K], u[:K], order=1)
+        r, late = residual(y, u, found, x0=found.x0).r, slice(K + 30, None)
+        plain, wide = (mean_shift(r[late], u[late], r[:K], u[:K], level=0.02, gain_errors=e) for e in (None, gain_errors(found)))
+        without, beside = without + (plain.shifted is True), beside + (wide.shifted is True)
+        for number, model in enumerate((found.model, found)):  # the former has no standard errors
+            seen = changes_since_healthy(r, y, u, healthy=K, model=model, level=0.2).seen
+            rows[number] += any(row.kind == "mean shift" for row in seen)
+    assert without >= 6 and beside <= 2
+    assert rows[0] >= 5 and rows[1] <= 3

@@ -327,7 +327,7 @@ def test_models_of_every_kind_bring_or_are_given_what_is_healthy() -> None:
     alone = Monitor(reduced, level=1e-3, window=WINDOW)
     assert "no healthy record was given" in alone.notes[0] and alone.to_json()["healthy_samples"] > 4000
     found = fs.identify(y[:300], u[:300], order=2, healthy=200)
-    about_means = fs.identify(y[:300], u[:300], order=2, healthy=200, remove_means=True)
+    about_means = fs.identify(y[:300], u[:300], order=2, healthy=200, operating_point="means")
     brought, also = (Monitor(one, level=1e-3, window=WINDOW) for one in (found, about_means))
     assert 150 <= brought.calibration.samples <= 200
     more = record(2, 200)

@@ -91,14 +91,14 @@ def test_a_fit_below_zero_is_explained_and_its_advice_comes_first(found: Finding
     draw = np.random.default_rng(1)
     u = draw.standard_normal((400, 1))
     y = PLANT.simulate(u) + 0.1 * draw.standard_normal((400, 2)) + [0.0, 500.0]
-    off = identify(y, u, order=2)
+    off = identify(y, u, order=2, operating_point="zero")
     words = "\n".join(summary(off, "x"))
     assert "below zero: the simulated y2 lies" in words and "missed of y2 is mostly its level" in words
-    assert advice(off)[0].startswith("remove_means=True, before anything else")
+    assert advice(off)[0].startswith('operating_point="means", before anything else')
     assert {tile.of: tile for tile in tiles(off)}["Model"].rests.startswith("It misses the level of an output")
-    for fine in (found, identify(y, u, order=2, remove_means=True)):
+    for fine in (found, identify(y, u, order=2, operating_point="means")):
         words = "\n".join(summary(fine, "x"))
-        assert "below zero" not in words and not any(line.startswith("remove_means") for line in advice(fine))
+        assert "below zero" not in words and not any(line.startswith("operating_point") for line in advice(fine))
 
 
 def test_spectra_show_the_frequency_of_a_fault_and_are_left_out_of_short_records(found: Findings) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -17,7 +18,18 @@ import pytest
 from faultspace import example_data as made
 from faultspace.base.arrays import Array
 from faultspace.base.errors import InvalidData, InvalidInput
-from faultspace.numeric import StateSpaceModel, arx_reduction, count_faults, fault_space_by_rows, identify, pi_moesp, read_record, residual
+from faultspace.numeric import (
+    StateSpaceModel,
+    arx_reduction,
+    count_faults,
+    fault_space_by_rows,
+    identify,
+    pi_moesp,
+    pipeline,
+    read_record,
+    residual,
+)
+from faultspace.numeric.data.records import Record
 from faultspace.numeric.report.folders import MANIFEST
 
 N = 2500
@@ -65,7 +77,8 @@ def by_lists(y: Array, u: Array, folder: Path) -> Any:
 
 
 Way = Callable[[Array, Array, Path], Any]
-WAYS: list[Way] = [by_file, by_read_record, by_chunks, by_frames, by_one_frame, by_lists]
+# The slow ones are known by the record that they make, below.
+WAYS = [by_file, by_chunks, by_frames, *(pytest.param(way, marks=pytest.mark.slow) for way in (by_read_record, by_one_frame, by_lists))]
 
 
 @pytest.fixture(scope="module")
@@ -90,6 +103,24 @@ def test_every_way_gives_the_same_bytes(way: Way, found_by: Callable[[Way], Any]
     assert (found.n_v, found.fault_space.n_z) == (wanted.n_v, wanted.fault_space.n_z) == (1, 1)
     assert found.fault_space.basis.tobytes() == wanted.fault_space.basis.tobytes()
     assert found.residual.r.tobytes() == wanted.residual.r.tobytes() and found.signal.v.tobytes() == wanted.signal.v.tobytes()
+
+
+@pytest.mark.parametrize("way", [by_file, by_read_record, by_chunks, by_frames, by_one_frame, by_lists])
+def test_every_way_makes_the_same_record(
+    way: Way, data: tuple[Array, Array], wanted: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made_of: list[Record] = []
+
+    def findings(record: Record, *arguments: Any) -> Any:
+        made_of.append(record)
+        raise InvalidData("seen")
+
+    monkeypatch.setattr(pipeline, "_findings", findings)
+    with pytest.raises(InvalidData, match="seen"):
+        way(*data, tmp_path)
+    (record,) = made_of
+    assert record.y.tobytes() == wanted.record.y.tobytes() and record.u.tobytes() == wanted.record.u.tobytes()
+    assert record.bounds == wanted.record.bounds and np.array_equal(record.channels.greatest, wanted.record.channels.greatest)
 
 
 def test_frames_and_arguments_name_the_channels(found_by: Callable[[Way], Any]) -> None:
@@ -151,7 +182,9 @@ def test_what_holds_no_record_is_refused(call: Callable[[Array, Array], Any], sa
         call(*data)
 
 
-def test_the_record_shows_itself(wanted: Any, tmp_path: Path) -> None:
+def test_the_record_shows_itself(wanted: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    if importlib.util.find_spec("matplotlib") is not None:  # what is rendered is looked at in `test_identify.py`
+        monkeypatch.setattr("matplotlib.figure.Figure.savefig", lambda figure, path, **options: Path(path).write_bytes(b"not rendered"))
     assert repr(wanted) == f"<Identification of {N} samples: order 3, n_v 1, n_z 1, with a signal>"
     assert wanted._repr_html_().startswith("<pre># ") and "<script" not in wanted._repr_html_()
     assert "--" not in "\n".join([*wanted.notes, wanted.summary().partition("What to try next")[2]])

@@ -15,6 +15,7 @@ import pytest
 import scipy.linalg
 import scipy.signal
 import scipy.stats
+from scipy.special import chdtri, fdtrc
 
 from faultspace.base.errors import InvalidData
 from faultspace.exact.algebra.matrices import Matrix
@@ -412,13 +413,22 @@ def test_two_hundred_samples() -> None:
 
 
 def test_the_bootstrap_finds_the_misfit() -> None:
-    y, u = joint_record(plant(22, 3, 1), 22, 500, 40)
-    evidence = Evidence([(y, u)], 3)
-    quick = laws.tested(evidence, 2)
-    careful = laws.bootstrapped(evidence, quick, 4)
-    assert quick.holds and careful.holds
-    assert quick.sphericity is not None and careful.sphericity is not None
-    assert careful.flatness != quick.flatness and careful.sphericity.level != quick.sphericity.level
+    """Under laws a ratio over the mean of four drawn ones is about F(f, 4 f), of 12 degrees of freedom and more: twice 0.018 is the chance
+    that one of the two is beyond the half of SUFFICES, and that of two records of three being refused three times its square, 0.004."""
+    freedom = 12
+    refused = 2 * float(fdtrc(freedom, 4 * freedom, chdtri(freedom, laws.SUFFICES / 2) / freedom))
+    assert 3 * refused**2 < 0.005
+    held = []
+    for seed in (20, 21, 22):
+        y, u = joint_record(plant(seed, 3, 1), seed, 500, 40)
+        evidence = Evidence([(y, u)], 3)
+        assert (evidence.data.degree - evidence.order) * evidence.data.moments.channels >= freedom
+        quick = laws.tested(evidence, 2)
+        careful = laws.bootstrapped(evidence, quick, 4)
+        held.append(quick.holds and careful.holds)
+        assert quick.sphericity is not None and careful.sphericity is not None
+        assert careful.flatness != quick.flatness and careful.sphericity.level != quick.sphericity.level
+    assert held.count(True) >= 2, held
     many = laws.tested(evidence, 3)
     assert many.holds is False and laws.bootstrapped(evidence, many, 4) is many
 

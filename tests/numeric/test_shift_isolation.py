@@ -162,7 +162,11 @@ def identified(number: int, healthy: int | None, seed: int, samples: int = 900, 
     return numeric.identify(y, u, order=3, healthy=healthy)
 
 
-@pytest.mark.parametrize(("number", "healthy"), [(1, 400), (3, 400), (-1, 400), (2, None)])
+# What the slow ones would say is asked daily of `isolate_shift`, in the tests above.
+@pytest.mark.parametrize(
+    ("number", "healthy"),
+    [pytest.param(1, 400, marks=pytest.mark.slow), (3, 400), (-1, 400), pytest.param(2, None, marks=pytest.mark.slow)],
+)
 def test_identify_tells_what_a_step_is(number: int, healthy: int | None) -> None:
     answer = identified(number, healthy, 20261122)
     found = answer.shift_isolation

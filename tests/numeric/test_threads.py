@@ -1,4 +1,7 @@
-"""BLAS has one thread in what the package computes: results are the same bytes wherever it runs, and others get theirs back."""
+"""BLAS has one thread in what the package computes: results are the same bytes wherever it runs, and others get theirs back.
+
+SHOWN       a record whose matrices are so large that a second thread splits their sums at other places
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from threading import Event, Thread
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,18 +21,31 @@ import pytest
 import scipy.linalg  # noqa: F401  # its BLAS is another than numpy's
 from threadpoolctl import ThreadpoolController, threadpool_limits
 
+from faultspace.base.errors import InvalidData
 from faultspace.base.threads import one_thread
-from faultspace.numeric import StateSpaceModel, count_faults, pi_moesp
+from faultspace.numeric import StateSpaceModel, count_faults, fault_dimension, pi_moesp
+from faultspace.numeric.data.records import recorded
+from faultspace.numeric.monitor import monitoring
+from faultspace.numeric.report.files import of_monitor
 from faultspace.numeric.study.workers import in_order
 
 NUMERIC: Any = importlib.import_module("faultspace.numeric")
 # They read and hold data, and multiply no matrices.
 WITHOUT_BLAS = {"read_record", "read_stretches", "record_from"}
-ANSWERS = """
+SHOWN = """
+import numpy as np
+from faultspace.numeric import StateSpaceModel
+draw = np.random.default_rng(3)
+plant = StateSpaceModel(np.diag([-0.8, -0.3, 0.1, 0.5, 0.9]), *(draw.standard_normal(shape) for shape in ((5, 4), (6, 5), (6, 4))))
+u = draw.standard_normal((3000, 4))
+y = plant.simulate(u) + 0.1 * draw.standard_normal((3000, 6))
+"""
+ANSWERS = f"""
+{SHOWN}
 import hashlib, json, sys
 from dataclasses import asdict
-import numpy as np
 import faultspace as fs
+from faultspace.numeric import arx_reduction, fault_dimension
 from faultspace.numeric.study.cases import identified_case
 from faultspace.numeric.study.runs import study_run
 from faultspace.numeric.study.systems import study_system
@@ -36,6 +53,7 @@ from faultspace.numeric.study.workers import in_order
 
 run = study_run(study_system(2, np.random.SeedSequence(5)), 7, level=0.01, samples=300)
 answers = [fs.identify(run.y, run.u, order=5).to_json()]
+answers += [arx_reduction(y, u, order=5).to_json(), fault_dimension(y[:, :4], u=u).to_json()]
 tasks = [(index, seed, 301) for index, seed in enumerate(np.random.SeedSequence(1).spawn(2))]
 answers += [[asdict(case) for case in in_order(identified_case, tasks, worth=2, jobs=int(sys.argv[1]))]]
 print(*(hashlib.sha256(json.dumps(answer).encode()).hexdigest() for answer in answers))
@@ -69,6 +87,20 @@ def with_threads(number: int, jobs: int) -> list[str]:
 @pytest.mark.slow
 def test_answers_are_the_same_bytes_whatever_the_threads_and_the_jobs() -> None:
     assert with_threads(1, 1) == with_threads(2, 2)
+
+
+@pytest.mark.slow
+def test_without_the_limit_they_are_not() -> None:
+    """The record of the test above would show it."""
+    made: dict[str, Any] = {}
+    exec(SHOWN, made)
+    with threadpool_limits(1):
+        held = fault_dimension(made["y"][:, :4], u=made["u"]).to_json()
+    with two_threads():
+        assert fault_dimension(made["y"][:, :4], u=made["u"]).to_json() == held
+        free = inspect.unwrap(fault_dimension)(made["y"][:, :4], u=made["u"]).to_json()
+    if free == held:
+        pytest.skip("this BLAS sums in the same order with two threads")
 
 
 def test_there_is_one_thread_within_and_what_was_there_before_comes_back() -> None:
@@ -143,6 +175,22 @@ def test_a_call_computes_with_one_thread() -> None:
         pi_moesp(Source(), block_rows=5)
         assert set(threads()) == {2}
     assert seen and all(one == {1} for one in seen)
+
+
+def test_what_a_monitor_needs_is_learnt_with_one_thread_where_an_answer_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[set[int]] = []
+
+    def form(*arguments: Any, **options: Any) -> Any:
+        seen.append(set(threads()))
+        raise InvalidData("seen")
+
+    monkeypatch.setattr(monitoring, "innovation_form", form)
+    u = np.random.default_rng(1).standard_normal((100, 1))
+    plant = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
+    found = SimpleNamespace(record=recorded(plant.simulate(u), u, outputs=("y",), inputs=("u",)), model=plant, healthy=50)
+    with two_threads():
+        assert of_monitor(found)[0] is None  # type: ignore[arg-type]
+    assert seen == [{1}]
 
 
 @pytest.mark.parametrize("name", sorted(set(NUMERIC.__all__) - WITHOUT_BLAS))

@@ -1,4 +1,4 @@
-"""The checker is tested as a command, alone in an empty folder: exit codes, what it prints, files that are no certificates."""
+"""The checker is tested as a command, in an empty folder, its core alone or all files: exit codes, what it prints, no certificates."""
 
 from __future__ import annotations
 
@@ -8,24 +8,26 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.fields import QQ, PrimeField
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
-from tests.proofs.examples import CUBED, GONE, HUGE, LEADING, RANKS, ZERO, base, seen, spoiled, systems
+from tests.proofs.examples import CUBED, GONE, HINTED, HUGE, INVERTIBLE, LEADING, RANKS, SAME, SPACE, ZERO, base, seen, spoiled, systems
 
 SOURCE = Path(checker.__file__)
-LIMITS = SOURCE.with_name("checker_limits.py")
+FILES = ("checker.py", "checker_fields.py", "checker_structure.py", "checker_limits.py")  # each needs those before it
 
 
 class Lone:
-    """This is the checker alone in an empty folder."""
+    """This is the core of the checker alone in an empty folder or, with its name, another file with those that it needs."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        shutil.copy(SOURCE, folder / "checker.py")
+    def __init__(self, folder: Path, program: str = "checker.py") -> None:
+        self.folder, self.program = folder, program
+        for name in FILES[: FILES.index(program) + 1]:
+            shutil.copy(SOURCE.with_name(name), folder / name)
 
     def file(self, name: str, content: object) -> str:
         """Return a file in the folder: bytes as they are, the rest as JSON."""
@@ -33,7 +35,7 @@ class Lone:
         return name
 
     def __call__(self, *arguments: str | bytes) -> subprocess.CompletedProcess[str]:
-        command: list[str | bytes] = [sys.executable, "-I", "-O", "checker.py", *arguments]
+        command: list[str | bytes] = [sys.executable, "-I", "-O", self.program, *arguments]
         environment = {**os.environ, "LC_ALL": "C.UTF-8"}
         done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, env=environment, check=False)
         assert "Traceback" not in done.stderr and "Exception" not in done.stderr
@@ -45,8 +47,13 @@ def lone(tmp_path: Path) -> Lone:
     return Lone(tmp_path)
 
 
+@pytest.fixture
+def whole(tmp_path: Path) -> Lone:
+    return Lone(tmp_path, FILES[-1])
+
+
 def test_exit_codes(lone: Lone) -> None:
-    good, bad = lone.file("good.json", RANKS), lone.file("bad.json", spoiled(RANKS, ("witness.prime", 4)))
+    good, bad = lone.file("good.json", HINTED), lone.file("bad.json", spoiled(HINTED, ("witness.prime", 4)))
     ugly = lone.file("ugly.json", b"{")
     own, foreign = lone.file("own.json", seen().to_json()), lone.file("foreign.json", ZERO.to_json())
     for arguments, code in [
@@ -69,13 +76,13 @@ def test_exit_codes(lone: Lone) -> None:
     ]:
         assert lone(*arguments).returncode == code, arguments
     done = lone(good, bad)
-    assert f"good.json: verified: window-ranks: {checker.verify(RANKS).statement}" in done.stdout
-    assert f"SHA-256 {make.sha256(RANKS)}" in done.stdout
+    assert f"good.json: verified: window-ranks: {checker.verify(HINTED).statement}" in done.stdout
+    assert f"SHA-256 {make.sha256(HINTED)}" in done.stdout
     assert "bad.json: rejected: 4 is not a prime" in done.stdout
 
 
-def test_results_as_json(lone: Lone) -> None:
-    done = lone("--json", lone.file("good.json", CUBED), lone.file("bad.json", []))
+def test_results_as_json(whole: Lone) -> None:
+    done = whole("--json", whole.file("good.json", CUBED), whole.file("bad.json", []))
     good, bad = json.loads(done.stdout)
     words = checker.verify(CUBED).statement
     verified = {"file": "good.json", "result": "verified", "kind": "window-ranks", "statement": words, "assumes": []}
@@ -86,7 +93,7 @@ def test_results_as_json(lone: Lone) -> None:
 
 
 def test_files_that_are_no_certificates(lone: Lone) -> None:
-    text = json.dumps(RANKS)
+    text = json.dumps(HINTED)
     for name, content, reason in [
         ("empty", b"", "not JSON"),
         ("latin", b'{"format": "\xff"}', "not JSON"),
@@ -111,7 +118,7 @@ def test_files_that_are_no_certificates(lone: Lone) -> None:
 def test_names_of_files_need_not_be_text(lone: Lone) -> None:
     name = b"\xff\xc3\xa9.json"
     try:
-        (lone.folder / os.fsdecode(name)).write_text(json.dumps(RANKS))
+        (lone.folder / os.fsdecode(name)).write_text(json.dumps(HINTED))
     except OSError as problem:
         pytest.skip(f"no such name here: {problem}")
     assert lone(name).returncode == lone("--json", name).returncode == 0
@@ -120,8 +127,8 @@ def test_names_of_files_need_not_be_text(lone: Lone) -> None:
 def test_long_numbers_are_read_and_written(lone: Lone) -> None:
     large, odd = 10**19000 + 7, 10**5000 + 1
     # Beyond Python's own limit of digits, as a JSON integer and as a string.
-    text = json.dumps(RANKS).replace('"A": [["0"]]', f'"A": [[{large}]]').replace('"F": [["1"]]', f'"F": [["{odd}/{large}"]]')
-    kept = json.loads(json.dumps(base("left-invertible"))) | {"statement": json.loads(text)["statement"]}
+    text = json.dumps(HINTED).replace('"A": [["0"]]', f'"A": [[{large}]]').replace('"F": [["1"]]', f'"F": [["{odd}/{large}"]]')
+    kept = json.loads(json.dumps(INVERTIBLE)) | {"statement": json.loads(text)["statement"]}
     kept["statement"] = {"system": kept["statement"]["system"]}
     done = lone("--json", lone.file("large.json", kept))
     assert done.returncode == 0, done
@@ -131,9 +138,10 @@ def test_long_numbers_are_read_and_written(lone: Lone) -> None:
 ASSUMED = spoiled(CUBED, ("witness.irreducible", GONE))
 
 
-def test_what_is_verified_under_an_assumption_names_it_and_exits_with_3(lone: Lone) -> None:
-    assumed, good = lone.file("assumed.json", ASSUMED), lone.file("good.json", RANKS)
-    bad, ugly = lone.file("bad.json", spoiled(RANKS, ("witness.prime", 4))), lone.file("ugly.json", b"{")
+def test_what_is_verified_under_an_assumption_names_it_and_exits_with_3(whole: Lone) -> None:
+    lone, good = whole, whole.file("good.json", HINTED)
+    assumed = lone.file("assumed.json", ASSUMED)
+    bad, ugly = lone.file("bad.json", spoiled(HINTED, ("witness.prime", 4))), lone.file("ugly.json", b"{")
     for arguments, code in [([assumed], 3), ([good, assumed], 3), ([assumed, good], 3), ([assumed, bad], 1), ([assumed, ugly], 2)]:
         assert lone(*arguments).returncode == code, arguments
     (found,) = json.loads(lone("--json", assumed).stdout)
@@ -145,7 +153,7 @@ def test_what_is_verified_under_an_assumption_names_it_and_exits_with_3(lone: Lo
 def test_pipes_devices_and_directories_are_refused_without_waiting(lone: Lone) -> None:
     os.mkfifo(lone.folder / "pipe")
     os.symlink("pipe", lone.folder / "link")
-    good = lone.file("good.json", RANKS)
+    good = lone.file("good.json", HINTED)
     for name in ("pipe", "link", "/dev/zero", "/dev/stdin", "/dev/tty", "/proc/self/mem", "/proc/self/task", "."):
         if not name.startswith("/") or Path(name).exists():
             done = lone(name, good)  # the checker would be ended by the limit of the test, were it to wait
@@ -157,7 +165,7 @@ def test_pipes_devices_and_directories_are_refused_without_waiting(lone: Lone) -
 
 @pytest.mark.parametrize("arguments", [[], ["--json"]])
 def test_output_that_nobody_takes_is_no_rejection(lone: Lone, arguments: list[str]) -> None:
-    names = [lone.file(f"{i}.json", RANKS) for i in range(3)]
+    names = [lone.file(f"{i}.json", HINTED) for i in range(3)]
     command = [sys.executable, "-I", "-O", "checker.py", *arguments, *names]
     read, write = os.pipe()
     os.close(read)
@@ -201,16 +209,16 @@ def test_no_two_systems_are_told_by_the_same_words() -> None:
 
 
 def test_each_file_has_the_whole_of_the_work(lone: Lone, monkeypatch: pytest.MonkeyPatch) -> None:
-    large, good = spoiled(RANKS, ("statement.system.A.0.0", "7" * 19_000)), lone.file("good.json", RANKS)
+    large, good = spoiled(HINTED, ("statement.system.A.0.0", "7" * 19_000)), lone.file("good.json", HINTED)
     names = [lone.file("large.json", large), good, good]
     paths = [str(lone.folder / name) for name in names]
-    checker.verify(RANKS)
+    checker.verify(HINTED)
     monkeypatch.setattr(checker, "MAX_WORK", int(checker._meter.get().work * 1.5))
     insisted = [checker.subject(seen().to_json())]
     assert [checker.result_of(path, insisted)["result"] for path in paths] == ["rejected", "verified", "verified"]
     for _ in range(3):  # what is read outside of a certificate is charged to itself
         checker.subject(seen().to_json())
-        assert checker.verify(RANKS, [seen().to_json()]).assumes == []
+        assert checker.verify(HINTED, [seen().to_json()]).assumes == []
 
 
 def test_a_kind_carries_its_proof() -> None:
@@ -218,21 +226,36 @@ def test_a_kind_carries_its_proof() -> None:
         assert kind.proof.endswith(".") and 40 < len(kind.proof) < 200, name
 
 
-def test_each_file_of_the_checker_runs_alone_or_beside_the_core(tmp_path: Path) -> None:
-    """The core decides ranks and behaviours alone, and names the file for other kinds; that one, beside the core, decides every kind."""
-    shutil.copy(SOURCE, tmp_path / "checker.py")
-    certificates = {"ranks": RANKS, "line": base("left-invertible-line"), "zeros": base("finite-zeros"), "limit": LEADING}
-    files = [tmp_path / f"{name}.json" for name in certificates]
-    for file, certificate in zip(files, certificates.values(), strict=True):
-        file.write_text(json.dumps(certificate), "utf-8")
+OTHER = "here: {} decides it, which is another file"
+# A certificate, the file that decides it, and what the files before that one say of it.
+BELONGS: dict[str, tuple[Any, int, str]] = {
+    "ranks": (HINTED, 0, ""),
+    "point": (INVERTIBLE, 0, ""),
+    "no-hints": (RANKS, 1, "without point and mix it is for checker_fields.py, which is another file"),
+    "no-point": (base("left-invertible"), 1, "without a point it is for checker_fields.py"),
+    "prime-field": (base("window-ranks", PrimeField(3)), 1, "GF(p) and Q(a) are read by checker_fields.py, which is another file"),
+    "number-field": (CUBED, 1, "GF(p) and Q(a) are read by checker_fields.py, which is another file"),
+    "window": (SAME, 1, OTHER.format(FILES[1])),
+    "space": (SPACE, 2, OTHER.format(FILES[2])),
+    "line": (base("left-invertible-line"), 2, OTHER.format(FILES[2])),
+    "zeros": (base("finite-zeros"), 3, OTHER.format(FILES[3])),
+    "limit": (LEADING, 3, OTHER.format(FILES[3])),
+}
 
-    def said(program: str) -> list[str]:
-        command = [sys.executable, "-I", "-O", program, "--json", *map(str, files)]
-        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-        assert done.stderr == ""
-        return [one["result"] if one["result"] == "verified" else one["reason"] for one in json.loads(done.stdout)]
 
-    other = "kind: unknown, or one of checker_limits.py, which is another file"
-    assert said("checker.py") == ["verified", other, other, other]
-    shutil.copy(LIMITS, tmp_path / "checker_limits.py")
-    assert said("checker_limits.py") == ["verified"] * 4
+@pytest.mark.parametrize("program", FILES)
+def test_each_file_of_the_checker_decides_its_kinds_beside_those_before_it(program: str, tmp_path: Path) -> None:
+    lone = Lone(tmp_path, program)
+    answers = json.loads(lone("--json", *(lone.file(name, one) for name, (one, _, _) in BELONGS.items())).stdout)
+    for answer, (_, first, words) in zip(answers, BELONGS.values(), strict=True):
+        if first <= FILES.index(program):
+            assert answer["result"] == "verified", answer
+        else:
+            assert answer["result"] == "malformed" and words in answer["reason"], answer
+
+
+def test_every_kind_is_named_with_its_file() -> None:
+    named = [name for names in checker.ELSEWHERE.values() for name in names.split()]
+    assert len(named) == len({*named}) and {*named} < {*checker.KINDS}
+    core = {"window-ranks", "left-invertible", "behaviour-inclusion", "behaviour-equality"}
+    assert {*checker.KINDS} - {*named} == core

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -20,7 +21,7 @@ import pytest
 
 from faultspace.proofs.rocq import export as rocq_export
 from faultspace.proofs.rocq.listed import NotCovered
-from faultspace.proofs.trust import checker, checker_limits
+from faultspace.proofs.trust import checker, checker_limits, checker_structure
 from tests.proofs.examples import NORMAL, RANKS, K, S, spoiled
 from tests.proofs.floods import Flood, floods
 from tests.thorough import every
@@ -91,9 +92,13 @@ def test_the_dearest_floods_are_answered_or_refused_in_time(name: str, tmp_path:
 
 def test_a_checker_that_does_not_charge_is_flooded(tmp_path: Path) -> None:
     """The measure sees what it is to see: without the bounds the same files cost more."""
-    lavish = tmp_path / "lavish.py"
+    own = Path(checker_structure.__file__)
+    lavish = tmp_path / own.name
+    for name in (own.name, "checker_fields.py"):
+        shutil.copy(own.with_name(name), tmp_path / name)
     text = Path(checker.__file__).read_text("utf-8")
-    lavish.write_text(text.replace("MAX_WORK, MAX_MEMORY = 3 * 10**9, 2**27", "MAX_WORK, MAX_MEMORY = 10**15, 2**60"), "utf-8")
+    unbound = "MAX_WORK, MAX_MEMORY = 10**15, 2**60"
+    (tmp_path / "checker.py").write_text(text.replace("MAX_WORK, MAX_MEMORY = 3 * 10**9, 2**27", unbound), "utf-8")
     content = next(one for one in floods() if one.name == "toeplitz 0 0 512 600 0").made()
     (tmp_path / "x.json").write_bytes(content.replace(b'"window":600', b'"window":4000'))
     limits = f"import resource as r; r.setrlimit(r.RLIMIT_AS, ({MEGABYTES}000000,) * 2); r.setrlimit(r.RLIMIT_CPU, (5, 5))\n"
@@ -101,7 +106,7 @@ def test_a_checker_that_does_not_charge_is_flooded(tmp_path: Path) -> None:
     command[-1] += f"import sys, runpy; sys.argv[1:] = ['x.json']; runpy.run_path('{lavish}', run_name='__main__')"
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode < 0 or "not enough memory" in done.stdout
-    command[-1] = command[-1].replace(str(lavish), str(checker.__file__))
+    command[-1] = command[-1].replace(str(lavish), str(own))
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert "checking takes more than" in done.stdout
 

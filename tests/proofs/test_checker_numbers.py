@@ -9,7 +9,7 @@ import pytest
 
 from faultspace.exact.algebra.fields import PrimeField
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import checker, checker_fields
 from faultspace.proofs.trust.structure_certificates import accept
 from tests.proofs.examples import CUBED, FIELDS, GONE, RANKS, ROOTED, SQRT2, S, base, certificates, seen, spoiled
 
@@ -46,7 +46,7 @@ def test_irreducible_modulo_a_prime_is_what_is_no_product(prime: int, degree: in
         # Another leading coefficient, and one divisible by the prime added, change nothing modulo the prime but a factor.
         coefficients = [(prime + 1) * c + prime for c in low] + [prime + 1]
         monic = tuple(c * pow(coefficients[-1], -1, prime) % prime for c in coefficients)
-        field = checker.Field({"minimal_polynomial": coefficients})
+        field = checker_fields.NumberField({"minimal_polynomial": coefficients})
         if monic in reducible:
             with pytest.raises(checker.Rejected, match="reducible modulo"):
                 field.irreducible({"irreducible": {"modulo": prime}})
@@ -58,7 +58,7 @@ def test_eisenstein_shifts() -> None:
     # (x - 1)^4 - 3 and multiples of it.
     coefficients = [-2, -4, 6, -4, 1]
     for factor in ("", "/7"):
-        field = checker.Field({"minimal_polynomial": [f"{c * 6}{factor}" for c in coefficients]})
+        field = checker_fields.NumberField({"minimal_polynomial": [f"{c * 6}{factor}" for c in coefficients]})
         assert field.irreducible({"irreducible": {"eisenstein": {"prime": 3, "shift": "1"}}})
         with pytest.raises(checker.Rejected):
             field.irreducible({"irreducible": {"eisenstein": {"prime": 3, "shift": "-1"}}})

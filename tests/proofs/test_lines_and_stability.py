@@ -11,7 +11,7 @@ from faultspace.base.errors import InvalidInput
 from faultspace.exact.algebra.fields import Field, NumberField, PrimeField
 from faultspace.exact.system.modular import LARGEST_PRIME
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.proofs.trust import checker, checker_limits
+from faultspace.proofs.trust import checker, checker_structure
 from faultspace.proofs.trust import structure_certificates as make
 from tests.oracle import truth
 from tests.oracle.fields import PrimeField as SlowField
@@ -112,7 +112,7 @@ def test_forms_are_determinants() -> None:
             rows = [[rng.randrange(prime) for _ in range(2 * m)] for _ in range(m)]
             slow: Any = [[{(0, k): field.integer(x) for k, x in enumerate((row[j], row[m + j])) if x} for j in range(m)] for row in rows]
             expected = determinant(field, slow)
-            assert checker_limits.binary_form(rows, prime) == [expected[0, k].value if (0, k) in expected else 0 for k in range(m + 1)]
+            assert checker_structure.binary_form(rows, prime) == [expected[0, k].value if (0, k) in expected else 0 for k in range(m + 1)]
 
 
 def test_more_faults_are_more_work_and_too_many_too_much() -> None:

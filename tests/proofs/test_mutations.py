@@ -29,7 +29,7 @@ from faultspace.exact.structure.fault_columns import fault_space
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.evidence.specimens import specimens
-from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import checker, checker_fields
 from faultspace.proofs.trust import structure_certificates as make
 from tests.oracle import premise_holds, truth
 from tests.proofs.examples import by_chain, experiments, limit_certificates, lines, stable
@@ -247,7 +247,9 @@ def test_forged_witnesses_prove_nothing_false(monkeypatch: pytest.MonkeyPatch) -
     found, tally = false_ones(Random(count), known, count, sample=100)
     assert found == []
     assert {*tally.tried} == {*checker.KINDS} and sum(tally.accepted.values()) > count / 20 and tally.false_statements > 5
-    monkeypatch.setattr(checker.System, "met_by", lambda *_: None)  # a checker without its lower bounds is fooled by the same forger
+    monkeypatch.setattr(
+        checker_fields.System, "unhinted", lambda *_: None
+    )  # a checker without its lower bounds is fooled by the same forger
     assert false_ones(Random(count), known, 1500, sample=1)[0] != []
 
 

@@ -27,7 +27,14 @@ _reconstructs: adapter.Reconstructs = reference
 _knows: adapter.KnowsStructure = reference
 
 
-@parametrize_with_checks(reference)
+# Noisy records take a second each; that their units do not matter is asked daily of the same functions in `test_rows.py`.
+ASKED = [
+    pytest.param(*case.values, id=case.id, marks=pytest.mark.slow if "noisy-other-units" in str(case.id) else ())
+    for case in parametrize_with_checks(reference).args[1]
+]
+
+
+@pytest.mark.parametrize("check", ASKED)
 def test_the_reference_passes_every_check(check: Any) -> None:
     record: CheckResult = check()
     if record.ratio is not None:

@@ -13,6 +13,7 @@ from faultspace.numeric.audit.records import Demand
 from faultspace.numeric.audit.running import audit
 from faultspace.numeric.audit.vectors.shipped_vectors import shipped
 from tests.numeric.audit.mutants import MUTANTS, Mutant
+from tests.thorough import THOROUGH
 
 
 def test_there_are_enough_and_they_are_told_apart() -> None:
@@ -25,7 +26,8 @@ NAMED = [pytest.param(mutant, slug, id=f"{mutant.name}-{slug}") for mutant in MU
 
 @pytest.mark.parametrize(("mutant", "slug"), NAMED)
 def test_the_named_check_catches_it(mutant: Mutant, slug: str) -> None:
-    records = audit(mutant.adapter, only=[slug])
+    # A noisy record takes a second: one of them shows it.
+    records = audit(mutant.adapter, only=[f"{slug}[one-fault-in-noise]" if "noisy" in slug and not THOROUGH else slug])
     failed = [record for record in records if record.failed]
     print(f"{mutant.name}: {len(failed)} of {len(records)} {slug}: {', '.join(record.vector for record in failed)}")
     assert failed, mutant.wrong

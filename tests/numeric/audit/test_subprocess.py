@@ -50,6 +50,7 @@ def _verdict(command: list[str], check: str = "fault-dimension[one-fault]", time
         ("a = [1]", "broken", "no JSON object"),
         ("sys.exit('out of luck')", "broken", "out of luck"),
         ("os.abort()", "broken", "ended without an answer"),
+        ("while True: os.write(2, b'noise' * 100000)", "broken", "to standard error"),
         ("a = {'n_v': float('nan')}", "fail", "n_v"),
     ],
 )

@@ -120,7 +120,9 @@ def test_characteristic_polynomials_annihilate() -> None:
 RECORDS = [*shipped("faults"), *shipped("unexciting"), *(view for one in shipped("faults") for view in one.views.values())]
 
 
-@pytest.mark.parametrize("vector", RECORDS, ids=lambda vector: f"{vector.slug}-{vector.view.slug if hasattr(vector, 'view') else ''}")
+@pytest.mark.parametrize(
+    "vector", RECORDS[:: every()], ids=lambda vector: f"{vector.slug}-{vector.view.slug if hasattr(vector, 'view') else ''}"
+)
 def test_ranks_and_certified_gaps(vector: Any) -> None:
     """The gap encloses what a float SVD sees, and stands far above what rounding of the data can do wherever ranks are asked."""
     r = in_channel_units(vector.r)
