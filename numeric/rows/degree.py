@@ -30,7 +30,7 @@ from ...base.chi_squared import chi_squared_tail
 from ..space.basis import KernelBasis
 from .joint import ROUNDING, JointMoments
 
-# Set by hand, for the number of zeros alone.
+# Levels of the test; how often zeta is wrong under them, `benchmarks/space_at_the_bound.py` counts.
 ENOUGH, TOO_LOW = 0.01, 1e-6
 # Means of the ratio over its degrees of freedom where the degree suffices, for one degree more and for several. One more frees a real root,
 # several free pairs of roots, which can stand at any frequency; so the second is larger. Neither grows with N, because the moments have no
