@@ -130,6 +130,11 @@ def kernel_row_test(r: Array, degree: int, *, u: Array | None = None) -> KernelR
             f"on {counted(low, 'mixed output')} the best law still improves by {decibels(below.drop)} over the last two degrees (at most "
             f"{decibels(bound)} allowed): an order that needs larger block_rows"
         )
+    if rise <= 0.0:
+        return undecided(
+            f"from {high} mixed outputs to {low} the noise left by the best law rises by less than mixtures of as many differ: no jump "
+            f"tells a missing law (at least {decibels(needed)})"
+        )
     if rise < needed:
         return undecided(f"{step}: too much for the same floor, too little for a missing law (at least {decibels(needed)})")
     if low == p - 1 and floor.drop > SLACK_LAST + chance:
