@@ -17,13 +17,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq_mat, fmpz, fmpz_mat, nmod_mat
 
 from ...base.errors import InvalidInput, shorten
 from ...base.sheets import counted
-from .fields import QQ, Field, NumberField, PrimeField, Rationals, base_matrix
+from .fields import QQ, Field, NumberField, PrimeField, Rationals, base_matrix, base_zero
 from .sympy_values import is_domain_matrix, is_matrix
 from .validation import MAX_BITS, fits, natural
 
@@ -78,7 +79,10 @@ class Matrix:
         nrows, ncols = shape
         if isinstance(field, Rationals) and (numbers := _integers(rows)) is not None:
             return Matrix(field, nrows, ncols, fmpq_mat(fmpz_mat(nrows, ncols, numbers)))
-        elements = [[field.element(x, f"{where}[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(rows)]
+        try:
+            elements = [[field.element(x) for x in row] for row in rows]
+        except InvalidInput:  # once more, now with the place in words
+            elements = [[field.element(x, f"{where}[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(rows)]
         return Matrix.from_elements(field, nrows, ncols, elements)
 
     @staticmethod
@@ -100,16 +104,17 @@ class Matrix:
         """The result is the zero matrix. Raises InvalidInput for sizes that are no integers >= 0, or too large for any memory."""
         fits(natural(nrows, "nrows"), natural(ncols, "ncols"), "matrix")
         d = field.degree
-        return Matrix(field, nrows, ncols, base_matrix(field, nrows * d, ncols * d, [0] * (nrows * ncols * d * d)))
+        return Matrix(field, nrows, ncols, base_zero(field, nrows * d, ncols * d))
 
     @staticmethod
     def identity(field: Field, size: int) -> Matrix:
         """The result is the identity matrix. Raises InvalidInput for a size that is no integer >= 0, or too large for any memory."""
         fits(natural(size, "size"), size, "matrix")
         k = size * field.degree
-        scalars = [0] * (k * k)
-        scalars[:: k + 1] = [1] * k
-        return Matrix(field, size, size, base_matrix(field, k, k, scalars))
+        unit = base_zero(field, k, k)
+        for i in range(k):
+            unit[i, i] = 1
+        return Matrix(field, size, size, unit)
 
     # -- reading --------------------------------------------------------------------------------------------------
 
@@ -161,7 +166,7 @@ class Matrix:
 
     def is_zero(self) -> bool:
         """This tells whether every entry is zero."""
-        return all(x == 0 for x in self.flint.entries())
+        return not self.flint
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Matrix):
@@ -169,10 +174,17 @@ class Matrix:
         return self.field == other.field and self.shape == other.shape and bool(self.flint == other.flint)
 
     def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
         if isinstance(self.field, PrimeField):
             return hash((self.field, self.shape, tuple(map(int, self.flint.entries()))))
         numerators, denominator = self.flint.numer_denom()
         return hash((self.field, self.shape, tuple(map(int, numerators.entries())), int(denominator)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Matrix, (self.field, self.nrows, self.ncols, self.flint)
 
     def __str__(self) -> str:
         rows = ["[" + ", ".join(str(x) for x in row) + "]" for row in self.elements()]
@@ -302,9 +314,9 @@ def row_echelon(matrix: Matrix) -> RowEchelon:
     d = matrix.field.degree
     echelon = _lifted_echelon(matrix.flint) if _is_large(matrix) else None
     if echelon is None:
-        reduced, size = matrix.flint.rref()
-        scalars = reduced.entries()[: size * matrix.ncols * d]
-        echelon = base_matrix(matrix.field, size, matrix.ncols * d, scalars)
+        echelon, size = matrix.flint.rref()
+        if size < echelon.nrows():
+            echelon = base_matrix(matrix.field, size, matrix.ncols * d, echelon.entries()[: size * matrix.ncols * d])
     pivots = tuple(j // d for j in pivot_columns(echelon)[::d])
     return RowEchelon(Matrix(matrix.field, len(pivots), matrix.ncols, echelon), pivots)
 
@@ -414,22 +426,22 @@ def row_profile(matrix: Matrix) -> tuple[int, ...]:
 
 
 def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
-    """The result is some X with X M = R, or None where R has a row outside the row space of M."""
-    profile = row_profile(matrix)
-    basis = matrix.rows(profile)
-    echelon = row_echelon(basis)
-    square = basis.columns(echelon.pivots)
-    target = right_side.columns(echelon.pivots)
-    if not profile:
-        return Matrix.zero(matrix.field, right_side.nrows, matrix.nrows) if right_side.is_zero() else None
-    coefficients = Matrix(matrix.field, right_side.nrows, len(profile), target.flint * square.flint.inv())
-    if not (coefficients @ basis - right_side).is_zero():
+    """The result is the X with X M = R that has zeros at the rows of M that depend on those above; None where R has a row outside the row
+    space of M.
+    """
+    height = matrix.nrows
+    form = row_echelon(stacked(matrix, right_side).transposed())
+    profile = tuple(pivot for pivot in form.pivots if pivot < height)
+    if len(profile) < len(form.pivots):
         return None
-    spread = Matrix.zero(matrix.field, len(profile), matrix.nrows).elements()
+    coefficients = form.matrix.columns(range(height, height + right_side.nrows)).transposed()
+    if len(profile) == height:
+        return coefficients
+    spread = Matrix.zero(matrix.field, len(profile), height).elements()
     one = matrix.field.element(1)
     for i, row in enumerate(profile):
         spread[i][row] = one
-    return coefficients @ Matrix.from_elements(matrix.field, len(profile), matrix.nrows, spread)
+    return coefficients @ Matrix.from_elements(matrix.field, len(profile), height, spread)
 
 
 def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:

@@ -23,7 +23,7 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric import identify, record_from
 from faultspace.numeric.model.asymptotic_likelihood import arx_reduction
 from faultspace.numeric.rows import bootstrap, laws, remainder
-from faultspace.numeric.rows.degree import least_degree
+from faultspace.numeric.rows.degree import least_degree, misfits
 from faultspace.numeric.rows.evidence import Evidence
 from faultspace.numeric.rows.fault_count import count_faults
 from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
@@ -478,7 +478,7 @@ def test_the_law_of_the_degree() -> None:
         system = planted(30 + seed, n=2, p=2, m=1)
         y, u = joint_record(system, seed, 600, 40)
         data = joint_moments(y, u, 4)
-        chosen = least_degree(data, course(data, 1, 4), 0, 2)
+        chosen = least_degree(data, course(data, 1, 4), 0, 2, misfits(4, data, 0.0))
         small += chosen.probabilities[2] < 0.01
         assert chosen.probabilities[1] < 1e-3
     assert small <= 2
@@ -490,5 +490,5 @@ def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None
     data = joint_moments(y, u, 4)
     fit = fitted(data, (1,))
     steps = [replace(fit, rows=(np.ones((d + 1, 4)),), level=level) for d, level in enumerate((0.0, -4.0, -3.9, -9.0, -9.005))]
-    found = least_degree(data, steps, 0, 3)
+    found = least_degree(data, steps, 0, 3, misfits(4, data, 0.0))
     assert found.degree == 3 and found.decided
