@@ -25,7 +25,8 @@ from ...base.errors import InvalidInput, shorten
 from ...base.sheets import counted
 from .fields import QQ, Field, NumberField, PrimeField, Rationals, base_matrix
 from .sympy_values import is_domain_matrix, is_matrix
-from .validation import MAX_BITS, fits, natural
+from .validation import fits, natural, plain_integers
+from .writing import written_rationals
 
 if TYPE_CHECKING:
     import sympy
@@ -74,12 +75,11 @@ class Matrix:
             if shape is not None and entries.shape != shape:
                 raise InvalidInput(f"{where}: got shape {entries.nrows} x {entries.ncols}, expected {shape[0]} x {shape[1]}")
             return entries
-        rows, shape = _rows_of(entries, field, shape, where)
-        nrows, ncols = shape
-        if isinstance(field, Rationals) and (numbers := _integers(rows)) is not None:
+        rows, (nrows, ncols) = _rows_of(entries, field, shape, where)
+        if isinstance(field, Rationals) and (numbers := plain_integers(rows)) is not None:
             return Matrix(field, nrows, ncols, fmpq_mat(fmpz_mat(nrows, ncols, numbers)))
-        elements = [[field.element(x, f"{where}[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(rows)]
-        return Matrix.from_elements(field, nrows, ncols, elements)
+        read = [[field.element(x, f"{where}[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(rows)]
+        return Matrix.from_elements(field, nrows, ncols, read)
 
     @staticmethod
     def from_elements(field: Field, nrows: int, ncols: int, rows: Sequence[Sequence[Any]]) -> Matrix:
@@ -128,22 +128,16 @@ class Matrix:
 
     def elements(self) -> list[list[Any]]:
         """The result has all entries as rows of field elements."""
+        table: list[list[Any]] = self.flint.tolist()
         if not isinstance(self.field, NumberField):
-            table: list[list[Any]] = self.flint.tolist()
             return table
-        d = self.field.degree
-        table = self.flint.tolist()
-        take = self.field.from_coordinates
+        d, take = self.field.degree, self.field.from_coordinates
         return [[take(table[i * d][j * d : j * d + d]) for j in range(self.ncols)] for i in range(self.nrows)]
 
     def to_json(self) -> list[list[object]]:
         """The result has the rows of entries as the exact file formats write them."""
-        if isinstance(self.field, Rationals):
-            numerators, denominator = self.flint.numer_denom()
-            if denominator == 1:
-                written = [*map(str, numerators.entries())]
-                return [[*written[i * self.ncols : (i + 1) * self.ncols]] for i in range(self.nrows)]
-        return [[self.field.write(x) for x in row] for row in self.elements()]
+        rational = isinstance(self.field, Rationals)
+        return written_rationals(self.flint) if rational else [[self.field.write(x) for x in row] for row in self.elements()]
 
     def to_sympy(self) -> sympy.ImmutableMatrix:
         """The result is the sympy matrix: Rational entries over Q, integers over GF(p), polynomials in the symbol a over Q(a)."""
@@ -464,14 +458,6 @@ def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where
     if shape is not None and found != shape:
         raise InvalidInput(f"{where}: got shape {found[0]} x {found[1]}, expected {shape[0]} x {shape[1]}")
     return rows if found[1] else [[] for _ in range(found[0])], found
-
-
-def _integers(rows: Sequence[Sequence[object]]) -> list[int] | None:
-    """Return the entries where all are plain integers of a size that is supported: most matrices are, and are read ten times faster."""
-    if any(type(x) is not int for row in rows for x in row):
-        return None
-    numbers: list[int] = [x for row in rows for x in row]  # type: ignore[misc]
-    return numbers if max(map(int.bit_length, numbers), default=0) <= MAX_BITS else None
 
 
 def not_rows(entries: object, where: str) -> str:
