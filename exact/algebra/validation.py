@@ -7,14 +7,12 @@ MAX_ENTRIES         entries of one matrix: at eight bytes each, before there is 
 whole               an integer of any type as an int, None for what is none
 natural             an integer >= 0, or InvalidInput
 fits                InvalidInput for a matrix of more entries than MAX_ENTRIES
-plain_integers      the entries of a matrix, where all are plain integers
 parse_rational      "-?[0-9]+(/[1-9][0-9]*)?" or an integer, nothing else
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from fractions import Fraction
 from numbers import Integral
 
@@ -70,6 +68,8 @@ def parse_rational(value: object, where: str) -> fmpq:
         raise InvalidInput(f"{where}: got {len(value)} characters, a numerator or denominator has at most {MAX_BITS} bits")
     if not _RATIONAL.fullmatch(value):
         raise InvalidInput(f'{where}: got {shorten(value)}, expected a rational string such as "-3/4"{_hint(value)}')
+    if len(value) < 16 and value.isdecimal():
+        return fmpq(int(value))
     numerator, _, denominator = value.partition("/")
     top, bottom = fmpz(numerator), fmpz(denominator or "1")
     if max(abs(top), bottom).bit_length() > MAX_BITS:
@@ -92,11 +92,3 @@ def _hint(value: object) -> str:
     if re.fullmatch(r"-?[0-9]*\.[0-9]+", value, re.ASCII):
         return ' (decimals are written as fractions: "1/2")'
     return f' (write "{Fraction(value)}")' if _SCIENTIFIC.fullmatch(value) else ""
-
-
-def plain_integers(rows: Sequence[Sequence[object]]) -> list[int] | None:
-    """Return the entries where all are plain integers of a size that is supported: most matrices are, and are read ten times faster."""
-    if any(type(x) is not int for row in rows for x in row):
-        return None
-    numbers: list[int] = [x for row in rows for x in row]  # type: ignore[misc]
-    return numbers if max(map(int.bit_length, numbers), default=0) <= MAX_BITS else None

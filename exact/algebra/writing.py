@@ -1,14 +1,11 @@
-"""How a polynomial is written for people, highest power first with signs between the terms, and matrices of rational numbers for files.
+"""How a polynomial is written for people: highest power first, signs between the terms.
 
 sum_of_powers      from the texts of its coefficients, by ascending power
-written_rationals  the entries as reduced rational strings
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-
-from flint import fmpq_mat
 
 
 def sum_of_powers(coefficients: Sequence[str], unknown: str) -> str:
@@ -26,10 +23,3 @@ def sum_of_powers(coefficients: Sequence[str], unknown: str) -> str:
         return "0"
     first, *rest = terms
     return ("-" if first[0] == "-" else "") + first[1] + "".join(f" {sign} {term}" for sign, term in rest)
-
-
-def written_rationals(matrix: fmpq_mat) -> list[list[object]]:
-    """Return the rows as reduced rational strings; those of integers are put together at once."""
-    numerators, denominator = matrix.numer_denom()
-    written, width = [*map(str, (numerators if denominator == 1 else matrix).entries())], matrix.ncols()
-    return [[*written[i * width : (i + 1) * width]] for i in range(matrix.nrows())]

@@ -63,10 +63,11 @@ class Mat(core.Table):
 
     def __matmul__(self, other: Mat) -> Mat:
         nr, nc, bits = len(self.rows), other.nc, self.bits + other.bits + self.nc.bit_length()
-        core.charge((self.den.bit_length() * other.den.bit_length() >> 10) + (nr + nc) * (500 + self.nc * 150))
+        long = (self.den.bit_length() * other.den.bit_length() >> 10) + (nr + nc) * (500 + self.nc * 150)
         if self.bits + other.bits < 64:  # numbers of a word: a bound for all of them is near enough
-            long = 3 * nr * nc * self.nc
+            long += 3 * nr * nc * self.nc
         else:
+            core.charge(long)
             left = [sum(map(int.bit_length, column)) for column in zip(*self.rows, strict=True)] or [0] * self.nc
             right = [sum(map(int.bit_length, row)) for row in other.rows]
             long = (nc * sum(left) + nr * sum(right) >> 5) + (sum(map(mul, left, right)) >> 10)
