@@ -16,22 +16,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq_mat, fmpz, fmpz_mat, nmod_mat
 
-from ...base.errors import InvalidInput, shorten
-from ...base.sheets import counted
+from ...base.errors import InvalidInput
+from .entries import integers, rows_of
 from .fields import QQ, Field, NumberField, PrimeField, Rationals, base_matrix, base_zero
-from .sympy_values import is_domain_matrix, is_matrix
-from .validation import MAX_BITS, fits, natural
+from .validation import fits, natural
 
 if TYPE_CHECKING:
     import sympy
-    from sympy.polys.domains import AlgebraicField
-    from sympy.polys.matrices import DomainMatrix
 
 PRIME = 2**61 - 1
 
@@ -75,9 +71,9 @@ class Matrix:
             if shape is not None and entries.shape != shape:
                 raise InvalidInput(f"{where}: got shape {entries.nrows} x {entries.ncols}, expected {shape[0]} x {shape[1]}")
             return entries
-        rows, shape = _rows_of(entries, field, shape, where)
+        rows, shape = rows_of(entries, field, shape, where)
         nrows, ncols = shape
-        if isinstance(field, Rationals) and (numbers := _integers(rows)) is not None:
+        if isinstance(field, Rationals) and (numbers := integers(rows)) is not None:
             return Matrix(field, nrows, ncols, fmpq_mat(fmpz_mat(nrows, ncols, numbers)))
         try:
             elements = [[field.element(x) for x in row] for row in rows]
@@ -444,82 +440,5 @@ def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
     return coefficients @ Matrix.from_elements(matrix.field, len(profile), height, spread)
 
 
-def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:
-    """These are the rational coordinates, ascending, of an element of sympy's QQ<a>."""
-    descending = [Fraction(int(c.numerator), int(c.denominator)) for c in element.to_list()]
-    size = int(domain.mod.degree())
-    return descending[::-1] + [Fraction(0)] * (size - len(descending))
-
-
-def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where: str) -> tuple[list[list[object]], tuple[int, int]]:
-    """Nested lists of the entries and the shape they have, checked for ragged rows and against `shape`."""
-    if is_domain_matrix(entries):
-        found = (int(entries.shape[0]), int(entries.shape[1]))
-        rows = _rows_of_domain_matrix(entries, field, where)
-    elif is_matrix(entries):
-        found = (int(entries.rows), int(entries.cols))
-        rows = [list(entries.row(i)) for i in range(entries.rows)]
-    elif isinstance(entries := _listed(entries, where), (list, tuple)):
-        rows = []
-        for i, row in enumerate(entries):
-            if not isinstance(row, (list, tuple)):
-                raise InvalidInput(f"{where}[{i}]: got {shorten(row)}, expected a row: a list of entries")
-            rows.append(list(row))
-        found = (len(rows), len(rows[0]) if rows else 0)
-        for i, row in enumerate(rows):
-            if len(row) != found[1]:
-                raise InvalidInput(f"{where}[{i}]: got {counted(len(row), 'entry', 'entries')}, expected {found[1]} as in the first row")
-        if shape is not None and 0 in shape and found in ((0, 0), (shape[0], 0)):
-            found = shape  # [] and the right number of empty rows stand for every empty matrix
-    else:
-        raise InvalidInput(not_rows(entries, where))
-    if shape is not None and found != shape:
-        raise InvalidInput(f"{where}: got shape {found[0]} x {found[1]}, expected {shape[0]} x {shape[1]}")
-    return rows if found[1] else [[] for _ in range(found[0])], found
-
-
-def _integers(rows: Sequence[Sequence[object]]) -> list[int] | None:
-    """Return the entries where all are plain integers of a size that is supported: most matrices are, and are read ten times faster."""
-    if any(type(x) is not int for row in rows for x in row):
-        return None
-    numbers: list[int] = [x for row in rows for x in row]  # type: ignore[misc]
-    return numbers if max(map(int.bit_length, numbers), default=0) <= MAX_BITS else None
-
-
-def not_rows(entries: object, where: str) -> str:
-    """The message that this is no list of rows, with what to try where that is known."""
-    said = f"{where}: got {shorten(entries)}, expected a list of rows"
-    if isinstance(entries, (int, Fraction, str)) and not isinstance(entries, bool):
-        return f"{said}, try [[{shorten(entries)}]]"
-    if hasattr(entries, "residual"):
-        return f"{said} or a Matrix, one of the system's: try .A, .F, .C or .G"
-    return said
-
-
-def _listed(entries: Any, where: str) -> Any:
-    """A numpy array of integers, or of objects, as the nested lists that it holds; anything else as it is. numpy is not loaded for it."""
-    kind = getattr(getattr(entries, "dtype", None), "kind", None)
-    if kind is None or not hasattr(entries, "tolist") or getattr(entries, "ndim", None) != 2:
-        return entries
-    if kind == "f":
-        raise InvalidInput(f"{where}: got {shorten(entries)}, expected a list of rows (floats are not exact; see from_float_exactly)")
-    return entries.tolist() if kind in "iuO" and entries.shape[1] else entries
-
-
 def _size(matrix: Matrix) -> str:
     return f"{matrix.nrows} x {matrix.ncols}"
-
-
-def _rows_of_domain_matrix(entries: DomainMatrix, field: Field, where: str) -> list[list[object]]:
-    from sympy.polys.domains import AlgebraicField  # loaded before, for there is a DomainMatrix
-
-    if not isinstance(entries.domain, AlgebraicField):
-        table = entries.to_Matrix()
-        return [list(table.row(i)) for i in range(table.rows)]
-    if not isinstance(field, NumberField) or field != NumberField(_ascending(entries.domain.mod)):
-        raise InvalidInput(f"{where}: got entries over {entries.domain}, expected {field}")
-    return [[_coordinates(x, entries.domain) for x in row] for row in entries.to_list()]
-
-
-def _ascending(poly: Any) -> tuple[Fraction, ...]:
-    return tuple(Fraction(int(c.numerator), int(c.denominator)) for c in reversed(poly.to_list()))

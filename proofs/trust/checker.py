@@ -93,10 +93,9 @@ def charge(work: int, room: int = 0, kept: int = 0) -> Meter:
     meter.work += work
     if meter.work > MAX_WORK:  # asked before, so that the words are put together only where they are needed
         require(False, f"checking takes more than {MAX_WORK} units of work")
-    if room or kept:
-        if meter.held + room > MAX_MEMORY or meter.held + kept > MAX_MEMORY:
-            require(False, f"checking takes more than {MAX_MEMORY} bytes of memory")
-        meter.held += kept
+    if (room or kept) and meter.held + max(room, kept) > MAX_MEMORY:
+        require(False, f"checking takes more than {MAX_MEMORY} bytes of memory")
+    meter.held += kept
     return meter
 
 
@@ -592,52 +591,38 @@ def subject(data: Json) -> System:
     return SUBJECTS["experiment" if type(data) is dict and "u_filter" in data and "experiment" in SUBJECTS else "system"](data)
 
 
-class Decided(NamedTuple):
-    """This is a certificate that was accepted: its kind, its statement, what the statement is about, and whether it assumes nothing."""
-
-    kind: Kind
-    statement: dict[str, Json]
-    about: list[System]
-    proven: bool
-
-
 def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified:
-    """Return the statement, once verified; each of `systems` (JSON or read) must be one of its own. Raises Malformed, Rejected."""
+    """Return the statement, once verified; each of `systems` (JSON or read) must be one that it is about. Raises Malformed or Rejected."""
     insisted = [data if isinstance(data, System) else subject(data) for data in systems]
-    kind, s, about, proven = decide(certificate)
+    about = decide(certificate)
+    kind, s, proven = KINDS[certificate["kind"]], certificate["statement"], about[0].field.irreducible(certificate["witness"])
     for system in insisted:
         require(any(system.key == other.key[: len(system.key)] for other in about), f"the statement is not about {system.words}")
     words = kind.words.format_map({key: shorten(value) for key, value in s.items()})
     words += "".join(f", {key[:-1]} = {shorten(s[key[:-1]])}" for key in kind.statement.split() if key[-1] == "?" and key[:-1] in s)
     words += f"; for {' and '.join(system.words for system in about)}"
-    if proven:
-        return Verified(words, [])
-    assumed = f"f is irreducible, with the coefficients {shorten(about[0].field.key)} (ascending)"
-    return Verified(f"assuming f irreducible: {words}", [assumed])
+    assumed = [] if proven else [f"f is irreducible, with the coefficients {shorten(about[0].field.key)} (ascending)"]
+    return Verified(f"assuming f irreducible: {words}" if assumed else words, assumed)
 
 
-def decide(certificate: Json, read: Callable[[str, Json], System] = lambda key, data: SUBJECTS[key](data)) -> Decided:
-    """Return what was verified, without words. Raises Malformed or Rejected. `read` reads what stands under a key of the statement; it may
-    give what it read before of the same JSON, from which everything is taken away here that another witness left.
-    """
+def decide(certificate: Json, read: Callable[[str, Json], System] = lambda key, data: SUBJECTS[key](data)) -> list[System]:
+    """Return what the statement is about, verified if K is a field. `read` may give what it has read before of the same JSON."""
     begin()
     keys(certificate, "format kind statement witness", "certificate")
     expect(certificate["format"] == "faultspace-certificate/1", "format: expected faultspace-certificate/1")
     known = type(name := certificate["kind"]) is str and name in KINDS
     other = [file for file, names in ELSEWHERE.items() if name in names.split()]
     expect(known, f"kind: unknown{''.join(f' here: {file} decides it, which is another file' for file in other)}")
-    kind = KINDS[name]
-    s = keys(certificate["statement"], kind.statement, "statement")
+    s = keys(certificate["statement"], (kind := KINDS[name]).statement, "statement")
     w = keys(certificate["witness"], f"irreducible? {kind.witness}", "witness")
     about = [read(key, s[key]) for key in SUBJECTS if key in s]
     alike = all(system.field.key == about[0].field.key and system.p == about[0].p for system in about)
     expect(alike, "the two systems differ in field or number of outputs")
-    for system in about:
-        system.image, system.field.modulus = Vectors(), system.field.prime
     for system in about if "prime" in kind.witness else []:
+        system.image = Vectors()  # another witness may have left one
         system.field.reduce(w)
     kind.check(about[0], s, w, *about[1:])
-    return Decided(kind, s, about, about[0].field.irreducible(w))
+    return about
 
 
 def content(path: str) -> bytes:

@@ -14,7 +14,7 @@ from faultspace.numeric import arx_reduction, identified_fault_space
 from faultspace.numeric.model.last_state import last_state
 from faultspace.numeric.rows.degree import LeastDegree, excess, least_degree, misfits
 from faultspace.numeric.rows.evidence import arx_of
-from faultspace.numeric.rows.joint import course, joint_moments, polished
+from faultspace.numeric.rows.joint import course, fitted, joint_moments, polished
 from faultspace.numeric.rows.remainder import as_signals, loose_samples
 from tests.numeric.planted import joint_record, planted
 
@@ -94,3 +94,26 @@ def test_frequencies_without_faults_widen_the_law_of_the_degree() -> None:
         shares.append(loose_samples(rest, data, fit, np.ones(3)) / (data.samples / 2))
     assert shares[0] == 0.0 and 0.6 < shares[1] < 0.8
     assert misfits(2, data, 100.0)[0] > misfits(2, data, 0.0)[0]
+
+
+def test_the_law_of_the_degree() -> None:
+    """Where the least degree is true its stated probability is not small, and that of the degree below is none."""
+    small = 0
+    for seed in range(12):
+        system = planted(30 + seed, n=2, p=2, m=1)
+        y, u = joint_record(system, seed, 600, 40)
+        data = joint_moments(y, u, 4)
+        chosen = least_degree(data, course(data, 1, 4), 0, 2, misfits(4, data, 0.0))
+        small += chosen.probabilities[2] < 0.01
+        assert chosen.probabilities[1] < 1e-3
+    assert small <= 2
+
+
+def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None:
+    """Levels of a course that gained nothing from degree 1 to 2, and much from 2 to 3; a step of one degree alone said that 1 suffices."""
+    y, u = joint_record(planted(26, n=3, m=1), 26, 500, 40)
+    data = joint_moments(y, u, 4)
+    fit = fitted(data, (1,))
+    steps = [replace(fit, rows=(np.ones((d + 1, 4)),), level=level) for d, level in enumerate((0.0, -4.0, -3.9, -9.0, -9.005))]
+    found = least_degree(data, steps, 0, 3, misfits(4, data, 0.0))
+    assert found.degree == 3 and found.decided
