@@ -44,6 +44,10 @@ FORETOLD = (
     "or a gain that has changed; such a fault excites too little for its space, which noise would place; what explains a shift of the "
     "mean, and the table of changes, say more"
 )
+ESTIMATED = (
+    "the record has no noise, but what its faults do is told from what its inputs do by chance alone, so that A and C are an estimate, of "
+    "unknown error; samples without fault would give them exactly (healthy=K)"
+)
 FROM_IDENTIFIED = (
     "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
     "shows how much on systems of the paper's kind)"
@@ -59,7 +63,8 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
         return replace(answer, notes=(*answer.notes, f"no fault space: {FORETOLD}"))
     on_progress("fault space", 0, 0)
     A, C = model.model.A, model.model.C
-    space, notes = None if answer.exact else _by_laws(answer, faults), answer.notes
+    # An exact record gives exact rows, and an exact space where the model is.
+    space, notes = None if answer.exact and not isinstance(model, ReducedModel) else _by_laws(answer, faults), answer.notes
     if isinstance(space, str):
         notes += (f"the fault space is from the residual: {space}",)
     if not isinstance(space, FaultSpaceEstimate):
@@ -69,6 +74,9 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
             return replace(answer, notes=(*notes, f"no fault space: {error}"))
         if space.method == "likelihood":
             notes += (FROM_IDENTIFIED,)
+        if answer.exact and not answer.healthy:
+            reason = f"undecided: {ESTIMATED}; {space.reason.removeprefix('undecided: ')}"
+            space = replace(space, decided=False, reason=reason, error_bound=None)
     return replace(answer, notes=notes, fault_space=space if answer.n_v_given else replace(space, reason=said_counted(space.reason)))
 
 

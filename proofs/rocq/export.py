@@ -11,7 +11,7 @@ integer of Python, and what writes integers (`text.py`) takes nothing else. The 
 
 Systems are written with transposed matrices (signals are rows in the theory), as integers over one common denominator. Two things in the
 terms are not in the certificate: words whose outputs are independent modulo its prime, which show the lower bounds that `checker.py` finds
-by elimination, and combinations of demands likewise; `listed.py` computes them.
+by elimination, or what its hints come to, determinants and a minor; and combinations of demands likewise. `listed.py` computes them.
 """
 
 from __future__ import annotations
@@ -22,10 +22,11 @@ from operator import mul
 from typing import Any
 
 from ..trust import checker, checker_structure
-from .listed import Integers, Listed, NotCovered, added, independent, times, triangular, unit
+from .listed import Integers, Listed, NotCovered, added, independent, times, unit
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
 
 Json = Any
+Kernel = list[tuple[int, Integers]]
 MAX_TEXT = 2**20
 MODULES = (
     "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
@@ -98,26 +99,36 @@ def written(terms: Sequence[Terms]) -> str:
 
 
 def _window_ranks(s: Json, w: Json) -> Terms:
-    if "kernel_modulo" in w:
-        raise NotCovered("the checks in Rocq need exact kernel rows, and these are known modulo a prime alone")
-    system, prime, rows = Listed(s["system"]), _prime(w), _rows(w)
+    system, prime, exact = Listed(s["system"]), _prime(w), "kernel" in w
+    kernel = _kernel(w["kernel" if exact else "kernel_modulo"])
     r, etas, ranks = _index(s["normal_rank"]), naturals(_indices(s["left_minimal_indices"])), naturals(_indices(s.get("window_ranks", [])))
     name = system.named("system")
     formula = f"(forall s, \\rank (window {name} s) = s * {natural(r)} + \\sum_(eta <- {etas}) minn s eta)%N"
+    lower = _lower("lower", system, kernel, w, prime) if exact else ("lower", "hints", _hints(system, kernel, w, prime))
+    suffix = "" if exact else "_modulo"
     return Terms(
-        (_named("system", system), _modulus(prime), ("rows", "seq kernel_row", rows), _words("ws", system, system.n + 1, prime)),
-        call("check_window_ranks", *system.sizes, r, etas, ranks, "l system rows ws"),
+        (_named("system", system), _modulus(prime), _rows(kernel), lower),
+        call(f"check_window_ranks{suffix}", *system.sizes, r, etas, ranks, "l system rows lower"),
         f"{formula} /\\ [seq \\rank (window {name} s) | s <- iota 1 {natural(len(s.get('window_ranks', [])))}] = {ranks}",
-        "window_ranks_sound",
+        f"window_ranks{suffix}_sound",
     )
 
 
 def _left_invertible(s: Json, w: Json) -> Terms:
     system, prime = Listed(s["system"]), _prime(w)
+    statement = f"left_invertible {system.named('system')}"
+    if "point" in w:
+        point = _index(w["point"], prime - 1)
+        rows, columns, value = system.minor(point, prime)
+        minor = f"{whole(point)} {naturals(rows)} {naturals(columns)} {whole(value)}"
+        definitions = _named("system", system), _modulus(prime)
+        return Terms(
+            definitions, call("check_left_invertible_at", *system.sizes, f"l system {minor}"), statement, "left_invertible_at_sound"
+        )
     return Terms(
         (_named("system", system), _modulus(prime), _words("ws", system, system.n + 1, prime)),
         call("check_left_invertible", *system.sizes, "l system ws"),
-        f"left_invertible {system.named('system')}",
+        statement,
         "left_invertible_sound",
     )
 
@@ -136,16 +147,10 @@ def _not_left_invertible(s: Json, w: Json) -> Terms:
 
 def _inclusion(s: Json, w: Json) -> Terms:
     inner, outer, prime = Listed(s["inner"]), Listed(s["outer"]), _prime(w)
-    a, b = inner.named("inner"), outer.named("outer")
+    a, b, kernel = inner.named("inner"), outer.named("outer"), _kernel(w["kernel"])
     return Terms(
-        (
-            _named("inner", inner),
-            _named("outer", outer),
-            _modulus(prime),
-            ("rows", "seq kernel_row", _rows(w, s.get("window"))),
-            _words("ws", outer, outer.n + 1, prime),
-        ),
-        call("check_inclusion", inner.n, inner.m, *outer.sizes, "l inner outer rows ws"),
+        (_named("inner", inner), _named("outer", outer), _modulus(prime), _rows(kernel), _lower("lower", outer, kernel, w, prime)),
+        call("check_inclusion", inner.n, inner.m, *outer.sizes, "l inner outer rows lower"),
         f"(forall s r, word {a} s r -> word {b} s r) /\\ (forall r, behavior {a} r -> behavior {b} r)",
         "inclusion_sound",
     )
@@ -153,22 +158,21 @@ def _inclusion(s: Json, w: Json) -> Terms:
 
 def _equality(s: Json, w: Json) -> Terms:
     first, second, prime = Listed(s["first"]), Listed(s["second"]), _prime(w)
-    a, b, window = first.named("first"), second.named("second"), _window(s["window"]) if "window" in s else None
-    shape = first.n, first.m, *second.sizes
-    definitions = (
-        _named("first", first),
-        _named("second", second),
-        _modulus(prime),
-        ("rows", "seq kernel_row", _rows(w, s.get("window"))),
-        _words("ws", first, first.n + 1 if window is None else window, prime),
-        _words("ws'", second, second.n + 1 if window is None else window, prime),
+    a, b, kernel = first.named("first"), second.named("second"), _kernel(w["kernel"])
+    shape, definitions = (
+        (first.n, first.m, *second.sizes),
+        (_named("first", first), _named("second", second), _modulus(prime), _rows(kernel)),
     )
-    if window is None:
+    if "window" not in s:
+        lower = (_lower("lower", first, kernel, w, prime), _lower("lower'", second, kernel, w, prime))
         statement = f"(forall s r, word {a} s r <-> word {b} s r) /\\ (forall r, behavior {a} r <-> behavior {b} r)"
-        return Terms(definitions, call("check_equality", *shape, "l first second rows ws ws'"), statement, "equality_sound")
+        check = call("check_equality", *shape, "l first second rows lower lower'")
+        return Terms((*definitions, *lower), check, statement, "equality_sound")
+    window = _window(s["window"])
+    words = (_words("ws", first, window, prime), _words("ws'", second, window, prime))
     statement = f"forall r, word {a} {natural(window)} r <-> word {b} {natural(window)} r"
     check = call("check_window_equality", *shape, window, "l first second rows ws ws'")
-    return Terms(definitions, check, statement, "window_equality_sound")
+    return Terms((*definitions, *words), check, statement, "window_equality_sound")
 
 
 def _difference(s: Json, w: Json) -> Terms:
@@ -191,7 +195,8 @@ def _difference(s: Json, w: Json) -> Terms:
 def _fault_space(s: Json, w: Json) -> Terms:
     system, prime, window = Listed(s["system"]), _prime(w), None if s["window"] is None else _window(s["window"])
     width = system.n + system.p
-    kernel = [row for _, row in _kernel(w, window)]
+    given = _kernel(w["kernel"])
+    kernel = [row for _, row in given if window is None or "mix" not in w or len(row) <= window]
     basis, d = _cleared(s["basis"])
     pivots = [next((j for j, x in enumerate(row) if x), width) for row in basis]
     beyond = max((len(row) - 1 for row in kernel), default=0) if window is None else window
@@ -206,13 +211,13 @@ def _fault_space(s: Json, w: Json) -> Terms:
         (
             _named("system", system),
             _modulus(prime),
-            ("rows", "seq kernel_row", _rows(w, s.get("window"))),
-            _words("ws", system, system.n + 1 if window is None else window, prime),
+            _rows(given),
+            _lower("lower", system, given, w, prime, window),
             ("d", "Z", whole(d)),
             ("basis", "table", table(basis)),
             ("combinations", "seq (nat * vector)", combinations),
         ),
-        call(check, *system.sizes, beyond, "l system rows ws d basis", naturals(pivots), "combinations"),
+        call(check, *system.sizes, beyond, "l system rows lower d basis", naturals(pivots), "combinations"),
         f"forall s, ({natural(beyond)} < s)%N -> {space}" if window is None else space,
         "limit_sound" if window is None else "solutions_sound",
     )
@@ -221,19 +226,20 @@ def _fault_space(s: Json, w: Json) -> Terms:
 def _first_column_only(s: Json, w: Json) -> Terms:
     system, prime, window = Listed(s["system"]), _prime(w), _window(s["window"])
     (z,), d = _cleared([s["column"]])
+    kernel = _kernel(w["kernel"])
     name, f, g = system.named("system"), f"(recorded d {natural(system.n)} f)", f"(recorded d {natural(system.p)} g)"
     response = f"output (with_faults {name} {f} {g}) 0 (impulse _)"
     return Terms(
         (
             _named("system", system),
             _modulus(prime),
-            ("rows", "seq kernel_row", _rows(w, s.get("window"))),
-            _words("ws", system, window, prime),
+            _rows(kernel),
+            _lower("lower", system, kernel, w, prime, window),
             ("d", "Z", whole(d)),
             ("f", "vector", vector(z[: system.n])),
             ("g", "vector", vector(z[system.n :])),
         ),
-        call("check_first_column", *system.sizes, window, "l system rows ws d f g"),
+        call("check_first_column", *system.sizes, window, "l system rows lower d f g"),
         f"word {name} {natural(window)} ({response}) /\\ ~ solves {name} {natural(window)} {f} {g}",
         "first_column_sound",
     )
@@ -358,14 +364,24 @@ def _integers(values: Json) -> list[int]:
     return [checker.rational(value, "a number", integral=True)[0] for value in values]
 
 
-def _kernel(w: Json, window: int | None = None) -> list[tuple[int, Integers]]:
-    """Returns pivots and coefficients of kernel rows; with hints those of degree below the window, made triangular by their pivots."""
-    rows = [(_index(row["pivot"]), [_integers(c) for c in row["coefficients"]]) for row in w["kernel"]]
-    return triangular([row for row in rows if window is None or len(row[1]) <= window]) if "mix" in w else rows
+def _kernel(rows: Json) -> Kernel:
+    """Returns pivots and coefficients of kernel rows."""
+    return [(_index(row["pivot"]), [_integers(c) for c in row["coefficients"]]) for row in rows]
 
 
-def _rows(w: Json, window: int | None = None) -> str:
-    return sequence(f"({natural(pivot)}%N, {table(row)})" for pivot, row in _kernel(w, window))
+def _rows(kernel: Kernel) -> tuple[str, str, str]:
+    return "rows", "seq kernel_row", sequence(f"({natural(pivot)}%N, {table(row)})" for pivot, row in kernel)
+
+
+def _hints(system: Listed, kernel: Kernel, w: Json, prime: int) -> str:
+    return system.hints(kernel, _index(w["point"], prime - 1), _index(w["mix"], prime - 1), prime)
+
+
+def _lower(name: str, system: Listed, kernel: Kernel, w: Json, prime: int, window: int | None = None) -> tuple[str, str, str]:
+    """Returns what shows a lower bound: the hints of the witness, or words, of one more sample than there are states or of a window."""
+    if "mix" in w:
+        return name, "evidence", f"inr ({_hints(system, kernel, w, prime)})"
+    return name, "evidence", f"inl {system.words(system.n + 1 if window is None else window, prime)}"
 
 
 def _named(name: str, system: Listed) -> tuple[str, str, str]:

@@ -1,9 +1,8 @@
 """Systems as the theory of the checks lists them: integers over one common denominator, signals as rows.
 
-    Listed        a system over Q: its term, its words modulo a prime, the conditions of its kernel rows
+    Listed        a system over Q: its term, its words modulo a prime, the conditions of its kernel rows, what their hints come to
     NotCovered    raised where the checks in Rocq do not speak of a kind or a field
     independent   rows reduced modulo a prime: pivots, and the combinations that lead there
-    triangular    kernel rows combined until their leading coefficients are triangular by their pivots
     unit, times, added   a row of the identity, a row times a matrix, a sum modulo a prime
     Integers      a list of rows of integers
 
@@ -12,15 +11,15 @@ What is computed here is believed by nobody: Rocq sees whether it serves.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cached_property
-from math import gcd
+from operator import mul
 from typing import Any
 
-from flint import nmod_mat
+from flint import nmod_mat, nmod_poly
 
 from ..trust import checker
-from .text import natural, sequence, table, vector, whole
+from .text import natural, naturals, sequence, table, vector, whole
 
 Json = Any
 Integers = list[list[int]]
@@ -90,15 +89,46 @@ class Listed:
             found.append(f"(({vector(u[:n])}, {table(faults)}), ({pivot // p}%N, {pivot % p}%N))")
         return sequence(found)
 
-    def demands(self, row: Integers) -> Integers:
-        """Returns the condition rows [X_(k+1), c_k] of a kernel row, times powers of the denominator."""
+    def demands(self, row: Integers, prime: int = 0) -> Integers:
+        """Returns the condition rows [X_(k+1), c_k] of a kernel row, times powers of the denominator; modulo a prime where there is one."""
         state, found, weight = [0] * self.n, Integers(), 1
         for c in reversed(row):
-            scaled = [weight * x for x in c]
+            scaled = _reduced([weight * x for x in c], prime)
             found.append(state + scaled)
             state = [sum(a * x for a, x in zip(rc + ra, scaled + state, strict=True)) for rc, ra in zip(self.C, self.A, strict=True)]
-            weight *= self.den
+            state, weight = _reduced(state, prime), weight * self.den
         return found[::-1]
+
+    def minor(self, point: int, prime: int) -> tuple[list[int], list[int], int]:
+        """Returns rows, columns and value modulo the prime of a largest minor of the pencil that is not zero, at a point, times the
+        denominator; as the theory has the pencil, [q - A, C; - F, G].
+        """
+        n, m, p = self.sizes
+        checker.charge((n + m) * (n + p) * (100 + 4 * min(n + m, n + p)), 100 * (n + m) * (n + p))
+        above = [[self.den * point * (i == j) - x for j, x in enumerate(row)] + self.C[i] for i, row in enumerate(self.A)]
+        table = [[x % prime for x in row] for row in above + [[-x for x in f] + g for f, g in zip(self.F, self.G, strict=True)]]
+        columns = _pivots(table, n + p, prime)
+        rows = _pivots([[row[j] for row in table] for j in columns], n + m, prime)
+        value = int(nmod_mat(len(rows), len(rows), [table[i][j] for i in rows for j in columns], prime).det()) if rows else 1
+        return rows, columns, value
+
+    def hints(self, rows: Sequence[tuple[int, Integers]], point: int, mix: int, prime: int) -> str:
+        """Returns what the hints of kernel rows come to, as a term: a minor of the pencil at the point, the determinants of the rows at
+        their pivots and mixed, and cofactors of these.
+        """
+        degree, k, width = sum(len(row) - 1 for _, row in rows), len(rows), self.n + self.p
+        checker.require(degree < prime, "the prime is not above the sum of the left minimal indices")
+        checker.charge(sum(len(row) for _, row in rows) * width * (300 + 100 * (self.n + k)))
+        demands = [self.demands(row, prime) for _, row in rows]
+        at_pivots = [[[y[self.n + pivot] for y in one] for pivot, _ in rows] for one in demands]
+        weights = [[pow(mix, (i + 1) * (b + 1), prime) for i in range(width)] for b in range(k)]
+        mixed = [[[sum(map(mul, w, y)) % prime for y in one] for w in weights] for one in demands]
+        first, second = (checker.determinant_polynomial(table, degree, prime) for table in (at_pivots, mixed))
+        checker.charge(1000 * (degree + 1) ** 2)
+        _, u, v = nmod_poly(first, prime).xgcd(nmod_poly(second, prime))
+        minor_rows, columns, value = self.minor(point, prime)
+        polynomials = [vector(first), vector(second), *(vector(int(x) for x in f.coeffs()) for f in (u, v))]
+        return f"Hints {whole(point)} {naturals(minor_rows)} {naturals(columns)} {whole(value)} {whole(mix)} {' '.join(polynomials)}"
 
 
 def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[int]]]:
@@ -117,23 +147,13 @@ def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[
     return found
 
 
-def triangular(rows: Iterable[tuple[int, Integers]]) -> list[tuple[int, Integers]]:
-    """Returns rows with the same combinations and degrees, ascending: from each the earlier ones are taken, times powers of q."""
-    found = list[tuple[int, Integers]]()
-    for pivot, row in rows:
-        given = row
-        for place, earlier in found:
-            bits = sum(abs(x).bit_length() for part in (*row, *earlier) for x in part)
-            checker.charge(1000 + 200 * sum(map(len, row)) + bits * max(map(int.bit_length, (row[-1][place], earlier[-1][place]))) // 500)
-            if (c := row[-1][place]) and len(earlier) <= len(row):
-                shifted = [[0] * len(row[-1])] * (len(row) - len(earlier)) + earlier
-                row = [[x * earlier[-1][place] - c * y for x, y in zip(a, b, strict=True)] for a, b in zip(row, shifted, strict=True)]
-                content = gcd(*(x for part in row for x in part)) or 1
-                row = [[x // content for x in part] for part in row]
-        if row is not given or not row[-1][pivot]:
-            pivot = next((j for j, x in enumerate(row[-1]) if x), pivot)
-        found.append((pivot, row))
-    return found
+def _reduced(u: list[int], prime: int) -> list[int]:
+    return [x % prime for x in u] if prime else u
+
+
+def _pivots(rows: Integers, width: int, prime: int) -> list[int]:
+    """Returns the pivots of rows of residues."""
+    return [pivot for pivot, _ in checker.echelon(rows, prime)] if width else []
 
 
 def unit(size: int, i: int) -> list[int]:

@@ -25,6 +25,8 @@ def machine_paths(text: str) -> list[str]:
 
 def cited_keys(source: str) -> set[str]:
     """Return the bibliography keys in the docstrings of a module, its functions and its classes."""
+    if not KEY.search(source):
+        return set()
     documented = (ast.Module, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
     texts = (ast.get_docstring(node) or "" for node in ast.walk(ast.parse(source)) if isinstance(node, documented))
     return {key for text in texts for key in KEY.findall(text)}

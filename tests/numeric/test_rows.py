@@ -4,7 +4,6 @@ and records made to mislead.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from random import Random
 from typing import Any
@@ -24,7 +23,6 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.numeric import record_from
 from faultspace.numeric.model.asymptotic_likelihood import arx_reduction
 from faultspace.numeric.rows import bootstrap, laws, remainder
-from faultspace.numeric.rows.degree import least_degree
 from faultspace.numeric.rows.evidence import Evidence
 from faultspace.numeric.rows.fault_count import count_faults
 from faultspace.numeric.rows.joint import ROUNDING, course, even_split, fitted, joint_moments, joint_moments_experiments
@@ -482,26 +480,3 @@ def test_never_larger_than_the_structure_allows() -> None:
     assert fault_space_by_rows(y, u, A, C, n_v=2).n_z == 2
     everything = fault_space_by_rows(y, u, A, C, n_v=3)
     assert not everything.meaningful and everything.n_z == 6
-
-
-def test_the_law_of_the_degree() -> None:
-    """Where the least degree is true its stated probability is not small, and that of the degree below is none."""
-    small = 0
-    for seed in range(12):
-        system = planted(30 + seed, n=2, p=2, m=1)
-        y, u = joint_record(system, seed, 600, 40)
-        data = joint_moments(y, u, 4)
-        chosen = least_degree(data, course(data, 1, 4), 0, 2)
-        small += chosen.probabilities[2] < 0.01
-        assert chosen.probabilities[1] < 1e-3
-    assert small <= 2
-
-
-def test_a_descent_that_sticks_at_one_degree_leaves_the_answer_decided() -> None:
-    """Levels of a course that gained nothing from degree 1 to 2, and much from 2 to 3; a step of one degree alone said that 1 suffices."""
-    y, u = joint_record(plant(26, 3, 1), 26, 500, 40)
-    data = joint_moments(y, u, 4)
-    fit = fitted(data, (1,))
-    steps = [replace(fit, rows=(np.ones((d + 1, 4)),), level=level) for d, level in enumerate((0.0, -4.0, -3.9, -9.0, -9.005))]
-    found = least_degree(data, steps, 0, 3)
-    assert found.degree == 3 and found.decided

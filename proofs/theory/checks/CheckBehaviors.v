@@ -16,17 +16,17 @@ Let S := meant n m p L.
 Let S' := meant n' m' p L'.
 
 (** `behaviour-inclusion`. *)
-Theorem inclusion_sound l rows ws : check_inclusion n m n' m' p l L L' rows ws ->
+Theorem inclusion_sound l rows lower : check_inclusion n m n' m' p l L L' rows lower ->
   (forall s r, word S s r -> word S' s r) /\ (forall r, behavior S r -> behavior S' r).
 Proof.
-case/and3P=> /meets_sound[_ ind ann' e] wf k; have ann := kernel_annihilates wf k.
+case/and3P=> /meets_sound[_ ind ann' e] wf k; have ann := rows_annihilate wf k.
 have sub s r : word S s r -> word S' s r.
   by move=> h; apply/(word_iff_satisfies ind ann'); [apply: meets_for_ever|apply: word_satisfies h].
 by split=> //; apply/behavior_subP.
 Qed.
 
 (** `behaviour-equality`. *)
-Theorem equality_sound l rows ws ws' : check_equality n m n' m' p l L L' rows ws ws' ->
+Theorem equality_sound l rows lower lower' : check_equality n m n' m' p l L L' rows lower lower' ->
   (forall s r, word S s r <-> word S' s r) /\ (forall r, behavior S r <-> behavior S' r).
 Proof.
 case/andP=> /meets_sound[_ ind ann e] /meets_sound[_ _ ann' e'].

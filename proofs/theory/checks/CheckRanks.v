@@ -3,8 +3,8 @@
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Vocabulary Gap Balance Proposition3.
-From faultspace Require Import CertificatesVocabulary KernelRows CheckRows.
+From faultspace Require Import Vocabulary Gap Balance Lag Proposition3 NormalRank SeenBasis.
+From faultspace Require Import CertificatesVocabulary Lists Independence KernelRows Elimination IntegralWindows CheckRows CheckMinimal.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -40,12 +40,15 @@ Section Sound.
 Variables (n m p : nat) (L : listed) (l : Z).
 Let S := meant n m p L.
 
-Lemma meets_sound s rows ws : meets n m p s l L rows ws ->
-  [/\ well_formed n m p L, independent_leads (meant_rows p rows), annihilates (meant_rows p rows) S
-    & \rank (window S s) = bound (meant_rows p rows) s].
+(** The rows of hints: their leading coefficients, and all windows. *)
+Lemma minimal_independent rows h : minimal n m p l L rows h -> sorted leq [seq size row.2 | row <- rows] ->
+  independent_leads (meant_rows p rows).
 Proof.
-case/and4P=> wf k w /eqP e; have ind := admissible_independent (andP k).1; have ann := kernel_annihilates wf k; split=> //.
-by apply/eqP; rewrite eqn_leq window_bound //= -ceiling_bound -e; apply: words_rank w.
+case/andP=> /and4P[l1 _ /allP shapes _] /and5P[_ _ /andP[lead_unit lead_ok] _ _] ascending.
+apply: ascending_independent => //; first by apply/allP => row /shapes/andP[].
+have [K vanishing] := field_modulo l1; rewrite mat_image; apply: unit_by_determinant.
+move: (invertible_neq0 vanishing lead_unit); rewrite -(is_determinant_sound vanishing lead_ok) mat_image det_map_mx.
+by apply: contraNneq => ->; rewrite rmorph0.
 Qed.
 
 Lemma rows_at_most p' rows : independent_leads (meant_rows p' rows) -> (size rows <= p')%N.
@@ -71,19 +74,75 @@ rewrite -sum1_count [X in _ = (_ + X)%N]big_mkcond -big_split /=.
 apply: eq_big_seq => row /(allP nonempty) h; case e: (size row.2 <= s.+1)%N => /=; move: h e; case: (size row.2) => [|d] /=; lia.
 Qed.
 
+Lemma seen_meets s rows h : well_formed n m p L -> minimal n m p l L rows h -> sorted leq [seq size row.2 | row <- rows] ->
+  annihilates (meant_rows p rows) S -> \rank (window S s) = bound (meant_rows p rows) s.
+Proof.
+move=> wf ok ascending ann; have ind := minimal_independent ok ascending; have [_ from_below] := minimal_sound wf ok.
+apply/eqP; rewrite eqn_leq window_bound //= bound_formula ?from_below //.
+by case/andP: ok => /and4P[_ _ /allP shapes _] _; apply/allP => row /shapes/andP[].
+Qed.
+
+Lemma meets_sound s rows lower : meets n m p s l L rows lower ->
+  [/\ well_formed n m p L, independent_leads (meant_rows p rows), annihilates (meant_rows p rows) S
+    & \rank (window S s) = bound (meant_rows p rows) s].
+Proof.
+case/andP=> wf; case: lower => [ws /and3P[/andP[ok ann] w /eqP e]|h /and3P[ascending ann ok]]; have {}ann := rows_annihilate wf ann.
+  have ind := admissible_independent ok; split=> //.
+  by apply/eqP; rewrite eqn_leq window_bound //= -ceiling_bound -e; apply: words_rank w.
+by split=> //; [apply: minimal_independent ok ascending|apply: seen_meets ok ascending ann].
+Qed.
+
+Lemma meets_nonempty s rows lower : meets n m p s l L rows lower -> all (fun row => 0 < size row.2)%N rows.
+Proof.
+case/andP=> _; case: lower => [ws /and3P[/andP[/and3P[/allP shapes _ _] _] _ _]|h /and3P[_ _ /andP[/and4P[_ _ /allP shapes _] _]]].
+  by apply/allP => row /shapes/andP[].
+by apply/allP => row /shapes/andP[].
+Qed.
+
 (** `window-ranks`. *)
-Theorem window_ranks_sound r etas ranks rows ws : check_window_ranks n m p r etas ranks l L rows ws ->
+Lemma follows_sound r etas ranks rows : follows p r etas ranks rows ->
+  (forall s, \rank (window S s) = s * (p - size rows) + \sum_(eta <- degrees rows) minn s eta)%N ->
   (forall s, \rank (window S s) = s * r + \sum_(eta <- etas) minn s eta)%N /\ [seq \rank (window S s) | s <- iota 1 (size ranks)] = ranks.
 Proof.
-case/and4P=> ok /eqP er /eqP <- /eqP eranks; have [wf ind ann e] := meets_sound ok.
-have nonempty : all (fun row => 0 < size row.2)%N rows.
-  by case/and4P: ok => _ /andP[/and3P[/allP h _ _] _] _ _; apply/allP => row /h/andP[].
-have h s : (\rank (window S s) = s * r + \sum_(eta <- degrees rows) minn s eta)%N.
-  by rewrite (meets_for_ever ind ann s e) bound_formula //; have -> : (p - size rows = r)%N by lia.
+case/and3P=> /eqP er /eqP <- /eqP eranks h.
+have {}h s : (\rank (window S s) = s * r + \sum_(eta <- degrees rows) minn s eta)%N by rewrite h; have -> : (p - size rows = r)%N by lia.
 split=> //; rewrite [RHS]eranks; apply: eq_map => s; by rewrite h sumnE big_map.
 Qed.
 
-Corollary window_ranks_gap r etas ranks rows ws : check_window_ranks n m p r etas ranks l L rows ws ->
+Theorem window_ranks_sound r etas ranks rows lower : check_window_ranks n m p r etas ranks l L rows lower ->
+  (forall s, \rank (window S s) = s * r + \sum_(eta <- etas) minn s eta)%N /\ [seq \rank (window S s) | s <- iota 1 (size ranks)] = ranks.
+Proof.
+case/andP=> ok follow; apply: follows_sound follow _ => s; have [wf ind ann e] := meets_sound ok.
+by rewrite (meets_for_ever ind ann s e) bound_formula ?(meets_nonempty ok).
+Qed.
+
+(** The same with rows modulo l alone, where a window has all the rank that its shape allows. *)
+Lemma generic_bound rows s : generic n m p rows -> (size rows <= p)%N ->
+  (minn (s * p) (n + s * m) <= s * (p - size rows) + \sum_(mu <- degrees rows) minn s mu)%N.
+Proof.
+case/orP=> [|/and3P[/eqP sizes /eqP sum /allP close] few].
+  by case: rows => // _ _; rewrite subn0 big_nil addn0 geq_minl.
+have [low|/allPn[mu mu_in]] := boolP (all (fun mu => s <= mu)%N (degrees rows)).
+  have -> : (\sum_(mu <- degrees rows) minn s mu = s * size rows)%N.
+    rewrite (eq_big_seq (fun=> s)) => [|mu /(allP low)/minn_idPl //].
+    by rewrite big_const_seq count_predT iter_addn_0 size_map mulnC.
+  by rewrite -mulnDr subnK // geq_minl.
+rewrite -ltnNge => short; have high mu' : mu' \in degrees rows -> (mu' <= s)%N.
+  by move=> /(allP (close _ mu_in)) h; apply: leq_trans h short.
+have -> : (\sum_(mu <- degrees rows) minn s mu = n)%N.
+  by rewrite -sum sumnE; apply: eq_big_seq => mu' /high/minn_idPr.
+by have -> : (p - size rows = m)%N by [lia]; rewrite addnC geq_minr.
+Qed.
+
+Theorem window_ranks_modulo_sound r etas ranks rows h : check_window_ranks_modulo n m p r etas ranks l L rows h ->
+  (forall s, \rank (window S s) = s * r + \sum_(eta <- etas) minn s eta)%N /\ [seq \rank (window S s) | s <- iota 1 (size ranks)] = ranks.
+Proof.
+case/and5P=> wf _ shape ok follow; apply: follows_sound follow _ => s; have [few from_below] := minimal_sound wf ok.
+apply/eqP; rewrite eqn_leq from_below andbT; apply: leq_trans (generic_bound s shape few).
+by rewrite leq_min rank_leq_col rank_leq_row.
+Qed.
+
+Corollary window_ranks_gap r etas ranks rows lower : check_window_ranks n m p r etas ranks l L rows lower ->
   forall s, gap S s = (r + count (fun eta => s < eta) etas)%N.
 Proof.
 move=> /window_ranks_sound[h _] s; have := rank_window_step S s; rewrite !h mulSn -addnA => e.
@@ -101,12 +160,26 @@ have : (s * Balance.null R s.+1 <= s * Balance.null R s)%N by rewrite leq_mul2l 
 lia.
 Qed.
 
-Theorem left_invertible_sound ws : check_left_invertible n m p l L ws -> left_invertible S.
+Lemma rank_left_invertible : (n.+1 * m <= \rank (window S n.+1))%N -> left_invertible S.
 Proof.
-case/and3P=> wf w enough; apply/left_invertibleP; have := words_rank wf w; rewrite -/S; have := rank_at_most S n.+1.
+move=> enough; apply/left_invertibleP; have := rank_at_most S n.+1.
 have := null_constant S (leqnSn n); case: (Balance.null S n) => // d ->.
 have : (n.+1 <= n.+1 * d.+1)%N by rewrite leq_pmulr.
 lia.
+Qed.
+
+Theorem left_invertible_sound ws : check_left_invertible n m p l L ws -> left_invertible S.
+Proof. by case/and3P=> wf w enough; apply: rank_left_invertible; apply: leq_trans enough _; apply: words_rank w. Qed.
+
+(** The pencil has full row rank at a point, modulo l. *)
+Theorem left_invertible_at_sound q rows columns d : check_left_invertible_at n m p l L q rows columns d -> left_invertible S.
+Proof.
+case/and5P=> wf /field_modulo[K vanishing] _ /eqP full /(pencil_minor_sound vanishing wf); rewrite full => at_q.
+have /(leq_trans at_q) := rank_at_point (pencil (over_field K n m p L)) (number_rmorphism K (Z.mul (den L) q)).
+rewrite pencil_rank_gap leq_add2l => gap_m; apply: rank_left_invertible; apply: leq_trans (rank_from_below K _ wf).
+suff h s : (s <= n.+1)%N -> (s * m <= \rank (window (over_field K n m p L) s))%N by apply: h.
+elim: s => // s IH sn; rewrite rank_window_step mulSn addnC leq_add ?IH ?(ltnW sn) //.
+by apply: leq_trans gap_m _; apply: gap_at_least_last.
 Qed.
 
 End Sound.

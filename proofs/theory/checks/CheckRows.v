@@ -1,10 +1,10 @@
-(** The two checks on lists that everything rests on. Kernel rows are admissible (degrees ascend, leading coefficients triangular at
-    distinct pivots) and annihilate a system: the bound from above on the ranks of all windows. Words whose outputs are the identity at
+(** The two checks on lists that everything rests on. Kernel rows ascend in degree, have independent leading coefficients (triangular at
+    distinct pivots, say) and annihilate a system: the bound from above on the ranks of all windows. Words whose outputs are the identity at
     some samples, modulo some l > 1: the bound from below on the rank of one window. *)
 From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From mathcomp Require Import zify ssrZ.
-From faultspace Require Import Vocabulary Windows Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems.
+From faultspace Require Import Vocabulary Windows Stacks CertificatesVocabulary Lists Independence KernelRows ListedSystems IntegralWindows.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
@@ -26,31 +26,47 @@ Variables (p : nat) (rows : seq kernel_row).
 Lemma last_columns c : last 0 (columns p c) = column p (last [::] c).
 Proof. by rewrite -(last_map (column p)) /column vec_nil trmx0. Qed.
 
-Theorem admissible_independent : admissible p rows -> independent_leads (meant_rows p rows).
+(** Where the leading coefficients at the pivots are an invertible matrix, those of the rows up to any degree are independent. *)
+Lemma ascending_independent : all (fun row => row.1 < p)%N rows -> sorted leq [seq size row.2 | row <- rows] ->
+  mat ratF (size rows) (size rows) (leading rows) \in unitmx -> independent_leads (meant_rows p rows).
 Proof.
-case/and3P=> /allP sizes ascending tri k.
+move=> /allP inside ascending unit_Q k; set Q := mat ratF _ _ _ in unit_Q.
 have takes := filter_sorted k.+1 ascending; set t := size [seq c <- rows | _] in takes.
 have eA : active (meant_rows p rows) k = meant_rows p (take t rows).
   rewrite /active /meant_rows filter_map -takes; congr map; apply: eq_filter => row /=; by rewrite size_map.
 have tr : (t <= size rows)%N by rewrite /t size_filter count_size.
 have st : size (active (meant_rows p rows) k) = t by rewrite eA size_map size_takel.
 apply/eqP; rewrite eqn_leq rank_leq_col /=.
-pose pivot (b : nat) := (nth (0%N, [::]) rows b).1; pose lead (a : nat) := last [::] (nth (0%N, [::]) rows a).2.
-pose Q : 'M[Z]_(size (active (meant_rows p rows) k)) := \matrix_(a, b) entry (lead a) (pivot b).
-have inside (i : 'I_(size (active (meant_rows p rows) k))) : (i < size rows)%N by apply: leq_trans tr; rewrite -st.
-have unit_Q : map_mx ratn Q \in unitmx.
-  apply: triangular_entries tri _ _ => [|i j]; first by rewrite size_map st.
-  by rewrite mxE (nth_map (0%N, [::])) // /at_pivots /entry (nth_map 0%N) ?size_map // (nth_map (0%N, [::])).
-have nth_lead a : (a < t)%N -> last 0 (nth [::] (active (meant_rows p rows) k) a) = column p (lead a).
+pose row_of (b : nat) := nth (0%N, [::]) rows b.
+pose P : 'M[rat]_(size rows, p) := \matrix_(b, i) (i == (row_of b).1 :> nat)%:R.
+pose E : 'M[rat]_(size rows, size (active (meant_rows p rows) k)) := \matrix_(b, a) (b == a :> nat)%:R.
+have nth_lead a : (a < t)%N -> last 0 (nth [::] (active (meant_rows p rows) k) a) = column p (last [::] (row_of a).2).
   by move=> a_t; rewrite eA (nth_map (0%N, [::])) ?last_columns ?nth_take // size_takel.
-pose P : 'M[rat]_(size (active (meant_rows p rows) k), p) := \matrix_(b, i) (i == pivot b :> nat)%:R.
-have eP : P *m leads (meant_rows p rows) k = (map_mx ratn Q)^T.
-  apply/matrixP => b a; rewrite !mxE.
-  have /andP[pb _] : (pivot b < p)%N && (0 < size (nth (0%N, [::]) rows b).2)%N by apply: sizes; apply: mem_nth.
-  rewrite (bigD1 (Ordinal pb)) //= big1 => [|i ib]; last first.
-    by rewrite !mxE (_ : (_ == _) = false) ?mul0r //; apply: contraNF ib => /eqP ib; apply/eqP/val_inj.
-  by rewrite !mxE eqxx mul1r addr0 nth_lead ?mxE // -st.
-by rewrite -[X in (X <= _)%N](mxrank_unit (_ : (map_mx ratn Q)^T \in unitmx)) ?unitmx_tr // -eP mxrankM_maxr.
+have eP : P *m leads (meant_rows p rows) k = Q^T *m E.
+  apply/matrixP => b a; have a_t : (a < t)%N by rewrite -st.
+  have pb : ((row_of b).1 < p)%N by apply/inside/mem_nth.
+  rewrite [LHS]mxE (bigD1 (Ordinal pb)) //= big1 => [|i ib]; last first.
+    by rewrite [P _ _]mxE (_ : (_ == _) = false) ?mul0r //; apply: contraNF ib => /eqP ib; apply/eqP/val_inj.
+  rewrite [P _ _]mxE eqxx mul1r addr0 mxE nth_lead //.
+  rewrite [RHS]mxE (bigD1 (Ordinal (leq_trans a_t tr))) //= big1 => [|i ia]; last first.
+    by rewrite [E _ _]mxE (_ : (_ == _) = false) ?mulr0 //; apply: contraNF ia => /eqP ia; apply/eqP/val_inj.
+  rewrite [E _ _]mxE eqxx mulr1 addr0 !mxE (nth_map (0%N, [::])) ?(leq_trans a_t) // /entry (nth_map 0%N) ?size_map //.
+  by rewrite (nth_map (0%N, [::])).
+have rank_E : \rank E = size (active (meant_rows p rows) k).
+  apply/eqP; rewrite eqn_leq rank_leq_col /= -[X in (X <= _)%N](mxrank1 ratF) (_ : 1%:M = E^T *m E) ?mxrankM_maxr //.
+  apply/matrixP => a b; have a_in : (a < size rows)%N by apply: leq_trans tr; rewrite -st.
+  rewrite [RHS]mxE (bigD1 (Ordinal a_in)) //= big1 => [|i ia]; last first.
+    by rewrite !mxE (_ : (_ == _) = false) ?mul0r //; apply: contraNF ia => /eqP ia; apply/eqP/val_inj.
+  by rewrite !mxE eqxx mul1r addr0.
+rewrite -[X in (X <= _)%N]rank_E -(mulKmx (_ : Q^T \in unitmx) E) ?unitmx_tr // -eP.
+by apply: leq_trans (mxrankM_maxr _ _) _; apply: mxrankM_maxr.
+Qed.
+
+Theorem admissible_independent : admissible p rows -> independent_leads (meant_rows p rows).
+Proof.
+case/and3P=> /allP shapes ascending tri; apply: ascending_independent => //; first by apply/allP => row /shapes/andP[].
+rewrite (_ : mat _ _ _ _ = map_mx ratn (table_matrix (size rows) (size rows) (leading rows))); last exact: mat_image.
+by apply: triangular_entries tri _ _ => [|i j]; rewrite ?size_map // mxE.
 Qed.
 
 End Rows.
@@ -117,8 +133,8 @@ case/and5P: (wf) => _ _ /andP[_ rF] _ /andP[_ rG]; rewrite -(column_acts _ _ rF 
 by apply: ds0; apply: mem_nth; have := horner_size L cw; rewrite e /= => ->.
 Qed.
 
-Theorem kernel_annihilates rows : kernel p L rows -> annihilates (meant_rows p rows) S.
-Proof. by case/andP=> _ /allP h c x v /mapP[row /h ann ->]; apply: annihilated_sound. Qed.
+Theorem rows_annihilate rows : all (fun row => annihilated L row.2) rows -> annihilates (meant_rows p rows) S.
+Proof. by move=> /allP h c x v /mapP[row /h ann ->]; apply: annihilated_sound. Qed.
 
 Theorem words_rank s l ws : words p s l L ws -> (size ws <= \rank (window S s))%N.
 Proof.

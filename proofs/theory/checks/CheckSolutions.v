@@ -13,11 +13,11 @@ Local Open Scope ring_scope.
 
 (** The column z = (f, g), integers over d: the demands at time 0 accept it, some other one does not. *)
 Definition impulse (K : fieldType) k : 'rV[K]_1 := if k is 0%N then 1%:M else 0.
-Definition check_first_column n m p s l (L : listed) rows ws (d : Z) (f g : vector) : bool :=
+Definition check_first_column n m p s l (L : listed) rows lower (d : Z) (f g : vector) : bool :=
   let z := joined n (f, g) in
-  [&& meets n m p s l L rows ws, shorter s rows, d != Z0, size z == (n + p)%N,
-    all (fun row => dot z (joined n (head ([::], [::]) (demands L row.2).2)) == Z0) rows
-    & has (fun dem => dot z dem != Z0) (all_demands n L rows)].
+  [&& meets n m p s l L rows lower, shorter s (kept s rows lower), d != Z0, size z == (n + p)%N,
+    all (fun row => dot z (joined n (head ([::], [::]) (demands L row.2).2)) == Z0) (kept s rows lower)
+    & has (fun dem => dot z dem != Z0) (all_demands n L (kept s rows lower))].
 
 Section Sound.
 Variables (n m p : nat) (L : listed).
@@ -99,15 +99,27 @@ rewrite -(zD _ z); split=> [zero|/submxP[u ->]]; first by apply: submx_trans ker
 by rewrite -mulmxA BD mulmx0.
 Qed.
 
-(** `fault-space`: at one window, and beyond all degrees. *)
-Theorem solutions_sound s l rows ws d basis pivots combinations : check_solutions n m p s l L rows ws d basis pivots combinations ->
-  spans_solutions S s (fraction d (size basis) (n + p) basis).
+(** Rows that are longer than the window say nothing about it. *)
+Lemma kept_rows s l rows lower : meets n m p s l L rows lower -> annihilates (meant_rows p (kept s rows lower)) S /\
+  forall r, word S s r <-> satisfies (meant_rows p (kept s rows lower)) s r.
 Proof.
-case/and3P=> /meets_sound[wf ind ann e] short space f g; rewrite -(zeros_of_demands _ space) -(responses_satisfy _ _ wf ann short) solvesP.
-by split=> h v; have := h v; rewrite (word_iff_satisfies ind ann _ e).
+move=> /meets_sound[_ ind ann e]; have whole r := word_iff_satisfies ind ann r e; case: lower => //= _; split=> [c x v|r].
+  by case/mapP=> row; rewrite mem_filter => /andP[_ row_in] ->; apply/ann/map_f.
+rewrite whole; split=> h c j; first by case/mapP=> row; rewrite mem_filter => /andP[_ row_in] ->; apply/h/map_f.
+move=> c_in js; apply: h (js); case/mapP: c_in js => row row_in -> js; apply: map_f; rewrite mem_filter row_in andbT.
+by apply: leq_trans js; rewrite size_map leq_addl.
 Qed.
 
-Theorem limit_sound beyond l rows ws d basis pivots combinations : check_limit n m p beyond l L rows ws d basis pivots combinations ->
+(** `fault-space`: at one window, and beyond all degrees. *)
+Theorem solutions_sound s l rows lower d basis pivots combinations : check_solutions n m p s l L rows lower d basis pivots combinations ->
+  spans_solutions S s (fraction d (size basis) (n + p) basis).
+Proof.
+case/and3P=> ok short space f g; have [wf _ _ _] := meets_sound ok; have [ann whole] := kept_rows ok.
+rewrite -(zeros_of_demands _ space) -(responses_satisfy _ _ wf ann short) solvesP.
+by split=> h v; have := h v; rewrite whole.
+Qed.
+
+Theorem limit_sound beyond l rows lower d basis pivots combinations : check_limit n m p beyond l L rows lower d basis pivots combinations ->
   forall s, (beyond < s)%N -> spans_solutions S s (fraction d (size basis) (n + p) basis).
 Proof.
 case/and3P=> /meets_sound[wf ind ann e] /allP short space s beyond_s f g.
@@ -137,20 +149,21 @@ rewrite mul1mx addr0 (demand_meaning wf (Z := scaled (ratn (den L)) Z) erefl ere
 by rewrite (h row row_in nonempty) scaler0.
 Qed.
 
-Theorem first_column_sound s l rows ws d f g : check_first_column n m p s l L rows ws d f g ->
+Theorem first_column_sound s l rows lower d f g : check_first_column n m p s l L rows lower d f g ->
   let Z := with_faults S (recorded d n f) (recorded d p g) in
   word S s (output Z 0 (impulse _)) /\ ~ solves S s (recorded d n f) (recorded d p g).
 Proof.
-case/and5P=> /meets_sound[wf ind ann e] short d0 /eqP sz /andP[/allP first /hasP[dem dem_in seen]] /=.
+case/and5P=> ok short d0 /eqP sz /andP[/allP first /hasP[dem dem_in seen]] /=.
+have [wf _ _ _] := meets_sound ok; have [ann whole] := kept_rows ok.
 set z := joined n (f, g) in sz first seen.
 have z_meaning : row_mx (recorded d n f) (recorded d p g) = (ratn d)^-1 *: vec ratF (n + p) z.
   by rewrite -scale_row_mx; congr (_ *: _); apply: trmx_inj; rewrite tr_row_mx -/(column (n + p) z) column_joined.
 have dot_z dem' : row_mx (recorded d n f) (recorded d p g) *m column (n + p) dem' = (ratn d)^-1 *: (ratn (dot z dem'))%:M.
   by rewrite z_meaning -scalemxAl number_dot // sz.
 split.
-  apply/(word_iff_satisfies ind ann _ e)/impulse_satisfies => // row row_in _; rewrite -mul_row_col -column_joined dot_z.
+  apply/whole/impulse_satisfies => // row row_in _; rewrite -mul_row_col -column_joined dot_z.
   by rewrite (eqP (first _ row_in)) [ratn Z0](rmorph0 (number_rmorphism _)) raddf0 scaler0.
-move=> /solvesP h; have zeros := (responses_satisfy _ _ wf ann short).1 (fun v => (word_iff_satisfies ind ann _ e).1 (h v)).
+move=> /solvesP h; have zeros := (responses_satisfy _ _ wf ann short).1 (fun v => (whole _).1 (h v)).
 have := zeros _ dem_in; rewrite dot_z => /matrixP/(_ 0 0)/eqP; rewrite !mxE eqxx mulr1n mulf_eq0 invr_eq0 !number_eq0.
 by rewrite (negPf d0) (negPf seen).
 Qed.

@@ -3,42 +3,62 @@
     check_... are functions on such lists (CertificatesVocabulary.v), and all other arguments are witnesses that nobody has to believe. *)
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import Vocabulary CertificatesVocabulary.
-From faultspace Require CheckRanks CheckSolutions CheckBehaviors CheckInversion CheckMatrices.
+From faultspace Require SeenBasis CheckRanks CheckSolutions CheckBehaviors CheckInversion CheckMatrices.
 Set Implicit Arguments. Unset Strict Implicit. Unset Printing Implicit Defensive.
 Import GRing.Theory.
 Local Open Scope ring_scope.
 
 (** ** certificates *)
 
-Theorem check_window_ranks (n m p : nat) L l r etas ranks rows ws : check_window_ranks n m p r etas ranks l L rows ws ->
+(** What the hints of a certificate show. The columns of Y lie in the kernel of M, which has b columns, with independent leading
+    coefficients; two determinants of combinations of Y have no common factor; and at one point M leaves room for no more columns. *)
+Theorem minimal_basis_seen (K : fieldType) a b k (M : 'M[{poly K}]_(a, b)) (Y : 'M_(b, k)) (J W : 'M_(k, b)) q :
+  M *m Y = 0 -> \rank (Vocabulary.leading Y) = k -> coprimep (\det (J *m Y)) (\det (W *m Y)) ->
+  (b <= \rank (map_mx (horner_eval q) M) + k)%N -> minimal_basis M Y.
+Proof. by move=> kernel leads seen few; apply: (SeenBasis.minimal_basis_seen kernel seen few leads). Qed.
+Print Assumptions minimal_basis_seen.
+
+(** Ranks of all windows: rows that annihilate the system, and what shows that there are no others, words or hints; or rows modulo l. *)
+Theorem check_window_ranks (n m p : nat) L l r etas ranks rows lower : check_window_ranks n m p r etas ranks l L rows lower ->
   let S := meant n m p L in
   (forall s, \rank (window S s) = (s * r + \sum_(eta <- etas) minn s eta)%N) /\ [seq \rank (window S s) | s <- iota 1 (size ranks)] = ranks.
 Proof. exact: CheckRanks.window_ranks_sound. Qed.
 Print Assumptions check_window_ranks.
 
+Theorem check_window_ranks_modulo (n m p : nat) L l r etas ranks rows h : check_window_ranks_modulo n m p r etas ranks l L rows h ->
+  let S := meant n m p L in
+  (forall s, \rank (window S s) = (s * r + \sum_(eta <- etas) minn s eta)%N) /\ [seq \rank (window S s) | s <- iota 1 (size ranks)] = ranks.
+Proof. exact: CheckRanks.window_ranks_modulo_sound. Qed.
+Print Assumptions check_window_ranks_modulo.
+
 Theorem check_left_invertible (n m p : nat) L l ws : check_left_invertible n m p l L ws -> left_invertible (meant n m p L).
 Proof. exact: CheckRanks.left_invertible_sound. Qed.
 Print Assumptions check_left_invertible.
 
-Theorem check_solutions (n m p : nat) L s l rows ws d basis pivots combinations :
-  check_solutions n m p s l L rows ws d basis pivots combinations ->
+Theorem check_left_invertible_at (n m p : nat) L l q rows columns d :
+  check_left_invertible_at n m p l L q rows columns d -> left_invertible (meant n m p L).
+Proof. exact: CheckRanks.left_invertible_at_sound. Qed.
+Print Assumptions check_left_invertible_at.
+
+Theorem check_solutions (n m p : nat) L s l rows lower d basis pivots combinations :
+  check_solutions n m p s l L rows lower d basis pivots combinations ->
   spans_solutions (meant n m p L) s (fraction d (size basis) (n + p) basis).
 Proof. exact: CheckSolutions.solutions_sound. Qed.
 Print Assumptions check_solutions.
 
-Theorem check_limit (n m p : nat) L beyond l rows ws d basis pivots combinations :
-  check_limit n m p beyond l L rows ws d basis pivots combinations ->
+Theorem check_limit (n m p : nat) L beyond l rows lower d basis pivots combinations :
+  check_limit n m p beyond l L rows lower d basis pivots combinations ->
   forall s, (beyond < s)%N -> spans_solutions (meant n m p L) s (fraction d (size basis) (n + p) basis).
 Proof. exact: CheckSolutions.limit_sound. Qed.
 Print Assumptions check_limit.
 
-Theorem check_inclusion (n m n' m' p : nat) L L' l rows ws : check_inclusion n m n' m' p l L L' rows ws ->
+Theorem check_inclusion (n m n' m' p : nat) L L' l rows lower : check_inclusion n m n' m' p l L L' rows lower ->
   let S := meant n m p L in let S' := meant n' m' p L' in
   (forall s r, word S s r -> word S' s r) /\ (forall r, behavior S r -> behavior S' r).
 Proof. exact: CheckBehaviors.inclusion_sound. Qed.
 Print Assumptions check_inclusion.
 
-Theorem check_equality (n m n' m' p : nat) L L' l rows ws ws' : check_equality n m n' m' p l L L' rows ws ws' ->
+Theorem check_equality (n m n' m' p : nat) L L' l rows lower lower' : check_equality n m n' m' p l L L' rows lower lower' ->
   let S := meant n m p L in let S' := meant n' m' p L' in
   (forall s r, word S s r <-> word S' s r) /\ (forall r, behavior S r <-> behavior S' r).
 Proof. exact: CheckBehaviors.equality_sound. Qed.

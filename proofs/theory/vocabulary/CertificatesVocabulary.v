@@ -83,6 +83,9 @@ Definition demands (L : listed) (c : seq vector) := horner L (weighted (den L) c
 Definition annihilated (L : listed) (c : seq vector) : bool :=
   let (X, ds) := demands L c in null X && all (fun d => null (acts (lF L) (lG L) d)) ds.
 
+(** A demand as one vector of n + p integers. *)
+Definition joined n (d : vector * vector) : vector := mkseq (entry d.1) n ++ d.2.
+
 (** Entries at the pivots; a table is triangular without a zero on its diagonal; it is the identity modulo l. *)
 Definition at_pivots (pivots : seq nat) (u : vector) : vector := map (entry u) pivots.
 Definition triangular (M : table) : bool :=
@@ -101,6 +104,43 @@ Definition check_rank a b (r : nat) (l : Z) (T : table) (nulls combinations : pi
     & size combinations == r]
   && [&& all (fun row => all (fun c => dot row c.2 == Z0) nulls) T, triangular (led nulls)
     & identity_modulo l (led (combined T combinations))].
+
+(** ** The checks: determinants modulo l *)
+
+(** An inverse of a modulo l where there is one, by Euclid: x a_0 = a and y a_0 = b throughout. It is looked at before it is used. *)
+Fixpoint euclid (fuel : nat) (a b x y : Z) : Z :=
+  if fuel is fuel'.+1 then if Z.eqb b Z0 then x else
+    let q := Z.div a b in euclid fuel' b (Z.sub a (Z.mul q b)) y (Z.sub x (Z.mul q y)) else x.
+Definition inverse_modulo (l a : Z) : Z := Z.modulo (euclid 128 l (Z.modulo a l) Z0 (Zpos xH)) l.
+Definition inverts_modulo (l a b : Z) : bool := Z.eqb (Z.modulo (Z.sub (Z.mul a b) (Zpos xH)) l) Z0.
+Definition invertible_modulo (l a : Z) : bool := inverts_modulo l a (inverse_modulo l a).
+
+(** The row r, with another one added where its own first entry is not invertible; whether the determinant of k rows is d modulo l. Where l
+    is not a prime the answer may be false without need. *)
+Definition ready (l : Z) (r : vector) (rows : table) : vector :=
+  if invertible_modulo l (entry r 0) then r else add r (head [::] [seq other <- rows | invertible_modulo l (entry other 0)]).
+Fixpoint is_determinant (l : Z) (k : nat) (rows : table) (d : Z) : bool :=
+  if k is k'.+1 then if rows is r :: others then
+    let lead := ready l r others in let b := inverse_modulo l (entry lead 0) in
+    (size others == k') && if inverts_modulo l (entry lead 0) b then
+      is_determinant l k' [seq reduced l (add (behead other) (scale (Z.modulo (Z.opp (Z.mul (entry other 0) b)) l) (behead lead)))
+        | other <- others] (Z.modulo (Z.mul d b) l)
+    else all (fun other => Z.eqb (Z.modulo (entry other 0) l) Z0) rows && Z.eqb (Z.modulo d l) Z0
+  else false else Z.eqb (Z.modulo (Z.sub d (Zpos xH)) l) Z0.
+
+(** Polynomials by their coefficients: values, products, and whether u f + v g is 1. *)
+Definition value_modulo (l x : Z) (f : vector) : Z := foldr (fun c rest => Z.modulo (Z.add c (Z.mul x rest)) l) Z0 f.
+Fixpoint product (f g : vector) : vector := if f is c :: f' then add (scale c g) (Z0 :: product f' g) else [::].
+Definition coprime_modulo (l : Z) (f g u v : vector) : bool :=
+  null (reduced l (add (add (product u f) (product v g)) [:: Zneg xH])).
+
+(** Whether the determinant of a table of polynomials is f: it has its values at 0, 1, 2, ..., which are more than its degree, and distinct
+    modulo every divisor of l. *)
+Definition degree_bound (T : seq table) : nat := sumn [seq (foldr maxn 0 [seq size f | f <- row]).-1 | row <- T]%N.
+Definition values_modulo (l : Z) (T : seq table) (x : Z) : table := [seq [seq value_modulo l x f | f <- row] | row <- T].
+Definition is_determinant_polynomial (l : Z) (T : seq table) (f : vector) : bool :=
+  [&& (size f <= (degree_bound T).+1)%N, all (fun i => invertible_modulo l (Z.of_nat i)) (iota 1 (degree_bound T))
+    & all (fun i => is_determinant l (size T) (values_modulo l T (Z.of_nat i)) (value_modulo l (Z.of_nat i) f)) (iota 0 (degree_bound T).+1)].
 
 (** ** The checks: kernel rows and words *)
 
@@ -122,23 +162,84 @@ Definition words p s (l : Z) (L : listed) (ws : seq sampled_word) : bool :=
   [&& Z.eqb (Z.gcd (den L) l) (Zpos xH), all (fun w => [&& size w.1.2 == s, w.2.1 < s & w.2.2 < p])%N ws
     & identity_modulo l [seq seen_at [seq other.2 | other <- ws] (simulate_modulo l L w.1.1 w.1.2) | w <- ws]].
 Definition ceiling p (rows : seq kernel_row) s : nat := sumn [seq p - count (fun row => size row.2 <= k.+1) rows | k <- iota 0 s]%N.
-Definition meets n m p s l (L : listed) rows ws : bool :=
-  [&& well_formed n m p L, kernel p L rows, words p s l L ws & size ws == ceiling p rows s].
+
+(** ** The checks: kernel rows seen to be a minimal basis modulo l *)
+
+(** Horner's rule modulo l. *)
+Fixpoint horner_modulo (l : Z) (L : listed) (c : seq vector) : vector * seq (vector * vector) :=
+  if c is c0 :: c' then let (X, ds) := horner_modulo l L c' in
+    (reduced l (add (apply (lC L) c0) (apply (lA L) X)), (X, c0) :: ds) else ([::], [::]).
+Definition demands_modulo (l : Z) (L : listed) (c : seq vector) := horner_modulo l L [seq reduced l u | u <- (weighted (den L) c).2].
+Definition annihilated_modulo (l : Z) (L : listed) (c : seq vector) : bool :=
+  let (X, ds) := demands_modulo l L c in null X && all (fun d => null (reduced l (acts (lF L) (lG L) d))) ds.
+
+(** What is hinted at, modulo l: a point; a minor of the pencil at the point, by its rows, its columns and its value; the mix; the
+    determinants f of the rows at their pivots and g of the rows mixed; u and v with u f + v g = 1. *)
+Record hints := Hints { at_point : Z; minor_rows : seq nat; minor_columns : seq nat; minor : Z; mix : Z;
+  at_pivots_is : vector; mixed_is : vector; first_cofactor : vector; second_cofactor : vector }.
+
+(** The coefficients of a row [X, N]; the table of N at the pivots; x, x s, x s^2, ... (k of them); the vectors t, t^2, ...; t^2, t^4, ...;
+    and so on; the table of the rows mixed by them. *)
+Definition polynomial_row n (l : Z) (L : listed) (c : seq vector) : table := [seq joined n d | d <- (demands_modulo l L c).2].
+Definition pivot_table n (pivots : seq nat) (ys : seq table) : seq table := [seq [seq [seq entry y (n + j) | y <- Y] | j <- pivots] | Y <- ys].
+Fixpoint geometric (l s x : Z) (k : nat) : vector := if k is k'.+1 then x :: geometric l s (Z.modulo (Z.mul x s) l) k' else [::].
+Definition mixtures (l t : Z) (width k : nat) : table := [seq geometric l s s width | s <- geometric l t t k].
+Definition mixed_table (l : Z) (ws : table) (ys : seq table) : seq table := [seq [seq [seq Z.modulo (dot w y) l | y <- Y] | w <- ws] | Y <- ys].
+
+(** The pencil at q, times the denominator; whether the minor of its rows and columns told is d, and not zero. *)
+Definition pencil_table n (L : listed) (q : Z) : table :=
+  [seq mkseq (fun j => Z.sub (if j == i then Z.mul (den L) q else Z0) (entry (nth [::] (lA L) i) j)) n ++ nth [::] (lC L) i | i <- iota 0 n]
+  ++ [seq mkseq (fun j => Z.opp (entry r.1 j)) n ++ r.2 | r <- zip (lF L) (lG L)].
+Definition pencil_minor n m p (l : Z) (L : listed) (q : Z) (rows columns : seq nat) (d : Z) : bool :=
+  [&& all (fun i => i < n + m)%N rows, all (fun j => j < n + p)%N columns, size columns == size rows, invertible_modulo l d
+    & is_determinant l (size rows) [seq at_pivots columns (nth [::] (pencil_table n L q) i) | i <- rows] d].
+
+(** The rows annihilate the system modulo l, their leading coefficients at the pivots are independent, both determinants are coprime, and the
+    pencil leaves room for no more rows. *)
+Definition minimal n m p (l : Z) (L : listed) (rows : seq kernel_row) (h : hints) : bool :=
+  let pivots := [seq row.1 | row <- rows] in
+  let ys := [seq polynomial_row n l L row.2 | row <- rows] in
+  [&& Z.ltb 1 l, invertible_modulo l (den L), all (fun row => (row.1 < p) && (0 < size row.2))%N rows
+    & all (fun row => annihilated_modulo l L row.2) rows]
+  && [&& is_determinant_polynomial l (pivot_table n pivots ys) (at_pivots_is h),
+    is_determinant_polynomial l (mixed_table l (mixtures l (mix h) (n + p) (size rows)) ys) (mixed_is h),
+    (let d := entry (at_pivots_is h) (sumn (degrees rows)) in invertible_modulo l d && is_determinant l (size rows) (leading rows) d),
+    coprime_modulo l (at_pivots_is h) (mixed_is h) (first_cofactor h) (second_cofactor h),
+    (n + p <= size (minor_rows h) + size rows)%N
+    & pencil_minor n m p l L (at_point h) (minor_rows h) (minor_columns h) (minor h)].
+
+(** ** The checks: ranks of windows *)
+
+(** What shows a lower bound: words of one window, or hints, for every window. Where the rows of a system meet it, all relations between
+    samples come from them. *)
+Definition evidence : Type := (seq sampled_word + hints)%type.
+Definition meets n m p s l (L : listed) (rows : seq kernel_row) (lower : evidence) : bool := well_formed n m p L && match lower with
+  | inl ws => [&& kernel p L rows, words p s l L ws & size ws == ceiling p rows s]
+  | inr h => [&& sorted leq [seq size row.2 | row <- rows], all (fun row => annihilated L row.2) rows & minimal n m p l L rows h] end.
 
 (** Ranks of all windows, and left-invertibility. *)
-Definition check_window_ranks n m p r (etas ranks : seq nat) l L rows ws : bool :=
-  [&& meets n m p n.+1 l L rows ws, (r + size rows == p)%N, degrees rows == etas
+Definition follows p r (etas ranks : seq nat) (rows : seq kernel_row) : bool :=
+  [&& (r + size rows == p)%N, degrees rows == etas
     & ranks == [seq (s * r + sumn [seq minn s eta | eta <- etas])%N | s <- iota 1 (size ranks)]].
+Definition check_window_ranks n m p r (etas ranks : seq nat) l L rows lower : bool :=
+  meets n m p n.+1 l L rows lower && follows p r etas ranks rows.
 Definition check_left_invertible n m p l L ws : bool := [&& well_formed n m p L, words p n.+1 l L ws & (n.+1 * m <= size ws)%N].
+Definition check_left_invertible_at n m p l L q rows columns d : bool :=
+  [&& well_formed n m p L, Z.ltb 1 l, invertible_modulo l (den L), size rows == (n + m)%N & pencil_minor n m p l L q rows columns d].
+
+(** Ranks of all windows where these have all the rank that their shape allows: rows modulo l are enough. *)
+Definition generic n m p (rows : seq kernel_row) : bool := nilp rows ||
+  [&& (size rows + m == p)%N, sumn (degrees rows) == n & all (fun d => all (fun d' => d' <= d.+1)%N (degrees rows)) (degrees rows)].
+Definition check_window_ranks_modulo n m p r (etas ranks : seq nat) l L rows h : bool :=
+  [&& well_formed n m p L, sorted leq [seq size row.2 | row <- rows], generic n m p rows, minimal n m p l L rows h & follows p r etas ranks rows].
 
 (** ** The checks: solutions of problem (11) *)
 
-(** A demand as one vector of n + p integers; all demands of all rows. *)
-Definition joined n (d : vector * vector) : vector := mkseq (entry d.1) n ++ d.2.
+(** All demands of all rows. *)
 Definition all_demands n (L : listed) (rows : seq kernel_row) : table := flatten [seq map (joined n) (demands L row.2).2 | row <- rows].
 
 (** The basis, integers over d, is in reduced row echelon form and vanishes on the demands; the combinations of demands are the identity at
-    some entries, modulo l. At one window, and at all beyond some length. *)
+    some entries, modulo l. At one window, for which rows that are longer say nothing, and at all beyond some length. *)
 Definition reduced_echelon (width : nat) (d : Z) (basis : table) (pivots : seq nat) : bool :=
   [&& d != Z0, all (fun r => size r == width) basis, size pivots == size basis, sorted ltn pivots, all (fun j => j < width)%N pivots
     & all (fun i => [&& all (fun j => entry (nth [::] basis i) j == Z0) (iota 0 (nth 0%N pivots i))
@@ -150,20 +251,23 @@ Definition solution_space n p (L : listed) rows l d basis pivots (combinations :
     (size basis + size combinations == n + p)%N, all (fun u => u.1 < n + p)%N combinations,
     all (fun r => size r == n + p)%N table &
     identity_modulo l (led (combined table combinations))].
-Definition check_solutions n m p s l (L : listed) rows ws d basis pivots combinations : bool :=
-  [&& meets n m p s l L rows ws, shorter s rows & solution_space n p L rows l d basis pivots combinations].
-Definition check_limit n m p beyond l (L : listed) rows ws d basis pivots combinations : bool :=
-  [&& meets n m p n.+1 l L rows ws, shorter beyond.+1 rows & solution_space n p L rows l d basis pivots combinations].
+Definition kept s (rows : seq kernel_row) (lower : evidence) : seq kernel_row :=
+  if lower is inr _ then [seq row <- rows | size row.2 <= s]%N else rows.
+Definition check_solutions n m p s l (L : listed) rows lower d basis pivots combinations : bool :=
+  [&& meets n m p s l L rows lower, shorter s (kept s rows lower)
+    & solution_space n p L (kept s rows lower) l d basis pivots combinations].
+Definition check_limit n m p beyond l (L : listed) rows lower d basis pivots combinations : bool :=
+  [&& meets n m p n.+1 l L rows lower, shorter beyond.+1 rows & solution_space n p L rows l d basis pivots combinations].
 
 (** ** The checks: two behaviours *)
 
 (** Inclusion and equality for ever, equality on one window. *)
-Definition check_inclusion n m n' m' p l (inner outer : listed) rows ws : bool :=
-  [&& meets n' m' p n'.+1 l outer rows ws, well_formed n m p inner & kernel p inner rows].
-Definition check_equality n m n' m' p l (first second : listed) rows ws ws' : bool :=
-  meets n m p n.+1 l first rows ws && meets n' m' p n'.+1 l second rows ws'.
+Definition check_inclusion n m n' m' p l (inner outer : listed) rows lower : bool :=
+  [&& meets n' m' p n'.+1 l outer rows lower, well_formed n m p inner & all (fun row => annihilated inner row.2) rows].
+Definition check_equality n m n' m' p l (first second : listed) rows lower lower' : bool :=
+  meets n m p n.+1 l first rows lower && meets n' m' p n'.+1 l second rows lower'.
 Definition check_window_equality n m n' m' p s l (first second : listed) rows ws ws' : bool :=
-  [&& shorter s rows, meets n m p s l first rows ws & meets n' m' p s l second rows ws'].
+  [&& shorter s rows, meets n m p s l first rows (inl ws) & meets n' m' p s l second rows (inl ws')].
 
 (** The row c over the outputs of a word, times a power of the denominator; a word of the first that a row of the second denies. *)
 Definition pairing (e : Z) (c outputs : seq vector) : Z := foldr Z.add Z0 [seq dot pair.1 pair.2 | pair <- zip outputs (weighted e c).2].
