@@ -22,7 +22,9 @@ from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
 from ..base.sheets import counted
+from .changes.rows import FREEZING, LOSS
 from .data.records import Record
+from .doubt.listing import named
 from .experiments import for_each, looked_at, most_moved
 from .findings import Findings
 from .model.reduced_model import ReducedModel
@@ -61,6 +63,12 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
         return answer
     if answer.news is not None and answer.news < faults:
         return replace(answer, notes=(*answer.notes, f"no fault space: {FORETOLD}"))
+    if quiet := _quieter(answer):
+        lost = (
+            f"no fault space: {named(quiet)} {'has' if len(quiet) == 1 else 'have'} lost variance since the healthy samples, as a sensor "
+            "that is stuck, or whose gain has fallen, does; such a fault is no signal that is added, and has no space of its own"
+        )
+        return replace(answer, notes=(*answer.notes, lost))
     on_progress("fault space", 0, 0)
     A, C = model.model.A, model.model.C
     # An exact record gives exact rows, and an exact space where the model is.
@@ -78,6 +86,13 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
             reason = f"undecided: {ESTIMATED}; {space.reason.removeprefix('undecided: ')}"
             space = replace(space, decided=False, reason=reason, error_bound=None)
     return replace(answer, notes=notes, fault_space=space if answer.n_v_given else replace(space, reason=said_counted(space.reason)))
+
+
+def _quieter(answer: Findings) -> list[str]:
+    """Return the outputs that the table of changes sees to have lost variance, unless a sensor freezes and thaws, which adds signals."""
+    tables = [one.changes for one in answer.experiments if answer.healthy and one.changes is not None]
+    seen = [row for changes in tables for row in changes.seen]
+    return [] if any(row.kind == FREEZING for row in seen) else sorted({row.channel for row in seen if row.kind == LOSS})
 
 
 def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:

@@ -83,8 +83,8 @@ def with_operating_point(record: Record, healthy: int | None, asked: str | None)
         )
     reason = f"{why}; a fault that is constant over all samples goes with them, and only samples without fault can tell it (healthy=K)"
     if record.lengths:
-        means = tuple(one.channels.mean for one in record.experiments)
-        return record.about_own_means(), OperatingPoint(EACH, reason, stated, None, means)
+        own = tuple(one.channels.mean for one in record.experiments)
+        return record.about_own_means(), OperatingPoint(EACH, reason, stated, None, own)
     return record.about_means(), OperatingPoint(WHOLE, reason, stated, record.channels.mean)
 
 

@@ -43,7 +43,7 @@ PICTURES = (
     *CAUSES_DRAWN,
 )  # fmt: skip
 PICTURED = 300  # samples of a detail
-WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)
+WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)  # inches
 
 
 def pictures(answer: Findings, folder: Path) -> list[str]:

@@ -31,7 +31,7 @@ from ...base.chi_squared import chi_squared_tail
 from ..space.basis import KernelBasis
 from .joint import ROUNDING, JointMoments
 
-# Set by hand, for the number of zeros alone.
+# Levels of the test; how often zeta is wrong under them, `benchmarks/space_at_the_bound.py` counts.
 ENOUGH, TOO_LOW = 0.01, 1e-6
 # What the ratio over its degrees of freedom exceeds one by where the degree suffices, and what it gains by each root of a sample that the
 # faults leave free, for one degree more and for several. One more frees a real root, several free pairs of roots, which can stand at any

@@ -592,7 +592,7 @@ def subject(data: Json) -> System:
 
 
 def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified:
-    """Return the statement, once verified; each of `systems` (JSON or read) must be one of its own. Raises Malformed, Rejected."""
+    """Return the statement, once verified; each of `systems` (JSON or read) must be one that it is about. Raises Malformed or Rejected."""
     insisted = [data if isinstance(data, System) else subject(data) for data in systems]
     about = decide(certificate)
     kind, s, proven = KINDS[certificate["kind"]], certificate["statement"], about[0].field.irreducible(certificate["witness"])

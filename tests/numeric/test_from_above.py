@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from faultspace.base.arrays import Array
 from faultspace.numeric import StateSpaceModel, fault_space_by_rows
 from faultspace.numeric.rows import space
 from faultspace.numeric.rows.degree import least_degree
 from faultspace.numeric.rows.from_above import divided, from_above
-from faultspace.numeric.rows.joint import course, joint_moments
+from faultspace.numeric.rows.joint import JointMoments, course, joint_moments
+from faultspace.numeric.space.basis import KernelBasis
 
 
 def test_a_factor_is_divided_out() -> None:
@@ -47,7 +49,12 @@ def test_a_course_that_has_stuck_goes_on_from_above() -> None:
 
 def test_the_space_is_from_such_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[int] = []
-    monkeypatch.setattr(space, "from_above", lambda data, fits, shares: seen.append(len(fits)) or from_above(data, fits, shares=shares))
+
+    def counted(data: JointMoments, fits: list[KernelBasis], *, shares: Array) -> list[KernelBasis]:
+        seen.append(len(fits))
+        return from_above(data, fits, shares=shares)
+
+    monkeypatch.setattr(space, "from_above", counted)
     y, u = np.random.default_rng(1).standard_normal((2, 300, 2))
     fault_space_by_rows(y, u, [[0.5]], [[1.0], [0.0]], n_v=1)
     assert seen == [3]

@@ -36,6 +36,7 @@ def test_a_residual_that_grows_beyond_all_numbers_is_counted_before_it_does() ->
     assert drawn.healthy < found.held[1] < len(drawn.y) and "too unequal" not in found.reason and found.n_v != 0
 
 
+@pytest.mark.slow
 def test_the_shape_of_what_laws_leave_is_a_likelihood_ratio() -> None:
     y, u = measured(3)
     document = identify(y, u, order=2).to_json()
@@ -76,6 +77,7 @@ def test_a_step_is_an_input_though_no_state_is_found_by_it() -> None:
     assert found.model is not None and found.model.order == 0 and found.n_v == 1 and found.fault_space is not None
 
 
+@pytest.mark.slow
 def test_levels_far_beyond_the_noise_are_levels_and_not_rounding() -> None:
     y, u = measured(5)
     found = identify(y + np.array([1e15, 1e12, -1e14]), u + 1e12, order=2)
@@ -110,6 +112,12 @@ def test_a_start_up_is_named_beside_its_onset() -> None:
     found = identify(y, u, order=2)
     words = found.summary()
     assert found.onset is not None and found.onset.onsets and "a start-up that had not died out, or a fault from early on" in words
-    late, _ = measured(7, 600)
-    late[400:, 1] += 1.0
-    assert "start-up" not in identify(late, measured(7, 600)[1], order=2).summary()
+
+
+def test_a_sensor_that_is_stuck_has_no_fault_space() -> None:
+    random = np.random.default_rng((1, 1, 1 + list(KINDS).index("stuck"), 3, False, 0))
+    drawn = record("stuck", 3.0, SETTINGS["middle"], random, False)
+    found = identify(drawn.y, drawn.u, order=3, healthy=drawn.healthy)
+    assert found.n_v == 1 and found.fault_space is None and found.isolation is None
+    assert any(f"no fault space: {drawn.channel} has lost variance" in note for note in found.notes)
+    assert found.shift_isolation is not None and found.shift_isolation.answer.startswith(f"a sensor fault on {drawn.channel} explains")
