@@ -614,8 +614,7 @@ def decide(certificate: Json, read: Callable[[str, Json], System] = lambda key, 
     s = keys(certificate["statement"], (kind := KINDS[name]).statement, "statement")
     w = keys(certificate["witness"], f"irreducible? {kind.witness}", "witness")
     about = [read(key, s[key]) for key in SUBJECTS if key in s]
-    alike = all(system.field.key == about[0].field.key and system.p == about[0].p for system in about)
-    expect(alike, "the two systems differ in field or number of outputs")
+    expect(all((x.field.key, x.p) == (about[0].field.key, about[0].p) for x in about), "they differ in field or number of outputs")
     for system in about if "prime" in kind.witness else []:
         system.image = Vectors()  # another witness may have left one
         system.field.reduce(w)

@@ -43,7 +43,8 @@ REFUSED = Material("refused", "counting", three, refused, 1)
 NOTHING = Material("nothing", "counting", without_items, twice, 1)
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
+# Two processes start slowly; daily the main job decides everything in two (end_to_end/test_main_job.py), and one keeps errors here.
+@pytest.mark.parametrize("jobs", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_material_is_in_order_and_an_error_is_kept_for_who_asks(jobs: int, tmp_path: Path) -> None:
     bench = Workbench("quick", jobs, quiet)
     bench.make([TWICE, REFUSED, NOTHING], tmp_path)
@@ -67,6 +68,7 @@ def test_what_is_not_on_the_shelf_is_wanted_all_at_once(tmp_path: Path) -> None:
     Workbench("quick", 1, quiet).need(REFUSED)  # made where it is asked for
 
 
+@pytest.mark.slow  # the main job finds in two processes what the certificates of the tree, and the ledger, say
 def test_processes_decide_as_one_does() -> None:
     tasks = [Check("example_v.one_fault"), Check("bad_set.codimension_unobservable"), Check("nowhere.at_all")]
     alone, together = (decided(Workbench("quick", jobs, quiet), tasks) for jobs in (1, 2))
