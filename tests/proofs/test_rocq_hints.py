@@ -52,7 +52,7 @@ def another_first(certificate: Certificate) -> Terms:
     (*_, second, _, _) = re.findall(r"\[::[^\]]*\]", translated(certificate).definitions[-1][2])
     prime = certificate["witness"]["prime"]
     one, u, v = nmod_poly([0, 0, 1], prime).xgcd(nmod_poly([int(x) for x in re.findall(r"\d+", second)], prime))
-    assert one == 1
+    assert one.degree() == 0
     return forged(certificate, first="[:: 0; 0; 1]", u=vector(int(x) for x in u.coeffs()), v=vector(int(x) for x in v.coeffs()))
 
 
@@ -163,8 +163,8 @@ def test_rocq_refuses_hints_that_prove_nothing_and_agrees_with_the_checker() -> 
     questions = Questions()
     ask_without_conditions(questions)
     ask_about_smallest(questions)
-    accepted, refused = ask_about_mutations(questions, 16, 100)
-    assert accepted > 10 and refused > 40
+    accepted, refused = ask_about_mutations(questions, 16, 25)
+    assert accepted > 2 and refused > 10
     assert questions.wrong() == []
 
 
