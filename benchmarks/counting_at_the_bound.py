@@ -1,6 +1,6 @@
 """Try kernel rows of outputs and inputs: the number of faults, on seeds that no rule was chosen on.
 
-    python benchmarks/counting_at_the_bound.py {count,calibrate,laws,single,faintest,settings} [--trials 30] [--seed 1] [--samples 1001]
+    python benchmarks/counting_at_the_bound.py {count,laws,single,faintest,settings} [--trials 30] [--seed 1] [--samples 1001]
         [--limit SECONDS] [--cells 0 1 ..] [--jobs 1] [--out FILE]
     python benchmarks/counting_at_the_bound.py merge FILE ..
 
@@ -8,7 +8,6 @@ count       `count_faults` on random plants of order 5 with one input (`fault_di
             decibels below each output, equal for spread 1, else the loudest to the faintest in that ratio, in random order. Trial i of a
             cell has the seed --seed + i and depends on nothing else; with --out each is appended to FILE as a line of JSON
 merge       the same table from such files: parts of cells, made at different times; a trial that stands there twice counts once
-calibrate   means of the likelihood ratios of degrees over what they should be: what MISFITS is set by
 laws        the ratios of `laws.py` over what they should be, where several rows are laws and where there is a row too many: what
             SHAPE_MISFIT and FLAT_MISFIT stand for, and the middle between the two that FAR stands for
 single      the ratios of single rows that are laws, at 300 to 30001 samples, with faults that fill all frequencies and with some that do
@@ -44,10 +43,8 @@ from faultspace.numeric.rows import evidence as evidence_module
 from faultspace.numeric.rows import fault_count as count_module
 from faultspace.numeric.rows import laws as law_module
 from faultspace.numeric.rows import remainder as remainder_module
-from faultspace.numeric.rows.degree import MISFITS, freedom, likelihood_ratio
 from faultspace.numeric.rows.evidence import EXTRA, GONE, LONG, Evidence
 from faultspace.numeric.rows.fault_count import FAINTEST, MOST, count_faults
-from faultspace.numeric.rows.joint import course, joint_moments
 from faultspace.numeric.rows.laws import (
     ARRIVALS,
     ARRIVED,
@@ -61,14 +58,12 @@ from faultspace.numeric.rows.laws import (
     SHAPE_MISFIT,
     SUFFICES,
     TURNS,
-    loose_samples,
     step_to_two,
     tested,
 )
-from faultspace.numeric.rows.remainder import SAMPLES, SWEEPS, TEST_BANDS
+from faultspace.numeric.rows.remainder import SAMPLES, SWEEPS, TEST_BANDS, loose_samples
 from faultspace.numeric.space.basis import ROUGH
-from faultspace.numeric.study.runs import NOISE_GAIN, study_run
-from faultspace.numeric.study.systems import N_X, study_system
+from faultspace.numeric.study.systems import N_X
 
 Array = NDArray[np.float64]
 
@@ -164,25 +159,6 @@ def line(cell: int, made: Sequence[Trial]) -> None:
     print(f"{name:34s} {right}/{undecided}/{wrong}  {rates}  undecided without the truth {astray}  {seconds:.2f} s", flush=True)
 
 
-def calibrate(seed: int, trials: int, samples: int, clock: Clock) -> None:
-    """Print ratios over their expectations: of degrees on the study's systems, of sphericity and flatness on random plants."""
-    degree: dict[int, list[float]] = {1: [], 2: [], 3: []}
-    for number in clock.range(trials):
-        zeros = number % 4
-        system = study_system(zeros, np.random.SeedSequence([seed + number, zeros]))
-        run = study_run(system, np.random.SeedSequence([seed + number, zeros, samples]), level=0.01 / NOISE_GAIN, samples=samples)
-        data = joint_moments(run.y, run.u, N_X + 3)
-        fits = course(data, 1, N_X - zeros + 3)
-        for extra, ratios in degree.items():
-            low, high = fits[N_X - zeros], fits[N_X - zeros + extra]
-            ratios.append(likelihood_ratio(data, low, high) / freedom(data, low, high))
-    for extra, ratios in degree.items():
-        parameters = 4 * extra
-        tail = scipy.stats.chi2.sf(np.array(ratios) * parameters / MISFITS[min(extra, 2) - 1], parameters)
-        shares = ", ".join(f"{np.mean(tail < level):.2f} below {level:g}" for level in (0.05, 0.01, 1e-3, 1e-4))
-        print(f"{extra} degrees more: ratio / freedom {quantiles(ratios)}; of the stated probabilities {shares}")
-
-
 def laws(seed: int, trials: int, samples: int, clock: Clock, cells: Sequence[int]) -> None:
     """Print what `laws.py` says of several rows by their ratios: of as many as are laws, and of one more, which are none."""
     shapes, flats, laws_far, others_far = list[float](), list[float](), list[float](), list[float]()
@@ -219,7 +195,7 @@ def single(seed: int, trials: int, clock: Clock) -> None:
         p = 3 + number // len(kinds) % 2
         evidence = Evidence([record(seed + number, p, p - 1, 40.0, 1.0, kinds[place][0], kinds[place][1])], N_X)
         found, data = tested(evidence, 1), evidence.single
-        free = loose_samples(evidence, found.fit, found.shares) ** 0.5
+        free = 0.0 if evidence.disturbance is None else loose_samples(evidence.disturbance, data, found.fit, found.shares) ** 0.5
         places.append(place)
         crowded.append((2 * len(data.moments.angles) / data.samples) ** 0.5)
         loose.append([free / (degrees * data.moments.channels) for degrees in (EXTRA, LONG)])
@@ -343,7 +319,7 @@ class Clock:
 def main() -> None:
     """Parse the arguments, run what they ask for, and print it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("table", choices=("count", "calibrate", "laws", "single", "faintest", "settings", "merge"))
+    parser.add_argument("table", choices=("count", "laws", "single", "faintest", "settings", "merge"))
     parser.add_argument("files", nargs="*", type=Path, help="of merge: what --out wrote")
     parser.add_argument("--trials", type=int, default=30)
     parser.add_argument("--seed", type=int, default=1)
@@ -366,10 +342,8 @@ def main() -> None:
         single(chosen.seed, chosen.trials, Clock(chosen.limit, 1))
     elif chosen.table == "faintest":
         faintest(chosen.seed, chosen.trials, Clock(chosen.limit, 2), chosen.cells, chosen.jobs)
-    elif chosen.table == "settings":
-        settings(chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1), chosen.cells)
     else:
-        calibrate(chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1))
+        settings(chosen.seed, chosen.trials, chosen.samples, Clock(chosen.limit, 1), chosen.cells)
 
 
 if __name__ == "__main__":

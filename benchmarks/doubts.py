@@ -105,6 +105,14 @@ def slipping(made: Plant, random: np.random.Generator) -> tuple[Array, Array]:
     return y, made.u
 
 
+def bursting(made: Plant, random: np.random.Generator) -> tuple[Array, Array]:
+    """Return outputs whose noise is that of a GARCH process, alpha .3 and beta .6, in all outputs at once."""
+    variance, white = np.ones(len(made.u)), random.standard_normal(len(made.u))
+    for k in range(1, len(white)):
+        variance[k] = 0.1 + (0.3 * white[k - 1] ** 2 + 0.6) * variance[k - 1]
+    return made.clean + made.noise * np.sqrt(variance)[:, None], made.u
+
+
 def clipped(made: Plant, random: np.random.Generator) -> tuple[Array, Array]:
     """Return outputs, the first of which is cut off at one and a half of its deviations above its mean."""
     y = made.y.copy()
@@ -118,7 +126,8 @@ def late(made: Plant, random: np.random.Generator) -> tuple[Array, Array]:
 
 
 PLANTED: dict[str, Callable[[Plant, np.random.Generator], tuple[Array, Array]]] = {
-    "closed loop": closed, "non-linearity": curved, "drift": drifting, "outliers": slipping, "limits": clipped, "delay": late,
+    "closed loop": closed, "non-linearity": curved, "drift": drifting, "outliers": slipping, "bursts": bursting,
+    "limits": clipped, "delay": late,
 }  # fmt: skip
 
 

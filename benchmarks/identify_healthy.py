@@ -11,8 +11,8 @@ signal there, of the sizes that the answer to the first says are seen with a cha
 
 With --inputs the records have no fault, and inputs that are so many times as loud after the healthy samples, or so many deviations away:
 how often is a fault found where no answer is left undecided for their sake? LOUDER of `numeric/count/unlike_healthy.py` stands for the
-largest that was tried at which no more alarms are false than where the inputs stay as they were. An input that has moved counts by its
-power about the healthy mean, and so many deviations by themselves are printed beside.
+largest that was tried at which no more alarms are false than where the inputs stay as they were, by a sign test. An input that has moved
+counts by its power about the healthy mean, and so many deviations by themselves are printed beside.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import time
 from unittest.mock import patch
 
 import numpy as np
+import scipy.special
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
@@ -34,6 +35,7 @@ Array = NDArray[np.float64]
 
 HEALTHY = (300, 600, 1500)
 LOUDNESSES, DISTANCES = (1.25, 1.5, 1.75, 2.0, 3.0, 5.0), (2.0, 3.0, 10.0)
+LEVEL = 0.05
 OUTPUTS, INPUTS = ("y1", "y2", "y3"), ("u1", "u2")
 
 
@@ -82,23 +84,30 @@ def false_alarm(random: np.random.Generator, until: int, louder: float, away: fl
 
 
 def inputs(trials: int, seed: int) -> None:
-    """Print how often it is, by the change of the inputs and the number of healthy samples, and the largest without more false alarms."""
+    """Print how often it is, by the change of the inputs and the number of healthy samples, and the largest loudness that makes no
+    difference: on the same records it does where so many more new alarms than ones that are gone have a probability below LEVEL."""
     lengths = HEALTHY[::2]
     print(f"false alarms of {trials} records; LOUDER is {unlike_healthy.LOUDER:g}")
 
-    def alarms(louder: float, away: float) -> list[int]:
-        found = [sum(false_alarm(np.random.default_rng((seed, until, k)), until, louder, away) for k in range(trials)) for until in lengths]
-        print(f"{louder:4g} times as loud, {away:3g} deviations away: {found} with {list(lengths)} healthy samples", flush=True)
-        return found
+    def alarms(louder: float, away: float) -> Array:
+        rows = [[false_alarm(np.random.default_rng((seed, until, k)), until, louder, away) for k in range(trials)] for until in lengths]
+        counts = [sum(row) for row in rows]
+        print(f"{louder:4g} times as loud, {away:3g} deviations away: {counts} with {list(lengths)} healthy samples", flush=True)
+        return np.array(rows, dtype=np.float64)
 
-    usual, largest = sum(alarms(1.0, 0.0)), 1.0
+    def differ(found: Array, usual: Array) -> bool:
+        new, gone = int(np.sum(found > usual)), int(np.sum(found < usual))
+        return bool(scipy.special.bdtrc(new - 1, new + gone, 0.5) < LEVEL) if new else False
+
+    usual, largest = alarms(1.0, 0.0), 1.0
     for louder in LOUDNESSES:
-        if sum(alarms(louder, 0.0)) > usual:
+        if differ(alarms(louder, 0.0), usual):
             break
         largest = louder
-    print(f"LOUDER: {largest:g} is the largest that was tried with no more alarms than where the inputs stay as they were", flush=True)
+    print(f"LOUDER: {largest:g} is the largest that was tried without more alarms than where the inputs stay as they were", flush=True)
     away = (unlike_healthy.LOUDER**2 - 1) ** 0.5
-    print(f"moved by {away:.3g} deviations, as much power: {sum(alarms(1.0, away))}, and {usual} where they stay", flush=True)
+    moved = alarms(1.0, away)
+    print(f"as much power as {unlike_healthy.LOUDER:g} times as loud: {'' if differ(moved, usual) else 'no '}more alarms", flush=True)
     for distance in DISTANCES:
         alarms(1.0, distance)
 

@@ -28,6 +28,7 @@ from benchmarks.sheets import markdown, show
 SIZES = (4, 10, 20, 40, 80)
 QUICK_SIZES = (4, 10, 20, 40)
 QUICK_LIMIT, LIMIT = 10.0, 60.0
+NAMES = [method.name for method in METHODS]
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -37,7 +38,7 @@ def main(arguments: list[str] | None = None) -> int:
     limit = options.limit or (QUICK_LIMIT if options.quick else LIMIT)
     families = [family for family in FAMILIES if not options.families or str(family) in options.families]
     absent = {method.name: why for method in METHODS if (why := method.missing())}
-    here = [method for method in METHODS if method.name not in absent]
+    here = [method for method in METHODS if method.name not in absent and method.name in {OURS, *(options.methods or NAMES)}]
     if OURS in absent:
         print(f"ladder: {absent[OURS]}", file=sys.stderr)
         return 1
@@ -84,6 +85,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--memory", type=int, metavar="MB", default=Budget.megabytes, help="address space a cell (default %(default)s)")
     parser.add_argument("--sizes", type=int, nargs="+", metavar="N", help="numbers of states, ascending, at least 4")
     parser.add_argument("--families", nargs="+", choices=[str(f) for f in FAMILIES], metavar="FAMILY", help="such as 'planted tight'")
+    parser.add_argument("--methods", nargs="+", choices=NAMES, metavar="METHOD", help="these beside ours, such as flint-once")
     parser.add_argument("--markdown", action="store_true", help="tables in Markdown")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write everything measured to this file")
     options = parser.parse_args(arguments)

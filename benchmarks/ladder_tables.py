@@ -46,8 +46,14 @@ def exponent_table(run: Run) -> Sheet:
     rows = []
     for family in families:
         slopes = [exponent(run, family, name) for name in run.methods]
-        rows.append([str(family), *("-" if slope is None else f"{slope:.1f}" for slope in slopes)])
-    return Sheet("growth exponents: slope of log time against log n, n >= 10, three finished cells or more", ["system", *run.methods], rows)
+        rows.append(
+            [str(family), *("-" if slope is None else f"{slope.value:.1f} ({slope.low:.1f} to {slope.high:.1f})" for slope in slopes)]
+        )
+    return Sheet(
+        "growth exponents: slope of log time against log n, n >= 10, three finished cells or more, with 95 % intervals",
+        ["system", *run.methods],
+        rows,
+    )
 
 
 def aim_table(run: Run) -> Sheet:

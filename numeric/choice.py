@@ -22,7 +22,9 @@ from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
 from ..base.sheets import counted
+from .changes.rows import FREEZING, LOSS
 from .data.records import Record
+from .doubt.listing import named
 from .experiments import for_each, looked_at, most_moved
 from .findings import Findings
 from .model.reduced_model import ReducedModel
@@ -44,6 +46,10 @@ FORETOLD = (
     "or a gain that has changed; such a fault excites too little for its space, which noise would place; what explains a shift of the "
     "mean, and the table of changes, say more"
 )
+ESTIMATED = (
+    "the record has no noise, but what its faults do is told from what its inputs do by chance alone, so that A and C are an estimate, of "
+    "unknown error; samples without fault would give them exactly (healthy=K)"
+)
 FROM_IDENTIFIED = (
     "the fault space takes the identified A and C as exact: their error can turn it, and invent or hide zeros (faultspace monte-carlo "
     "shows how much on systems of the paper's kind)"
@@ -57,9 +63,16 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
         return answer
     if answer.news is not None and answer.news < faults:
         return replace(answer, notes=(*answer.notes, f"no fault space: {FORETOLD}"))
+    if quiet := _quieter(answer):
+        lost = (
+            f"no fault space: {named(quiet)} {'has' if len(quiet) == 1 else 'have'} lost variance since the healthy samples, as a sensor "
+            "that is stuck, or whose gain has fallen, does; such a fault is no signal that is added, and has no space of its own"
+        )
+        return replace(answer, notes=(*answer.notes, lost))
     on_progress("fault space", 0, 0)
     A, C = model.model.A, model.model.C
-    space, notes = None if answer.exact else _by_laws(answer, faults), answer.notes
+    # An exact record gives exact rows, and an exact space where the model is.
+    space, notes = None if answer.exact and not isinstance(model, ReducedModel) else _by_laws(answer, faults), answer.notes
     if isinstance(space, str):
         notes += (f"the fault space is from the residual: {space}",)
     if not isinstance(space, FaultSpaceEstimate):
@@ -69,7 +82,17 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
             return replace(answer, notes=(*notes, f"no fault space: {error}"))
         if space.method == "likelihood":
             notes += (FROM_IDENTIFIED,)
+        if answer.exact and not answer.healthy:
+            reason = f"undecided: {ESTIMATED}; {space.reason.removeprefix('undecided: ')}"
+            space = replace(space, decided=False, reason=reason, error_bound=None)
     return replace(answer, notes=notes, fault_space=space if answer.n_v_given else replace(space, reason=said_counted(space.reason)))
+
+
+def _quieter(answer: Findings) -> list[str]:
+    """Return the outputs that the table of changes sees to have lost variance, unless a sensor freezes and thaws, which adds signals."""
+    tables = [one.changes for one in answer.experiments if answer.healthy and one.changes is not None]
+    seen = [row for changes in tables for row in changes.seen]
+    return [] if any(row.kind == FREEZING for row in seen) else sorted({row.channel for row in seen if row.kind == LOSS})
 
 
 def _by_laws(answer: Findings, faults: int) -> FaultSpaceEstimate | str:

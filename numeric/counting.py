@@ -13,6 +13,7 @@ inputs are counted about their means: a constant is an operating point for the l
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -44,6 +45,7 @@ HELD = 1 << 21  # numbers of residual and inputs that faults are counted on
 AS_MANY = "as many faults as outputs look like noise in every output"
 DEPENDENT = 1e-10  # singular values of the scaled outputs, beside the largest they could have, below which a channel is a combination
 UNLIKELY = 1e-6  # probability of spikes that is not put down to noise
+UNEQUAL = float(np.finfo(np.float64).eps ** -0.25)  # ratio of numbers whose squares keep half of their digits side by side
 TINY = float(np.finfo(np.float64).tiny)
 LIKE_NOISE = "faults that are noise of that colour in single outputs, or constant over the whole record, would not be seen"
 
@@ -67,24 +69,55 @@ def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> F
         why += ", counted over all experiments one after the other" if answer.parts else ""
         notes += (f"faults are counted, and their space is found, on samples {first} to {last - 1}, {why}; {source}",)
     answer = replace(answer, held=(first, last), notes=notes)
-    r = beyond_rounding(answer)
-    answer = _by_ranks(answer, r)
     try:
-        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            # Not those set to zero: rounding is held against rounding.
-            if healthy:
-                answer = _against_healthy(answer, rest.store.read(first, last), faults, on_progress)
-            else:
-                answer = _about_zero(answer if answer.exact else for_each(_by_laws(answer, on_progress), with_changes), r)
-            answer = beside_changes(answer)
+        answer = _counted(answer, faults, on_progress)
     except np.linalg.LinAlgError:
-        reason = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
-        answer = replace(answer, n_v=None, counted_by=None, reason=reason)
+        answer = _counted_before(answer, faults, on_progress)
     if faults is None:
         return answer
     by_data = answer.n_v if answer.n_v is not None else " or ".join(map(str, answer.possible)) or "undecided"
     agreement = "as the data say" if faults == answer.n_v else f"the data say {by_data}: {answer.reason}"
     return replace(answer, n_v=faults, possible=(faults,), reason=f"{faults} given; {agreement}", counted_by="given")
+
+
+def _counted(answer: Findings, faults: int | None, on_progress: Progress) -> Findings:
+    """Count on the samples that are held. Raises LinAlgError where numbers are too unequal."""
+    rest, r = answer.residual, beyond_rounding(answer)
+    assert rest is not None
+    answer = _by_ranks(answer, r)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        # Not those set to zero: rounding is held against rounding.
+        if answer.healthy:
+            answer = _against_healthy(answer, rest.store.read(*answer.held), faults, on_progress)
+        else:
+            answer = _about_zero(answer if answer.exact else for_each(_by_laws(answer, on_progress), with_changes), r)
+        return beside_changes(answer)
+
+
+def _counted_before(answer: Findings, faults: int | None, on_progress: Progress) -> Findings:
+    """Count on the samples before the residual has grown beyond what can be computed with, as it does where a fault opens a loop that is
+    unstable without it; where there are none, nothing is counted."""
+    first, grown = answer.held[0], _grows(answer)
+    if grown - first > 2 * answer.block_rows:
+        note = (
+            f"from sample {grown} on the residual is more than {UNEQUAL:.0f} times its healthy size, as where a loop has become unstable: "
+            f"faults are counted, and their space is found, on samples {first} to {grown - 1}"
+        )
+        with suppress(np.linalg.LinAlgError):
+            return _counted(replace(answer, held=(first, grown), notes=(*answer.notes, note)), faults, on_progress)
+    reason = "numbers of the residual are too unequal to compute with, as outliers make them: mend the record there"
+    return replace(answer, n_v=None, counted_by=None, reason=reason)
+
+
+def _grows(answer: Findings) -> int:
+    """Return the first sample held at which the residual is UNEQUAL times its healthy size; the first one where nothing is healthy."""
+    rest, sizes, until = answer.residual, answer.sizes, answer.healthy
+    first, last = answer.held
+    if not until or rest is None or sizes is None or answer.parts:
+        return first
+    sigma = sizes.early_norm / np.sqrt(until)
+    large = np.any(np.abs(rest.store.read(first, last)) > UNEQUAL * np.where(sigma > 0, sigma, np.inf), axis=1)
+    return first + int(np.argmax(large)) if np.any(large) else first
 
 
 def _by_ranks(answer: Findings, r: Array) -> Findings:
@@ -93,6 +126,8 @@ def _by_ranks(answer: Findings, r: Array) -> Findings:
     assert sizes is not None
     try:
         y, u = record.stretch(*looked_at(answer))
+        # Beside an estimated model, what it errs by is small and has no clear rank; outputs and inputs have theirs without it.
+        r = y if answer.exact and isinstance(answer.model, ReducedModel) else r
         found = fault_dimension(r.astype(np.float32) if record.single and answer.exact else r, u=u)
     except InvalidData as error:
         return replace(answer, reason=str(error))

@@ -5,7 +5,9 @@ Modelled        the model, what it was made of, and why in this way
 window_default  the block rows of PI-MOESP where none are given
 
 Which way. Without noise and fault both are exact; of PI-MOESP [V93] the audit asks it of every record that it ships, and it stays there.
-Under noise it is far from what the data hold, and the reduction [W89] comes near it. Ranks tell the two kinds of record apart
+Where a fault acts on a record without noise, neither is: what the fault does is told from what the inputs do by chance alone. Its rows are
+exact all the same, and so is the count; the model is reduced under the covariance of what the faults leave, for the order of PI-MOESP.
+Under noise PI-MOESP is far from what the data hold, and the reduction [W89] comes near it. Ranks tell the kinds of record apart
 (`count/exactness.py`). PI-MOESP also stands in where the windows of an ARX model cannot be had: too few samples, an input that does not
 excite them, an unstable plant. Where it finds no gap in its singular values, the reduction chooses the order, and where there is none
 either, samples held back do (`model/held_out_orders.py`), so that there is a model whenever one is better than none.
@@ -22,7 +24,7 @@ from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
 from ..base.sheets import counted
-from .count.exactness import SCREENED, obeys_exactly
+from .count.exactness import SCREENED, driven_exactly, obeys_exactly
 from .data.records import Passes, Record
 from .model.arx_windows import longest_lag
 from .model.asymptotic_likelihood import arx_reduction_experiments
@@ -66,12 +68,27 @@ def modelled(record: Record, order: int | None, block_rows: int | None, on_progr
             return _with_notes(_by_held_out(record, found, on_progress), note)
     found = _by_past_inputs(record, order, block_rows, exact, on_progress)
     if found.model is not None:
-        return found
+        driven = driven_exactly(*longest.stretch(0, SCREENED), single=record.single)
+        return _beside_faults(record, found, block_rows, on_progress) if driven else found
     try:
         other = _by_reduction(record, order, block_rows, exact, on_progress)
     except InvalidData:
         return _by_held_out(record, found, on_progress)
     return _with_notes(other, f"PI-MOESP leaves the order undecided: {found.refusal}")
+
+
+def _beside_faults(record: Record, found: Modelled, block_rows: int | None, on_progress: Progress) -> Modelled:
+    """Return the model of the same order by reduction, where faults act on a record without noise: to a model they are noise, of which it
+    has the covariance, and PI-MOESP leaves several times the error."""
+    assert found.model is not None
+    try:
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            other = _by_reduction(record, found.model.order, block_rows, found.exact, on_progress)
+    except (InvalidData, np.linalg.LinAlgError) as error:
+        return _with_notes(found, f"the model is an estimate by PI-MOESP, without standard errors, for want of an ARX model: {error}")
+    return _with_notes(
+        other, f"the record has no noise, but faults drive it, so that the model is an estimate, of order {other.model.order}"
+    )
 
 
 def _by_held_out(record: Record, found: Modelled, on_progress: Progress) -> Modelled:

@@ -39,17 +39,20 @@ class OperatingPoint:
 
     `of` says what it is: "zero", or the means of the "healthy samples", of the "whole record", or of the "single experiments", each by
     itself. `reason` says why. `stated` says that the caller asked for it. `values` (k,), inputs before outputs, are zeros for zero, and
-    None where each experiment has its own.
+    None where each experiment has its own, which are `by_experiment`.
     """
 
     of: str
     reason: str
     stated: bool
     values: Array | None
+    by_experiment: tuple[Array, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict."""
-        return {"of": self.of, "reason": self.reason, "stated": self.stated, "values": plain(self.values)}
+        return {"of": self.of, "reason": self.reason, "stated": self.stated, "values": plain(self.values)} | {
+            "by_experiment": [plain(one) for one in self.by_experiment]
+        }
 
 
 def asked_for(operating_point: object) -> str | None:
@@ -57,7 +60,7 @@ def asked_for(operating_point: object) -> str | None:
     if operating_point is None or (isinstance(operating_point, str) and operating_point in ASKED):
         return operating_point
     choices = " or ".join(f'"{word}"' for word in ASKED)
-    raise InvalidData(f"operating_point: got {shorten(operating_point)}; {choices} is needed, or None to have it found")
+    raise InvalidData(f"operating_point: got {shorten(operating_point)}; {choices} is needed, or leave it out to have it found")
 
 
 def with_operating_point(record: Record, healthy: int | None, asked: str | None) -> tuple[Record, OperatingPoint]:
@@ -67,8 +70,7 @@ def with_operating_point(record: Record, healthy: int | None, asked: str | None)
     if asked == ZERO:
         return record, OperatingPoint(ZERO, "as stated", stated, nothing)
     part = record if healthy is None else record.beginning(healthy)
-    longest = max(part.experiments, key=len)
-    if not stated and obeys_exactly(*longest.stretch(0, SCREENED), single=record.single):
+    if not stated and _without_noise(part):
         return record, OperatingPoint(ZERO, "the samples have no noise, and obey a law as they are", stated, nothing)
     if healthy is not None:
         means = part.channels.mean
@@ -81,8 +83,17 @@ def with_operating_point(record: Record, healthy: int | None, asked: str | None)
         )
     reason = f"{why}; a fault that is constant over all samples goes with them, and only samples without fault can tell it (healthy=K)"
     if record.lengths:
-        return record.about_own_means(), OperatingPoint(EACH, reason, stated, None)
+        own = tuple(one.channels.mean for one in record.experiments)
+        return record.about_own_means(), OperatingPoint(EACH, reason, stated, None, own)
     return record.about_means(), OperatingPoint(WHOLE, reason, stated, record.channels.mean)
+
+
+def _without_noise(record: Record) -> bool:
+    """Say whether the longest experiment obeys a law to rounding: each channel about its mean, beside which what it does may be rounding
+    too, and one of two outputs that are the same left out, for no noise comes between these."""
+    y, u = max(record.experiments, key=len).stretch(0, SCREENED)
+    y, u = np.unique(y - y.mean(axis=0), axis=1), u - u.mean(axis=0)
+    return obeys_exactly(y, u, single=record.single)
 
 
 def _not_zero(record: Record) -> str:

@@ -178,6 +178,7 @@ def _findings(
 ) -> Findings:
     """Go through the chain of the module's docstring; `apart`: the `healthy` samples are a record of their own, before the other."""
     part = record if healthy is None else record.beginning(healthy)
+    _in_range(record)
     rows = block_rows if block_rows is not None else window_default(len(part), record.p, record.n_u, order)
     record, left_out = long_enough(record, rows)
     part = record if healthy is None else record.beginning(healthy)
@@ -221,6 +222,17 @@ def _nothing_left(answer: Findings) -> str:
     return f"the model explains the outputs to rounding: nothing larger than {sizes} acts{hidden}"
 
 
+def _in_range(record: Record) -> None:
+    """Refuse channels whose squares floats do not hold: too large for a sum, or so small that their digits are lost."""
+    limits = np.finfo(np.float64)
+    for name, low, high in zip(record.names, record.channels.least, record.channels.greatest, strict=True):
+        size = max(abs(low), abs(high))
+        if size > np.sqrt(limits.max / len(record)):
+            raise InvalidData(f"channel {shorten(name)} reaches {size:.3g}, whose square no float holds: use other units, or mend a slip")
+        if 0.0 < high - low < np.sqrt(limits.tiny):
+            raise InvalidData(f"channel {shorten(name)} varies by {high - low:.3g}, whose square no float holds: use other units")
+
+
 def _enough(record: Record, rows: int) -> None:
     """Refuse a record with fewer windows than rows in its Hankel matrices."""
     samples, height = len(record), 2 * record.n_u + record.p
@@ -245,4 +257,7 @@ def _varying(record: Record) -> None:
         if still and len(record) > 1:
             what = "excites nothing" if kind == "input" else "tells nothing of the system"
             which, value = ", ".join(map(shorten, still[:4])), least[names.index(still[0])]
+            if len(still) > 1:
+                what = what.replace("excites", "excite").replace("tells", "tell")
+                raise InvalidData(f"{kind}s {which} are constant: they {what}; leave them out, or record them while they vary")
             raise InvalidData(f"{kind} {which} is constant ({value:g}): it {what}; leave it out, or record it while it varies")

@@ -7,8 +7,9 @@ Where tests run in several processes, each begins with a stretch of them in the 
 is made in one process, and takes half of what another has left when it has done its own. Tests marked `long` come first, so that no
 process is left with one at the end. The Rocq theory is compiled before they start (once, then it is in the user's cache), so that no test
 waits for another's compilation. The linear algebra library gets one thread a process: on small matrices threads mostly wait for each other.
-Bytecode is kept, in the folders `__pycache__` that git ignores, even where PYTHONDONTWRITEBYTECODE asks for none: without it each process
-of tests compiles all tests again, and each command that a test starts all modules of ours.
+A test marked `slow` has an hour where it names no other time, for what takes minutes takes many more on a busy machine. Bytecode is kept,
+in the folders `__pycache__` that git ignores, even where PYTHONDONTWRITEBYTECODE asks for none: without it each process of tests compiles
+all tests again, and each command that a test starts all modules of ours.
 """
 
 import contextlib
@@ -29,10 +30,14 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 settings.register_profile("ci", derandomize=True, database=None, deadline=None, max_examples=examples(100))
 settings.register_profile("explore", derandomize=False, database=None, deadline=None, max_examples=1000)
 settings.load_profile("ci")
+HOUR = 3600
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The long tests first, all others in their order."""
+    """The long tests first, all others in their order; slow ones have more time."""
+    for item in items:
+        if item.get_closest_marker("slow") and not item.get_closest_marker("timeout"):
+            item.add_marker(pytest.mark.timeout(HOUR))
     items.sort(key=lambda item: item.get_closest_marker("long") is None)
 
 

@@ -35,6 +35,8 @@ def _as_rational(value: object, where: str) -> fmpq:
     """
     if isinstance(value, fmpq):
         return value
+    if type(value) in (int, str):
+        return parse_rational(value, where)
     if isinstance(value, fmpz):
         return fmpq(value)
     if isinstance(value, Fraction) or is_rational(value):
@@ -66,6 +68,8 @@ class Rationals:
 
     def write(self, element: Any) -> str:
         """The result is the reduced rational string."""
+        if type(element) is fmpq and (top := element.p).bit_length() < 60 and (bottom := element.q).bit_length() < 60:
+            return str(int(top)) if bottom == 1 else f"{int(top)}/{int(bottom)}"  # as str does below, several times faster
         return str(element)
 
     def block(self, element: Any) -> list[list[Any]]:
@@ -333,3 +337,8 @@ def base_matrix(field: Field, rows: int, cols: int, scalars: list[Any]) -> Any:
     if isinstance(field, PrimeField):
         return flint.nmod_mat(rows, cols, scalars, field.p)
     return flint.fmpq_mat(rows, cols, scalars)
+
+
+def base_zero(field: Field, rows: int, cols: int) -> Any:
+    """The result is the flint matrix of zeros over the base field."""
+    return flint.nmod_mat(rows, cols, field.p) if isinstance(field, PrimeField) else flint.fmpq_mat(rows, cols)

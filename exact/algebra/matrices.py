@@ -16,21 +16,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq_mat, fmpz, fmpz_mat, nmod_mat
 
-from ...base.errors import InvalidInput, shorten
-from ...base.sheets import counted
-from .fields import QQ, Field, NumberField, PrimeField, Rationals, base_matrix
-from .sympy_values import is_domain_matrix, is_matrix
-from .validation import MAX_BITS, fits, natural
+from ...base.errors import InvalidInput
+from .entries import integers, rows_of
+from .fields import QQ, Field, NumberField, PrimeField, Rationals, base_matrix, base_zero
+from .validation import fits, natural
 
 if TYPE_CHECKING:
     import sympy
-    from sympy.polys.domains import AlgebraicField
-    from sympy.polys.matrices import DomainMatrix
 
 PRIME = 2**61 - 1
 
@@ -74,11 +71,14 @@ class Matrix:
             if shape is not None and entries.shape != shape:
                 raise InvalidInput(f"{where}: got shape {entries.nrows} x {entries.ncols}, expected {shape[0]} x {shape[1]}")
             return entries
-        rows, shape = _rows_of(entries, field, shape, where)
+        rows, shape = rows_of(entries, field, shape, where)
         nrows, ncols = shape
-        if isinstance(field, Rationals) and (numbers := _integers(rows)) is not None:
+        if isinstance(field, Rationals) and (numbers := integers(rows)) is not None:
             return Matrix(field, nrows, ncols, fmpq_mat(fmpz_mat(nrows, ncols, numbers)))
-        elements = [[field.element(x, f"{where}[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(rows)]
+        try:
+            elements = [[field.element(x) for x in row] for row in rows]
+        except InvalidInput:  # once more, now with the place in words
+            elements = [[field.element(x, f"{where}[{i}][{j}]") for j, x in enumerate(row)] for i, row in enumerate(rows)]
         return Matrix.from_elements(field, nrows, ncols, elements)
 
     @staticmethod
@@ -100,16 +100,17 @@ class Matrix:
         """The result is the zero matrix. Raises InvalidInput for sizes that are no integers >= 0, or too large for any memory."""
         fits(natural(nrows, "nrows"), natural(ncols, "ncols"), "matrix")
         d = field.degree
-        return Matrix(field, nrows, ncols, base_matrix(field, nrows * d, ncols * d, [0] * (nrows * ncols * d * d)))
+        return Matrix(field, nrows, ncols, base_zero(field, nrows * d, ncols * d))
 
     @staticmethod
     def identity(field: Field, size: int) -> Matrix:
         """The result is the identity matrix. Raises InvalidInput for a size that is no integer >= 0, or too large for any memory."""
         fits(natural(size, "size"), size, "matrix")
         k = size * field.degree
-        scalars = [0] * (k * k)
-        scalars[:: k + 1] = [1] * k
-        return Matrix(field, size, size, base_matrix(field, k, k, scalars))
+        unit = base_zero(field, k, k)
+        for i in range(k):
+            unit[i, i] = 1
+        return Matrix(field, size, size, unit)
 
     # -- reading --------------------------------------------------------------------------------------------------
 
@@ -161,7 +162,7 @@ class Matrix:
 
     def is_zero(self) -> bool:
         """This tells whether every entry is zero."""
-        return all(x == 0 for x in self.flint.entries())
+        return not self.flint
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Matrix):
@@ -169,10 +170,17 @@ class Matrix:
         return self.field == other.field and self.shape == other.shape and bool(self.flint == other.flint)
 
     def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
         if isinstance(self.field, PrimeField):
             return hash((self.field, self.shape, tuple(map(int, self.flint.entries()))))
         numerators, denominator = self.flint.numer_denom()
         return hash((self.field, self.shape, tuple(map(int, numerators.entries())), int(denominator)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Matrix, (self.field, self.nrows, self.ncols, self.flint)
 
     def __str__(self) -> str:
         rows = ["[" + ", ".join(str(x) for x in row) + "]" for row in self.elements()]
@@ -302,9 +310,9 @@ def row_echelon(matrix: Matrix) -> RowEchelon:
     d = matrix.field.degree
     echelon = _lifted_echelon(matrix.flint) if _is_large(matrix) else None
     if echelon is None:
-        reduced, size = matrix.flint.rref()
-        scalars = reduced.entries()[: size * matrix.ncols * d]
-        echelon = base_matrix(matrix.field, size, matrix.ncols * d, scalars)
+        echelon, size = matrix.flint.rref()
+        if size < echelon.nrows():
+            echelon = base_matrix(matrix.field, size, matrix.ncols * d, echelon.entries()[: size * matrix.ncols * d])
     pivots = tuple(j // d for j in pivot_columns(echelon)[::d])
     return RowEchelon(Matrix(matrix.field, len(pivots), matrix.ncols, echelon), pivots)
 
@@ -414,100 +422,23 @@ def row_profile(matrix: Matrix) -> tuple[int, ...]:
 
 
 def solve_left(matrix: Matrix, right_side: Matrix) -> Matrix | None:
-    """The result is some X with X M = R, or None where R has a row outside the row space of M."""
-    profile = row_profile(matrix)
-    basis = matrix.rows(profile)
-    echelon = row_echelon(basis)
-    square = basis.columns(echelon.pivots)
-    target = right_side.columns(echelon.pivots)
-    if not profile:
-        return Matrix.zero(matrix.field, right_side.nrows, matrix.nrows) if right_side.is_zero() else None
-    coefficients = Matrix(matrix.field, right_side.nrows, len(profile), target.flint * square.flint.inv())
-    if not (coefficients @ basis - right_side).is_zero():
+    """The result is the X with X M = R that has zeros at the rows of M that depend on those above; None where R has a row outside the row
+    space of M.
+    """
+    height = matrix.nrows
+    form = row_echelon(stacked(matrix, right_side).transposed())
+    profile = tuple(pivot for pivot in form.pivots if pivot < height)
+    if len(profile) < len(form.pivots):
         return None
-    spread = Matrix.zero(matrix.field, len(profile), matrix.nrows).elements()
+    coefficients = form.matrix.columns(range(height, height + right_side.nrows)).transposed()
+    if len(profile) == height:
+        return coefficients
+    spread = Matrix.zero(matrix.field, len(profile), height).elements()
     one = matrix.field.element(1)
     for i, row in enumerate(profile):
         spread[i][row] = one
-    return coefficients @ Matrix.from_elements(matrix.field, len(profile), matrix.nrows, spread)
-
-
-def _coordinates(element: Any, domain: AlgebraicField) -> list[Fraction]:
-    """These are the rational coordinates, ascending, of an element of sympy's QQ<a>."""
-    descending = [Fraction(int(c.numerator), int(c.denominator)) for c in element.to_list()]
-    size = int(domain.mod.degree())
-    return descending[::-1] + [Fraction(0)] * (size - len(descending))
-
-
-def _rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where: str) -> tuple[list[list[object]], tuple[int, int]]:
-    """Nested lists of the entries and the shape they have, checked for ragged rows and against `shape`."""
-    if is_domain_matrix(entries):
-        found = (int(entries.shape[0]), int(entries.shape[1]))
-        rows = _rows_of_domain_matrix(entries, field, where)
-    elif is_matrix(entries):
-        found = (int(entries.rows), int(entries.cols))
-        rows = [list(entries.row(i)) for i in range(entries.rows)]
-    elif isinstance(entries := _listed(entries, where), (list, tuple)):
-        rows = []
-        for i, row in enumerate(entries):
-            if not isinstance(row, (list, tuple)):
-                raise InvalidInput(f"{where}[{i}]: got {shorten(row)}, expected a row: a list of entries")
-            rows.append(list(row))
-        found = (len(rows), len(rows[0]) if rows else 0)
-        for i, row in enumerate(rows):
-            if len(row) != found[1]:
-                raise InvalidInput(f"{where}[{i}]: got {counted(len(row), 'entry', 'entries')}, expected {found[1]} as in the first row")
-        if shape is not None and 0 in shape and found in ((0, 0), (shape[0], 0)):
-            found = shape  # [] and the right number of empty rows stand for every empty matrix
-    else:
-        raise InvalidInput(not_rows(entries, where))
-    if shape is not None and found != shape:
-        raise InvalidInput(f"{where}: got shape {found[0]} x {found[1]}, expected {shape[0]} x {shape[1]}")
-    return rows if found[1] else [[] for _ in range(found[0])], found
-
-
-def _integers(rows: Sequence[Sequence[object]]) -> list[int] | None:
-    """Return the entries where all are plain integers of a size that is supported: most matrices are, and are read ten times faster."""
-    if any(type(x) is not int for row in rows for x in row):
-        return None
-    numbers: list[int] = [x for row in rows for x in row]  # type: ignore[misc]
-    return numbers if max(map(int.bit_length, numbers), default=0) <= MAX_BITS else None
-
-
-def not_rows(entries: object, where: str) -> str:
-    """The message that this is no list of rows, with what to try where that is known."""
-    said = f"{where}: got {shorten(entries)}, expected a list of rows"
-    if isinstance(entries, (int, Fraction, str)) and not isinstance(entries, bool):
-        return f"{said}, try [[{shorten(entries)}]]"
-    if hasattr(entries, "residual"):
-        return f"{said} or a Matrix, one of the system's: try .A, .F, .C or .G"
-    return said
-
-
-def _listed(entries: Any, where: str) -> Any:
-    """A numpy array of integers, or of objects, as the nested lists that it holds; anything else as it is. numpy is not loaded for it."""
-    kind = getattr(getattr(entries, "dtype", None), "kind", None)
-    if kind is None or not hasattr(entries, "tolist") or getattr(entries, "ndim", None) != 2:
-        return entries
-    if kind == "f":
-        raise InvalidInput(f"{where}: got {shorten(entries)}, expected a list of rows (floats are not exact; see from_float_exactly)")
-    return entries.tolist() if kind in "iuO" and entries.shape[1] else entries
+    return coefficients @ Matrix.from_elements(matrix.field, len(profile), height, spread)
 
 
 def _size(matrix: Matrix) -> str:
     return f"{matrix.nrows} x {matrix.ncols}"
-
-
-def _rows_of_domain_matrix(entries: DomainMatrix, field: Field, where: str) -> list[list[object]]:
-    from sympy.polys.domains import AlgebraicField  # loaded before, for there is a DomainMatrix
-
-    if not isinstance(entries.domain, AlgebraicField):
-        table = entries.to_Matrix()
-        return [list(table.row(i)) for i in range(table.rows)]
-    if not isinstance(field, NumberField) or field != NumberField(_ascending(entries.domain.mod)):
-        raise InvalidInput(f"{where}: got entries over {entries.domain}, expected {field}")
-    return [[_coordinates(x, entries.domain) for x in row] for row in entries.to_list()]
-
-
-def _ascending(poly: Any) -> tuple[Fraction, ...]:
-    return tuple(Fraction(int(c.numerator), int(c.denominator)) for c in reversed(poly.to_list()))

@@ -68,6 +68,8 @@ def parse_rational(value: object, where: str) -> fmpq:
         raise InvalidInput(f"{where}: got {len(value)} characters, a numerator or denominator has at most {MAX_BITS} bits")
     if not _RATIONAL.fullmatch(value):
         raise InvalidInput(f'{where}: got {shorten(value)}, expected a rational string such as "-3/4"{_hint(value)}')
+    if len(value) < 16 and value.isdecimal():
+        return fmpq(int(value))
     numerator, _, denominator = value.partition("/")
     top, bottom = fmpz(numerator), fmpz(denominator or "1")
     if max(abs(top), bottom).bit_length() > MAX_BITS:

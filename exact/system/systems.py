@@ -20,8 +20,9 @@ from typing import Any
 
 from ...base.errors import InvalidInput, shorten
 from ...base.sheets import Shown, counted
+from ..algebra.entries import not_rows
 from ..algebra.fields import QQ, Field, field_from_json
-from ..algebra.matrices import Matrix, not_rows
+from ..algebra.matrices import Matrix
 from ..algebra.notation import field_words, named_matrix
 from ..algebra.validation import MAX_DIMENSION, natural
 

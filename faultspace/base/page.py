@@ -47,6 +47,7 @@ figure img { display: block; max-width: 100%; max-height: 30rem; height: auto; b
 @media screen and (max-width: 36rem) { .pane.wide img { min-width: 38rem; } }
 figcaption { color: var(--soft); font-size: .9rem; margin-top: .3rem; }
 footer { margin-top: 3rem; color: var(--soft); font-size: .85rem; border-top: 1px solid var(--line); padding-top: .75rem; }
+@media print { figure img { max-height: 17rem; } }
 @media print { body { max-width: none; padding: 0; } h2 { break-after: avoid; } figure, .tile, pre { break-inside: avoid; } }
 """
 

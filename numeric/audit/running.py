@@ -23,7 +23,7 @@ from .subjects.isolation import Isolated
 from .subjects.opening import Auditee, Command, InProcess, label, opened
 
 Test = TypeVar("Test", bound=Callable[..., object])
-SECONDS, GIBIBYTES = 60.0, 4.0
+SECONDS, GIBIBYTES = 60.0, 4.0  # that a check may take, where no others are stated: what a small machine has
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from .predictor import Predictor, Stretch
 from .rows import GROWTH, LOSS, Evidence, undecided
 from .slow import about_slope
 
-TINY = 1e-300
+TINY = 1e-300  # near the least float, instead of zero below a ratio
 FORECAST_FROM = 1 << 12  # samples that the size of a forecast's error is taken of
 
 

@@ -36,7 +36,7 @@ BANDS = 64
 SEGMENT = 2048
 PAST = 20
 NOISE_ORDER = 4
-FLAT = 1e-5
+FLAT = 1e-5  # nats that the last step of a descent gains: far below those that are compared
 _STEPS = 60
 _COLOUR_FLOOR = 1e-3
 """This is the least normalised noise spectrum: below it a spectral null of the noise would claim all the weight."""

@@ -22,8 +22,9 @@ What is counted are faults that keep exciting: constant, sinusoidal or proportio
 every method that sees r alone. As many faults as outputs (n_v = p) cannot be told from noise in every output and are never claimed.
 
 What the thresholds rest on: those of the rounding regime on bounds of rounding and of random matrices (`hankel_ranks`), in units of the
-data. The constants below (how clear a rank, how long a run of equal gaps, how far to look), and all of `kernel_row_test`, were set by hand
-after looking at simulated data: rules of thumb with measured rates (`benchmarks/fault_dimension.py`), not tests of a stated level.
+data. Beyond them CLEAR_MARGIN asks for a power of ten, LEAST_RUN for as many equal gaps as tell a step from a slope, and DIED_OUT for half
+of the digits that the ranks themselves go by. `benchmarks/fault_dimension.py` measures the rates of right answers, and for the constants of
+`kernel_row_test` what each is worth; no test here has a stated level.
 """
 
 from __future__ import annotations

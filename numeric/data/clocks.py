@@ -161,7 +161,8 @@ def clock_of(times: Array, name: str, unit: str = "seconds", *, factor: float = 
     tiny = 1e-9 * max(abs(typical), float(np.abs(times).max())) + np.finfo(np.float64).eps * float(np.abs(times).max())
     back = np.flatnonzero(steps < 0) if resolution >= typical else np.flatnonzero(steps <= 0)
     if len(back):
-        return replace(found, dt=max(typical, mean), regular=False, backwards=len(back), first_odd=int(back[0]) + 1)
+        forward = max(typical, mean) if max(typical, mean) > 0 else max(-typical, -mean)  # a record may stand in reverse order
+        return replace(found, dt=forward, regular=False, backwards=len(back), first_odd=int(back[0]) + 1)
     multiples = np.round(steps / typical) if typical > 0 else np.zeros(len(steps))
     longer = multiples > 1
     if longer.any() and longer.mean() < ODD and np.all(multiples >= 1) and np.all(np.abs(steps - multiples * typical) <= resolution + tiny):

@@ -31,7 +31,7 @@ from .listing import LEVEL, Doubt, Doubts, in_order
 from .timing import clock_doubts, delay_doubts, held_doubts, mode_doubts
 
 FACTS = ("constant channel", "copies", "operating point", "units", "limits", "held input")
-OF_ERRORS = ("rounding", "closed loop", "non-linearity", "drift", "outliers")
+OF_ERRORS = ("rounding", "closed loop", "non-linearity", "drift", "outliers", "bursts")
 OF_MODEL = ("delay", "slow modes", "fast sampling")
 OF_CLOCK = ("sampling time", "missing samples")
 

@@ -1,4 +1,4 @@
-"""Doubts that the one-step errors of an ARX model raise: drifts, outliers, non-linearity.
+"""Doubts that the one-step errors of an ARX model raise: drifts, outliers, bursts, non-linearity.
 
 error_doubts       the doubts of errors e (T, p), with the regressors that the model was fitted on
 score_chance       the chance of scores as large as these, from sums over blocks
@@ -14,6 +14,12 @@ a doubt would need, takes off what those of the model explain of them, and looks
 The sums are taken over blocks as long as the model's lags, longer than what is left of the correlation of e z; for blocks s_b, independent
 and normal about zero, s' (sum_b s_b s_b')^-1 s over the number of blocks is a beta variable, s their sum. A variance that changes over the
 record, as it does where a fault sets in, is in the denominator too.
+
+Bursts. Where the power of noise comes and goes, large errors follow large ones, though no error is foretold: |e| has autocorrelations,
+which errors of a linear model do not disturb [ML83]. They are taken of the normal scores of the ranks of |e|, which no law of e changes,
+and those of NEAR lags are held against those of as many FAR ones. A power that rises once, as where a fault sets in, and its colour are no
+bursts: either side of the sample where sums of scores lie farthest off has an autoregression and a mean score of its own. The difference,
+of 2 NEAR of about equal variance 1 / T, is normal.
 
 Outliers are held against the medians of |e| over WINDOW samples before and after them, the larger of both, so that a fault that comes or
 goes is none. The median of normal numbers is normal about its value, with the variance of order statistics, so that e beyond t medians has
@@ -39,6 +45,8 @@ QUARTER = float(scipy.special.ndtri(0.75))
 LEAST_BLOCKS = 4
 """Blocks for each regressor, below which a test is not asked: the beta variable could not reach LEVEL."""
 MOST_TOLD = 5
+NEAR, FAR, SAMPLES_OF_LAG = 5, 25, 10
+"""Lags 1 .. NEAR are those of a burst, and FAR - NEAR + 1 .. FAR those behind it; a side has at least SAMPLES_OF_LAG for each."""
 
 
 def error_doubts(e: Array, u: Array, x: Array, regressors: Array, arx: Arx, outputs: Sequence[str]) -> Iterator[Doubt]:
@@ -47,6 +55,7 @@ def error_doubts(e: Array, u: Array, x: Array, regressors: Array, arx: Arx, outp
     yield from _drift(e, regressors, arx, outputs)
     yield from _non_linearity(e, u, x, regressors, arx, outputs)
     yield from outlier_doubts(e, arx.order, outputs)
+    yield from _bursts(e, outputs)
 
 
 def _drift(e: Array, regressors: Array, arx: Arx, outputs: Sequence[str]) -> Iterator[Doubt]:
@@ -87,6 +96,47 @@ def _non_linearity(e: Array, u: Array, x: Array, regressors: Array, arx: Arx, ou
             "smaller inputs about one operating point, or the curve of actuator or sensor taken off the channels",
             float(chances.min()),
         )
+
+
+def _bursts(e: Array, outputs: Sequence[str]) -> Iterator[Doubt]:
+    chances = np.array([burst_chance(column) for column in e.T]) * len(outputs)
+    seen = [name for name, chance in zip(outputs, chances, strict=True) if chance < LEVEL]
+    if seen:
+        yield Doubt(
+            "bursts",
+            tuple(seen),
+            f"large errors of {named(seen)} follow large ones: the power of the noise comes and goes",
+            "the model suffers little, but its standard errors, and every chance that takes the noise for steady, are too small: onsets, a "
+            "growth of variance and outliers may be such bursts",
+            "state healthy samples that have bursts too, and believe what stays; look whether the plant is run in two ways",
+            float(chances.min()),
+        )
+
+
+def burst_chance(e: Array) -> float:
+    """Return the chance of so much more autocorrelation of |e| (T,) at the lags of a burst than behind them; 1 of few or equal numbers."""
+    least = SAMPLES_OF_LAG * NEAR
+    if len(e) < 4 * least or np.ptp(e) == 0.0:
+        return 1.0
+    rise = int(np.clip(np.argmax(np.abs(np.cumsum(_scores(e)))) + 1, least, len(e) - least))
+    sides = [_own_errors(side) for side in (e[:rise], e[rise:])]
+    split = np.split(_scores(np.concatenate(sides)), [len(sides[0])])
+    scores = np.concatenate([part - part.mean() for part in split])
+    own = float(scores @ scores)
+    near, far = (sum(float(scores[lag:] @ scores[:-lag]) / own for lag in range(last - NEAR + 1, last + 1)) for last in (NEAR, FAR))
+    return float(scipy.special.ndtr(-(near - far) * np.sqrt(len(scores) / (2.0 * NEAR)))) if own > 0.0 else 1.0
+
+
+def _scores(e: Array) -> Array:
+    """Return the normal scores of the ranks of |e| (T,), which have the mean zero."""
+    _, place, counts = np.unique(np.abs(e), return_inverse=True, return_counts=True)
+    return np.asarray(scipy.special.ndtri((np.cumsum(counts) - (counts - 1) / 2)[place] / (len(e) + 1)))
+
+
+def _own_errors(part: Array) -> Array:
+    """Return what an autoregression of NEAR lags leaves of a part (T,) that it was fitted to, (T - NEAR,)."""
+    past = np.column_stack([np.ones(len(part) - NEAR)] + [part[NEAR - i : len(part) - i] for i in range(1, NEAR + 1)])
+    return np.asarray(part[NEAR:] - past @ np.linalg.lstsq(past, part[NEAR:], rcond=None)[0])
 
 
 def outlier_doubts(e: Array, before: int, outputs: Sequence[str]) -> Iterator[Doubt]:

@@ -18,7 +18,7 @@ from ..data.plain import plain
 LEVEL = 1e-3
 """The probability with which a test of one kind raises a doubt, in all channels together, where there is no reason for it."""
 
-TESTED = ("closed loop", "non-linearity", "drift", "outliers", "limits")
+TESTED = ("closed loop", "non-linearity", "drift", "outliers", "bursts", "limits")
 KINDS = (
     *("sampling time", "missing samples", "constant channel", "copies", "operating point", "units", "rounding"),
     *TESTED,

@@ -31,7 +31,7 @@ from ...base.sheets import Shown
 from ..data.plain import plain
 from ..drawing import plot_criteria
 
-REFUSED = 0.01
+REFUSED = 0.01  # the level of a test
 WIDTHS = (9, 6, 8, 8, 5)  # of the columns of the table
 
 

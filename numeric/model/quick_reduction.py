@@ -19,7 +19,7 @@ from .reduction_starts import realisations
 from .weighted_reduction import Reduction, circle, descend
 
 ANGLES = 32
-STEPS, GAIN = 25, 1e-2
+STEPS, GAIN = 25, 1e-2  # of a descent that only makes a start: at most so many, until one gains no more than such a share
 
 
 def quick_reduction(arx: Arx, n: int, steps: int = STEPS) -> StateSpaceModel:

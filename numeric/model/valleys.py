@@ -72,8 +72,9 @@ def in_units(found: ReducedModel) -> tuple[Reduction, Array, Array, Array]:
     the factors of the rows (n + p,) and columns (n + n_u,) of T that lead there."""
     likelihood, n = found.likelihood, found.order
     powers = np.linalg.inv(likelihood.weight), likelihood.spectrum
-    y, u = (np.sqrt(np.einsum("mii->i", power).real / len(power)) for power in powers)
-    u = np.where(u > 0.0, u, 1.0)
+    # An output that nothing disturbs but rounding may come out below zero, and an input without power has none.
+    y, u = (np.sqrt(np.abs(np.einsum("mii->i", power).real) / len(power)) for power in powers)
+    y, u = np.where(y > 0.0, y, 1.0), np.where(u > 0.0, u, 1.0)
     rows, columns = np.concatenate([np.ones(n), 1 / y]), np.concatenate([np.ones(n), u])
     return likelihood.scaled(1 / y, 1 / u, likelihood.samples), system_matrix(found.model) * rows[:, None] * columns, rows, columns
 

@@ -39,8 +39,8 @@ ComplexArray = NDArray[np.complex128]
 RUNG = 100.0
 """Factor between the weights of neighbouring rungs. `python benchmarks/at_the_bound.py --calibrate ladder` compares 10, 100 and no ladder:
 the first two give the same errors; without a ladder one system of the study in ten is far off."""
-DAMPING = 1e-3
-LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e10
+DAMPING = 1e-3  # of the first step, and its bounds: steps find their own
+LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e10  # between those of a step of Newton and of no step at all, to rounding
 REFUSED, ACCEPTED = 6.0, 8.0  # factors by which damping rises after a refused step and falls after an accepted one
 
 

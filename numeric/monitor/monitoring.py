@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any, Self
 
 import numpy as np
@@ -378,13 +377,20 @@ def _learned(model: Any, plant: StateSpaceModel, settings: Settings, record: Rec
 @one_thread()
 def learned_of(found: Any, settings: Settings | None = None) -> Learned:
     """Return what the record of an Identification teaches: of the samples that were stated to be healthy; else of those before the first
-    onset that leaves enough; else of the whole record. A note says which, where none were stated.
+    onset that leaves enough; else of the whole record. A note says which, where none were stated. Of several experiments, which do not go
+    on from one to the next and have operating points of their own, it is the longest.
 
     Without `settings` the window is WINDOW, or what so few samples allow. Raises InvalidData where these are too few for any, or there is
     no noise.
     """
     plant = _plant(found)
-    record = replace(found.record, offset=np.zeros_like(found.record.offset))  # a stream comes as it is measured
+    one, which = found, ""
+    if found.parts and found.healthy is None:
+        number = int(np.argmax([len(part.record) for part in found.parts]))
+        one, which = found.parts[number], f" of experiment {number + 1}, the longest,"
+    own = found.operating_point.by_experiment
+    # A stream comes as it is measured.
+    record = one.record.about(-own[number] if which and own else np.zeros_like(one.record.offset))
 
     def of(samples: int, *notes: str) -> Learned:
         part = record.beginning(min(samples, MOST, NUMBERS // (MOST_LAGS * (record.p + record.n_u))))
@@ -397,12 +403,13 @@ def learned_of(found: Any, settings: Settings | None = None) -> Learned:
 
     if isinstance(found.healthy, int):
         return of(found.healthy)
-    starts = [] if found.onset is None else [onset.interval[0] for onset in found.onset.onsets]
+    starts = [] if one.onset is None else [onset.interval[0] for onset in one.onset.onsets]
     for number, first in enumerate(starts):
         among = f", though it changes before, at sample {starts[0]}" if number else ""
         try:
             made = of(
-                first, f"no samples were stated to be without fault: the first {first} count as such, before the residual changes{among}"
+                first,
+                f"no samples were stated to be without fault: the first {first}{which} count as such, before the residual changes{among}",
             )
         except InvalidData:
             continue  # too few
@@ -410,8 +417,8 @@ def learned_of(found: Any, settings: Settings | None = None) -> Learned:
             return made
     return of(
         len(record),
-        "no samples were stated to be without fault: all that the model is from count as such, so that a fault like one that acted there "
-        "gives no alarm; a record without fault beside the model mends that",
+        f"no samples were stated to be without fault: all{which or ' that the model is from'} count as such, so that a fault like one that "
+        "acted there gives no alarm; a record without fault beside the model mends that",
     )
 
 

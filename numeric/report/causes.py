@@ -1,6 +1,7 @@
 """This is what `identify` writes and says of the residual, its onsets and single causes.
 
 onset_lines       the onsets, in lines of Markdown
+after_healthy     which sample of the record after a healthy one of its own a sample is
 isolation_lines   which single cause explains a shift of the mean, and which the faults, with the angles in a table
 told              all of it in JSON
 residual_table    residual.csv: a line a sample
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from ..space.shift_isolation import ShiftIsolation
 
 RESIDUAL = "residual.csv"
+MOST_ONSETS = 6  # that the summary tells
+EARLY = 4  # onsets in the first of so many parts of a record may be its start
 CAUSES_DRAWN = ("residual.png", "isolation.png")
 
 
@@ -39,23 +42,42 @@ def onset_lines(answer: Findings) -> Iterator[str]:
     if not found.onsets:
         yield f"**no onset**: {found.reason}"
         return
-    for onset in found.onsets:
+    for onset in found.onsets[:MOST_ONSETS]:
         first, last = onset.interval
-        begins = answer.healthy_record and onset.sample == found.healthy
-        where = f"sample {onset.sample}" + (", the first of the record after the healthy one" if begins else "")
+        where = f"sample {onset.sample}{after_healthy(answer, onset.sample)}"
         within = f"between {first} and {last} with probability {found.confidence:g}"
         yield f"onset at **{where}**, {within}; chance without a change: {onset.p_value:.2g}"
         changed = ", ".join(outputs[j] for j in onset.changed) or "none by itself, all of them together"
         yield f"outputs that change: {changed}"
+    if len(found.onsets) > MOST_ONSETS:
+        yield (
+            f"{len(found.onsets)} onsets in all, of which the first {MOST_ONSETS} are told here, and all in {RESIDUAL} and the JSON: noise "
+            "whose power comes and goes, or a plant that is driven elsewhere, has so many; a fault that comes and stays has one or a few"
+        )
+    start = found.onsets[-1].stretch[0]
+    if found.healthy is None and EARLY * start <= found.samples:
+        yield (
+            f"from sample {start} on the residual is alike to the end: a start-up that had not died out, or a fault from early on; "
+            f"identified again without the first {start} samples, a start-up has no onset"
+        )
+    if answer.healthy_record and any(onset.interval[0] <= (found.healthy or 0) <= onset.interval[1] for onset in found.onsets):
+        yield "an onset where the healthy record ends: both differ from the first sample on, by a fault, or by how the plant was run"
     yield "size of the fault's part in each output after it, in sigmas; how far the mean moves, in sigmas; the factor of the deviation:"
     width = max(6, *(len(name) for name in outputs))
     yield f"    {'from sample':>12}  {'output':<{width}}  {'sigmas':>8}  {'mean':>8}  {'deviation':>9}"
-    for onset in found.onsets:
+    for onset in found.onsets[:MOST_ONSETS]:
         rows = zip(outputs, onset.size, onset.shift, onset.growth, strict=True)
         yield from (f"    {onset.sample:>12}  {name:<{width}}  {a:>8.3g}  {b:>8.3g}  {c:>9.3g}" for name, a, b, c in rows)
     start, stop = found.reference
     yield f"one sigma is the deviation of the residual in samples {start} to {stop - 1}: {_sizes(outputs, found.deviation)}"
     yield f"why: {found.reason}; {RESIDUAL} has the residual, sample by sample"
+
+
+def after_healthy(answer: Findings, sample: int) -> str:
+    """Return which sample of the record after the healthy one this is, where that is a record of its own."""
+    if not answer.healthy_record or answer.healthy is None or sample < answer.healthy:
+        return ""
+    return f", sample {sample - answer.healthy} of the record after the healthy one"
 
 
 def isolation_lines(answer: Findings) -> Iterator[str]:

@@ -17,6 +17,7 @@ import numpy as np
 from ...base.errors import quote_path
 from ...base.page import Picture, Tile, page
 from ...base.sheets import counted
+from .causes import after_healthy
 from .summary import fit, markdown, missed_levels
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ CAPTIONS = {
     ),
     "singular-values.png": (
         "Model",
-        "The singular values of PI-MOESP; an order shows as a gap behind as many of them.",
+        "The singular values behind the order: those that PI-MOESP or the ARX model has; an order shows as a gap behind as many of them.",
         "Falling singular values on a logarithmic scale, with the order marked.",
     ),
     "window-ranks.png": (
@@ -152,7 +153,9 @@ def _causes(answer: Findings) -> Iterator[Tile]:
         first, last = onset.onsets[0].interval
         more = f" {counted(len(onset.onsets) - 1, 'more onset follows', 'more onsets follow')}." if len(onset.onsets) > 1 else ""
         yield Tile(
-            "Onset", f"sample {onset.onsets[0].sample}", f"It lies in {first} to {last} with probability {onset.confidence:g}.{more}"
+            "Onset",
+            f"sample {onset.onsets[0].sample}{after_healthy(answer, onset.onsets[0].sample)}",
+            f"It lies in {first} to {last} with probability {onset.confidence:g}.{more}",
         )
     if shift is not None and shift.decided:
         yield Tile("Cause", shift.answer, "This is told by the direction in which the mean of the residual moved.")

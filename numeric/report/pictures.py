@@ -16,6 +16,7 @@ PICTURES     the names of the files
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
@@ -42,7 +43,7 @@ PICTURES = (
     *CAUSES_DRAWN,
 )  # fmt: skip
 PICTURED = 300  # samples of a detail
-WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)
+WIDE, SQUARE, TALL = (8.0, 4.6), (5.2, 5.2), (8.0, 6.4)  # inches
 
 
 def pictures(answer: Findings, folder: Path) -> list[str]:
@@ -54,7 +55,9 @@ def pictures(answer: Findings, folder: Path) -> list[str]:
     for name, size, draw in _drawings(answer):
         picture = figure.Figure(figsize=size, layout="constrained")
         draw(picture)
-        picture.savefig(folder / name, dpi=130)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # letters that the font lacks are drawn as boxes, long names leave less room
+            picture.savefig(folder / name, dpi=130)
     return []
 
 

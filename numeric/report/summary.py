@@ -22,7 +22,7 @@ from ..model.invariants import half_transfers, system_matrix
 from ..model.reduced_model import ReducedModel
 from ..operating_point import ZERO
 from .by_experiment import experiment_lines
-from .causes import isolation_lines, onset_lines
+from .causes import after_healthy, isolation_lines, onset_lines
 from .physical import mode_lines
 
 if TYPE_CHECKING:
@@ -82,6 +82,7 @@ def summary(answer: Findings, data: str, *, worded: Callable[[str], str] = str) 
         yield ""
         yield "## Faults"
         yield f"number of independent faults n_v: **{_count(answer)}{_condition(answer)}**"
+        yield from _changed_all_the_same(answer)
         yield f"why: {worded(answer.reason)}"
         said = (answer.reason, answer.against.reason if answer.against else "", answer.dimension.reason if answer.dimension else "")
         if any(word in reason for reason in said for word in (" law", " row")):
@@ -233,6 +234,18 @@ def _healthy_lines(answer: Findings) -> Iterator[str]:
     taken = f"; taken: {answer.counted_by}" if answer.counted_by else ""
     yield f"against the healthy samples {first} to {until - 1}: {_said(against.n_v)} ({against.reason})"
     yield f"from the residual alone: {_said(alone.n_v)} ({alone.reason}){taken}" if alone else f"from the residual alone: none{taken}"
+
+
+def _changed_all_the_same(answer: Findings) -> Iterator[str]:
+    """Yield, where no number is told, that the residual has become another one all the same."""
+    onset = answer.onset
+    if answer.n_v is None and onset is not None and onset.onsets:
+        first = onset.onsets[0]
+        names = _several([answer.record.outputs[i] for i in first.changed]) or "all outputs together"
+        yield (
+            f"something changes at sample {first.sample}{after_healthy(answer, first.sample)}, in {names} (see the onset); open is how "
+            "many independent faults that takes, and whether it is a fault or the plant driven elsewhere"
+        )
 
 
 def _law_lines(answer: Findings) -> Iterator[str]:

@@ -9,8 +9,9 @@ k signals; hence rows of degree d are as likely as those of degree D > d or less
 which, where d suffices, follows a chi-squared law with (D - d) (p + n_u) degrees of freedom [W38] multiplied by a misfit. Two things
 keep the misfit above one. At d the parameters of D are not identified: rows of D are rows of d times factors that can have any root, and
 the best root is taken, a maximum over a process that has the stated law at each root [D87]. And the colour of the noise is an
-autoregression of finite order. So the misfit is measured: `benchmarks/counting_at_the_bound.py calibrate` does it on fresh seeds, and
-the parametric bootstrap for a given record.
+autoregression of finite order. So the misfit is measured: `benchmarks/degree_misfits.py` does it on fresh seeds, and the parametric
+bootstrap for a given record. Faults that leave frequencies to the noise add to it: there rows of higher degree turn to where the noise
+happens to be least.
 
     LeastDegree    the degree, the levels of all degrees, the probability that each suffices, and whether the answer is clear
     least_degree   from the fits of a course
@@ -30,12 +31,12 @@ from ...base.chi_squared import chi_squared_tail
 from ..space.basis import KernelBasis
 from .joint import ROUNDING, JointMoments
 
-# Set by hand, for the number of zeros alone.
+# Levels of the test; how often zeta is wrong under them, `benchmarks/space_at_the_bound.py` counts.
 ENOUGH, TOO_LOW = 0.01, 1e-6
-# Means of the ratio over its degrees of freedom where the degree suffices, for one degree more and for several. One more frees a real root,
-# several free pairs of roots, which can stand at any frequency; so the second is larger. Neither grows with N, because the moments have no
-# more bands.
-MISFITS = (1.6, 3.2)
+# What the ratio over its degrees of freedom exceeds one by where the degree suffices, and what it gains by each root of a sample that the
+# faults leave free, for one degree more and for several. One more frees a real root, several free pairs of roots, which can stand at any
+# frequency; so the second is larger. `python benchmarks/degree_misfits.py` prints the quantile regression.
+SLACK, LOOSE = 0.6, (0.8, 1.9)
 # Samples up to which these hold. Within a band of the moments the rows are taken at its middle: that leaves an error of the level, some
 # 1e-4 nats, which does not fall with N, so that on longer records the ratio would end by refusing every degree. They are judged as if
 # they had so many samples.
@@ -69,7 +70,17 @@ def freedom(data: JointMoments, low: KernelBasis, high: KernelBasis) -> int:
     return (_total(high) - _total(low)) * data.moments.channels
 
 
-def excess(data: JointMoments, low: KernelBasis, high: KernelBasis, misfits: Sequence[float] = MISFITS) -> float:
+def misfits(most: int, data: JointMoments, loose: float) -> list[float]:
+    """Return what the ratio over its degrees of freedom is, as a rule, for 1 to `most` degrees more where the degree suffices.
+
+    Faults leave so many `loose` samples free: at their frequencies rows turn to where the noise happens to be least, which lies below its
+    mean by a multiple of one over the root of their number.
+    """
+    channels = data.moments.channels
+    return [1 + SLACK + LOOSE[min(more, len(LOOSE)) - 1] * loose**0.5 / (more * channels) for more in range(1, most + 1)]
+
+
+def excess(data: JointMoments, low: KernelBasis, high: KernelBasis, misfits: Sequence[float]) -> float:
     """Return the probability of a ratio at least as large, if the lower total degree suffices.
 
     misfits[i] is the misfit for i + 1 degrees more, and the last one is that for all beyond.
@@ -83,7 +94,7 @@ def _total(fit: KernelBasis) -> int:
     return sum(len(row) - 1 for row in fit.rows)
 
 
-def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, most: int, misfits: Sequence[float] = MISFITS) -> LeastDegree:
+def least_degree(data: JointMoments, fits: Sequence[KernelBasis], least: int, most: int, misfits: Sequence[float]) -> LeastDegree:
     """Choose among `fits` with total degrees 0, 1, ..; `least` and `most` bound what the structure allows; fits beyond test the order."""
     top = len(fits) - 1
     # The least favourable comparison, counted as many times as there are comparisons.

@@ -88,14 +88,7 @@ class Evidence:
         scale, p = self.data.scale, self.data.p
         if self.given is not None:
             return self.given.arx.scaled(1 / scale[:p], 1 / scale[p:])
-        sources = [experiment(y, u) for y, u in self.experiments]
-        try:
-            lengths, lags = lengths_and_lags(sources, self.order, None)
-            windows = merge_windows([arx_windows(source, lags) for source, length in zip(sources, lengths, strict=True) if length > lags])
-            y, u = windows.scales
-            return fitted_arx(windows, -(-self.order // p)).scaled(y / scale[:p], u / scale[p:])
-        except InvalidData:
-            return None
+        return arx_of(self.experiments, self.order, scale)
 
     @cached_property
     def quick(self) -> StateSpaceModel | None:
@@ -151,6 +144,19 @@ class Evidence:
             return p // 2
         powers = rest.weights @ np.log(np.maximum(np.linalg.eigvalsh(rest.powers), TINY))
         return 1 + int(np.argmax(np.diff(powers)))
+
+
+def arx_of(experiments: Sequence[tuple[Array, Array]], order: int, scale: Array) -> Arx | None:
+    """Return the ARX model of experiments (y, u) for this order, in units (p + n_u,) of the channels, or None where they give none."""
+    p = experiments[0][0].shape[1]
+    sources = [experiment(y, u) for y, u in experiments]
+    try:
+        lengths, lags = lengths_and_lags(sources, order, None)
+        windows = merge_windows([arx_windows(source, lags) for source, length in zip(sources, lengths, strict=True) if length > lags])
+        y, u = windows.scales
+        return fitted_arx(windows, -(-order // p)).scaled(y / scale[:p], u / scale[p:])
+    except InvalidData:
+        return None
 
 
 def longest_degree(y: Array, u: Array) -> int:

@@ -17,6 +17,7 @@ S the cross-spectral moments of [y; u]. Without noise the rows are exactly those
     fitted          rows of given degrees from given starts and from those that the moments make least
     refitted        rows from one start alone
     course          one fit for every total degree 0, 1, .., each started from the one before
+    polished        the fits of a course, descended again for moments in finer bands
 """
 
 from __future__ import annotations
@@ -36,6 +37,8 @@ from ..space.tapered_moments import BANDS, CrossMoments, about_means, pooled_mom
 
 # Turns of colour and rows: the level moves by less than a thousandth of a nat afterwards.
 ROUNDS = 5
+# And of colour and rows that begin near their end.
+TURNS = 2
 # Rows of the largest moments that are fitted in an identification. A budget of time: fits take the cube of their number, 1 CPU second a
 # count at 35 rows, so that so many take some twenty. It decides no number.
 LARGEST = 100
@@ -163,6 +166,24 @@ def course(data: JointMoments, rows: int, most: int, *, shares: Array | None = N
         starts = [padded(fits[-1].rows, degrees), padded(fits[-1].rows, degrees, below=True)] if fits else []
         fits.append(fitted(data, degrees, starts, shares=shares, rounds=rounds))
     return fits
+
+
+def polished(data: JointMoments, fits: Sequence[KernelBasis], least: int, shares: Array | None = None) -> list[KernelBasis]:
+    """Return the fits of a course, those of total degree `least` and more descended again for moments in finer bands.
+
+    Within a band the rows are taken at its middle. A row of higher degree gains by that where it turns fast, and the more the more samples
+    a band has, so that likelihoods of different degrees are compared in narrow bands. Each is the better of the descents from
+    the row of the course and from the row before.
+    """
+    flat, found = 1 / data.samples, list(fits)
+    for total in range(least, len(fits)):
+        degrees = even_split(total, len(fits[total].rows))
+        starts = [fits[total].rows]
+        if total > least:
+            starts += [padded(found[total - 1].rows, degrees), padded(found[total - 1].rows, degrees, below=True)]
+        trials = [refitted(data, degrees, start, shares=shares, rounds=TURNS, flat=flat) for start in starts]
+        found[total] = min(trials, key=lambda trial: trial.level)
+    return found
 
 
 def padded(rows: Sequence[Array], degrees: Sequence[int], *, below: bool = False) -> list[Array]:

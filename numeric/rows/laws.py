@@ -42,7 +42,7 @@ from .bootstrap import redrawn
 from .evidence import EXTRA, Evidence
 from .joint import JointMoments, course, even_split, fitted, padded, refitted
 from .model_rows import model_rows
-from .remainder import Remainder, Sphericity, noise_shares, remainder, sphericity, whitened
+from .remainder import Remainder, Sphericity, loose_samples, noise_shares, remainder, sphericity, whitened
 
 # Turns of noise shares and rows, among the rows that a model admits and among all.
 TURNS = 4
@@ -108,7 +108,8 @@ class Laws:
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict of the numbers that the answer rests on; the ratio of sphericity is null of a single row."""
-        shape = None if self.sphericity is None else {"nats": plain(self.sphericity.nats), "expected": plain(self.sphericity.expected)}
+        found = self.sphericity
+        shape = None if found is None else {"log_likelihood_ratio": plain(found.nats), "expected": plain(found.expected)}
         return {
             "rows": self.count,
             "holds": self.holds,
@@ -259,20 +260,10 @@ def single_misfits(evidence: Evidence, fit: KernelBasis, shares: Array, freedoms
     """
     data = evidence.single
     band = data.samples / (2 * len(data.moments.angles))
-    loose = loose_samples(evidence, fit, shares)
+    rest = evidence.disturbance
+    loose = 0.0 if rest is None else loose_samples(rest, data, fit, shares)
     terms = zip(CROWDED, LOOSE, freedoms, strict=False)
     return tuple(1 + crowded / band**0.5 + free * loose**0.5 / freedom for crowded, free, freedom in terms)
-
-
-def loose_samples(evidence: Evidence, fit: KernelBasis, shares: Array) -> float:
-    """Return how many complex samples stand at frequencies where the faults leave two directions or more to the noise: where they add less
-    than the noise itself to the second least power of the disturbance."""
-    rest = evidence.disturbance
-    if rest is None or len(shares) < 2:
-        return 0.0
-    powers = np.linalg.eigvalsh(rest.powers / np.sqrt(shares[:, None] * shares))
-    noise = np.exp(fit.level) * np.interp(rest.angles, evidence.single.moments.angles, fit.spectrum)
-    return float(rest.weights @ (powers[:, 1] < 2 * noise)) * evidence.single.samples / 2
 
 
 def bootstrapped(evidence: Evidence, laws: Laws, draws: int) -> Laws:

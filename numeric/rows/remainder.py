@@ -73,6 +73,17 @@ def remainder(data: JointMoments, fit: KernelBasis) -> Remainder:
     return Remainder(np.asarray(E), np.asarray(gains, dtype=complex), moments.weights, moments.angles, moments.samples)
 
 
+def loose_samples(rest: Remainder, data: JointMoments, fit: KernelBasis, shares: Array) -> float:
+    """Return how many complex samples stand at frequencies where the faults leave more directions to the noise than there are rows: where
+    they add less than the noise itself to the least power of the disturbance but that of the rows. `rest` is that of p signals."""
+    count = len(fit.rows)
+    if count >= len(shares):
+        return 0.0
+    powers = np.linalg.eigvalsh(rest.powers / np.sqrt(shares[:, None] * shares))
+    noise = np.exp(fit.level) * np.interp(rest.angles, data.moments.angles, fit.spectrum)
+    return float(rest.weights @ (powers[:, count] < 2 * noise)) * data.samples / 2
+
+
 def noise_shares(rest: Remainder, start: Array) -> Array:
     """Estimate lam (p,), from `start`, for noise of any spectrum that changes little over a band of the test.
 

@@ -30,6 +30,7 @@ from ...base.threads import one_thread
 from ..count.arguments import shaped
 from ..count.windows import ObservedCoordinates, channel_sizes, observed_coordinates
 from ..data.validation import noise_deviations, positive, signals
+from ..model.arx import Arx
 from ..model.last_state import last_state
 from ..model.models import StateSpaceModel, observability_matrix
 from ..model.reduced_model import ReducedModel
@@ -38,13 +39,20 @@ from ..model.valleys import valleys
 from ..space.basis import KernelBasis
 from ..space.largest import largest_fault_space
 from ..space.result import FaultSpaceEstimate, SpaceOfValley, SpaceUncertainty, everything, kernel_conditions, orthonormal
+from ..space.tapered_moments import BANDS, SEGMENT
 from ..space.uncertainty import space_uncertainty, turned_by_model
 from .bootstrap import redrawn
-from .degree import MISFITS, LeastDegree, freedom, least_degree, likelihood_ratio
-from .evidence import longest_degree
-from .joint import JointMoments, course, even_split, fitted, joint_moments, joint_moments_experiments, padded, refitted
+from .degree import SLACK, LeastDegree, freedom, least_degree, likelihood_ratio, misfits
+from .evidence import arx_of, longest_degree
+from .from_above import from_above
+from .joint import JointMoments, course, even_split, joint_moments, joint_moments_experiments, padded, polished, refitted
+from .remainder import as_signals, loose_samples
 
 Experiments = Sequence[tuple[Array, Array]]
+# Frequencies of a segment in each band of the likelihoods that decide.
+A_BAND = 4
+# Entries of their moments that are held at once: 64 MB of complex numbers. A budget of memory.
+NUMBERS = 2**22
 # Total degrees beyond the order by which it is tested.
 BEYOND = 1
 SEED = 20251123
@@ -104,7 +112,8 @@ def identified_fault_space(
     records: models with other poles that explain the data as well (`numeric/model/valleys.py`). The space is that of the given model; the
     angle is over all valleys, each with its probability. In each of them the covariance of A and C is carried to the space to first order
     [MN89], widened by what `benchmarks/space_at_the_bound.py --calibrate` measures, and added to that of the rows. Both take the order
-    and the number of zeros as right. Zeros are undecided where the data would rather do with a state less: one too many is a zero too many.
+    and the number of zeros as right. A state too many is a zero too many: where the data would rather do with a state less, zeros are
+    undecided if the data chose the order, and hold for the order that was given, which the reason then says.
     The benchmark counts how often the angle holds; one above half a radian says that the space is hardly known. The basis is in the
     states of the model and the units of y; the states are matched with the true ones by least squares of the observability matrices.
     Raises InvalidData as
@@ -121,7 +130,7 @@ def identified_fault_space(
     """
     records = _experiments(y, u)
     outputs, A, C = shaped(_outputs(records), model.model.A, model.model.C)
-    rows = _fitted(records, outputs, A, C, n_v, noise_level, draws)
+    rows = _fitted(records, outputs, A, C, n_v, noise_level, draws, model.arx)
     if isinstance(rows, FaultSpaceEstimate):
         return rows
     known = valleys(model)
@@ -133,9 +142,10 @@ def identified_fault_space(
 
 
 def _with_order(found: FaultSpaceEstimate, model: ReducedModel) -> FaultSpaceEstimate:
-    """Return the estimate, undecided where the data would rather do with a state less: each surplus state would be one of the zeros.
+    """Return the estimate with its condition where the data would rather do with a state less: a surplus state would be one of the zeros.
 
-    Without zeros the rows themselves need the order.
+    It is undecided where the data chose the order, and holds for the order that was given, which it says. Without zeros the rows
+    themselves need the order.
     """
     if not found.decided or found.n_z == found.n_v:
         return found
@@ -143,6 +153,10 @@ def _with_order(found: FaultSpaceEstimate, model: ReducedModel) -> FaultSpaceEst
     if last.worth >= 1:
         return found
     doubt = f"order {found.n - 1} explains the data nearly as well (likelihood ratio {last.gain:.2g} with {last.parameters} parameters)"
+    if model.orders is None:
+        return replace(
+            found, reason=f"if the order is {found.n}, as given: {found.reason}; {doubt}, and a state too many is a zero too many"
+        )
     return replace(
         found,
         decided=False,
@@ -183,9 +197,11 @@ class _Solved:
 
 def _turn(outputs: Array, target: StateSpaceModel, source: StateSpaceModel) -> Array:
     """Return the map (n, n) of the states of one model to those of another, by least squares of what the outputs show of them."""
+    if not target.n or not source.n:
+        return np.zeros((target.n, source.n))
     sizes = np.tile(channel_sizes(outputs), 2 * target.n)[:, None]
     seen, given = (observability_matrix(model.A, model.C, 2 * target.n) / sizes for model in (target, source))
-    return np.asarray(np.linalg.lstsq(seen, given, rcond=None)[0], dtype=np.float64) if target.n else np.zeros((0, 0))
+    return np.asarray(np.linalg.lstsq(seen, given, rcond=None)[0], dtype=np.float64)
 
 
 def _of_states(uncertainty: Uncertainty) -> Array:
@@ -209,16 +225,35 @@ def _outputs(records: Experiments) -> Array:
     return records[0][0] if len(records) == 1 else np.vstack([y for y, _ in records])
 
 
-def pooled(records: Experiments, degree: int) -> JointMoments:
+def pooled(records: Experiments, degree: int, bands: int = BANDS) -> JointMoments:
     """Return the moments of the experiments (y, u) that are long enough for rows up to this degree: all of one, so that it says itself what
-    it lacks. Bands follow from the samples of all together, which a short one need not fill by itself. Raises InvalidData as
-    `joint_moments`."""
+    it lacks. Bands, at most so many, follow from the samples of all together, which a short one need not fill by itself. Raises
+    InvalidData as `joint_moments`."""
     kept = [record for record in records if longest_degree(*record) >= degree]
-    return joint_moments_experiments(kept or [max(records, key=lambda record: len(record[0]))], degree)
+    return joint_moments_experiments(kept or [max(records, key=lambda record: len(record[0]))], degree, bands)
+
+
+def _narrow(data: JointMoments) -> int:
+    """Return into how many bands the moments are split, at most, for the likelihoods that decide."""
+    return min(SEGMENT // 2 // A_BAND, NUMBERS // data.moments.moments[0].size)
+
+
+def _loose(records: Experiments, data: JointMoments, fit: KernelBasis, shares: Array, n: int, arx: Arx | None) -> float:
+    """Return how many samples stand at frequencies where the faults leave more directions to the noise than there are rows."""
+    p = data.p
+    found = arx_of(records, n, data.scale) if arx is None else arx.scaled(1 / data.scale[:p], 1 / data.scale[p:])
+    return 0.0 if found is None else loose_samples(as_signals(found.disturbance(data.moments.angles), data.moments), data, fit, shares)
 
 
 def _fitted(
-    records: list[tuple[Array, Array]], outputs: Array, A: Array, C: Array, n_v: int, noise_level: ArrayLike | None, draws: int
+    records: list[tuple[Array, Array]],
+    outputs: Array,
+    A: Array,
+    C: Array,
+    n_v: int,
+    noise_level: ArrayLike | None,
+    draws: int,
+    arx: Arx | None = None,
 ) -> _Rows | FaultSpaceEstimate:
     """Return the rows of the total degree that the data accept, or what there is to say where no row is left."""
     p, n = C.shape
@@ -243,13 +278,15 @@ def _fitted(
     if noise_level is not None:
         powers = (noise_deviations(noise_level, p) / data.scale[:p]) ** 2
         shares = powers / np.exp(np.mean(np.log(powers)))
-    fits = course(data, rows, seen + BEYOND, shares=shares)
-    chosen = least_degree(data, fits, n + faults - largest, seen)
-    misfits: Sequence[float] = MISFITS
+    coarse = from_above(data, course(data, rows, seen + BEYOND, shares=shares), shares=shares)
+    data = pooled(records, data.degree, _narrow(data))
+    fits = polished(data, coarse, n + faults - largest, shares)
+    expected = misfits(len(fits) - 1, data, _loose(records, data, fits[-1], shares, n, arx))
+    chosen, widened = least_degree(data, fits, n + faults - largest, seen, expected), 1 + SLACK
     if draws:
-        misfits = _misfits(*records[0], data, fits, chosen, shares, draws)
-        chosen = least_degree(data, fits, n + faults - largest, seen, misfits)
-    return _Rows(data, fits[chosen.degree], chosen, faults, largest, misfits[0])
+        found = _misfits(*records[0], data, fits, chosen, shares, draws)
+        chosen, widened = least_degree(data, fits, n + faults - largest, seen, found), found[0]
+    return _Rows(data, fits[chosen.degree], chosen, faults, largest, widened)
 
 
 def _solved(rows: _Rows, outputs: Array, A: Array, C: Array, model_root: Array) -> _Solved:
@@ -306,13 +343,13 @@ def _misfits(
     """Return the means of the ratios over their degrees of freedom, for one degree more, two, .., on records made from the chosen fit."""
     ratios = []
     for record in redrawn(y, u, data, fits[chosen.degree], shares, draws, SEED):
-        again = joint_moments(record, u, data.degree)
+        again = joint_moments(record, u, data.degree, len(data.moments.angles))
         count = len(fits[0].rows)
         steps = [refitted(again, even_split(chosen.degree, count), fits[chosen.degree].rows, shares=shares)]
         for total in range(chosen.degree + 1, len(fits)):
             degrees = even_split(total, count)
-            starts = [padded(steps[-1].rows, degrees), padded(steps[-1].rows, degrees, below=True)]
-            steps.append(fitted(again, degrees, starts, shares=shares))
+            starts = [fits[total].rows, padded(steps[-1].rows, degrees), padded(steps[-1].rows, degrees, below=True)]
+            steps.append(min((refitted(again, degrees, start, shares=shares) for start in starts), key=lambda fit: fit.level))
         ratios.append([likelihood_ratio(again, steps[0], step) / freedom(again, steps[0], step) for step in steps[1:]])
     return [max(float(mean), 1.0) for mean in np.mean(ratios, axis=0)] or [1.0]
 

@@ -42,7 +42,7 @@ FADED = 1e-6
 # Steps after which gains that have not settled are used as they are (zeros on the unit circle); refinement makes up
 # for it.
 MOST_GAINS = 5000
-SETTLED = 1e-13
+SETTLED = 1e-13  # relative change of a refinement at the level of rounding
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from ...base.arrays import Array
 
-TOLERANCE = 1e-9
+TOLERANCE = 1e-9  # of the largest singular value, a million roundings: below it a rank is lost, an opinion as the head says
 
 
 @dataclass(frozen=True)

@@ -158,6 +158,11 @@ class _Problem:
         return self.spread.reshape(len(self.spread), -1)
 
     @cached_property
+    def parts(self) -> Array:
+        """The real parts of the moments and their imaginary parts, (2, bands, w, w): products with real rows need half the work."""
+        return np.stack([self.data.real, self.data.imag])
+
+    @cached_property
     def traces(self) -> Array:
         """The power (bands,) of the windows."""
         return np.asarray(np.einsum("bii->b", self.data).real)
@@ -221,9 +226,9 @@ class _Point:
     W = (N Y)^-1 (bands, k, k), and tr[W E] a row in each band, `power` (bands,)."""
 
     h: Array
-    X: ComplexArray
+    X: ComplexArray | Array
     Y: ComplexArray
-    E: ComplexArray
+    E: ComplexArray | Array
     W: ComplexArray
     power: Array
 
@@ -236,7 +241,10 @@ def _point(problem: _Problem, h: Array) -> _Point:
     N = problem.rows(h)
     k, lags = len(N), len(problem.powers[0])
     bands, width = problem.data.shape[:2]
-    X = (problem.data.reshape(-1, width) @ N.T.astype(complex)).reshape(bands, width, k)
+    # Of a single row N S N' is that of the real part of S, and the imaginary one is asked by the derivatives alone.
+    parts = problem.parts if k > 1 else problem.parts[:1]
+    products = (parts.reshape(-1, width) @ N.T).reshape(-1, width, k)
+    X = _complex(products) if k > 1 else products
     gains = (problem.powers @ N.reshape(k, lags, -1).transpose(1, 0, 2).reshape(lags, -1)).reshape(bands, k, -1)
     weighted = gains.conj() * problem.shares
     Y = (problem.powers[:, :, None, None] * weighted.transpose(0, 2, 1)[:, None]).reshape(bands, width, k)
@@ -260,7 +268,9 @@ def _derivatives(problem: _Problem, colour: Array, at: _Point) -> tuple[Array, A
     """Return half the gradient of the cost, half its second derivatives, and the part of these that the scores' variance is made of."""
     X, Y, E, W = at.X, at.Y, at.E, at.W
     if len(problem.degrees) == 1:
-        return _derivatives_of_one(problem, colour, X[:, :, 0], Y[:, :, 0], E[:, 0, 0].real, W[:, 0, 0].real)
+        row = problem.rows(at.h)[0]
+        whole = _complex(np.concatenate([X[:, :, 0], (problem.parts[1].reshape(-1, len(row)) @ row).reshape(len(X), -1)]))
+        return _derivatives_of_one(problem, colour, whole, Y[:, :, 0], E[:, 0, 0].real, W[:, 0, 0].real)
     bleach = 1 / colour[:, None, None]
     XW, YW = (X * bleach) @ W, Y @ W
     M = W @ (E * bleach) @ W
@@ -268,7 +278,8 @@ def _derivatives(problem: _Problem, colour: Array, at: _Point) -> tuple[Array, A
     # -X W Y' - Y W X' + Y M Y' as two products: half of the last joins each of the first.
     half = (YM / 2 - XW) @ Yh
     # Indices (row, coefficient) of both factors of every product of two matrices, one (row, row), one (w, w).
-    scores = np.tensordot(W * bleach, problem.data, axes=(0, 0)).real
+    WB = W * bleach
+    scores = np.tensordot(np.concatenate([WB.real, -WB.imag]), problem.parts.reshape(-1, *problem.data.shape[1:]), axes=(0, 0))
     scores = scores + np.tensordot(W, half + half.conj().transpose(0, 2, 1), axes=(0, 0)).real
     second = scores + np.tensordot(M, YW @ Yh, axes=(0, 0)).real - problem.noise(M).real
     scores, second = scores.transpose(1, 2, 0, 3), second.transpose(1, 2, 0, 3)
@@ -289,7 +300,7 @@ def _derivatives_of_one(
     weight = W / colour
     left = (Y.T * (W**2 * E / colour / 2) - X.T * weight) * W
     crossed = _real_product(left, Y.conj())
-    scores = np.tensordot(weight, problem.data.real, axes=1) + crossed + crossed.T
+    scores = np.tensordot(weight, problem.parts[0], axes=1) + crossed + crossed.T
     power = W**2 * E / colour
     change = Y.T * power - X.T * weight
     mixed = _real_product(Y.T * W, change.T)
@@ -299,6 +310,14 @@ def _derivatives_of_one(
     gradient = -spread @ change.sum(axis=1).real
     second = spread @ second @ spread.T
     return gradient, (second + second.T) / 2, spread @ scores @ spread.T
+
+
+def _complex(parts: Array) -> ComplexArray:
+    """Return complex numbers of which the first half of the rows are the real parts and the second the imaginary ones."""
+    real, imaginary = np.split(parts, 2)
+    found = np.empty(real.shape, dtype=np.complex128)
+    found.real, found.imag = real, imaginary
+    return found
 
 
 def _real_product(A: ComplexArray, B: ComplexArray) -> Array:

@@ -22,7 +22,7 @@ from .tapered_moments import CrossMoments
 
 # Splits tried, and the nats a sample by which the joint level may lie above that of single rows before another is.
 SPLITS = 6
-SLACK = 0.3
+SLACK = 0.3  # nats above the best split up to which another is a start, too; it decides which descents are made, and no answer
 
 
 def joint_basis(

@@ -132,6 +132,7 @@ def _moments(r: Array, degree: int, bands: int, constant: bool) -> CrossMoments:
     doubled[0] = 1.0
     doubled[-1] = 2.0 - (length % 2 == 0)
     band = np.minimum(np.arange(frequencies) * 2 * bands // length, bands - 1)
+    edges = np.searchsorted(band, np.arange(bands + 1))
     moments = np.zeros((bands, size, size), dtype=np.complex128)
     centre = np.zeros(size)
     if constant:
@@ -142,7 +143,7 @@ def _moments(r: Array, degree: int, bands: int, constant: bool) -> CrossMoments:
         psi = (np.hstack([r[start + j : start + j + length] for j in range(degree + 1)]) - centre) * taper[:, None]
         spectrum = np.fft.rfft(psi, axis=0) * np.sqrt(doubled)[:, None]
         for b in range(bands):
-            part = spectrum[band == b]
+            part = spectrum[edges[b] : edges[b + 1]]
             moments[b] += part.T @ part.conj()
     moments /= pieces * length * float(np.sum(taper**2))
     if constant:

@@ -40,7 +40,7 @@ from .systems import MOST_ZEROS, N_V, N_X, P, StudySystem, study_system
 Numbered = tuple[int, np.random.SeedSequence]
 
 PUBLISHED_WINDOW, CORRECTED_WINDOW = 5, N_X + 1
-NOISE_LEVEL = 0.01
+NOISE_LEVEL = 0.01  # of the published study [G25]
 IDENTIFICATION_WINDOW = 20
 # Samples over which the identified state basis is laid onto the true one.
 ALIGNMENT_WINDOW = 2 * N_X

@@ -36,12 +36,12 @@ from ..space.result import kernel_conditions
 
 SAMPLES, BLOCK_ROWS, ORDER = 1001, 30, 3
 TRUE_WINDOW, IDENTIFIED_WINDOW = 20, 5
-PUBLISHED_THRESHOLD = 1.0
+PUBLISHED_THRESHOLD = 1.0  # of the published example [G25]
 SHOWN_WINDOWS = 6
 SPACE_WINDOW = ORDER + 1
 # [Fhat; Ghat] in the author's notebook, as printed: with the true system, and with the identified one brought to the true state basis.
 RECORDED = ((0, 0, 0, -0.9440, -0.3300), (0.9378, 0.3278, 0.1146, 0, 0))
-RECORDED_IDENTIFIED = ((0, 0, 0, -0.9440, -0.3300), (0.9332, 0.3379, 0.1223, 0, 0))
+RECORDED_IDENTIFIED = ((0, 0, 0, -0.9440, -0.3300), (0.9332, 0.3379, 0.1223, 0, 0))  # with an identified model
 EPS = float(np.finfo(float).eps)
 
 

@@ -17,8 +17,8 @@ import scipy.special
 
 from .cases import PAPER, Case, Numbered
 
-QUANTILES = (0.1, 0.25, 0.5, 0.75, 0.9)
-CONFIDENCE = 0.95
+QUANTILES = (0.1, 0.25, 0.5, 0.75, 0.9)  # that a table shows
+CONFIDENCE = 0.95  # of its intervals
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ from itertools import product
 
 import numpy as np
 
-from ...exact.algebra.matrices import Matrix, rank
+from ...exact.algebra.matrices import Matrix, column_basis
+from ...exact.structure.behavior import compare
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from ..evidence.alternatives import AlternativeEvidence, comparison_certificate, ranked
@@ -74,21 +75,30 @@ def criterion_window_n(bench: Workbench) -> Outcome:
 def _smallest_bad_pair(
     window: Callable[[KernelRepresentation], int], counts: Callable[[KernelRepresentation], bool], scope: str
 ) -> Outcome:
-    """The outcome is REFUTED by the first system and P of full column rank whose pair counts and is not equivalent."""
+    """The outcome is REFUTED by the first system and P of full column rank whose pair counts and is not equivalent.
+
+    Every P with the same column space gives the same pair, up to a change of the faults, so that one of them is looked at.
+    """
     for system in systems_in_order(BOX, lambda f: np.asarray(f.observable & f.left_invertible)):
         kernel = kernel_representation(system)
-        space = fault_space(kernel, window(kernel))
+        space, seen = fault_space(kernel, window(kernel)), set[Matrix]()
         for entries in product((-1, 0, 1), repeat=space.dimension * system.m):
             P = Matrix.of(
                 [list(entries[i * system.m : (i + 1) * system.m]) for i in range(space.dimension)], shape=(space.dimension, system.m)
             )
-            if rank(P) < system.m:
+            columns = column_basis(P)
+            if columns.ncols < system.m or columns in seen:
                 continue
+            seen.add(columns)
             alternative = kernel_representation(with_pair(space, P))
-            verdict = comparison_certificate(kernel, alternative) if counts(alternative) else {"kind": "left out"}
-            if verdict["kind"] == "behaviour-difference":
-                certificates = [verdict, make.fault_space(kernel, space), make.left_invertible(kernel), make.left_invertible(alternative)]
-                certificates.append(make.matrix_rank("observability", system))
+            if counts(alternative) and compare(kernel, alternative).first_difference is not None:
+                certificates = [
+                    comparison_certificate(kernel, alternative),
+                    make.fault_space(kernel, space),
+                    make.left_invertible(kernel),
+                    make.left_invertible(alternative),
+                    make.matrix_rank("observability", system),
+                ]
                 return counterexample(f"{system}, P = {P}", f"{BOX}, {scope}", certificates)
     return Outcome(Verdict.ERROR, "no counterexample in the box")
 

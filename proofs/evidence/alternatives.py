@@ -75,7 +75,7 @@ class Ranked:
         return max(self.left_minimal_indices, default=0)
 
 
-@lru_cache(maxsize=1 << 10)
+@lru_cache(maxsize=1 << 13)
 def ranked(system: ResidualSystem) -> Ranked:
     """Return the kernel representation of a system, its window ranks certified."""
     kernel = kernel_representation(system)
@@ -85,7 +85,7 @@ def ranked(system: ResidualSystem) -> Ranked:
     return Ranked(kernel, tuple(statement["left_minimal_indices"]), statement["normal_rank"])
 
 
-@lru_cache(maxsize=1 << 10)
+@lru_cache(maxsize=1 << 13)
 def fault_space_basis(system: ResidualSystem) -> Matrix:
     """Return the rows of a basis of the fault space, as an accepted certificate states them."""
     kernel = ranked(system).kernel

@@ -17,8 +17,6 @@ these arguments (KINDS says in a line how each kind follows from them):
   lower bounds  Ranks modulo a prime never exceed the true ones. There the rows are seen to be a minimal basis of all that vanish, once for
                 every s (`System.minimal`).
   together      Where both bounds meet, the left null space of [O_s T_s] is spanned by the rows and their shifts.
-  packing       Vectors of residues, and integer rows, stand in slots of one number, wide enough that nothing is carried from one to the
-                next (`packed`, `Field.seen`).
 
 Conventions, the same everywhere (FORMAT.md says them with the notation). Signals are columns: [O_s T_s] has the block rows r(0), ...,
 r(s-1) and the block columns x(0), v(0), ..., v(s-1). Kernel rows and left null rows are rows, and multiply from the left; a row has one
@@ -60,10 +58,7 @@ if 0 < sys.get_int_max_str_digits() < 19730:  # Python's own bound is below that
 class Meter:
     """This is what a certificate has cost so far: work in all, and the bytes that its matrices hold now."""
 
-    __slots__ = ("held", "work")
-
-    def __init__(self) -> None:
-        self.held = self.work = 0
+    held = work = 0
 
 
 _meter: ContextVar[Meter] = ContextVar("meter")
@@ -98,7 +93,7 @@ def charge(work: int, room: int = 0, kept: int = 0) -> Meter:
     meter.work += work
     if meter.work > MAX_WORK:  # asked before, so that the words are put together only where they are needed
         require(False, f"checking takes more than {MAX_WORK} units of work")
-    if meter.held + max(room, kept) > MAX_MEMORY:
+    if (room or kept) and meter.held + max(room, kept) > MAX_MEMORY:
         require(False, f"checking takes more than {MAX_MEMORY} bytes of memory")
     meter.held += kept
     return meter
@@ -223,30 +218,29 @@ def determinant(rows: list[list[int]], prime: int) -> int:
     """Return a determinant modulo a prime."""
     value, rows = 1, rows[:]
     while rows:
-        lead = next((row for row in rows if row[-1]), None)
-        if lead is None:
+        k = next((k for k, row in enumerate(rows) if row[-1]), None)
+        if k is None:
             return 0
-        value = value * lead[-1] * (-1 if (len(rows) - 1 - rows.index(lead)) % 2 else 1) % prime
-        rows.remove(lead)
-        inverse, lead = pow(lead[-1], -1, prime), lead[:-1]
-        rest = ((row[:-1], row[-1] * inverse % prime) for row in rows)
-        rows = [[(x - c * y) % prime for x, y in zip(row, lead, strict=True)] if c else row for row, c in rest]
+        *lead, last = rows.pop(k)
+        value, inverse = value * (-last if (len(rows) - k) % 2 else last) % prime, pow(last, -1, prime)
+        weighted = ((row, row[-1] * inverse % prime) for row in rows)
+        rows = [[(x - c * y) % prime for x, y in zip(row, lead, strict=False)] for row, c in weighted]
     return value
 
 
-def determinant_polynomial(table: list[list[list[int]]], degree: int, prime: int) -> list[int]:
+def determinant_polynomial(table: Sequence[Sequence[Sequence[int]]], degree: int, prime: int) -> list[int]:
     """Return det of a square matrix of polynomials modulo a prime above its degree, which is `degree` at most: degree + 1 coefficients.
 
     A polynomial of that degree is the one that has its values at 0, ..., degree, by divided differences.
     """
     size, longest = len(table), max((len(f) for row in table for f in row), default=0)
     if size < 2:
-        return ((table[0][0] if table else [1]) + [0] * degree)[: degree + 1]
+        return [*(table[0][0] if table else [1]), *[0] * degree][: degree + 1]
     charge(
         (degree + 1) * (2000 + size**2 * (500 + 40 * longest + 40 * size) + 250 * degree + 200 * longest),
         200 * size**2 * (degree + longest),
     )
-    width, values, entries = slot(prime, longest), list[int](), [f + [0] * (longest - len(f)) for row in table for f in row]
+    width, values, entries = slot(prime, longest), list[int](), [[*f] + [0] * (longest - len(f)) for row in table for f in row]
     coefficients = [packed(column, width) for column in zip(*entries, strict=True)]
     for q in range(degree + 1):
         powers = accumulate(repeat(q, longest - 1), lambda power, q: power * q % prime, initial=1)
@@ -371,7 +365,8 @@ class Field:
         steps, most = max(map(len, rows), default=0), max((abs(x) for row in rows for v in row for x in v), default=0)
         w = most.bit_length() + steps * max(den, largest).bit_length() + 1
         wide, factors = w * len(rows), steps * den.bit_length()  # bits of a number with all rows, of the last factor
-        charge(steps * cells * (150 + (wide >> 6) + (size * wide >> 10)), (len(A) + len(C)) * wide // 3)
+        entries = sum(x.bit_length() for column in states + faults for x in column)
+        charge(steps * (cells * (150 + (wide >> 6)) + (entries * wide >> 10)), (len(A) + len(C)) * wide // 3)
         charge(steps * len(C) * (len(rows) * (300 + (wide >> 4)) + (wide * factors >> 10)), len(C) * (wide + factors) // 3)
         carried, factor, found = [0] * len(A), 1, []
         for k in reversed(range(steps)):
@@ -404,7 +399,8 @@ class System:
         expect(self.n + self.m + self.p <= MAX_DIMENSION, f"system: n + m + p is above {MAX_DIMENSION}")
         blocks = [self.block(data[name], sizes[nr], sizes[nc], name) for name, nr, nc in self.SHAPES if name in data]
         self.A, self.F, self.C, self.G = blocks[:4]
-        self.nu, self.inputs = sizes.get("nu", 0), blocks[4:]
+        self.nu = sizes.get("nu", 0)
+        self.inputs: Sequence[Table] = blocks[4:]
         self.data, self.image = data, Vectors()
         self.key: tuple[Any, ...] = (self.field.key, self.n, self.m, self.p, blocks[:4])
 
@@ -475,8 +471,7 @@ class System:
         size, count = slot(prime, n + self.p), len(rows)
         weights = [packed([pow(power, b + 1, prime) for b in range(count)], size) for power in powers]
         mixed = [[*zip(*(unpacked(sum(map(mul, c, weights)), size, count, prime) for c in row), strict=True)] for row in conditions]
-        second = determinant_polynomial([[[*f] for f in row] for row in mixed], degree, prime)
-        require(coprime(first, second, prime), "the rows may have a common factor")
+        require(coprime(first, determinant_polynomial(mixed, degree, prime), prime), "the rows may have a common factor")
         require(self.pencil_rank(w) >= n + self.p - len(rows), "there may be more rows")
 
     def unhinted(self, pivots: list[int], rows: list[Vectors], window: int | None) -> None:
@@ -488,9 +483,7 @@ class System:
         require(not any(self.field.seen(self, rows, self.F, self.G)), "a row does not annihilate the system")
 
     def spanned_by(self, pivots: list[int], rows: list[Vectors], w: Json, window: int | None = None) -> None:
-        """Reject unless the rows, those of degree below any window, and their shifts span the left null space of [O_s T_s], on that window
-        or on every one.
-        """
+        """Reject unless the rows of degree below s and their shifts span the left null space of [O_s T_s]: s = window, or every s."""
         expect(("mix" in w) == ("point" in w), "witness: point and mix go together")
         if "mix" in w:
             self.minimal(pivots, [self.field.residues(row) for row in rows], w)
@@ -501,6 +494,7 @@ class System:
     def window_ranks(self, s: Json, w: Json) -> None:
         r, p = index(s["normal_rank"], "normal_rank"), self.p
         expect(("kernel" in w) != ("kernel_modulo" in w), "witness: expected one of kernel and kernel_modulo")
+        expect("kernel_modulo" in w or "nulling" not in w, "witness: nulling goes with kernel_modulo")
         pivots, rows = self.field.kernel_rows(w.get("kernel", w.get("kernel_modulo")), p)
         if "kernel" in w:
             self.spanned_by(pivots, rows, w)
@@ -515,14 +509,20 @@ class System:
     def spanned_modulo(self, pivots: list[int], rows: list[Vectors], w: Json) -> None:
         """Reject unless that holds modulo the prime, and no window can have a rank above p s - sum of max(0, s - mu) whatever the rows are.
 
-        [O_s T_s] has p s rows and n + m s columns. Where there are no rows, p s is the bound. Else let there be p - m, with degrees that
-        add up to n and differ by one at most: for s up to the least the bound is p s, from the largest on it is p s - (p - m) s + n.
+        [O_s T_s] has p s rows and n + m s columns, of which d + e s are seen to depend on others (`nulled`: none, where nothing is said).
+        Where there are no rows, p s is the bound. Else let there be p - m + e, with degrees that add up to n - d and differ by one at most:
+        for s up to the least the bound is p s, from the largest on it is p s - (p - m + e) s + n - d.
         """
         expect(not self.field.prime and {"mix", "point"} <= {*w}, "witness: kernel_modulo needs a point and a mix, and no prime field")
-        degrees = [len(row) - 1 for row in rows]
-        generic = not rows or (len(rows) == self.p - self.m and sum(degrees) == self.n and degrees[-1] - degrees[0] <= 1)
+        degrees, (d, e) = [len(row) - 1 for row in rows], self.nulled(w["nulling"]) if "nulling" in w else (0, 0)
+        generic = not rows or (len(rows) == self.p - self.m + e and sum(degrees) == self.n - d and degrees[-1] - degrees[0] <= 1)
         require(generic, "the indices are not those of windows that have all the rank that their shape allows")
         self.minimal(pivots, [self.field.residues(row) for row in rows], w)
+
+    def nulled(self, given: Json) -> tuple[int, int]:
+        """Return (d, e) where [O_s T_s] is seen to have d + e s independent null vectors for every s."""
+        expect(False, "witness: nulling is for checker_structure.py, which is another file")
+        return 0, 0
 
     def left_invertible(self, s: Json, w: Json) -> None:
         expect("point" in w, "witness: without a point it is for checker_fields.py, which is another file")
@@ -563,7 +563,7 @@ class Kind(NamedTuple):
 
 KINDS: dict[str, Kind] = {
     "window-ranks": Kind(System.window_ranks, "system normal_rank left_minimal_indices window_ranks?",
-        f"{MODULAR} kernel? kernel_modulo? point? mix?",
+        f"{MODULAR} kernel? kernel_modulo? nulling? point? mix?",
         "for every s >= 1: rank [O_s T_s] = {normal_rank} s + sum of min(s, eta), eta the left minimal indices {left_minimal_indices}",
         "Both bounds on the rank of [O_s T_s] are p s - sum of max(0, s - mu), which is this formula, r being p minus the number of rows."),
     "left-invertible": Kind(System.left_invertible, "system", f"{MODULAR} point?",
@@ -592,35 +592,37 @@ def subject(data: Json) -> System:
 
 
 def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified:
-    """Return the statement, once verified. Raises Malformed or Rejected. Every one of `systems` (JSON or read) must be one of the
-    statement's.
-    """
+    """Return the statement, once verified; each of `systems` (JSON or read) must be one that it is about. Raises Malformed or Rejected."""
     insisted = [data if isinstance(data, System) else subject(data) for data in systems]
+    about = decide(certificate)
+    kind, s, proven = KINDS[certificate["kind"]], certificate["statement"], about[0].field.irreducible(certificate["witness"])
+    for system in insisted:
+        require(any(system.key == other.key[: len(system.key)] for other in about), f"the statement is not about {system.words}")
+    words = kind.words.format_map({key: shorten(value) for key, value in s.items()})
+    words += "".join(f", {key[:-1]} = {shorten(s[key[:-1]])}" for key in kind.statement.split() if key[-1] == "?" and key[:-1] in s)
+    words += f"; for {' and '.join(system.words for system in about)}"
+    assumed = [] if proven else [f"f is irreducible, with the coefficients {shorten(about[0].field.key)} (ascending)"]
+    return Verified(f"assuming f irreducible: {words}" if assumed else words, assumed)
+
+
+def decide(certificate: Json, read: Callable[[str, Json], System] = lambda key, data: SUBJECTS[key](data)) -> list[System]:
+    """Return what the statement is about, verified if K is a field. `read` may give what it has read before of the same JSON."""
     begin()
     keys(certificate, "format kind statement witness", "certificate")
     expect(certificate["format"] == "faultspace-certificate/1", "format: expected faultspace-certificate/1")
     known = type(name := certificate["kind"]) is str and name in KINDS
     other = [file for file, names in ELSEWHERE.items() if name in names.split()]
     expect(known, f"kind: unknown{''.join(f' here: {file} decides it, which is another file' for file in other)}")
-    kind = KINDS[name]
-    s = keys(certificate["statement"], kind.statement, "statement")
+    s = keys(certificate["statement"], (kind := KINDS[name]).statement, "statement")
     w = keys(certificate["witness"], f"irreducible? {kind.witness}", "witness")
-    about = [reader(s[key]) for key, reader in SUBJECTS.items() if key in s]
+    about = [read(key, s[key]) for key in SUBJECTS if key in s]
     alike = all(system.field.key == about[0].field.key and system.p == about[0].p for system in about)
     expect(alike, "the two systems differ in field or number of outputs")
     for system in about if "prime" in kind.witness else []:
+        system.image = Vectors()  # another witness may have left one
         system.field.reduce(w)
     kind.check(about[0], s, w, *about[1:])
-    proven = about[0].field.irreducible(w)
-    for system in insisted:
-        require(any(system.key == other.key[: len(system.key)] for other in about), f"the statement is not about {system.words}")
-    words = kind.words.format_map({key: shorten(value) for key, value in s.items()})
-    words += "".join(f", {key[:-1]} = {shorten(s[key[:-1]])}" for key in kind.statement.split() if key[-1] == "?" and key[:-1] in s)
-    words += f"; for {' and '.join(system.words for system in about)}"
-    if proven:
-        return Verified(words, [])
-    assumed = f"f is irreducible, with the coefficients {shorten(about[0].field.key)} (ascending)"
-    return Verified(f"assuming f irreducible: {words}", [assumed])
+    return about
 
 
 def content(path: str) -> bytes:

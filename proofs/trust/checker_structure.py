@@ -63,10 +63,11 @@ class Mat(core.Table):
 
     def __matmul__(self, other: Mat) -> Mat:
         nr, nc, bits = len(self.rows), other.nc, self.bits + other.bits + self.nc.bit_length()
-        core.charge((self.den.bit_length() * other.den.bit_length() >> 10) + (nr + nc) * (500 + self.nc * 150))
+        long = (self.den.bit_length() * other.den.bit_length() >> 10) + (nr + nc) * (500 + self.nc * 150)
         if self.bits + other.bits < 64:  # numbers of a word: a bound for all of them is near enough
-            long = 3 * nr * nc * self.nc
+            long += 3 * nr * nc * self.nc
         else:
+            core.charge(long)
             left = [sum(map(int.bit_length, column)) for column in zip(*self.rows, strict=True)] or [0] * self.nc
             right = [sum(map(int.bit_length, row)) for row in other.rows]
             long = (nc * sum(left) + nr * sum(right) >> 5) + (sum(map(mul, left, right)) >> 10)
@@ -198,9 +199,44 @@ class System(fields.System):
     F: Mat
     C: Mat
     G: Mat
+    inputs: Sequence[Mat]
 
     def block(self, value: core.Json, nr: int, nc: int, where: str) -> Mat:
         return matrix(self.field, value, nr, nc, where)
+
+    def nulled(self, given: core.Json) -> tuple[int, int]:
+        """Return the numbers d of states and e of the faults beyond, of "nulling": independent ones that are seen to have no output.
+
+        For the i-th state x, or x = 0 from d on, and the i-th fault v, exactly C x + G v = 0, and A x + F v is the sum of the states with
+        the i-th row of "motion" as weights. So from each of d states, and after each sample by e faults besides, a word goes on for ever
+        with zero output: d + e s words of s samples, which are independent as the states are, and these faults. All n + p equations of
+        a row stand in one number, in slots of w bits: none of their sides is above 2^(w-1), so that it is zero iff all of them hold.
+        """
+        field, n, m = self.field, self.n, self.m
+        core.expect(field.degree == 1 and not field.prime, "nulling: over Q only")
+        core.keys(given, "states faults motion", "nulling")
+        d, count = len(core.items(given["states"], "states", n)), len(core.items(given["faults"], "faults", n + m))
+        core.expect(d <= count <= d + m, "nulling: expected a fault for each of the states, and m more at most")
+        sides = (("states", d, n), ("faults", count, m), ("motion", count, d))
+        V, K, L = (matrix(field, given[key], height, width, key) for key, height, width in sides)
+        system = assembled(field, [[self.A, self.F], [self.C, self.G]], n + m)
+        state, fault, moved = K.den * L.den, V.den * L.den, system.den * K.den  # what each is to be multiplied by
+        sizes = [part.bits + factor.bit_length() for part, factor in ((V, state), (K, fault), (L, moved))]
+        w = max(max(sizes[:2]) + system.bits, sizes[2] + V.bits) + (n + m + d).bit_length() + 1
+        cells = (n + self.p) * (n + m) + count * (n + m + d)
+        core.charge(cells * (400 + (max(sizes) >> 4)), cells * (60 + max(sizes) // 7) + (n + m + d) * w * (n + self.p) // 7)
+        core.charge(count * (n + m + d) * (200 + (w * (n + self.p) * (1 + (max(sizes) >> 5)) >> 6)))
+        table = [sum(x << w * i for i, x in enumerate(column)) for column in zip(*system.rows, strict=True)]
+        carried = [sum(x << w * i for i, x in enumerate(row)) for row in V.rows]
+        blank = [0] * n
+        for i in range(count):
+            weights = [state * x for x in (V.rows[i] if i < d else blank)] + [fault * x for x in K.rows[i]]
+            left = sum(map(mul, weights, table)) - sum(moved * c * one for c, one in zip(L.rows[i], carried, strict=True))
+            core.require(left == 0, "a state or fault of nulling has an output, or leaves the states")
+        core.require(V.rank() == d, "the states of nulling may be dependent")
+        beyond = Mat(field, K.rows[d:], m, K.den)
+        core.require(beyond.rank() == count - d, "the faults of nulling may be dependent")
+        return d, count - d
 
     def null_rows(self, w: core.Json, window: int | None) -> list[core.Vectors]:
         """Return KROWS, those of degree below any window: they and their shifts span the left null space of [O_s T_s]."""

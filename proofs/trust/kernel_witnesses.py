@@ -5,6 +5,7 @@
     chain_witness      its rows of degree below a window, without hints
     common_witness     the same for two systems with the same rows
     generic_witness    rows modulo a prime alone, of a system whose windows have all the rank that their shape allows
+    nulling_witness    the same, of one in which states and faults that no output shows keep them from it
     point_witness      an image and a point at which the pencil has full column rank modulo the prime
     irreducible        why a minimal polynomial is irreducible
 
@@ -25,9 +26,10 @@ from flint import fmpz_mat, fmpz_poly, nmod_mat, nmod_poly
 
 from ...exact.algebra.fields import Field, NumberField, PrimeField, Rationals
 from ...exact.algebra.matrices import Matrix, pivot_columns
-from ...exact.structure.generic_rows import generic_rows
+from ...exact.structure.generic_rows import GenericRows, generic_rows
 from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow
-from ...exact.structure.modular_rows import pencil_rank_at
+from ...exact.structure.modular_rows import pencil_rank_at, rows_modulo
+from ...exact.structure.nulling import nulling
 from ...exact.structure.short_rows import short_rows
 from ...exact.structure.window_columns import residues
 from ...exact.structure.zero_output import zero_output_chain
@@ -36,6 +38,7 @@ from ...exact.system.systems import ResidualSystem
 from . import checker
 
 Witness = dict[str, Any]
+Shown = tuple[tuple[int, ...], Witness]
 DRAWS = 8  # modulo a prime of 27 bits one in a thousand fails, at most; modulo a small one most may
 
 
@@ -83,19 +86,32 @@ def window_witness(other: ResidualSystem, kernel: KernelRepresentation, window: 
     raise ArithmeticError("no prime serves both systems")
 
 
-def generic_witness(system: ResidualSystem) -> tuple[tuple[int, ...], Witness] | None:
+def generic_witness(system: ResidualSystem) -> Shown | None:
     """Return the left minimal indices and the witness of a system over Q or Q(a) whose windows have all the rank that their shape allows.
 
     None for any other system, and where the first prime misleads: it takes exact rows to see what that one is.
     """
     picture = image(system)
     found = None if isinstance(system.field, PrimeField) else generic_rows(picture.system)
-    hints = None if found is None else _mixed([picture.system], found.rows, found.pivots, picture.prime)
-    if found is None or hints is None:
+    if found is None or (found.rows and (sum(found.degrees) != system.n or not _alike(found))):
         return None
-    written = [{"pivot": pivot, "coefficients": row} for pivot, row in zip(found.pivots, found.rows, strict=True)]
-    witness = _named_image(picture, system.field) | {"point": found.point} | hints | {"kernel_modulo": written}
-    return tuple(len(row) - 1 for row in found.rows), witness
+    return _shown(system, picture, found, {})
+
+
+def nulling_witness(system: ResidualSystem) -> Shown | None:
+    """Return the same where only states and faults without output keep windows from that rank, and are told by small numbers. Over Q."""
+    if not isinstance(system.field, Rationals):
+        return None
+    picture = image(system)
+    found = generic_rows(picture.system) or _other_rows(picture.system)
+    if found is None or not found.rows or not _alike(found):
+        return None
+    n, demands = system.n, _conditions(picture.system, _coefficients(found.rows, system.p, picture.prime))
+    null = nulling(system, picture.system, [row[:n] for demand in demands for row in residues(demand) if any(row[:n])])
+    if null is None:
+        return None
+    parts = {"states": null.states, "faults": null.faults, "motion": null.motion}
+    return _shown(system, picture, found, {"nulling": {name: _plain(part) for name, part in parts.items()}})
 
 
 def irreducible(field: Field) -> Witness:
@@ -155,6 +171,28 @@ def _have_gaps(systems: Sequence[ResidualSystem], kernel: KernelRepresentation, 
     samples = max(system.n for system in systems) + 1 if window is None else window
     chains = [zero_output_chain(system) for system in systems]
     return all(chain.gap(k) == kernel.gap(k) for chain in chains for k in range(samples))
+
+
+def _other_rows(picture: ResidualSystem) -> GenericRows | None:
+    found = rows_modulo(picture)
+    return None if found is None else GenericRows(found.rows, tuple(output for _, output in found.leads), found.point)
+
+
+def _alike(found: GenericRows) -> bool:
+    return found.degrees[-1] - found.degrees[0] <= 1
+
+
+def _shown(system: ResidualSystem, picture: Image, found: GenericRows, more: Witness) -> Shown | None:
+    hints = _mixed([picture.system], found.rows, found.pivots, picture.prime)
+    if hints is None:
+        return None
+    written = [{"pivot": pivot, "coefficients": row} for pivot, row in zip(found.pivots, found.rows, strict=True)]
+    return found.degrees, _named_image(picture, system.field) | {"point": found.point} | hints | more | {"kernel_modulo": written}
+
+
+def _plain(matrix: Matrix) -> list[list[object]]:
+    """Return the matrix as it is written, integers as such: most are zeros."""
+    return [[x if "/" in str(x) else int(str(x)) for x in row] for row in matrix.to_json()]
 
 
 class _Same:
@@ -219,8 +257,7 @@ def _mixed(systems: Sequence[ResidualSystem], rows: Sequence[list[list[int]]], p
     degree, p = sum(len(row) - 1 for row in rows), systems[0].p
     if prime <= degree:
         return None
-    blank, longest = [0] * p, max(map(len, rows), default=0)
-    coefficients = [nmod_mat(len(rows), p, [x for row in rows for x in (row[k] if k < len(row) else blank)], prime) for k in range(longest)]
+    coefficients = _coefficients(rows, p, prime)
     checker.begin()
     try:
         places = [[int(i == pivot) for pivot in pivots] for i in range(p)]
@@ -228,6 +265,12 @@ def _mixed(systems: Sequence[ResidualSystem], rows: Sequence[list[list[int]]], p
         return _mix(systems, coefficients, first, prime)
     except checker.Rejected:  # the determinants take more work than there may be
         return None
+
+
+def _coefficients(rows: Sequence[list[list[int]]], p: int, prime: int) -> list[nmod_mat]:
+    """Return N_k of all rows, k = 0, 1, ..., in one matrix each."""
+    blank, longest = [0] * p, max(map(len, rows), default=0)
+    return [nmod_mat(len(rows), p, [x for row in rows for x in (row[k] if k < len(row) else blank)], prime) for k in range(longest)]
 
 
 def _mix(systems: Sequence[ResidualSystem], coefficients: Sequence[nmod_mat], first: list[int], prime: int) -> Witness | None:

@@ -19,7 +19,7 @@ from flint import fmpq, fmpq_poly, fmpz
 
 from ...base.sheets import counted
 from ...exact.algebra.fields import QQ
-from ...exact.algebra.matrices import Matrix, beside, rank, row_profile, solve_left, stacked
+from ...exact.algebra.matrices import Matrix, RowEchelon, beside, rank, row_echelon, stacked
 from ...exact.algebra.stability import rational_characteristic_polynomial
 from ...exact.limits.experiments import Experiment
 from ...exact.limits.lyapunov import solve, stein
@@ -157,7 +157,8 @@ class Certified:
         """
         experiment, blocks, seen = self.limits.experiment, self.limits.blocks, self.seen
         named = {"limit": limit, "observability": seen, "joint": beside(limit, seen)}
-        profiles = {name: row_profile(matrix) for name, matrix in named.items()}
+        forms = {name: row_echelon(matrix.transposed()) for name, matrix in named.items()}
+        profiles = {name: form.pivots for name, form in forms.items()}
         statement: dict[str, Any] = {"experiment": experiment.to_json(), "instruments": instruments}
         statement |= {f"{name}_rank": len(profile) for name, profile in profiles.items()}
         first, behind = stacked(blocks.uf_uf, blocks.yf_uf), stacked(inputs, outputs)
@@ -167,7 +168,7 @@ class Certified:
         witness: dict[str, Any] = {"prime": _prime_of_ranks([(blocks.uf_uf, first.ncols), *bordered]), "covariance": covariance}
         for name, profile in profiles.items():
             if name == "joint" or len(profile) < len(profiles["joint"]):  # else the rows of both serve
-                witness[name] = _left_null(named[name], profile, self.response)
+                witness[name] = _left_null(forms[name], self.response)
         return _certificate("moesp-limit", statement, witness)
 
 
@@ -257,18 +258,19 @@ def _ascending(A: Matrix) -> list[Any]:
     return [fmpq(c.numerator, c.denominator) for c in rational_characteristic_polynomial(A)]
 
 
-def _left_null(matrix: Matrix, profile: tuple[int, ...], response: Matrix) -> list[dict[str, Any]]:
-    """Return integer rows (-r response, r) for a basis of the r with r matrix = 0, each alone at its pivot."""
-    dependent = [i for i in range(matrix.nrows) if i not in set(profile)]
-    relations = solve_left(matrix.rows(profile), matrix.rows(dependent))
-    if relations is None:
-        raise ArithmeticError("the row profile does not span")
-    entries = [[fmpq(0)] * matrix.nrows for _ in dependent]
-    for row, pivot, found in zip(entries, dependent, relations.elements(), strict=True):
-        for i, x in zip(profile, found, strict=True):
-            row[i] = -x
+def _left_null(form: RowEchelon, response: Matrix) -> list[dict[str, Any]]:
+    """Return integer rows (-r response, r) for a basis of the r with r matrix = 0, each alone at its pivot.
+
+    `form` is the echelon form of the transpose of that matrix.
+    """
+    size, relations = form.matrix.ncols, form.matrix.elements()
+    dependent = [i for i in range(size) if i not in set(form.pivots)]
+    entries = [[fmpq(0)] * size for _ in dependent]
+    for row, pivot in zip(entries, dependent, strict=True):
+        for i, combined in zip(form.pivots, relations, strict=True):
+            row[i] = -combined[pivot]
         row[pivot] = fmpq(1)
-    rows = Matrix.from_elements(QQ, len(dependent), matrix.nrows, entries)
+    rows = Matrix.from_elements(QQ, len(dependent), size, entries)
     continued = beside(-(rows @ response), rows).elements()
     return [{"pivot": response.ncols + pivot, "row": _integral(row)} for pivot, row in zip(dependent, continued, strict=True)]
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, fields
+from functools import lru_cache
 from importlib import resources
 from typing import Any
 
@@ -134,7 +135,11 @@ def expected_without() -> dict[str, dict[str, str]]:
 
 
 def _contents() -> dict[str, Any]:
-    text = resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8")
+    return _parsed(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
+
+
+@lru_cache(maxsize=1)  # a run asks for it with every ablation, and with every attack
+def _parsed(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

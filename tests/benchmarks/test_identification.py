@@ -63,7 +63,8 @@ def test_errors_do_not_see_coordinates_and_see_changes() -> None:
     assert errors(slower, 2, 3)[0] == pytest.approx(0.1 * max(map(abs, POLES)), rel=1e-6)
 
 
-@pytest.mark.parametrize("name", OURS)
+# The other routes of compression are tried daily in `tests/numeric/test_compression.py`.
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow if name in ("ours-gram", "ours-qr") else ()) for name in OURS])
 def test_ours_finish_with_little_memory_and_the_right_model(name: str, tmp_path: Path) -> None:
     method = next(each for each in METHODS if each.name == name)
     write(SETTING, tmp_path)

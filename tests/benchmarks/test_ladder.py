@@ -4,8 +4,10 @@ METHODS     every method of the benchmark; those not installed are skipped and s
 """
 
 import sys
+from math import log
 
 import pytest
+from scipy.stats import linregress
 
 from benchmarks.ladder_cells import Budget, Cell, measure, ranks_from_indices, read_lines
 from benchmarks.ladder_methods import METHODS, RUNNERS, Method
@@ -105,8 +107,14 @@ def test_exponents_ratios_and_aims_are_computed_from_the_cells() -> None:
     flint = [Cell("finished", n**3 * 1e-5, {}, {1: 1}) for n in (10, 20, 40)] + [Cell("limit", 1.0, {}, {1: 1})]
     run = made_up([{"ours": a, "flint": b} for a, b in zip(ours, flint, strict=True)])
     family = run.records[0].family
-    assert exponent(run, family, "ours") == pytest.approx(2)
-    assert exponent(run, family, "flint") == pytest.approx(3)
+    for name, power in (("ours", 2), ("flint", 3)):
+        slope = exponent(run, family, name)
+        assert slope is not None and (slope.low, slope.value, slope.high) == pytest.approx((power, power, power))
+    noisy = made_up([{"ours": Cell("finished", seconds, {}, {1: 1})} for seconds in (0.001, 0.004, 0.02, 0.06)])
+    found, x = exponent(noisy, family, "ours"), [1, 2, 4, 8]
+    wanted = linregress([log(n) for n in x], [log(seconds) for seconds in (0.001, 0.004, 0.02, 0.06)])
+    assert found is not None and found.value == pytest.approx(wanted.slope)
+    assert found.high - found.value == pytest.approx(wanted.stderr * 4.302652729749464)
     last = ratio(run.records[3], "flint")
     assert last is not None and last.at_least and last.value == pytest.approx(1.0 / 6.4e-3)
     assert [aim.met for aim in aims(run)] == [True, True]

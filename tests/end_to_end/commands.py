@@ -54,10 +54,11 @@ def environment(**changes: str) -> dict[str, str]:
     return kept | {"PYTHONPATH": str(ROOT)} | changes
 
 
-def command(*arguments: str, stdin: bytes = b"", cwd: Path | None = None) -> Run:
-    """Run the command in a process of its own. What it tells of its progress, as it does on a busy machine, is left out of `err`."""
+def command(*arguments: str, stdin: bytes = b"", cwd: Path | None = None, seconds: float = 400.0) -> Run:
+    """Run the command in a process of its own, for so many seconds at most. What it tells of its progress, as it does on a busy machine, is
+    left out of `err`."""
     line = [sys.executable, "-m", "faultspace", *arguments]
-    run = subprocess.run(line, input=stdin, capture_output=True, cwd=cwd or ROOT, env=environment(), timeout=400)
+    run = subprocess.run(line, input=stdin, capture_output=True, cwd=cwd or ROOT, env=environment(), timeout=seconds)
     lines = run.stderr.decode().splitlines(keepends=True)
     return Run(run.returncode, run.stdout.decode(), "".join(line for line in lines if not PROGRESS.fullmatch(line.rstrip("\n"))))
 

@@ -1,6 +1,8 @@
 """`faultspace identify`: whole runs on data whose answer is known, and what it says where the data cannot tell.
 
 answered        a run on it with pictures, order and sample time given, that several tests read, and its folder, of which they make a copy
+as_printed      a run of the command that `faultspace examples` prints, and its folder
+given           a run with order and number of faults given, where there is no matplotlib, and its folder
 response        what a fault column does to the outputs, whatever the basis of the states
 """
 
@@ -55,6 +57,33 @@ def answered(tmp_path_factory: pytest.TempPathFactory, record: made.FaultyRecord
     return run, folder / "out"
 
 
+@pytest.fixture(scope="module")
+def as_printed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Run, Path]:
+    folder = tmp_path_factory.mktemp("examples") / "x"
+    listed = call("examples", str(folder))
+    assert listed.code == 0
+    with pytest.MonkeyPatch.context() as patch:
+        if importlib.util.find_spec("matplotlib") is not None:
+            patch.setattr("matplotlib.figure.Figure.savefig", lambda figure, path, **options: Path(path).write_bytes(b"not rendered"))
+        run = call(*shlex.split(listed.err.partition("for: faultspace ")[2].replace("\n", " ")))
+    assert run.code == 0, run.err
+    return run, folder
+
+
+@pytest.fixture(scope="module")
+def given(tmp_path_factory: pytest.TempPathFactory, record: made.FaultyRecord) -> tuple[Run, Path]:
+    def without(name: str) -> Any:
+        raise ImportError(name)
+
+    folder = tmp_path_factory.mktemp("given")
+    path = small_csv(folder, made.csv_text(record), made.FILE_NAME)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("faultspace.numeric.report.pictures.import_module", without)
+        run = identified(path, folder / "out", "--json", "--faults", "1", "--order", "3")
+    assert run.code == 0, run.err
+    return run, folder / "out"
+
+
 def response(A: Any, F: Any, C: Any, G: Any, count: int = 8) -> Array:
     """Return G, CF, CAF, ... of each column, stacked (count p, m)."""
     columns = np.asarray(F, dtype=float).shape[1]
@@ -102,10 +131,8 @@ def test_the_packaged_record_gives_the_fault_that_made_it(csv_file: Path, record
     assert hashlib.sha256(csv_file.read_bytes()).hexdigest() == before
 
 
-def test_people_read_a_summary_and_find_the_files(csv_file: Path, tmp_path: Path) -> None:
-    out = tmp_path / "deep" / "out"
-    run = identified(csv_file, out)
-    assert run.code == 0, run.err
+def test_people_read_a_summary_and_find_the_files(as_printed: tuple[Run, Path]) -> None:
+    run, out = as_printed[0], as_printed[1] / "result"
     assert "order **3**, chosen from the data: the only one left open" in run.out and "n_v: **1**" in run.out and run.err == ""
     for part in (
         "poles, +- standard error: ",
@@ -136,16 +163,12 @@ def test_the_plots_are_pictures(answered: tuple[Run, Path]) -> None:
     assert (out / report.PAGE).read_text("utf-8").count('<img src="data:image/png;base64,') == len(PICTURES)
 
 
-def test_without_matplotlib_it_says_so_and_goes_on(csv_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def without(name: str) -> Any:
-        raise ImportError(name)
-
-    monkeypatch.setattr("faultspace.numeric.report.pictures.import_module", without)
-    run = identified(csv_file, tmp_path / "out", "--json", "--order", "3")
-    assert run.code == 0 and "matplotlib is not installed" in run.err
+def test_without_matplotlib_it_says_so_and_goes_on(given: tuple[Run, Path]) -> None:
+    run, out = given
+    assert "matplotlib is not installed" in run.err
     assert run.json["files"] == [report.MODEL, report.SPACE, report.SIGNAL, RESIDUAL, report.SUMMARY, report.PAGE]
-    assert "<img" not in (tmp_path / "out" / report.PAGE).read_text("utf-8")
-    assert "matplotlib" in (tmp_path / "out" / report.SUMMARY).read_text("utf-8")
+    assert "<img" not in (out / report.PAGE).read_text("utf-8")
+    assert "matplotlib" in (out / report.SUMMARY).read_text("utf-8")
 
 
 def test_inspect_reads_the_model_where_floats_are_taken_exactly(answered: tuple[Run, Path]) -> None:
@@ -273,7 +296,6 @@ def test_a_file_of_somebody_else_is_refused_and_stays(name: str, csv_file: Path,
 
 def test_a_file_edited_since_is_its_owners(answered: tuple[Run, Path], csv_file: Path, tmp_path: Path) -> None:
     out = shutil.copytree(answered[1], tmp_path / "out")
-    assert identified(csv_file, out, "--order", "3").code == 0
     before = {path.name: path.read_bytes() for path in out.iterdir() if path.name != report.SUMMARY}
     (out / report.SUMMARY).write_text("my remarks", encoding="utf-8")
     refused(identified(csv_file, out, "--order", "2"), report.SUMMARY, "no earlier run wrote")
@@ -390,11 +412,11 @@ def test_means_far_from_zero_are_told_and_removed(tmp_path: Path, record: made.F
     assert not any("--operating-point means" in row["advice"] for row in run.json["doubts"]["rows"])
 
 
-def test_as_given_is_said_of_what_was_given_only(csv_file: Path, tmp_path: Path) -> None:
-    given = identified(csv_file, tmp_path / "a", "--json", "--faults", "1", "--order", "3").json
-    assert "n_v as given" in given["fault_space"]["reason"] and given["n_v_reason"].startswith("1 given; as the data say")
-    assert (given["order_given"], given["n_v_given"]) == (True, True)
-    summary = (tmp_path / "a" / report.SUMMARY).read_text("utf-8")
+def test_as_given_is_said_of_what_was_given_only(given: tuple[Run, Path]) -> None:
+    run, out = given
+    assert "n_v as given" in run.json["fault_space"]["reason"] and run.json["n_v_reason"].startswith("1 given; as the data say")
+    assert (run.json["order_given"], run.json["n_v_given"]) == (True, True)
+    summary = (out / report.SUMMARY).read_text("utf-8")
     assert "order **3**, as given" in summary
 
 
@@ -446,13 +468,9 @@ def test_the_hair_dryer(tmp_path: Path) -> None:
     assert any("--operating-point means" in row["advice"] for row in remembered.json["doubts"]["rows"])
 
 
-def test_examples_write_the_record(tmp_path: Path, record: made.FaultyRecord) -> None:
-    run = call("examples", str(tmp_path / "x"))
-    assert run.code == 0
-    printed = run.err.partition("for: faultspace ")[2].replace("\n", " ")
-    assert call(*shlex.split(printed)).code == 0
-    assert (tmp_path / "x" / "result" / report.MODEL).exists()
-    path = tmp_path / "x" / made.FILE_NAME
+def test_examples_write_the_record(as_printed: tuple[Run, Path], record: made.FaultyRecord) -> None:
+    assert (as_printed[1] / "result" / report.MODEL).exists()
+    path = as_printed[1] / made.FILE_NAME
     assert path.stat().st_size < 200_000
     got = read_record(str(path), inputs=made.INPUTS, outputs=made.OUTPUTS)
     assert np.allclose(got.y, record.y, atol=1e-3) and np.allclose(got.u, record.u, atol=1e-3)

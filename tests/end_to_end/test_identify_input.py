@@ -26,6 +26,7 @@ from faultspace.numeric.data import files as data_files
 from faultspace.numeric.data.files import read_record
 from faultspace.numeric.data.selectors import split_names
 from faultspace.numeric.model.models import StateSpaceModel
+from faultspace.numeric.pipeline import identify as whole_identify
 from faultspace.numeric.report import files as report
 from tests.end_to_end.identify_runs import identified, refused, small_csv
 
@@ -259,12 +260,19 @@ def test_a_failure_in_writing_leaves_no_half_answer(csv_file: Path, tmp_path: Pa
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
+    found: list[Any] = []
+
+    def identify(*records: Any, **options: Any) -> Any:
+        found.append(found[0] if found else whole_identify(*records, **options))
+        return found[-1]
+
     monkeypatch.setattr(report, "_signal_table", full)
+    monkeypatch.setattr(identifying, "identify", identify)
     refused(identified(csv_file, tmp_path / "out", "--order", "3"), "no space left")
     assert not (tmp_path / "out").exists()
     (tmp_path / "kept").mkdir()
     refused(identified(csv_file, tmp_path / "kept", "--order", "3"), "no space left")
-    assert list((tmp_path / "kept").iterdir()) == []
+    assert list((tmp_path / "kept").iterdir()) == [] and len(found) == 2
 
 
 @pytest.mark.parametrize(
@@ -348,6 +356,10 @@ def test_block_rows_at_or_below_the_lag(tmp_path: Path) -> None:
 
 def test_windows_too_long_for_the_record_are_reported_with_those_that_fit(csv_file: Path, tmp_path: Path) -> None:
     refused(identified(csv_file, tmp_path / "out", "--block-rows", "500"), "got 4000 samples", "need at least 4499", "--block-rows 444")
+
+
+@pytest.mark.slow  # other windows are answered daily, below and above
+def test_windows_longer_than_the_default_are_answered(csv_file: Path, tmp_path: Path) -> None:
     assert identified(csv_file, tmp_path / "out", "--block-rows", "60", "--order", "3").code == 0
 
 

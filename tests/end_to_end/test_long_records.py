@@ -193,7 +193,7 @@ with open("/proc/self/status") as status:
 def peak(path: Path, channels: tuple[str, ...], in_memory: int = 1 << 20) -> float:
     script, options = SCRIPT.format(in_memory=in_memory), ("--order", "3", "--out", str(path) + ".answer")
     line = [sys.executable, "-c", script, "identify", str(path), *channels, *options]
-    run = subprocess.run(line, capture_output=True, cwd=ROOT, env=environment(), timeout=240, text=True)
+    run = subprocess.run(line, capture_output=True, cwd=ROOT, env=environment(), timeout=1200, text=True)
     code, most = run.stderr.split()[-2:]
     assert code == "0", run.stderr
     return int(most) / 1024

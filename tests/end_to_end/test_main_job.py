@@ -25,7 +25,7 @@ HEADLINES = ROOM / "certificates"
 @pytest.mark.long
 @pytest.mark.timeout(1500)
 def test_verify_quick_is_as_expected_and_makes_the_certificates_of_the_tree(tmp_path: Path) -> None:
-    run = command("verify", "--effort", "quick", "--jobs", "2", "--json", "--out", str(tmp_path))
+    run = command("verify", "--effort", "quick", "--jobs", "2", "--json", "--out", str(tmp_path), seconds=1400.0)
     assert run.code == 0, run.err[-2000:]
     report = run.json
     assert report["as_expected"]

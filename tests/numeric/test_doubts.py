@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import itertools
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 from scipy.special import ndtr
 from scipy.stats import hypergeom, kstest
 
@@ -21,7 +23,7 @@ from faultspace.base.errors import InvalidData
 from faultspace.numeric import StateSpaceModel, arx_reduction, doubts, identify, pi_moesp, record_from
 from faultspace.numeric.data.clocks import Clock, clock_from
 from faultspace.numeric.doubt.channels import _hypergeometric_tail, limit_chance, written_step
-from faultspace.numeric.doubt.errors import outlier_chance, outlier_sizes, score_chance
+from faultspace.numeric.doubt.errors import burst_chance, outlier_chance, outlier_sizes, score_chance
 from faultspace.numeric.doubt.listing import KINDS, LEVEL, TESTED
 
 N = 800
@@ -52,11 +54,20 @@ def slipped() -> tuple[Array, Array]:
     return y, U
 
 
+def bursting() -> tuple[Array, Array]:
+    """Return the plant with noise of a GARCH process, alpha .3 and beta .6."""
+    variance, white = np.ones(N), np.random.default_rng(9).standard_normal((N, 2))
+    for k in range(1, N):
+        variance[k] = 0.1 + (0.3 * white[k - 1, 0] ** 2 + 0.6) * variance[k - 1]
+    return PLANT.simulate(U) + 0.1 * white * np.sqrt(variance)[:, None], U
+
+
 PLANTED: dict[str, tuple[Array, Array]] = {
     "closed loop": closed_loop(),
     "non-linearity": curved(),
     "drift": (Y + np.linspace(0, 1, N)[:, None] * [0.3, 0.0], U),
     "outliers": slipped(),
+    "bursts": bursting(),
     "limits": (np.clip(Y, -2.0, None), U),
     "constant channel": (np.hstack([Y, np.full((N, 1), 3.0)]), U),
     "copies": (np.hstack([Y, Y[:, :1] - 2 * Y[:, 1:]]), U),
@@ -275,3 +286,19 @@ def test_the_tail_of_the_hypergeometric_law_is_that_of_scipy(seed: int) -> None:
     for least in {0, 1, int(rng.integers(0, min(marked, drawn) + 2)), min(marked, drawn), min(marked, drawn) + 1}:
         found = _hypergeometric_tail(least, number, marked, drawn)
         assert np.isclose(found, hypergeom(number, marked, drawn).sf(least - 1), rtol=1e-7, atol=1e-300)
+
+
+def test_the_law_of_bursts_holds_for_any_law_of_noise_and_a_power_that_rises_once_is_none() -> None:
+    draw = np.random.default_rng(4)
+    rises = 1.0 + 2.0 * (np.arange(600) >= 240)
+    made: dict[str, Callable[[Array], Array]] = {
+        "normal": lambda e: e,
+        "heavy": lambda e: e / np.sqrt(draw.chisquare(4, 600)),
+        "two values": np.sign,
+        "rises": lambda e: rises * e,
+        "rises coloured": lambda e: np.where(rises > 1.0, lfilter([1.0], [1.0, -0.7], e), e),
+    }
+    for name, make in made.items():
+        chances = np.array([burst_chance(make(draw.standard_normal(600))) for _ in range(200)])
+        assert np.sum(chances < 0.01) <= 8, name  # of 200, five deviations of a binomial count
+    assert burst_chance(np.ones(600)) == 1.0 and burst_chance(np.arange(50.0)) == 1.0

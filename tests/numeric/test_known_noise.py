@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+import faultspace as fs
 from faultspace.base.errors import InvalidData
-from faultspace.numeric import ReducedModel, StateSpaceModel, arx_reduction, identified_fault_space, isolate
+from faultspace.numeric import ReducedModel, StateSpaceModel, arx_reduction, identified_fault_space, isolate, modelling
+from faultspace.numeric.choice import noise_mix
+from faultspace.numeric.model.moesp_model import MoespModel
 from faultspace.numeric.rows.known_noise import space_in_known_noise, state_units, whitening
 
 Array = NDArray[np.float64]
@@ -59,3 +64,19 @@ def test_a_covariance_that_is_none_gives_no_mixture_and_units_that_are_none_are_
             isolate(found, model, units=units)
     sizes = y.std(axis=0)
     assert isolate(found, model, units=sizes).to_json() == isolate(found, model, units=np.diag(sizes)).to_json()
+
+
+def test_units_of_known_noise_are_taken_only_where_the_space_was_sought_in_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*arguments: object) -> None:
+        raise InvalidData("no ARX model today")
+
+    draw = np.random.default_rng(1)
+    u = draw.standard_normal((400, 2))
+    y = PLANT.simulate(u) + draw.standard_normal((400, 3)) @ TOGETHER
+    y[200:, 1] += 0.3 * draw.standard_normal(200)
+    model = arx_reduction(y[:200], u[:200], order=2)
+    monkeypatch.setattr(modelling, "_by_reduction", refused)
+    found = fs.identify(y, u, order=2, healthy=200, n_v=1)
+    # A model of PI-MOESP, whose space is from rows of the outputs as they are.
+    assert isinstance(found.model, MoespModel) and found.fault_space is not None and found.fault_space.method == "kernel rows"
+    assert noise_mix(found) is None and noise_mix(replace(found, model=model)) is not None

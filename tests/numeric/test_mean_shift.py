@@ -160,8 +160,8 @@ def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_res
         r, late = residual(y, u, found, x0=found.x0).r, slice(K + 30, None)
         plain, wide = (mean_shift(r[late], u[late], r[:K], u[:K], level=0.02, gain_errors=e) for e in (None, gain_errors(found)))
         without, beside = without + (plain.shifted is True), beside + (wide.shifted is True)
-        for number, model in enumerate((found.model, found)):  # the former has no standard errors
-            seen = changes_since_healthy(r, y, u, healthy=K, model=model, level=0.2).seen
-            rows[number] += any(row.kind == "mean shift" for row in seen)
+        exact = changes_since_healthy(r, y, u, healthy=K, model=found.model, level=0.2).seen  # without standard errors
+        known = changes_since_healthy(r, y, u, healthy=K, model=found, level=0.2).seen
+        rows = [count + any(row.kind == "mean shift" for row in seen) for count, seen in zip(rows, (exact, known), strict=True)]
     assert without >= 6 and beside <= 2
     assert rows[0] >= 5 and rows[1] <= 3

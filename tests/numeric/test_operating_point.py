@@ -50,7 +50,7 @@ def test_without_healthy_samples_zero_is_taken_where_it_may_be_and_means_hide_no
         assert "only samples without fault can tell it" in far.operating_point.reason
     means = found(y + POINT[2:], u + POINT[:2], operating_point="means")
     assert means.n_v == 0 and means.operating_point.stated
-    about = found([y[:200], y[:200] + 10.0], [u[:200], u[:200] - 4.0])
+    about = identify([y[:200], y[:200] + 10.0], [u[:200], u[:200] - 4.0], order=2)
     assert about.operating_point.of == "single experiments" and about.operating_point.values is None
 
 

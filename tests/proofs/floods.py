@@ -246,6 +246,9 @@ def of_kernel_rows() -> Iterator[Flood]:
             yield flood(f"ranks by hints {name}", dumped, "window-ranks", ranks, hints)
             modulo = {key: value for key, value in hints.items() if key != "kernel"} | {"kernel_modulo": kernel}
             yield flood(f"ranks modulo {name}", dumped, "window-ranks", ranks, modulo)
+            vectors = [[10**40 + i - j for j in range(n)] for i in range(min(n, BYTES // (200 * (n + m + 1))))]
+            nulling = {"states": vectors, "faults": [[10**40] * m for _ in vectors], "motion": [[10**40] * len(vectors) for _ in vectors]}
+            yield flood(f"ranks by nulling {name}", dumped, "window-ranks", ranks, {**modulo, "nulling": nulling})
         for length in (1, 400, 4096):
             if length * (m + p) * 2 < BYTES:
                 word = {"x0": [9] * n, "v": [[9] * m] * length, "row": [[9] * p] * length}

@@ -7,10 +7,11 @@ MALFORMED_HINTS    not of the format
 from __future__ import annotations
 
 from faultspace.exact.system.systems import ResidualSystem
-from tests.proofs.examples import EQUAL, GENERIC, GONE, HINTED, INVERTIBLE, Certificate, K, S, hinted, spoiled
+from tests.proofs.examples import EQUAL, GENERIC, GONE, HINTED, INVERTIBLE, SQRT2, Certificate, K, S, hinted, spoiled
 
 SHIFT = ResidualSystem.of([[0, 1], [0, 0]], [[], []], [[1, 0]], [[]], n=2, m=0, p=1)
 TIMES = [[0, 1], [-1, -1], [1, 0]]  # the row of `seen` times q - 1
+NULLED = {"states": [[1]], "faults": [[0]], "motion": [[0]]}
 REJECTED_HINTS: dict[str, tuple[str, Certificate]] = {
     "a row is missing with hints": ("there may be more rows", spoiled(HINTED, (K, []))),
     "a pivot whose minor is zero": ("at the pivots are dependent", spoiled(HINTED, (f"{K}.0.pivot", 1))),
@@ -21,9 +22,18 @@ REJECTED_HINTS: dict[str, tuple[str, Certificate]] = {
     ),
     "a row that annihilates nothing, modulo the prime": ("does not annihilate", spoiled(GENERIC, (f"{K}_modulo.0.coefficients.1.1", 1))),
     "windows that could be larger": ("that their shape allows", spoiled(GENERIC, (f"{K}_modulo.0.coefficients", TIMES))),
+    "a state with an output": ("a state or fault of nulling has an output", spoiled(GENERIC, ("witness.nulling", NULLED))),
+    "a state of zero": ("the states of nulling may be", spoiled(GENERIC, ("witness.nulling", {**NULLED, "states": [[0]]}))),
+    "a fault of zero": (
+        "the faults of nulling may be",
+        spoiled(GENERIC, ("witness.nulling", {"states": [], "faults": [[0]], "motion": [[]]})),
+    ),
     "a point at a zero": ("smaller rank at that point", spoiled(INVERTIBLE, (f"{S}.F", [[0]]), (f"{S}.G", [[0], [0]]))),
 }
 MALFORMED_HINTS: dict[str, tuple[str, Certificate]] = {
+    "nulling beside exact rows": ("nulling goes with kernel_modulo", spoiled(HINTED, ("witness.nulling", NULLED))),
+    "more states than faults": ("a fault for each of the states", spoiled(GENERIC, ("witness.nulling", {**NULLED, "faults": []}))),
+    "nulling over Q(a)": ("nulling: over Q only", spoiled(hinted("generic", SQRT2), ("witness.nulling", NULLED))),
     "a point alone": ("point and mix go together", spoiled(HINTED, ("witness.mix", GONE))),
     "a mix alone": ("point and mix go together", spoiled(EQUAL, ("witness.mix", 1))),
     "rows twice": ("expected one of kernel and kernel_modulo", spoiled(HINTED, (f"{K}_modulo", []))),

@@ -15,7 +15,23 @@ import pytest
 from faultspace.exact.algebra.fields import QQ, PrimeField
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
-from tests.proofs.examples import CUBED, GONE, HINTED, HUGE, INVERTIBLE, LEADING, RANKS, SAME, SPACE, ZERO, base, seen, spoiled, systems
+from tests.proofs.examples import (
+    CUBED,
+    GENERIC,
+    GONE,
+    HINTED,
+    HUGE,
+    INVERTIBLE,
+    LEADING,
+    RANKS,
+    SAME,
+    SPACE,
+    ZERO,
+    base,
+    seen,
+    spoiled,
+    systems,
+)
 
 SOURCE = Path(checker.__file__)
 FILES = ("checker.py", "checker_fields.py", "checker_structure.py", "checker_limits.py")  # each needs those before it
@@ -226,6 +242,7 @@ def test_a_kind_carries_its_proof() -> None:
         assert kind.proof.endswith(".") and 40 < len(kind.proof) < 200, name
 
 
+NULLED = spoiled(GENERIC, ("witness.nulling", {"states": [], "faults": [], "motion": []}))
 OTHER = "here: {} decides it, which is another file"
 # A certificate, the file that decides it, and what the files before that one say of it.
 BELONGS: dict[str, tuple[Any, int, str]] = {
@@ -233,6 +250,7 @@ BELONGS: dict[str, tuple[Any, int, str]] = {
     "point": (INVERTIBLE, 0, ""),
     "no-hints": (RANKS, 1, "without point and mix it is for checker_fields.py, which is another file"),
     "no-point": (base("left-invertible"), 1, "without a point it is for checker_fields.py"),
+    "nulling": (NULLED, 2, "nulling is for checker_structure.py, which is another file"),
     "prime-field": (base("window-ranks", PrimeField(3)), 1, "GF(p) and Q(a) are read by checker_fields.py, which is another file"),
     "number-field": (CUBED, 1, "GF(p) and Q(a) are read by checker_fields.py, which is another file"),
     "window": (SAME, 1, OTHER.format(FILES[1])),

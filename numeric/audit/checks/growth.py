@@ -31,7 +31,7 @@ from ..vectors.rationals import floats, signs
 from ..vectors.shipped_vectors import FaultVector, IdentificationVector, shipped
 
 LENGTHS = (3000, 12000)  # a square of 8-byte numbers is 1.2 GB at the longer, one of bytes 0.14
-BOUND = 1.5
+BOUND = 1.5  # of the exponent: half way, on its scale, between what is linear and what is a square
 MEMORY_FLOOR = 32e6  # bytes
 TIME_FLOOR = 0.1  # seconds
 EVERY = 0.004  # seconds between two looks at the memory

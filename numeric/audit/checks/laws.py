@@ -35,7 +35,7 @@ LEVEL = 0.25
 LOUD = 300.0
 ASKED = ("one-fault-in-noise", "two-faults-in-noise")
 SEED = 1000  # added to that of the record for the signs of the input
-UNITS = (1e-3, 1.0, 1e3)
+UNITS = (1e-3, 1.0, 1e3)  # of outputs, as milli and kilo are
 WINDOW = 10  # samples of a response
 
 
@@ -46,7 +46,7 @@ def checks() -> Iterator[Check]:
             continue
         for slug, noise, units in (("", 0.0, False), ("-noisy", LOUD, False), ("-noisy-other-units", LOUD, True)):
             when = " whenever outputs have unlike units" if units else ""
-            counted, found = partial(_count, vector, noise, units), partial(_space, vector, units)
+            counted, found = partial(_count, vector, noise, units), partial(space_errors, vector, units)
             effect = f"a wrong number of faults{when}"
             yield Check(f"faults-of-record{slug}", "count_faults", vector.slug, "proposition-3", effect, Severity.SILENT, counted)
             if not noise:
@@ -85,7 +85,7 @@ def _count(vector: NoisyVector, noise: float, units: bool, function: Function) -
     yield Measurement("n_v", abs(got - vector.system.m), 0.0)
 
 
-def _space(vector: NoisyVector, units: bool, function: Function) -> Iterator[Measurement]:
+def space_errors(vector: NoisyVector, units: bool, function: Function) -> Iterator[Measurement]:
     system = vector.system
     y, u = record(vector, LOUD, units)
     try:

@@ -28,9 +28,10 @@ _knows: adapter.KnowsStructure = reference
 
 
 # Noisy records take a second each; that their units do not matter is asked daily of the same functions in `test_rows.py`.
+DECORATED: Any = parametrize_with_checks(reference)
 ASKED = [
     pytest.param(*case.values, id=case.id, marks=pytest.mark.slow if "noisy-other-units" in str(case.id) else ())
-    for case in parametrize_with_checks(reference).args[1]
+    for case in DECORATED.args[1]
 ]
 
 

@@ -43,8 +43,8 @@ def _adapter(tmp_path: Path, body: str, head: str = "") -> str:
     [
         # What is slow here is a question of the program alone, and tests of `test_subprocess.py` ask it daily of one that starts at once.
         pytest.param("pass", "pass", "", marks=pytest.mark.slow),
-        pytest.param("time.sleep(600)", "broken", "no answer within 4 s", marks=pytest.mark.slow),
-        pytest.param("while True: pass", "broken", "no answer within 4 s", marks=pytest.mark.slow),
+        pytest.param("time.sleep(600)", "broken", "no answer within 10 s", marks=pytest.mark.slow),
+        pytest.param("while True: pass", "broken", "no answer within 10 s", marks=pytest.mark.slow),
         ("os.abort()", "broken", "SIGABRT"),
         pytest.param("ctypes.string_at(0)", "broken", "SIGSEGV", marks=pytest.mark.slow),
         ("sys.exit(0)", "broken", "SystemExit(0)"),
@@ -63,7 +63,7 @@ def _adapter(tmp_path: Path, body: str, head: str = "") -> str:
 )
 def test_what_breaks_is_told_and_the_run_goes_on(tmp_path: Path, body: str, verdict: str, words: str) -> None:
     name = _adapter(tmp_path, body)
-    first, second = audit(name, only=[ONE, TWO], seconds=4.0 if "4 s" in words else 60.0, gibibytes=0.5)
+    first, second = audit(name, only=[ONE, TWO], seconds=10.0 if "10 s" in words else 60.0, gibibytes=0.5)
     assert (first.name, first.verdict) == (ONE, verdict) and words in first.detail
     assert (second.name, second.verdict) == (TWO, "pass")
 

@@ -1,0 +1,83 @@
+"""This measures by what likelihood ratios of the total degree of kernel rows exceed their law where the degree suffices.
+
+    OPENBLAS_NUM_THREADS=1 python benchmarks/degree_misfits.py [--systems 12] [--seed 1] [--samples 1001 10000] [--limit SECONDS]
+
+The records are those of `space_at_the_bound_cells.py`; rows of the true degree and of all higher ones are fitted as `fault_space_by_rows`
+does. SLACK and LOOSE of `numeric/rows/degree.py` stand for the quantile regression: the ratio over the 90 % quantile of its law, less one,
+on a constant and on the root of the samples that the faults leave free over the degrees of freedom, of which one in ten lies above. The
+last columns say how often it does with the constants as they are set, and how often the stated probability is below 1 %, which is where a
+degree that suffices is refused.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import scipy.stats
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run from a clone, installed or not
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from space_at_the_bound_cells import CELLS, Cell
+
+from benchmarks.counting_at_the_bound import one_in_ten, quantile_regression, rate
+from faultspace.numeric.rows import space
+from faultspace.numeric.rows.degree import ENOUGH, LOOSE, SLACK, likelihood_ratio
+from faultspace.numeric.rows.joint import course, joint_moments, polished
+
+
+def ratios(cell: Cell, seed: int, number: int, samples: int) -> list[tuple[int, int, int, float, float]]:
+    """Return rows, degrees more, degrees of freedom, loose samples and ratio, for each higher degree, of one record."""
+    trial = cell.trial(seed, number, samples)
+    n, p = trial.model.n, trial.model.p
+    rows, degree = p - trial.n_v, n - trial.zeta
+    data, shares = joint_moments(trial.y, trial.u, -(-(n + space.BEYOND) // rows)), np.ones(p)
+    fits = course(data, rows, n + space.BEYOND, shares=shares)
+    data = joint_moments(trial.y, trial.u, data.degree, space._narrow(data))
+    fits = polished(data, fits, degree, shares)
+    loose = space._loose([(trial.y, trial.u)], data, fits[-1], shares, n, None)
+    return [
+        (rows, more, more * data.moments.channels, loose, likelihood_ratio(data, fits[degree], fits[degree + more]))
+        for more in range(1, len(fits) - degree)
+    ]
+
+
+def main() -> None:
+    """Print the regressions."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--systems", type=int, default=12, help="records a cell")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--samples", type=int, nargs="+", default=[1001, 10000])
+    parser.add_argument("--limit", type=float, default=float("inf"), help="seconds for all")
+    options = parser.parse_args()
+    end = time.monotonic() + options.limit
+    found = [
+        (samples, *one)
+        for number in range(options.systems)
+        for samples in options.samples
+        for cell in CELLS
+        if time.monotonic() < end
+        for one in ratios(cell, options.seed, number, samples)
+    ]
+    for name, several in (("one degree more", False), ("several degrees more", True)):
+        chosen = [one for one in found if (one[2] > 1) == several]
+        terms = np.array([[1.0, loose**0.5 / freedom] for _, _, _, freedom, loose, _ in chosen])
+        values = np.array([ratio / freedom / one_in_ten(freedom) - 1 for _, _, _, freedom, _, ratio in chosen])
+        best = quantile_regression(terms, values, 0.9)
+        print(f"{name}: SLACK {best[0]:.2f} (set: {SLACK:g}), LOOSE {best[1]:.2f} (set: {LOOSE[several]:g}), of {len(chosen)}")
+        expected = 1 + terms @ [SLACK, LOOSE[several]]
+        for samples, rows in sorted({one[:2] for one in chosen}):
+            here = [k for k, one in enumerate(chosen) if one[:2] == (samples, rows)]
+            beyond = sum(1 + values[k] > expected[k] for k in here)
+            refused = sum(scipy.stats.chi2.sf(chosen[k][5] / expected[k], chosen[k][3]) < ENOUGH for k in here)
+            print(
+                f"    N = {samples}, rows: {rows}: beyond one in ten {rate(beyond, len(here))}, below {ENOUGH:g} {rate(refused, len(here))}"
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,114 @@
+"""States and faults without output explain what windows lack: true certificates pass, false ones do not, and each check is needed."""
+
+from __future__ import annotations
+
+import copy
+from random import Random
+
+import pytest
+
+from benchmarks.ladder_systems import FAMILIES
+from faultspace.exact.structure.generic_rows import generic_rows
+from faultspace.exact.structure.modular_rows import rows_modulo
+from faultspace.exact.system.modular import image
+from faultspace.exact.system.systems import ResidualSystem, read_system
+from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import structure_certificates as make
+from faultspace.proofs.trust.kernel_witnesses import nulling_witness
+from tests.proofs.basis_mutants import is_true, random_system
+from tests.proofs.examples import Certificate, written
+
+PRIME = 2**27 - 39
+HIDDEN = ResidualSystem.of([[0]], [[1]], [[PRIME], [0]], [[0], [1]])  # modulo the prime no output shows the state
+DEAF = ResidualSystem.of([], [], [[]], [[PRIME]], n=0, m=1, p=1)  # and none the fault
+BOTH = read_system({"A": [[1, 1], [0, 2]], "F": [[0, 3], [1, 0]], "C": [[0, 1], [0, 0]], "G": [[0, 0], [1, 0]]}).residual
+
+
+def stated(system: ResidualSystem) -> Certificate | None:
+    """Return the certificate with what is nulled, of a system of any size."""
+    found = nulling_witness(system)
+    return None if found is None else written(make._window_ranks(system, *found))
+
+
+def forged(system: ResidualSystem, row: list[list[int]], states: list[list[int]], faults: list[list[int]]) -> Certificate:
+    """Return the certificate that states and faults would give which are zero, or have an output."""
+    mu, count = len(row) - 1, system.n + 3
+    ranks = [k * (system.p - 1) + min(k, mu) for k in range(1, count + 1)]
+    statement = {"system": system.to_json(), "normal_rank": system.p - 1, "left_minimal_indices": [mu], "window_ranks": ranks}
+    nulling = {"states": states, "faults": faults, "motion": [[0] * len(states) for _ in faults]}
+    witness = {"prime": PRIME, "point": 5, "mix": 7, "kernel_modulo": [{"pivot": 0, "coefficients": row}], "nulling": nulling}
+    return written({"format": "faultspace-certificate/1", "kind": "window-ranks", "statement": statement, "witness": witness})
+
+
+# The reason that is left out -> a false statement that then passes.
+NEEDED = {
+    "has an output, or leaves the states": forged(HIDDEN, [[1, 0]], [[1]], [[0]]),
+    "the states of nulling may be dependent": forged(HIDDEN, [[1, 0]], [[0]], [[0]]),
+    "the faults of nulling may be dependent": forged(DEAF, [[1]], [], [[0]]),
+}
+
+
+@pytest.mark.parametrize("reason", NEEDED)
+def test_without_one_of_the_checks_something_false_passes(reason: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert not is_true(NEEDED[reason]["statement"])
+    with pytest.raises(checker.Rejected, match=reason):
+        checker.verify(NEEDED[reason])
+    strict = checker.require
+    monkeypatch.setattr(checker, "require", lambda condition, why, *error: strict(condition or reason in why, why, *error))
+    checker.verify(NEEDED[reason])
+
+
+def test_true_ones_are_accepted_and_changed_ones_are_refused_or_true() -> None:
+    rng, accepted, refused, d_or_e = Random(16), 0, 0, set[tuple[bool, bool]]()
+    for _ in range(250):
+        certificate = stated(random_system(rng))
+        if certificate is None:
+            continue
+        checker.verify(certificate)
+        assert is_true(certificate["statement"])
+        null = certificate["witness"]["nulling"]
+        d_or_e.add((bool(null["states"]), len(null["faults"]) > len(null["states"])))
+        accepted += 1
+        for _ in range(3):
+            mutant = copy.deepcopy(certificate)
+            w = mutant["witness"]["nulling"]
+            rows = [row for key in ("states", "faults", "motion") for row in w[key] if row]
+            if rows and rng.random() < 0.7:
+                row = rng.choice(rows)
+                row[rng.randrange(len(row))] = rng.choice((0, 1, -2, "1/2", PRIME))
+            elif w["faults"]:
+                del w["faults"][-1], w["motion"][-1]
+            try:
+                checker.verify(mutant)
+            except (checker.Rejected, checker.Malformed):
+                refused += 1
+            else:
+                assert is_true(mutant["statement"])
+    assert accepted > 80 and refused > 100 and d_or_e == {(x, y) for x in (True, False) for y in (True, False)}
+
+
+def test_sizes_that_kernels_do_not_recompute_have_it_and_smaller_ones_have_exact_rows() -> None:
+    for family in FAMILIES[2:]:
+        small, large = (make.window_ranks_of(read_system(family.specimen(n).to_json()).residual) for n in (8, 24))
+        assert "kernel" in small["witness"] and "nulling" in large["witness"]
+        checker.verify(written(large))
+
+
+def test_each_kind_of_state_and_fault_counts() -> None:
+    certificate = stated(BOTH)
+    assert certificate is not None
+    null = certificate["witness"]["nulling"]
+    assert (len(null["states"]), len(null["faults"])) == (1, 2)
+    assert checker.verify(certificate).assumes == []
+    assert is_true(certificate["statement"])
+
+
+def test_rows_from_a_window_without_faults_are_those_of_all_windows() -> None:
+    rng, found = Random(7), 0
+    for _ in range(200):
+        picture = image(random_system(rng)).system
+        mine, known = generic_rows(picture), rows_modulo(picture)
+        if mine is not None and known is not None:
+            assert mine.degrees == tuple(mu for mu, _ in known.leads)
+            found += 1
+    assert found > 50

@@ -1,0 +1,47 @@
+"""A system that the checker has read is read once for the certificates about it; nothing that one of them left bears another."""
+
+from __future__ import annotations
+
+import pytest
+
+from faultspace.exact.structure.kernel_rows import kernel_representation
+from faultspace.exact.system.systems import ResidualSystem
+from faultspace.proofs.trust import structure_certificates as make
+from faultspace.proofs.trust.checker import Rejected
+from faultspace.proofs.trust.structure_certificates import accept
+
+from .examples import LEADING, NORMAL, OUTPUTS, PROJECTED, SEVEN_B, SEVEN_D, Certificate, spoiled, written
+
+SEVEN = written(make.left_invertible(kernel_representation(ResidualSystem.of([], [], [[]], [["7/3"]], n=0, m=1, p=1))))
+NINTH = ("witness.covariance.0.0", "1/9")
+
+
+@pytest.mark.parametrize(
+    ("good", "wrong", "reason"),
+    [
+        (SEVEN, spoiled(SEVEN, ("witness.prime", 7), ("witness.point", 1)), "smaller rank"),
+        (LEADING, spoiled(LEADING, NINTH), "Lyapunov"),
+        (LEADING, spoiled(NORMAL, NINTH), "Lyapunov"),
+        (OUTPUTS, spoiled(OUTPUTS, NINTH), "Lyapunov"),
+        (LEADING, OUTPUTS | {"witness": OUTPUTS["witness"] | {"covariance": LEADING["witness"]["covariance"]}}, "covariance"),
+        (NORMAL, SEVEN_B, "correlated"),
+        (NORMAL, SEVEN_D, "correlated"),
+        (PROJECTED, spoiled(PROJECTED, ("statement.B", [["7"]])), "normal equations"),
+    ],
+)
+def test_a_wrong_certificate_is_refused_after_a_right_one_about_the_same(good: Certificate, wrong: Certificate, reason: str) -> None:
+    key = "experiment" if "experiment" in good["statement"] else "system"
+    assert good["statement"][key] == wrong["statement"][key]
+    for _ in range(2):
+        accept(good)
+        with pytest.raises((Rejected, make.checker.Malformed), match=reason):
+            accept(wrong)
+
+
+def test_what_is_equal_in_python_and_not_in_json_is_read_again() -> None:
+    """One and true are equal, and true is no number."""
+    accept(SEVEN)
+    one = spoiled(SEVEN, ("statement.system.G", [[1]]))
+    accept(one)
+    with pytest.raises(make.checker.Malformed):
+        accept(spoiled(SEVEN, ("statement.system.G", [[True]])))
