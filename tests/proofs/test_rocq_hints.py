@@ -15,6 +15,7 @@ from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq.build import compile_file
 from faultspace.proofs.rocq.export import HEAD, Terms, translated
+from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.rocq.recompute import theory
 from faultspace.proofs.rocq.sources import sources
 from faultspace.proofs.rocq.text import vector
@@ -134,7 +135,7 @@ def ask_about_smallest(questions: Questions) -> None:
     for name, system in SMALLEST.items():
         for certificate in about(system):
             checker.verify(certificate)
-            assert {"point", "mix"} <= {*certificate["witness"]}
+            assert {"point", "mix"} <= {*certificate["witness"]} and "nulling" not in certificate["witness"]
             questions.ask(asked(translated(certificate)), True, name)
             r = certificate["statement"]["normal_rank"]
             questions.ask(asked(translated(spoiled(certificate, ("statement.normal_rank", r + 1)))), False, f"{name}, one more")
@@ -153,6 +154,8 @@ def ask_about_mutations(questions: Questions, seed: int, count: int) -> tuple[in
             continue
         try:
             questions.ask(asked(translated(mutant)), verdicts[-1], mutant)
+        except NotCovered:
+            verdicts.pop()
         except (checker.Rejected, checker.Malformed):
             assert not verdicts[-1], mutant
     return verdicts.count(True), verdicts.count(False)
