@@ -13,7 +13,6 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from threading import Event, Thread
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -24,7 +23,6 @@ from threadpoolctl import ThreadpoolController, threadpool_limits
 from faultspace.base.errors import InvalidData
 from faultspace.base.threads import one_thread
 from faultspace.numeric import StateSpaceModel, count_faults, fault_dimension, pi_moesp
-from faultspace.numeric.data.records import recorded
 from faultspace.numeric.monitor import monitoring
 from faultspace.numeric.report.files import of_monitor
 from faultspace.numeric.study.workers import in_order
@@ -180,16 +178,14 @@ def test_a_call_computes_with_one_thread() -> None:
 def test_what_a_monitor_needs_is_learnt_with_one_thread_where_an_answer_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[set[int]] = []
 
-    def form(*arguments: Any, **options: Any) -> Any:
+    def plant(found: object) -> Any:
         seen.append(set(threads()))
         raise InvalidData("seen")
 
-    monkeypatch.setattr(monitoring, "innovation_form", form)
-    u = np.random.default_rng(1).standard_normal((100, 1))
-    plant = StateSpaceModel([[0.5]], [[1.0]], [[1.0]], [[0.0]])
-    found = SimpleNamespace(record=recorded(plant.simulate(u), u, outputs=("y",), inputs=("u",)), model=plant, healthy=50)
+    monkeypatch.setattr(monitoring, "_plant", plant)
+    answer: Any = None
     with two_threads():
-        assert of_monitor(found)[0] is None  # type: ignore[arg-type]
+        assert of_monitor(answer)[0] is None
     assert seen == [{1}]
 
 
