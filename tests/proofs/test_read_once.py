@@ -7,7 +7,7 @@ import pytest
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem
 from faultspace.proofs.trust import structure_certificates as make
-from faultspace.proofs.trust.checker import Rejected
+from faultspace.proofs.trust.checker import Malformed, Rejected
 from faultspace.proofs.trust.structure_certificates import accept
 
 from .examples import LEADING, NORMAL, OUTPUTS, PROJECTED, SEVEN_B, SEVEN_D, Certificate, spoiled, written
@@ -34,7 +34,7 @@ def test_a_wrong_certificate_is_refused_after_a_right_one_about_the_same(good: C
     assert good["statement"][key] == wrong["statement"][key]
     for _ in range(2):
         accept(good)
-        with pytest.raises((Rejected, make.checker.Malformed), match=reason):
+        with pytest.raises((Rejected, Malformed), match=reason):
             accept(wrong)
 
 
@@ -43,5 +43,5 @@ def test_what_is_equal_in_python_and_not_in_json_is_read_again() -> None:
     accept(SEVEN)
     one = spoiled(SEVEN, ("statement.system.G", [[1]]))
     accept(one)
-    with pytest.raises(make.checker.Malformed):
+    with pytest.raises(Malformed):
         accept(spoiled(SEVEN, ("statement.system.G", [[True]])))
