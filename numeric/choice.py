@@ -66,7 +66,7 @@ def with_space(answer: Findings, on_progress: Progress) -> Findings:
     if quiet := _quieter(answer):
         lost = (
             f"no fault space: {named(quiet)} {'has' if len(quiet) == 1 else 'have'} lost variance since the healthy samples, as a sensor "
-            "that is stuck, or whose gain has fallen, does; such a fault is no signal that is added, and has no space of its own"
+            "that is stuck, or whose gain has fallen, does; such a fault is no signal that is added, and a space found of it misleads"
         )
         return replace(answer, notes=(*answer.notes, lost))
     on_progress("fault space", 0, 0)

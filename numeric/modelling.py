@@ -87,7 +87,7 @@ def _beside_faults(record: Record, found: Modelled, block_rows: int | None, on_p
     except (InvalidData, np.linalg.LinAlgError) as error:
         return _with_notes(found, f"the model is an estimate by PI-MOESP, without standard errors, for want of an ARX model: {error}")
     return _with_notes(
-        other, f"the record has no noise, but faults drive it, so that the model is an estimate, of order {other.model.order}"
+        other, f"the record has no noise, but faults drive it, so that the model is an estimate, of order {found.model.order}"
     )
 
 

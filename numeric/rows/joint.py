@@ -178,7 +178,7 @@ def polished(data: JointMoments, fits: Sequence[KernelBasis], least: int, shares
     flat, found = 1 / data.samples, list(fits)
     for total in range(least, len(fits)):
         degrees = even_split(total, len(fits[total].rows))
-        starts = [fits[total].rows]
+        starts: list[Sequence[Array]] = [fits[total].rows]
         if total > least:
             starts += [padded(found[total - 1].rows, degrees), padded(found[total - 1].rows, degrees, below=True)]
         trials = [refitted(data, degrees, start, shares=shares, rounds=TURNS, flat=flat) for start in starts]

@@ -235,7 +235,7 @@ def pooled(records: Experiments, degree: int, bands: int = BANDS) -> JointMoment
 
 def _narrow(data: JointMoments) -> int:
     """Return into how many bands the moments are split, at most, for the likelihoods that decide."""
-    return min(SEGMENT // 2 // A_BAND, NUMBERS // data.moments.moments[0].size)
+    return min(SEGMENT // 2 // A_BAND, NUMBERS // int(data.moments.moments[0].size))
 
 
 def _loose(records: Experiments, data: JointMoments, fit: KernelBasis, shares: Array, n: int, arx: Arx | None) -> float:

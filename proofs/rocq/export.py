@@ -99,6 +99,8 @@ def written(terms: Sequence[Terms]) -> str:
 
 
 def _window_ranks(s: Json, w: Json) -> Terms:
+    if "nulling" in w:
+        raise NotCovered("the checks in Rocq do not speak of states and faults that are nulled")
     system, prime, exact = Listed(s["system"]), _prime(w), "kernel" in w
     kernel = _kernel(w["kernel" if exact else "kernel_modulo"])
     r, etas, ranks = _index(s["normal_rank"]), naturals(_indices(s["left_minimal_indices"])), naturals(_indices(s.get("window_ranks", [])))

@@ -15,10 +15,11 @@ Covered, over the rational numbers (kind: theorem, in the file):
     fault-space: solutions_sound, limit_sound; first-column-only: first_column_sound               CheckSolutions.v
     not-left-invertible: not_left_invertible_sound; inversion-delay: delay_sound, no_delay_sound   CheckInversion.v
     matrix-rank: observability_sound, reachability_sound, toeplitz_sound, window_sound, hankel_sound, excitation_sound   CheckMatrices.v
-Not covered: left-invertible-line, schur-stable, finite-zeros, infinite-zeros, moesp-limit, input-limit; Q(a) and GF(p).
+Not covered: left-invertible-line, schur-stable, finite-zeros, infinite-zeros, moesp-limit, input-limit; Q(a) and GF(p); and
+window-ranks with "nulling".
 
-Measured: window-ranks of a dense system with n = 20, m = 2, p = 3 takes Rocq five seconds of processor time, half of it for simulating
-words, a third for reading the file. What takes longer than SECONDS is left undecided.
+Measured: window-ranks with hints of a dense system with n = 20, m = 2, p = 3 takes Rocq three seconds of processor time, n = 40 six. One
+of these goes into loading the theory, another one into asking what the theorem rests on. What takes longer than SECONDS is left undecided.
 """
 
 from __future__ import annotations

@@ -319,8 +319,7 @@ class Field:
         """Return pivots and coefficients of KROWS whose degrees ascend."""
         rows, pivots = list[Vectors](), list[int]()
         for a, row in enumerate(items(given, "kernel", max(size, MAX_DIMENSION))):
-            where = f"kernel {a}"
-            vectors = items(keys(row, "pivot coefficients", where)["coefficients"], where, MAX_WINDOW, 1)
+            vectors = items(keys(row, "pivot coefficients", where := f"kernel {a}")["coefficients"], where, MAX_WINDOW, 1)
             charge(3000 + len(vectors) * size * self.degree * 500, len(vectors) * size * self.degree * 48)
             rows.append([self.integers(v, size, where) for v in vectors])
             pivots.append(index(row["pivot"], f"{where}: pivot"))
@@ -521,8 +520,7 @@ class System:
 
     def nulled(self, given: Json) -> tuple[int, int]:
         """Return (d, e) where [O_s T_s] is seen to have d + e s independent null vectors for every s."""
-        expect(False, "witness: nulling is for checker_structure.py, which is another file")
-        return 0, 0
+        raise Malformed("witness: nulling is for checker_structure.py, which is another file")
 
     def left_invertible(self, s: Json, w: Json) -> None:
         expect("point" in w, "witness: without a point it is for checker_fields.py, which is another file")

@@ -10,6 +10,7 @@ from benchmarks.counting_at_the_bound import SETTINGS, one_in_ten, quantile_regr
 from faultspace.numeric.rows import laws
 from faultspace.numeric.rows.evidence import Evidence
 from faultspace.numeric.rows.fault_count import count_faults
+from faultspace.numeric.rows.remainder import loose_samples
 
 
 @pytest.mark.parametrize("seed", [261000, pytest.param(261001, marks=pytest.mark.slow), pytest.param(261007, marks=pytest.mark.slow)])
@@ -25,7 +26,8 @@ def test_only_faults_that_leave_frequencies_to_the_noise_make_a_row_loose() -> N
     samples = []
     for evidence in (chirp, white):
         row = laws.tested(evidence, 1)
-        samples.append(laws.loose_samples(evidence, row.fit, row.shares))
+        assert evidence.disturbance is not None
+        samples.append(loose_samples(evidence.disturbance, evidence.single, row.fit, row.shares))
     assert samples[0] > 20 and samples[1] == 0.0
 
 

@@ -8,7 +8,7 @@ import pytest
 from faultspace.base.arrays import Array
 from faultspace.numeric import StateSpaceModel, fault_space_by_rows
 from faultspace.numeric.rows import space
-from faultspace.numeric.rows.degree import least_degree
+from faultspace.numeric.rows.degree import least_degree, misfits
 from faultspace.numeric.rows.from_above import divided, from_above
 from faultspace.numeric.rows.joint import JointMoments, course, joint_moments
 from faultspace.numeric.space.basis import KernelBasis
@@ -43,7 +43,7 @@ def test_a_course_that_has_stuck_goes_on_from_above() -> None:
     fits = course(data, 2, 4)
     better = from_above(data, fits)
     assert all(new.level <= old.level for new, old in zip(better, fits, strict=True)) and better[3].level < fits[3].level - 0.005
-    before, after = (least_degree(data, each, 0, 3) for each in (fits, better))
+    before, after = (least_degree(data, each, 0, 3, misfits(4, data, 0.0)) for each in (fits, better))
     assert not before.decided and "the order is too low" in before.reason and after.decided and after.degree == 3
 
 

@@ -90,7 +90,9 @@ def test_frequencies_without_faults_widen_the_law_of_the_degree() -> None:
         y = fault @ mix + u + noise
         data = joint_moments(y, u, 1)
         fit = course(data, 1, 0)[0]
-        rest = as_signals(np.asarray(arx_of([(y, u)], 1, data.scale).disturbance(data.moments.angles)), data.moments)
+        found = arx_of([(y, u)], 1, data.scale)
+        assert found is not None
+        rest = as_signals(np.asarray(found.disturbance(data.moments.angles)), data.moments)
         shares.append(loose_samples(rest, data, fit, np.ones(3)) / (data.samples / 2))
     assert shares[0] == 0.0 and 0.6 < shares[1] < 0.8
     assert misfits(2, data, 100.0)[0] > misfits(2, data, 0.0)[0]

@@ -63,12 +63,12 @@ def cost(file: Path) -> Cost:
     return Cost(said, code, seconds, peak * unit / 1e6)
 
 
-def code_in_time(one: Flood, file: Path) -> int:
+def code_in_time(one: Flood, file: Path, seconds: float = SECONDS) -> int:
     """Return the exit code of the checker, which has answered or refused within its bounds."""
     file.write_bytes(one.made())
     found = cost(file)
     assert "Traceback" not in found.said and found.said.startswith(str(file)), one.name
-    assert found.code in (0, 1, 2, 3) and found.seconds < SECONDS and found.megabytes < MEGABYTES, (one.name, found)
+    assert found.code in (0, 1, 2, 3) and found.seconds < seconds and found.megabytes < MEGABYTES, (one.name, found)
     return found.code
 
 
@@ -87,7 +87,9 @@ def test_floods_are_answered_or_refused_in_time(tmp_path: Path) -> None:
 @pytest.mark.slow  # that the checker charges for such work, the next test sees as well
 @pytest.mark.parametrize("name", DEAREST)
 def test_the_dearest_floods_are_answered_or_refused_in_time(name: str, tmp_path: Path) -> None:
-    code_in_time(next(one for one in floods() if one.name == name), tmp_path / "flood.json")
+    # On two cores that nine processes shared they took 2.1 times what they take on an idle one: two threads of a core halve its speed, and
+    # others empty its cache.
+    code_in_time(next(one for one in floods() if one.name == name), tmp_path / "flood.json", 2 * SECONDS)
 
 
 def test_a_checker_that_does_not_charge_is_flooded(tmp_path: Path) -> None:

@@ -12,6 +12,8 @@ from faultspace.exact.structure.generic_rows import generic_rows
 from faultspace.exact.structure.modular_rows import rows_modulo
 from faultspace.exact.system.modular import image
 from faultspace.exact.system.systems import ResidualSystem, read_system
+from faultspace.proofs.rocq.export import translated
+from faultspace.proofs.rocq.listed import NotCovered
 from faultspace.proofs.trust import checker
 from faultspace.proofs.trust import structure_certificates as make
 from faultspace.proofs.trust.kernel_witnesses import nulling_witness
@@ -100,6 +102,8 @@ def test_each_kind_of_state_and_fault_counts() -> None:
     null = certificate["witness"]["nulling"]
     assert (len(null["states"]), len(null["faults"])) == (1, 2)
     assert checker.verify(certificate).assumes == []
+    with pytest.raises(NotCovered, match="nulled"):
+        translated(certificate)
     assert is_true(certificate["statement"])
 
 
