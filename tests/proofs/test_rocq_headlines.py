@@ -152,7 +152,7 @@ CHANGES: dict[str, tuple[str, str]] = {
     "sharp_equality_lag": ("(lag S' <= lag S)%N -> ", ""),
     "zero_assignment_observable": ("observable S -> ", ""),
     "zero_assignment_unobservable": ("char_poly M %| g /\\ ", ""),
-    "minimal_basis_seen": ("coprimep (\\det (J *m Y)) (\\det (W *m Y)) -> ", ""),
+    "minimal_basis_seen": ("\\rank (Vocabulary.leading Y) = k -> ", ""),
     "check_window_ranks": ("minn s eta", "minn s.+1 eta"),
     "check_window_ranks_modulo": ("minn s eta", "minn s.+1 eta"),
     "check_left_invertible": ("-> left_invertible", "-> ~ left_invertible"),

@@ -140,7 +140,8 @@ Definition degree_bound (T : seq table) : nat := sumn [seq (foldr maxn 0 [seq si
 Definition values_modulo (l : Z) (T : seq table) (x : Z) : table := [seq [seq value_modulo l x f | f <- row] | row <- T].
 Definition is_determinant_polynomial (l : Z) (T : seq table) (f : vector) : bool :=
   [&& (size f <= (degree_bound T).+1)%N, all (fun i => invertible_modulo l (Z.of_nat i)) (iota 1 (degree_bound T))
-    & all (fun i => is_determinant l (size T) (values_modulo l T (Z.of_nat i)) (value_modulo l (Z.of_nat i) f)) (iota 0 (degree_bound T).+1)].
+    & all (fun i => is_determinant l (size T) (values_modulo l T (Z.of_nat i)) (value_modulo l (Z.of_nat i) f))
+      (iota 0 (degree_bound T).+1)].
 
 (** ** The checks: kernel rows and words *)
 
@@ -181,21 +182,24 @@ Record hints := Hints { at_point : Z; minor_rows : seq nat; minor_columns : seq 
 (** The coefficients of a row [X, N]; the table of N at the pivots; x, x s, x s^2, ... (k of them); the vectors t, t^2, ...; t^2, t^4, ...;
     and so on; the table of the rows mixed by them. *)
 Definition polynomial_row n (l : Z) (L : listed) (c : seq vector) : table := [seq joined n d | d <- (demands_modulo l L c).2].
-Definition pivot_table n (pivots : seq nat) (ys : seq table) : seq table := [seq [seq [seq entry y (n + j) | y <- Y] | j <- pivots] | Y <- ys].
+Definition pivot_table n (pivots : seq nat) (ys : seq table) : seq table :=
+  [seq [seq [seq entry y (n + j) | y <- Y] | j <- pivots] | Y <- ys].
 Fixpoint geometric (l s x : Z) (k : nat) : vector := if k is k'.+1 then x :: geometric l s (Z.modulo (Z.mul x s) l) k' else [::].
 Definition mixtures (l t : Z) (width k : nat) : table := [seq geometric l s s width | s <- geometric l t t k].
-Definition mixed_table (l : Z) (ws : table) (ys : seq table) : seq table := [seq [seq [seq Z.modulo (dot w y) l | y <- Y] | w <- ws] | Y <- ys].
+Definition mixed_table (l : Z) (ws : table) (ys : seq table) : seq table :=
+  [seq [seq [seq Z.modulo (dot w y) l | y <- Y] | w <- ws] | Y <- ys].
 
 (** The pencil at q, times the denominator; whether the minor of its rows and columns told is d, and not zero. *)
 Definition pencil_table n (L : listed) (q : Z) : table :=
-  [seq mkseq (fun j => Z.sub (if j == i then Z.mul (den L) q else Z0) (entry (nth [::] (lA L) i) j)) n ++ nth [::] (lC L) i | i <- iota 0 n]
+  [seq mkseq (fun j => Z.sub (if j == i then Z.mul (den L) q else Z0) (entry (nth [::] (lA L) i) j)) n ++ nth [::] (lC L) i
+    | i <- iota 0 n]
   ++ [seq mkseq (fun j => Z.opp (entry r.1 j)) n ++ r.2 | r <- zip (lF L) (lG L)].
 Definition pencil_minor n m p (l : Z) (L : listed) (q : Z) (rows columns : seq nat) (d : Z) : bool :=
   [&& all (fun i => i < n + m)%N rows, all (fun j => j < n + p)%N columns, size columns == size rows, invertible_modulo l d
     & is_determinant l (size rows) [seq at_pivots columns (nth [::] (pencil_table n L q) i) | i <- rows] d].
 
-(** The rows annihilate the system modulo l, their leading coefficients at the pivots are independent, both determinants are coprime, and the
-    pencil leaves room for no more rows. *)
+(** The rows annihilate the system modulo l, their leading coefficients at the pivots are independent, both determinants are coprime, and
+    the pencil leaves room for no more rows. *)
 Definition minimal n m p (l : Z) (L : listed) (rows : seq kernel_row) (h : hints) : bool :=
   let pivots := [seq row.1 | row <- rows] in
   let ys := [seq polynomial_row n l L row.2 | row <- rows] in
@@ -231,7 +235,8 @@ Definition check_left_invertible_at n m p l L q rows columns d : bool :=
 Definition generic n m p (rows : seq kernel_row) : bool := nilp rows ||
   [&& (size rows + m == p)%N, sumn (degrees rows) == n & all (fun d => all (fun d' => d' <= d.+1)%N (degrees rows)) (degrees rows)].
 Definition check_window_ranks_modulo n m p r (etas ranks : seq nat) l L rows h : bool :=
-  [&& well_formed n m p L, sorted leq [seq size row.2 | row <- rows], generic n m p rows, minimal n m p l L rows h & follows p r etas ranks rows].
+  [&& well_formed n m p L, sorted leq [seq size row.2 | row <- rows], generic n m p rows,
+    minimal n m p l L rows h & follows p r etas ranks rows].
 
 (** ** The checks: solutions of problem (11) *)
 
