@@ -36,7 +36,7 @@ ENOUGH, TOO_LOW = 0.01, 1e-6
 # What the ratio over its degrees of freedom exceeds one by where the degree suffices, and what it gains by each root of a sample that the
 # faults leave free, for one degree more and for several. One more frees a real root, several free pairs of roots, which can stand at any
 # frequency; so the second is larger. `python benchmarks/degree_misfits.py` prints the quantile regression.
-SLACK, LOOSE = 0.6, (0.5, 1.9)
+SLACK, LOOSE = 0.6, (0.7, 1.8)
 # Samples up to which these hold. Within a band of the moments the rows are taken at its middle: that leaves an error of the level, some
 # 1e-4 nats, which does not fall with N, so that on longer records the ratio would end by refusing every degree. They are judged as if
 # they had so many samples.
