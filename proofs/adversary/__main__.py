@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from .catalogue import catalogue, expected_of
-from .results import AttackRecord, refuting, run_attacks, stale, words_of, write
+from .results import AttackRecord, certified, refuting, run_attacks, stale, words_of, write
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -24,7 +24,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=0, help="of the starts (0)")
     parser.add_argument("--jobs", type=int, default=1, help="how many attacks run at a time (1)")
     parser.add_argument("--out", type=Path, metavar="FILE", help="a file of results: attacks that do not run now keep their records in it")
+    parser.add_argument(
+        "--certify",
+        action="store_true",
+        help="no attack: counterexamples of the file of --out are decided again, with certificates made anew",
+    )
     given = parser.parse_args(arguments)
+    if given.certify:
+        if given.out is None or not given.out.exists():
+            parser.error("--certify: needs --out FILE, a file of results that is there")
+        write([certified(record) for record in _kept(given.out, set())], given.out)
+        return 0
     targets = sorted({attack.target for attack in catalogue()})
     for name in given.reading or ():
         if name not in targets:

@@ -23,7 +23,7 @@ from faultspace.proofs.adversary.engine import pursue
 from faultspace.proofs.adversary.float_limits import exact_experiment, float_limits
 from faultspace.proofs.adversary.following import Trace
 from faultspace.proofs.adversary.limit_attacks import led_family, open_family, shaped_family
-from faultspace.proofs.adversary.results import AttackRecord, checked_again, refuting, run_attacks, stored
+from faultspace.proofs.adversary.results import AttackRecord, certified, checked_again, refuting, run_attacks, stored
 from faultspace.proofs.adversary.rounding import rational_roots, solve_affine
 from faultspace.proofs.adversary.spectra import shaped_input
 from faultspace.proofs.adversary.sweeps import Sweep
@@ -270,3 +270,16 @@ def test_sweeps_go_to_the_end_of_a_box_or_say_that_they_did_not() -> None:
     assert not sweep(few, seconds=0).complete
     failing = replace(few, decide=lambda case: ("fails", []))
     assert sweep(failing, seconds=60).found == ("fails", [])
+
+
+def test_certificates_of_a_stored_counterexample_are_made_anew() -> None:
+    """The point is decided again: where it refutes, its certificates come anew; where it does not, nothing is made up."""
+    record = next(one for one in stored() if one["witness"] is not None and one["point"])
+    witness = record["witness"]
+    assert witness is not None
+    old: AttackRecord = {**record, "witness": {**witness, "certificates": [{"kind": "window-ranks", "sha256": "0" * 64}]}}
+    assert certified(old) == record
+    elsewhere: AttackRecord = {**old, "witness": {**old["witness"], "point": ["1/7"] * len(witness["point"])}}  # type: ignore[dict-item]
+    assert certified(elsewhere) == elsewhere
+    without: AttackRecord = {**record, "witness": None}
+    assert certified(without) == without
