@@ -149,7 +149,7 @@ def test_a_fault_that_varies_at_one_output_leans_into_no_other(kind: str) -> Non
 
 def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_rest_elsewhere() -> None:
     plant = StateSpaceModel([[0.8]], [[1.0]], [[1.0], [-0.5]], [[0.0], [0.0]])
-    K, without, beside, rows = 150, 0, 0, [0, 0]
+    K, without, beside, seen = 150, 0, 0, 0
     for k in range(12):
         draw = np.random.default_rng([5, k])
         u = draw.standard_normal((450, 1))
@@ -160,8 +160,6 @@ def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_res
         r, late = residual(y, u, found, x0=found.x0).r, slice(K + 30, None)
         plain, wide = (mean_shift(r[late], u[late], r[:K], u[:K], level=0.02, gain_errors=e) for e in (None, gain_errors(found)))
         without, beside = without + (plain.shifted is True), beside + (wide.shifted is True)
-        exact = changes_since_healthy(r, y, u, healthy=K, model=found.model, level=0.2).seen  # without standard errors
-        known = changes_since_healthy(r, y, u, healthy=K, model=found, level=0.2).seen
-        rows = [count + any(row.kind == "mean shift" for row in seen) for count, seen in zip(rows, (exact, known), strict=True)]
+        seen += any(row.kind == "mean shift" for row in changes_since_healthy(r, y, u, healthy=K, model=found, level=0.2).seen)
     assert without >= 6 and beside <= 2
-    assert rows[0] >= 5 and rows[1] <= 3
+    assert seen <= 3  # the table has two reasons: this one, and inputs that are away from where they were

@@ -184,7 +184,8 @@ have e1 : \det (combining pick *m Y) = pol K (at_pivots_is h).
 have e2 : \det (combining blend *m Y) = pol K (mixed_is h).
   apply: combined_determinant second_ok _; rewrite ?size_map // => a b.
   rewrite (nth_map [::]) ?size_map // (nth_map (0%N, [::])) // (nth_map [::]) ?ws_size // => g row.
-  rewrite /g size_map polynomial_row_size; split=> // i ir; rewrite /entry (nth_map [::]) ?polynomial_row_size // [LHS](number_modulo vanishing).
+  rewrite /g size_map polynomial_row_size; split=> // i ir; rewrite /entry (nth_map [::]) ?polynomial_row_size //
+    [LHS](number_modulo vanishing).
   by rewrite (number_dot _ _ (_ : (size _ <= n + p)%N)) ?mxE ?eqxx // mix_size.
 have leads : \det (\matrix_(a < k, b < k) last 0 (c a) (pivot_of b) 0) != 0.
   move: (invertible_neq0 lead_unit); rewrite -(is_determinant_sound vanishing lead_ok); congr (\det _ != 0); apply/matrixP => a b.
