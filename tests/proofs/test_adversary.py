@@ -279,7 +279,7 @@ def test_certificates_of_a_stored_counterexample_are_made_anew() -> None:
     assert witness is not None
     old: AttackRecord = {**record, "witness": {**witness, "certificates": [{"kind": "window-ranks", "sha256": "0" * 64}]}}
     assert certified(old) == record
-    elsewhere: AttackRecord = {**old, "witness": {**old["witness"], "point": ["1/7"] * len(witness["point"])}}  # type: ignore[dict-item]
+    elsewhere: AttackRecord = {**old, "witness": {**old["witness"], "point": ["1/7"] * len(witness["point"])}}
     assert certified(elsewhere) == elsewhere
     without: AttackRecord = {**record, "witness": None}
     assert certified(without) == without
