@@ -44,7 +44,8 @@ Proof.
 by apply/row_matrixP => i; rewrite rowK; case: (split_ordP i) => j ->; rewrite ?rowKu ?rowKd ?ord1 ?row_id ?rowK.
 Qed.
 
-Lemma det_ready k r rows : size rows = k -> \det (mat K (1 + k) (1 + k) (ready l r rows :: rows)) = \det (mat K (1 + k) (1 + k) (r :: rows)).
+Lemma det_ready k r rows : size rows = k ->
+  \det (mat K (1 + k) (1 + k) (ready l r rows :: rows)) = \det (mat K (1 + k) (1 + k) (r :: rows)).
 Proof.
 move=> sk; rewrite /ready; case: ifP => // _; case e: [seq other <- rows | _] => [|other few] /=.
   by rewrite !mat_cons vec_add vec_nil addr0.

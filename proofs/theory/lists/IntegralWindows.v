@@ -40,7 +40,8 @@ Qed.
 
 Lemma window_image : exists M : 'M[Z]_(n + s * m, s * p), forall K, window (over_field K n m p L) s = map_mx (number_rmorphism K) M.
 Proof.
-have /fin_all_exists[M h] : forall i, exists f : 'I_(s * p) -> Z, forall j K, window (over_field K n m p L) s i j = number_rmorphism K (f j).
+have /fin_all_exists[M h] : forall i, exists f : 'I_(s * p) -> Z, forall j K, window (over_field K n m p L) s i j =
+    number_rmorphism K (f j).
   by move=> i; apply: (fin_all_exists (entry_image i)).
 by exists (\matrix_(i, j) M i j) => K; apply/matrixP => i j; rewrite h [RHS]mxE [X in _ = _ X]mxE.
 Qed.
