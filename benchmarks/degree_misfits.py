@@ -27,21 +27,17 @@ from space_at_the_bound_cells import CELLS, Cell
 from benchmarks.counting_at_the_bound import one_in_ten, quantile_regression, rate
 from faultspace.numeric.rows import space
 from faultspace.numeric.rows.degree import ENOUGH, LOOSE, SLACK, likelihood_ratio
-from faultspace.numeric.rows.joint import course, joint_moments, polished
 
 
 def ratios(cell: Cell, seed: int, number: int, samples: int) -> list[tuple[int, int, int, float, float]]:
     """Return rows, degrees more, degrees of freedom, loose samples and ratio, for each higher degree, of one record."""
     trial = cell.trial(seed, number, samples)
-    n, p = trial.model.n, trial.model.p
-    rows, degree = p - trial.n_v, n - trial.zeta
-    data, shares = joint_moments(trial.y, trial.u, -(-(n + space.BEYOND) // rows)), np.ones(p)
-    fits = course(data, rows, n + space.BEYOND, shares=shares)
-    data = joint_moments(trial.y, trial.u, data.degree, space._narrow(data))
-    fits = polished(data, fits, degree, shares)
-    loose = space._loose([(trial.y, trial.u)], data, fits[-1], shares, n, None)
+    n, p, records = trial.model.n, trial.model.p, [(trial.y, trial.u)]
+    rows, degree, most, shares = p - trial.n_v, n - trial.zeta, n + space.BEYOND, np.ones(p)
+    found = space.compared(records, space.pooled(records, -(-most // rows)), rows, degree, most, shares)
+    free, fits, channels = space.loose(records, found, shares, n), found.fits, found.data.moments.channels
     return [
-        (rows, more, more * data.moments.channels, loose, likelihood_ratio(data, fits[degree], fits[degree + more]))
+        (rows, more, more * channels, free, likelihood_ratio(found.data, fits[degree], fits[degree + more]))
         for more in range(1, len(fits) - degree)
     ]
 

@@ -33,13 +33,12 @@ from .joint import ROUNDING, JointMoments
 
 # Levels of the test; how often zeta is wrong under them, `benchmarks/space_at_the_bound.py` counts.
 ENOUGH, TOO_LOW = 0.01, 1e-6
-# What the ratio over its degrees of freedom exceeds one by where the degree suffices, and what it gains by each root of a sample that the
-# faults leave free, for one degree more and for several. One more frees a real root, several free pairs of roots, which can stand at any
-# frequency; so the second is larger. `python benchmarks/degree_misfits.py` prints the quantile regression.
+# Where the degree suffices, the ratio over its degrees of freedom exceeds one by SLACK, and the ratio itself by LOOSE times the root of how
+# many samples the faults leave free, for one degree more and for several. One more frees a real root, several free pairs of roots, which
+# can stand at any frequency; so the second is larger. `python benchmarks/degree_misfits.py` prints the quantile regression.
 SLACK, LOOSE = 0.6, (0.7, 1.8)
-# Samples up to which these hold. Within a band of the moments the rows are taken at its middle: that leaves an error of the level, some
-# 1e-4 nats, which does not fall with N, so that on longer records the ratio would end by refusing every degree. They are judged as if
-# they had so many samples.
+# They were calibrated on records of up to 10 000 samples. What the rows miss within a segment of the moments does not fall with N, so that
+# on longer and longer records the ratio would end by refusing every degree. They are judged as if they had so many samples.
 CALIBRATED = 16000
 
 

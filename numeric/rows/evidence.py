@@ -85,10 +85,7 @@ class Evidence:
     @cached_property
     def arx(self) -> Arx | None:
         """The ARX model in units of the moments, or None where the record gives none."""
-        scale, p = self.data.scale, self.data.p
-        if self.given is not None:
-            return self.given.arx.scaled(1 / scale[:p], 1 / scale[p:])
-        return arx_of(self.experiments, self.order, scale)
+        return arx_of(self.experiments, self.order, self.data.scale, None if self.given is None else self.given.arx)
 
     @cached_property
     def quick(self) -> StateSpaceModel | None:
@@ -146,9 +143,12 @@ class Evidence:
         return 1 + int(np.argmax(np.diff(powers)))
 
 
-def arx_of(experiments: Sequence[tuple[Array, Array]], order: int, scale: Array) -> Arx | None:
-    """Return the ARX model of experiments (y, u) for this order, in units (p + n_u,) of the channels, or None where they give none."""
+def arx_of(experiments: Sequence[tuple[Array, Array]], order: int, scale: Array, given: Arx | None = None) -> Arx | None:
+    """Return the ARX model of experiments (y, u) in units (p + n_u,) of the channels: that which is given, else one for this order, or None
+    where they give none."""
     p = experiments[0][0].shape[1]
+    if given is not None:
+        return given.scaled(1 / scale[:p], 1 / scale[p:])
     sources = [experiment(y, u) for y, u in experiments]
     try:
         lengths, lags = lengths_and_lags(sources, order, None)

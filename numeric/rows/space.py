@@ -6,6 +6,7 @@ row ([G25] problem (11)). Of k rows with degrees eta_i there are sum (eta_i + 1)
 that do not fit exactly contradict each other nowhere: N_y O_s = 0, which holds for true ones, need not be imposed.
 
     pooled                  the moments of the experiments that carry such rows, as they are counted on
+    compared, loose         the fits whose likelihoods decide the total degree, and the samples that the faults leave free
     fault_space_by_rows     the space, its dimension with a probability, and the angle by which it may be off where A, C are right
     identified_fault_space  the same for an identified model, whose error is in the angle
     n_z                     n_v + n - (total degree of the rows): of an order that is too high by one, one too many
@@ -233,16 +234,31 @@ def pooled(records: Experiments, degree: int, bands: int = BANDS) -> JointMoment
     return joint_moments_experiments(kept or [max(records, key=lambda record: len(record[0]))], degree, bands)
 
 
-def _narrow(data: JointMoments) -> int:
-    """Return into how many bands the moments are split, at most, for the likelihoods that decide."""
-    return min(SEGMENT // 2 // A_BAND, NUMBERS // int(data.moments.moments[0].size))
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """The fits of total degrees 0, 1, .., whose likelihoods are compared, and the moments that these are of."""
+
+    data: JointMoments
+    fits: list[KernelBasis]
 
 
-def _loose(records: Experiments, data: JointMoments, fit: KernelBasis, shares: Array, n: int, arx: Arx | None) -> float:
-    """Return how many samples stand at frequencies where the faults leave more directions to the noise than there are rows."""
-    p = data.p
-    found = arx_of(records, n, data.scale) if arx is None else arx.scaled(1 / data.scale[:p], 1 / data.scale[p:])
-    return 0.0 if found is None else loose_samples(as_signals(found.disturbance(data.moments.angles), data.moments), data, fit, shares)
+def compared(records: Experiments, wide: JointMoments, rows: int, least: int, most: int, shares: Array) -> Compared:
+    """Return the likeliest rows of total degrees up to `most`, from `least` on in bands as narrow as memory allows; `wide` are moments of
+    the same experiments in the usual bands, in which they are sought."""
+    fits = from_above(wide, course(wide, rows, most, shares=shares), shares=shares)
+    bands = max(BANDS, min(SEGMENT // 2 // A_BAND, NUMBERS // int(wide.moments.moments[0].size)))
+    data = pooled(records, wide.degree, bands)
+    return Compared(data, polished(data, fits, least, shares))
+
+
+def loose(records: Experiments, found: Compared, shares: Array, n: int, arx: Arx | None = None) -> float:
+    """Return how many samples stand at frequencies where the faults leave more directions to the noise than there are rows; `arx` is a
+    model of such data, where there is one, and n an order for another."""
+    data = found.data
+    model = arx_of(records, n, data.scale, arx)
+    if model is None:
+        return 0.0
+    return loose_samples(as_signals(model.disturbance(data.moments.angles), data.moments), data, found.fits[-1], shares)
 
 
 def _fitted(
@@ -278,14 +294,14 @@ def _fitted(
     if noise_level is not None:
         powers = (noise_deviations(noise_level, p) / data.scale[:p]) ** 2
         shares = powers / np.exp(np.mean(np.log(powers)))
-    coarse = from_above(data, course(data, rows, seen + BEYOND, shares=shares), shares=shares)
-    data = pooled(records, data.degree, _narrow(data))
-    fits = polished(data, coarse, n + faults - largest, shares)
-    expected = misfits(len(fits) - 1, data, _loose(records, data, fits[-1], shares, n, arx))
-    chosen, widened = least_degree(data, fits, n + faults - largest, seen, expected), 1 + SLACK
+    least = n + faults - largest
+    both = compared(records, data, rows, least, seen + BEYOND, shares)
+    data, fits = both.data, both.fits
+    expected, widened = misfits(len(fits) - 1, data, loose(records, both, shares, n, arx)), 1 + SLACK
+    chosen = least_degree(data, fits, least, seen, expected)
     if draws:
-        found = _misfits(*records[0], data, fits, chosen, shares, draws)
-        chosen, widened = least_degree(data, fits, n + faults - largest, seen, found), found[0]
+        drawn = _misfits(*records[0], data, fits, chosen, shares, draws)
+        chosen, widened = least_degree(data, fits, least, seen, drawn), drawn[0]
     return _Rows(data, fits[chosen.degree], chosen, faults, largest, widened)
 
 
