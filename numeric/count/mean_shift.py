@@ -226,10 +226,7 @@ def mean_about_zero(r: ArrayLike, u: ArrayLike | None = None, *, level: float = 
     still = means.copy()
     still[0] = 0.0
     h = float(np.sum((reference.root @ (means - _expected(reference, still))) ** 2))
-    try:
-        return _judged(reference, reference.coefficients[0], h, level)
-    except np.linalg.LinAlgError:  # fewer faults than outputs, and no noise
-        return MeanShift(None, "the residual has directions without noise, in which its mean has no test", level)
+    return _judged(reference, reference.coefficients[0], h, level)
 
 
 def _tested(reference: MeanReference, r: Array, u: Array, level: float, off: Array | None = None) -> MeanShift:
@@ -251,6 +248,9 @@ def _judged(
     if off is not None:
         wrong = off / reference.scales @ reference.still.T
         own = own + wrong.T @ wrong
+    # Fewer faults than outputs and no noise leave directions in which the covariance is rounding.
+    if np.linalg.matrix_rank(own, hermitian=True) < reference.p:
+        return MeanShift(None, "the residual has directions without noise, in which its mean has no test", level)
     statistic = float(e @ np.linalg.solve(own, e))
     threshold = reference.threshold(level)
     back = np.linalg.inv(reference.still)
@@ -262,7 +262,8 @@ def _judged(
     single = -float(scipy.special.stdtrit(reference.freedom, level / (2 * reference.p)))
     channels = tuple(int(i) for i in np.flatnonzero(np.abs(shift) > single * deviations))
     # The mean of W^-1, a Wishart matrix of freedom B, is B / (B - p - 1) times the true one.
-    precisions = np.diag(np.linalg.inv(V)) * (reference.freedom - reference.p - 1) / reference.freedom
+    roots = np.linalg.solve(np.linalg.cholesky(own), reference.still)
+    precisions = np.sum(roots**2, axis=0) * (reference.freedom - reference.p - 1) / reference.freedom
     visible = np.sqrt(reference.noncentrality(level, POWER) / precisions) * reference.scales
     shifted = statistic > threshold
     compared = f"T^2 = {statistic:.4g} against {threshold:.4g}, which chance exceeds with probability {level:g}"
