@@ -4,6 +4,7 @@
                   each states what its rows would prove
     is_true       whether the ranks of the windows, each computed by elimination over the integers, are those that are stated
     Counts        how many were true and accepted, true and refused, false and accepted, false and refused
+    needed        asks that a false statement is refused for a reason, and passes where that check is left out
     main          python -m tests.proofs.basis_mutants COUNT [SEED]
 
 Each check of a minimal basis has the change that it is there for: rows times q - a have a common factor; a row with a multiple of another
@@ -18,6 +19,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from random import Random
 from typing import Any
+
+import pytest
 
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import ResidualSystem, read_system
@@ -165,6 +168,16 @@ def tried(rng: Random, count: int) -> tuple[Counts, list[Certificate]]:
         if word == "false_accepted":
             wrong.append(mutant)
     return counts, wrong
+
+
+def needed(false: Certificate, reason: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ask that the statement is false and refused for this reason, and that it passes once the check that gives the reason is left out."""
+    assert not is_true(false["statement"])
+    with pytest.raises(checker.Rejected, match=reason):
+        checker.verify(false)
+    strict = checker.require
+    monkeypatch.setattr(checker, "require", lambda condition, why, *error: strict(condition or reason in why, why, *error))
+    checker.verify(false)
 
 
 def main() -> int:
