@@ -100,7 +100,7 @@ def _not_zero(record: Record) -> str:
     """Return why zero is not taken for the operating point, nothing where it may be."""
     for one in record.experiments:
         known, begun = one.channels, np.hstack(one.stretch(0, min((len(one) + 1) // 2, TESTED))[::-1])
-        # What grows, as an unstable plant does, has a mean too; what rests elsewhere has it from the beginning, and nearly all of it.
+        # What grows, as an unstable plant does, has a mean too; what rests elsewhere has half of it in the first half, or more.
         early = begun.mean(axis=0)
         rests = (np.abs(known.mean) > known.deviation) & (2 * early * np.sign(known.mean) > np.abs(known.mean))
         far = [name for name, resting in zip(one.names, rests, strict=True) if resting]

@@ -50,7 +50,7 @@ class ZeroAssignment(Shown):
 
     @property
     def P(self) -> Matrix:
-        """P is n_z x r."""
+        """This is the choice of columns P (n_z, r)."""
         return self.verdict.P
 
     @property

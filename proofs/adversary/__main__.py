@@ -33,7 +33,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if given.certify:
         if given.out is None or not given.out.exists():
             parser.error("--certify: needs --out FILE, a file of results that is there")
-        write([certified(record) for record in _kept(given.out, set())], given.out)
+        before = _kept(given.out, set())
+        after = [certified(record) for record in before]
+        write(after, given.out)
+        print(f"{sum(new != old for new, old in zip(after, before, strict=True))} of {len(before)} records have other certificates now")
         return 0
     targets = sorted({attack.target for attack in catalogue()})
     for name in given.reading or ():

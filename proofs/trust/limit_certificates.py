@@ -78,7 +78,7 @@ class Certified:
 
     @cached_property
     def seen(self) -> Matrix:
-        """This is O_s."""
+        """This is the observability matrix O_s of the plant (p s, n)."""
         return observability_matrix(self.limits.experiment.system.residual, self.limits.experiment.s)
 
     @cached_property

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import json
+import re
 from pathlib import Path
 
 import pytest
 
+from faultspace.proofs.trust.structure_certificates import sha256
+
 from .certificates import HEADLINES, PATTERN, replaced
+from .import_graph import ROOT
 
 
 def test_new_certificates_take_the_place_of_the_old(tmp_path: Path) -> None:
@@ -32,3 +37,12 @@ def test_where_nothing_was_made_nothing_is_removed(tmp_path: Path) -> None:
 
 def test_certificates_alone_lie_among_the_certificates() -> None:
     assert {path.name for path in HEADLINES.iterdir()} == {path.name for path in HEADLINES.glob(PATTERN)} != set()
+
+
+def test_the_certificates_that_the_changelog_names_are_there() -> None:
+    words = " ".join((ROOT / "CHANGELOG.md").read_text("utf-8").split())
+    named = set(re.findall(r"\b[0-9a-f]{64}\b", words))
+    assert named
+    assert named <= {
+        sha256(json.loads(path.read_text("utf-8"))) for path in (ROOT / "proofs").rglob("*.json") if path.parent.name == "certificates"
+    }

@@ -17,6 +17,7 @@ SET_BY_HAND = {
     "count/healthy_model.py",  # tapers and lags of the healthy reference
     "count/against_healthy.py",  # turning directions
     "space/by_likelihood.py",  # the space of a residual alone
+    "count/residual_laws.py",  # the laws of a residual alone; their worth is measured, and was not what chose them
 }
 WORDS = re.compile(r"(?:set|revised|settled) (?:by hand|after looking)|rules? of thumb with", re.IGNORECASE)
 COMMAND = re.compile(r"`?(?:python )?(?:benchmarks/)?(\w+\.py)((?: (?:--)?[a-z_]+)?)`")
