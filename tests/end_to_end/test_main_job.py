@@ -22,7 +22,7 @@ ROOM = Path(faultspace.proofs.__file__).parent
 HEADLINES = ROOM / "certificates"
 
 
-@pytest.mark.long
+@pytest.mark.slow  # `.ci/run` runs it every day
 @pytest.mark.timeout(1500)
 def test_verify_quick_is_as_expected_and_makes_the_certificates_of_the_tree(tmp_path: Path) -> None:
     run = command("verify", "--effort", "quick", "--jobs", "2", "--json", "--out", str(tmp_path), seconds=1400.0)
