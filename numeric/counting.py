@@ -47,7 +47,6 @@ DEPENDENT = 1e-10  # singular values of the scaled outputs, beside the largest t
 UNLIKELY = 1e-6  # probability of spikes that is not put down to noise
 UNEQUAL = float(np.finfo(np.float64).eps ** -0.25)  # ratio of numbers whose squares keep half of their digits side by side
 TINY = float(np.finfo(np.float64).tiny)
-LIKE_NOISE = "faults that are noise of that colour in single outputs, or constant over the whole record, would not be seen"
 
 
 def with_count(answer: Findings, faults: int | None, on_progress: Progress) -> Findings:
@@ -165,8 +164,7 @@ def _by_laws(answer: Findings, on_progress: Progress) -> Findings:
         return replace(answer, n_v=None, possible=tuple(range(ranks.n_v + 1)), reason=reason, counted_by=None)
     if count.n_v == 0 and (spikes := _spikes(answer)):
         return replace(answer, n_v=None, possible=(), reason=f"{count.reason}; but {spikes}", counted_by=None)
-    reason = f"{count.reason}; {LIKE_NOISE}" if count.n_v == 0 else count.reason
-    return replace(answer, n_v=count.n_v, reason=reason, counted_by=None if count.n_v is None else "outputs and inputs")
+    return replace(answer, n_v=count.n_v, reason=count.reason, counted_by=None if count.n_v is None else "outputs and inputs")
 
 
 def _spikes(answer: Findings) -> str:

@@ -88,8 +88,8 @@ def test_about_zero() -> None:
     assert mean_about_zero(r).shifted is False
     assert mean_about_zero(r + np.array([0.0, 2.0, 0.0])).channels == (1,)
     assert mean_about_zero(np.cumsum(r, axis=0)).shifted is None
-    for noise_share, says in (0.0, "no noise to compare with"), (1e-9, "directions without noise"):
-        found = mean_about_zero(r[:, :1] * [1.0, 2.0, -1.0] + noise_share * r)
+    for share, says in (0.0, "no noise to compare with"), (1e-9, "directions without noise"):
+        found = mean_about_zero(r[:, :1] * [1.0, 2.0, -1.0] + share * r)
         assert found.shifted is None and says in found.reason
     with pytest.raises(InvalidData, match="NaN"):
         mean_reference(np.full((500, 3), np.nan))

@@ -185,7 +185,8 @@ def test_no_fault_is_an_answer() -> None:
     system = plant(12, 3, 1)
     silent = Planted(system.A, 0 * system.F, system.C, 0 * system.G, system.Z, ())
     y, u = joint_record(silent, 12, 1000, 30)
-    assert count_faults(y, u, order=3).n_v == 0
+    found = count_faults(y, u, order=3)
+    assert found.n_v == 0 and "constant over the whole record" in found.reason
 
 
 def test_as_many_faults_as_outputs_are_never_counted_as_fewer_unless_the_noise_is_known() -> None:
