@@ -349,8 +349,8 @@ def identify(
     DIR may hold what an earlier run wrote, which is replaced; a file of the same name that is not ours is never touched, but refused.
 
     Several files of the same channels give one model, one number of faults and one fault space; onset, changes and signal are of each.
-    A channel is a column's name; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted from 0. In text without a line of names
-    the matrix is called data.
+    A channel is a column's name, in double quotes where it has a comma; of a matrix NAME[:,j], NAME[:,i:j] or NAME (all columns), counted
+    from 0. In text without a line of names the matrix is called data.
     """
     from . import identifying
 

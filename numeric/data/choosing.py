@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from ...base.errors import InvalidInput
 from ...base.sheets import counted
 from .clocks import time_name
-from .selectors import MOST_NAMED, Missing
+from .selectors import MOST_NAMED, Missing, quoted
 
 NOBODYS = "\0"  # no file has a channel of this name
 ACTING = re.compile(r"(x?mv|u|in|inputs?|cmd|command|valve|heater|pump|voltage)[ _.\-\[(]*\d*.?", re.IGNORECASE)
@@ -30,7 +30,7 @@ def nothing_chosen(path: str, inputs: Sequence[str], outputs: Sequence[str], rea
     lacking = " and ".join(f"no {option}" for option, names in (("inputs", inputs), ("outputs", outputs)) if not names)
     clock = time_name(there)
     free = [name for name in there if name not in {*inputs, *outputs, clock}]
-    listed = ", ".join([*free[:MOST_NAMED], *([f"... ({len(free)} in all)"] if len(free) > MOST_NAMED else [])])
+    listed = ", ".join([*map(quoted, free[:MOST_NAMED]), *([f"... ({len(free)} in all)"] if len(free) > MOST_NAMED else [])])
     told = f"left are {listed}" if inputs or outputs else f"the file has {listed}"
     time = f", and times in {clock}" if clock else ""
     if len(free) == 1 and not columns:
@@ -50,4 +50,4 @@ def _example(free: list[str], inputs: list[str], outputs: list[str]) -> tuple[st
         inputs = inputs if 0 < len(inputs) < len(free) else free[:1]
     outputs = outputs or [name for name in free if name not in inputs]
     inputs = inputs or [name for name in free if name not in outputs]
-    return ",".join(inputs[:MOST_NAMED]), ",".join(outputs[:MOST_NAMED])
+    return ",".join(map(quoted, inputs[:MOST_NAMED])), ",".join(map(quoted, outputs[:MOST_NAMED]))

@@ -76,11 +76,11 @@ def read_record(
     """Return the record in a file: some of its named columns as inputs, others as outputs, ready for `identify`.
 
     `path` ends in .csv, .tsv, .txt, .dat, .parquet, .pq, .npz, .npy or .mat; `inputs` and `outputs` name n_u and p channels, by the
-    names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas. Rows are samples, in the order of
-    time and in the file's units, and every number must be finite. A column of times or dates that is none of them gives the `clock` of the
-    record: its sample time, and what is odd about it. `on_progress(stage, done, total)` hears how much of how much has been
-    read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and need not fit into memory (a MAT
-    file must).
+    names of columns or, for matrices, as NAME[:,j]; a text may hold several names, separated by commas, and a name with a comma stands in
+    double quotes. Rows are samples, in the order of time and in the file's units, and every number must be finite. A column of times or
+    dates that is none of them gives the `clock` of the record: its sample time, and what is odd about it. `on_progress(stage, done, total)`
+    hears how much of how much has been read. The Record has `len`, the number of samples, `inputs` and `outputs`; it is read in pieces and
+    need not fit into memory (a MAT file must).
 
     Raises InvalidInput for a file that cannot be read, a channel that is not there or is named twice, and for numbers that are not finite.
 

@@ -1,6 +1,7 @@
 """The channels of a file by their names: columns of a table, or parts of the arrays that it holds.
 
-split_names     "a,b[:,1:3]" -> ["a", "b[:,1:3]"]: commas inside brackets do not separate
+split_names     'a,b[:,1:3],"c, kW"' -> ["a", "b[:,1:3]", "c, kW"]: commas inside brackets and quotes do not separate
+quoted          a name as split_names takes it for one: "c, kW" in quotes, others as they are
 named_once      the refusal of a channel that is named more than once
 labels_of       the names of the channels that a selector stands for
 picked          what a selector stands for, out of arrays by name
@@ -23,18 +24,26 @@ from ...base.errors import InvalidData, InvalidInput, shorten
 
 MOST_NAMED = 12  # names that a refusal lists
 MOST_COMPARED = 1000  # names that one which is not there is compared with
+_QUOTED = re.compile(r'\s*"((?:[^"]|"")*)"\s*')
+_PART = re.compile(rf"{_QUOTED.pattern}(?=,|$)|(?:\[[^\[\]]*\]|[^,])+")
 _SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
 
 
 def split_names(given: str | Sequence[str]) -> list[str]:
-    """Return the names in a text, or in texts, that may each hold several, separated by commas outside brackets. Raises InvalidData for
-    what is no text."""
+    """Return the names in a text, or in texts, that may each hold several, separated by commas outside brackets. A name with a comma of its
+    own stands in double quotes, and a quote within it twice, as in CSV. Raises InvalidData for what is no text."""
     given = [given] if isinstance(given, str) else list(given)
     wrong = [name for name in given if not isinstance(name, str)]
     if wrong:
         raise InvalidData(f"got {shorten(wrong[0])} as the name of a channel, expected text: a matrix's columns are data[:,0], data[:,1:3]")
-    names = [name.strip() for text in given for name in re.split(r",(?![^\[\]]*\])", text)]
+    parts = [part[0] for text in given for part in _PART.finditer(text)]
+    names = [whole[1].replace('""', '"') if (whole := _QUOTED.fullmatch(part)) else part.strip() for part in parts]
     return [name for name in names if name]
+
+
+def quoted(name: str) -> str:
+    """Return the name as `split_names` takes it for this one."""
+    return name if split_names(name) == [name] else '"{}"'.format(name.replace('"', '""'))
 
 
 def named_once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
@@ -107,7 +116,7 @@ def missing(name: str, there: Sequence[str], what: str) -> Missing:
     """Return the refusal of a name that is not among those that are there, which `what` calls columns, arrays or variables."""
     if not there:
         return Missing(f"got no {what} at all, expected {shorten(name)}", there, columns=what.startswith("column"))
-    listed = ", ".join(there[:MOST_NAMED]) + (f", ... ({len(there)} in all)" if len(there) > MOST_NAMED else "")
+    listed = ", ".join(map(quoted, there[:MOST_NAMED])) + (f", ... ({len(there)} in all)" if len(there) > MOST_NAMED else "")
     near = [other for other in there if other.lower().strip() == name.lower().strip()]
     near = near or difflib.get_close_matches(name, there[:MOST_COMPARED], n=1)
     advice = f"; did you mean {shorten(near[0])}?" if near else ""

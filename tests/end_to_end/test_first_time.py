@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import shlex
 from pathlib import Path
 
@@ -43,8 +44,10 @@ def test_what_is_not_chosen_is_told_with_a_command(
 def test_the_command_that_is_proposed_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     u, e = np.random.default_rng(1).standard_normal((2, 300, 1))
-    np.savetxt("a plant.csv", np.hstack([u, np.roll(u, 1) + 0.1 * e]), delimiter=",", header="u,y", comments="")
+    np.savetxt("a plant.csv", np.hstack([u, np.roll(u, 1) + 0.1 * e]), delimiter=",", header='"u, kW","y ""a"", m"', comments="")
     proposed = call("identify", "a plant.csv").err.partition("faultspace identify ")[2]
     run = call("identify", *shlex.split(proposed))
     assert run.code == 0, run.err
     assert Path("answer/report.html").exists()
+    with open("answer/residual.csv", newline="") as file:
+        assert 'y "a", m' in next(csv.reader(file))

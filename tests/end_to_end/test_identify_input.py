@@ -24,7 +24,7 @@ from faultspace.base.errors import InvalidInput
 from faultspace.cli import command_line, identifying
 from faultspace.numeric.data import files as data_files
 from faultspace.numeric.data.files import read_record
-from faultspace.numeric.data.selectors import split_names
+from faultspace.numeric.data.selectors import quoted, split_names
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.pipeline import identify as whole_identify
 from faultspace.numeric.report import files as report
@@ -129,6 +129,10 @@ def test_parquet_without_pyarrow_says_what_to_install(tmp_path: Path, monkeypatc
 
 def test_commas_in_brackets_do_not_separate() -> None:
     assert split_names(["a, b[:,1:3]", "c[0,2],d"]) == ["a", "b[:,1:3]", "c[0,2]", "d"]
+    assert split_names('"flow, kg/s", T1,"5"" pipe"') == ["flow, kg/s", "T1", '5" pipe']
+    assert split_names('5" pipe,6" pipe') == ['5" pipe', '6" pipe']  # inches, no quotes
+    for name in "a", "b[:,1:3]", "flow, kg/s", '5" pipe', '"so"', "a[1,", " b", "c[1],d", '",', '"x" y':
+        assert split_names(f"first,{quoted(name)},last") == ["first", name, "last"]
 
 
 def test_long_tables_are_read_in_pieces_and_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
