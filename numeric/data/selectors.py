@@ -26,6 +26,7 @@ MOST_NAMED = 12  # names that a refusal lists
 MOST_COMPARED = 1000  # names that one which is not there is compared with
 _QUOTED = re.compile(r'\s*"((?:[^"]|"")*)"\s*')
 _PART = re.compile(rf"{_QUOTED.pattern}(?=,|$)|(?:\[[^\[\]]*\]|[^,])+")
+_PLAIN = re.compile(r'(?:[^",\[\]]|\[[^"\[\]]*\])+')
 _SELECTOR = re.compile(r"^(?P<name>.+?)\[(?P<indices>[0-9:,\s]+)\]$")
 
 
@@ -42,8 +43,8 @@ def split_names(given: str | Sequence[str]) -> list[str]:
 
 
 def quoted(name: str) -> str:
-    """Return the name as `split_names` takes it for this one."""
-    return name if split_names(name) == [name] else '"{}"'.format(name.replace('"', '""'))
+    """Return the name as `split_names` takes it for this one, whatever stands before and behind."""
+    return name if _PLAIN.fullmatch(name) and name.strip() == name else '"{}"'.format(name.replace('"', '""'))
 
 
 def named_once(inputs: Sequence[str], outputs: Sequence[str]) -> None:
