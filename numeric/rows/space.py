@@ -323,6 +323,8 @@ def _estimate(rows: _Rows, solved: _Solved) -> FaultSpaceEstimate:
     p, n_z = len(solved.basis) - n, n_v + n - chosen.degree
     lag = max(map(len, rows.fit.rows)) - 1
     words = "; as many as the observability indices of (A, C) allow" if n_z == rows.largest else ""
+    if n_z > n_v:
+        words += "; what the data cannot tell from a zero counts as one"
     doubt = "" if chosen.decided else "undecided: "
     reason = f"{doubt}n_z = {n_z} = n_v + zeta = {n_v} + {n_z - n_v}; for the rows total {chosen.reason}{words}"
     return FaultSpaceEstimate(
