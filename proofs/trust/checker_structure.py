@@ -136,6 +136,7 @@ def assembled(field: core.Field, grid: Sequence[Sequence[Mat]], nc: int) -> Mat:
     den = core.common_denominator(dens)
     size = den.bit_length()
     height = sum([len(line[0].rows) for line in grid if line])
+    core.charge(80 * sum([len(line[0].rows) * len(line) for line in grid if line]))  # blocks may have rows and no column
     core.charge(len(dens) * (size**2 >> 8) + cells * (200 + (size + bits >> 4) + (size * bits >> 11)), len(dens) * (80 + size // 7))
     core.charge(1500 * height, core.room(height, nc * field.degree, size + bits))
     scale = {bottom: den // bottom for bottom in dens}
