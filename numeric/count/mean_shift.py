@@ -40,6 +40,7 @@ from ...base.sheets import counted
 from .healthy_model import LEVEL, lagged, number_of_lags, residual_and_inputs
 from .windows import channel_sizes
 
+ROUNDING = float(np.finfo(np.float64).eps)
 POWER = 0.9
 """This is the chance with which a fault of the reported size is found."""
 COSINES = 0.41
@@ -140,6 +141,10 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
             f"means of {counted(p, 'output')} are worth: state more of them"
         )
     factor, triangle = np.linalg.qr(X)
+    if np.linalg.cond(triangle) * ROUNDING >= 1.0:
+        raise InvalidData(
+            "without fault the channels are combinations of others and of their past up to rounding: there is no noise to compare with"
+        )
     root = np.asarray(np.linalg.inv(triangle)).T
     coefficients = root.T @ (factor.T @ now)
     e = now - X @ coefficients
@@ -147,6 +152,11 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
     waves = np.asarray(scipy.fft.dct(e, type=2, axis=0, norm="ortho"))[1 : freedom + 1] / np.sqrt(1.0 - X.shape[1] / len(now))
     width = p + inputs.shape[1]
     steps = [coefficients[1 + j * width : 1 + j * width + p].T for j in range(lags)]
+    still = np.eye(p) - sum(steps, np.zeros((p, p)))
+    if np.linalg.cond(still) * ROUNDING >= 1.0:
+        raise InvalidData(
+            "without fault the channels are nearly combinations of others and of their past, or wander like random walks: means say nothing"
+        )
     of_r = X[:, [1 + j * width + i for j in range(lags) for i in range(p)]]
     of_r = of_r - of_r.mean(axis=0)
     return MeanReference(
@@ -155,7 +165,7 @@ def _learnt(r: Array, inputs: Array) -> MeanReference:
         lags=lags,
         coefficients=coefficients,
         root=root,
-        still=np.eye(p) - sum(steps, np.zeros((p, p))),
+        still=still,
         long_run=waves.T @ waves / freedom,
         freedom=freedom,
         nearest=nearest_root(steps),
@@ -249,20 +259,24 @@ def _judged(
         wrong = off / reference.scales @ reference.still.T
         own = own + wrong.T @ wrong
     # Fewer faults than outputs and no noise leave directions in which the covariance is rounding.
-    if np.linalg.matrix_rank(own, hermitian=True) < reference.p:
+    sizes = np.linalg.eigvalsh(own)
+    if sizes[0] <= reference.p * ROUNDING * sizes[-1]:
         return MeanShift(None, "the residual has directions without noise, in which its mean has no test", level)
     statistic = float(e @ np.linalg.solve(own, e))
     threshold = reference.threshold(level)
     back = np.linalg.inv(reference.still)
     if ends is not None:
         e, own = e + ends, own + 2.0 * reference.ends @ reference.past @ reference.ends.T / samples**2
-    V = back @ own @ back.T
+    sizes, axes = np.linalg.eigh(own)
+    sizes = np.maximum(sizes, np.finfo(np.float64).tiny)
+    half = back @ axes * np.sqrt(sizes)
+    V = half @ half.T
     shift = back @ e * reference.scales
     deviations = np.sqrt(np.diag(V)) * reference.scales
     single = -float(scipy.special.stdtrit(reference.freedom, level / (2 * reference.p)))
     channels = tuple(int(i) for i in np.flatnonzero(np.abs(shift) > single * deviations))
     # The mean of W^-1, a Wishart matrix of freedom B, is B / (B - p - 1) times the true one.
-    roots = np.linalg.solve(np.linalg.cholesky(own), reference.still)
+    roots = axes.T @ reference.still / np.sqrt(sizes)[:, None]
     precisions = np.sum(roots**2, axis=0) * (reference.freedom - reference.p - 1) / reference.freedom
     visible = np.sqrt(reference.noncentrality(level, POWER) / precisions) * reference.scales
     shifted = statistic > threshold

@@ -83,12 +83,24 @@ def test_what_the_healthy_samples_cannot_bear_is_undecided(name: str, says: str)
     assert re.search(says, found.reason), found.reason
 
 
+def test_residuals_without_noise_are_undecided_and_no_error() -> None:
+    for k in range(60):
+        draw = np.random.default_rng(k)
+        p, N = int(draw.integers(1, 5)), int(draw.integers(80, 400))
+        rank = int(draw.integers(1, p + 1))
+        r = draw.standard_normal((N, rank)) @ draw.standard_normal((rank, p))
+        r = (r + 10.0 ** draw.uniform(-18, -4) * draw.standard_normal((N, p))) * 10.0 ** draw.uniform(-8, 8, p)
+        with np.errstate(all="raise"):
+            found = mean_about_zero(r), mean_shift(r[N // 2 :], None, r[: N // 2], None)
+        assert all(one.shifted is None or np.all(np.asarray(one.visible) > 0.0) for one in found)
+
+
 def test_about_zero() -> None:
     r = noise(5, 2000)
     assert mean_about_zero(r).shifted is False
     assert mean_about_zero(r + np.array([0.0, 2.0, 0.0])).channels == (1,)
     assert mean_about_zero(np.cumsum(r, axis=0)).shifted is None
-    for share, says in (0.0, "no noise to compare with"), (1e-9, "directions without noise"):
+    for share, says in (0.0, "no noise to compare with"), (1e-9, "means say nothing"):
         found = mean_about_zero(r[:, :1] * [1.0, 2.0, -1.0] + share * r)
         assert found.shifted is None and says in found.reason
     with pytest.raises(InvalidData, match="NaN"):
