@@ -36,7 +36,7 @@ from .experiments import for_each, looked_at
 from .findings import Findings
 from .model.reduced_model import ReducedModel
 from .rows.evidence import LONG
-from .rows.fault_count import count_faults
+from .rows.fault_count import NO_CONSTANT, count_faults
 from .rows.joint import affordable
 from .signal.residual_sizes import loudest
 from .space.shift_isolation import gain_errors
@@ -192,7 +192,7 @@ def _about_zero(answer: Findings, r: Array) -> Findings:
     """Hold the mean of the residual against zero, where there are no healthy samples and it was not removed. It decides nothing but that 0
     is too much said, since a constant fault over a whole record cannot be told from an operating point."""
     if answer.n_v == 0 and answer.count is None:
-        answer = replace(answer, reason=f"{answer.reason}; a fault that is constant over the whole record would not be seen")
+        answer = replace(answer, reason=f"{answer.reason}; {NO_CONSTANT}")
     if answer.means_removed:
         if answer.n_v == 0 and not answer.operating_point.stated:
             reason = (

@@ -43,7 +43,7 @@ def split_names(given: str | Sequence[str]) -> list[str]:
 
 
 def quoted(name: str) -> str:
-    """Return the name as `split_names` takes it for this one, whatever stands before and behind."""
+    """Return the name in the form that `split_names` reads as this one name."""
     return name if _PLAIN.fullmatch(name) and name.strip() == name else '"{}"'.format(name.replace('"', '""'))
 
 

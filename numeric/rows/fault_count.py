@@ -65,8 +65,10 @@ KNOWN_FAR = 4.0 * KNOWN_TO
 # Coefficients of rows that are fitted at most: a step of a descent takes their cube, and those of 900 were not done in a hundred seconds on
 # busy cores. It bounds the time and decides no number.
 MOST = 500
-# What no rows on [y; u] can show, and 0 leaves out.
-LIKE_NOISE = "faults that are noise of that colour in single outputs, or constant over the whole record, would not be seen"
+# What no record can show, and 0 leaves out: the first always, the second where the noise is no louder than was stated. Where no level is
+# stated, the condition of the answer speaks of noise.
+NO_CONSTANT = "a fault that is constant over the whole record would not be seen"
+NO_FAINT_NOISE = "nor would one of a single output that is noise of that colour within the stated level"
 # Singular values of the scaled outputs below which a channel is a combination of others.
 DEPENDENT = 1e-10
 
@@ -185,7 +187,8 @@ def _count(
     _measured(np.vstack([y for y, _ in used]))
     answer = _by_rows(Evidence(used, n, model), p, None if noise_level is None else noise_deviations(noise_level, p), draws)
     if answer.n_v == 0:
-        answer = replace(answer, reason=f"{answer.reason}; {LIKE_NOISE}")
+        unseen = (NO_CONSTANT,) if noise_level is None else (NO_CONSTANT, NO_FAINT_NOISE)
+        answer = replace(answer, reason="; ".join([answer.reason, ", ".join(unseen)]))
     if len(used) == len(experiments):
         return answer
     left = f"{len(experiments) - len(used)} of {len(experiments)} experiments are too short for rows of degree {carried} and have no part"

@@ -162,13 +162,14 @@ def test_a_fault_that_varies_at_one_output_leans_into_no_other(kind: str) -> Non
     assert np.median(worst) < 3.0
 
 
-def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_rest_elsewhere() -> None:
+@pytest.mark.parametrize("move", [0.8, 2.0])
+def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_rest_elsewhere(move: float) -> None:
     plant = StateSpaceModel([[0.8]], [[1.0]], [[1.0], [-0.5]], [[0.0], [0.0]])
     K, without, beside, seen, seen_without = 150, 0, 0, 0, 0
     for k in range(12):
         draw = np.random.default_rng([5, k])
         u = draw.standard_normal((450, 1))
-        u[K:] += 0.8  # so near that the table does not leave the question open
+        u[K:] += move
         y = plant.simulate(u) + lfilter([1.0], [1.0, -0.6], draw.standard_normal((450, 2)), axis=0)
         y, u = y - y[:K].mean(axis=0), u - u[:K].mean(axis=0)
         found = arx_reduction(y[:K], u[:K], order=1)
@@ -179,4 +180,6 @@ def test_what_the_gain_of_the_model_is_wrong_by_is_no_shift_where_the_inputs_res
             shifts = any(row.kind == "mean shift" for row in changes_since_healthy(r, y, u, healthy=K, model=model, level=0.2).seen)
             seen, seen_without = seen + (shifts and model is found), seen_without + (shifts and model is not found)
     assert without >= 6 and beside <= 2
-    assert seen_without >= 4 and seen <= 2
+    if move < 1.0:  # so near that the table does not leave the question open
+        assert seen_without >= 4
+    assert seen <= 2

@@ -11,6 +11,7 @@ import pytest
 
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit.adapter import load, offered
+from faultspace.numeric.audit.checks.catalogue import chosen
 from faultspace.numeric.audit.peers import FAULT_ID, HERE, OCTAVE, PEERS, peer
 from faultspace.numeric.audit.records import CheckResult, Status
 from faultspace.numeric.audit.running import audit
@@ -52,7 +53,7 @@ WRONG = [
     ("sippy_unipi-D", "consistent-under-coloured-fault[coloured]", "fail"),  # past outputs as instruments
     ("ctrlsys", "consistent-under-coloured-fault[coloured]", "fail"),
     ("octave-control", "consistent-under-coloured-fault[coloured]", "fail"),
-    ("nfoursid", "memory-grows-with-N[N2000-N8000]", "fail"),
+    ("nfoursid", "memory-grows-with-N[N3000-N12000]", "fail"),
     ("nfoursid", "other-units[n2-u1-p1]", "fail"),  # normal equations
     ("ctrlsys", "refuses-shapes[two-faults]", "fail"),  # an array smaller than told
     ("ctrlsys", "exact-recovery[n2-u1-p1]", "fail"),  # B and D of ib01bd
@@ -86,6 +87,12 @@ def test_the_registry_is_well_formed() -> None:
         assert place is not None if one.adapter else Path((one.command or ())[len(OCTAVE)]).is_file()
     with pytest.raises(InvalidData, match="nfoursid"):
         peer("nobody")
+
+
+@pytest.mark.parametrize("name", sorted({check for _, check in RIGHT} | {check for _, check, _ in WRONG}))
+def test_what_is_said_of_peers_names_checks_that_are_there(name: str) -> None:
+    """The tests below skip where a peer is not installed, and would do so with the name of a check that is gone."""
+    assert [check.name for check in chosen([name])] == [name]
 
 
 def test_the_registry_imports_no_peer() -> None:
@@ -126,7 +133,7 @@ def test_the_reshape_spares_the_poles() -> None:
 
 def test_what_is_not_offered_is_declined() -> None:
     record = _asked("python-control", "normal-rank[wide]")["normal-rank[wide]"]
-    assert record.verdict == Status.REFUSED and "normal rank" in record.detail
+    assert record.verdict == Status.NOT_OFFERED and "normal_rank" in record.detail
 
 
 def test_a_missing_clone_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
