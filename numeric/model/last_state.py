@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from ...base.threads import one_thread
 from .reduced_model import ReducedModel
 from .reduction_starts import one_state_less
-from .valleys import END, begun, in_units
-from .weighted_reduction import descend
+from .valleys import begun, in_units
+from .weighted_reduction import arrived
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,8 @@ def last_state(found: ReducedModel) -> LastState:
     """
     n = found.order
     problem, own, _, _ = in_units(found)
-    shorter = [descend(problem, matrix, n - 1, *END) for matrix in one_state_less(own, n, problem)]
+    shorter = [arrived(problem, matrix, n - 1) for matrix in one_state_less(own, n, problem)]
     best, cost = min(shorter, key=lambda end: end[1])
     if n > 1:
-        cost = min([cost, *(descend(problem, matrix, n - 1, *END)[1] for matrix in begun(problem, best, n - 1))])
+        cost = min([cost, *(arrived(problem, matrix, n - 1)[1] for matrix in begun(problem, best, n - 1))])
     return LastState(max(cost - problem.cost(own, n), 0.0), sum(problem.plant.shape[1:]))

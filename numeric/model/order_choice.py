@@ -23,7 +23,7 @@ from .reduced_model import ReducedModel, described, judged, reduction_problems, 
 from .reduction_search import LAST, Found, minima
 from .reduction_starts import hankel_factors
 from .residuals import residual
-from .weighted_reduction import descend
+from .weighted_reduction import arrived, descend
 
 KEPT_BACK = 3  # one part in so many is held back
 MOST_HELD = 1 << 15  # samples of an experiment that are held back at most: they stand in memory
@@ -52,7 +52,7 @@ def order_tried(sources: Sequence[Pieces], lengths: Sequence[int], lags: int, of
         rows.append(OrderRow(n, one.cost / inflation, n * a_state + whole.p * whole.n_u, 0.0, one_step, free_run, gap, poles))
     evidence = weighed(rows)
     best = evidence.best
-    ended = Found(*descend(problem, found[best].matrix, best, *LAST))
+    ended = Found(*arrived(problem, found[best].matrix, best))
     # Orders too low may look like an unstable plant: only the choice is judged.
     return evidence, judged(described(whole, arx, problem, ended, best), whole)
 

@@ -17,7 +17,7 @@ from ...base.errors import InvalidData
 from .arx import Arx
 from .arx_windows import ArxWindows
 from .reduction_starts import one_state_less, starts
-from .weighted_reduction import Reduction, descend, ladder
+from .weighted_reduction import Reduction, arrived, descend, ladder
 
 # One or three starts kept give the same errors (`--calibrate starts`); budgets only bound the time of the search, the last one its end.
 KEPT = 2  # starts that are followed up the ladder
@@ -47,7 +47,7 @@ def minimum(windows: ArxWindows, arx: Arx, problem: Reduction, coarse: Reduction
     found += _nearest(coarse, begun + [less for one in longer for less in one_state_less(one.matrix, n + 1, coarse)], n, TRUE)
     if not found:
         raise InvalidData(f"no start for order {n}: the data show no dynamics that a model of this order could be begun from")
-    return Found(*descend(problem, _least(found).matrix, n, *LAST))
+    return Found(*arrived(problem, _least(found).matrix, n))
 
 
 def minima(windows: ArxWindows, arx: Arx, problem: Reduction, coarse: Reduction, penalty: float) -> list[Found]:

@@ -30,7 +30,7 @@ from .invariants import state_space, system_matrix, transfer
 from .reduced_model import COARSE, ReducedModel
 from .reduction_search import RUNGS, TRUE
 from .uncertainty import Uncertainty, uncertainty_of
-from .weighted_reduction import Reduction, descend, ladder
+from .weighted_reduction import Reduction, arrived, descend, ladder
 
 # Models that are followed. `python benchmarks/space_at_the_bound.py --calibrate` shows how often the angle of a fault space holds with
 # fewer, and with more.
@@ -39,8 +39,6 @@ STARTS = 16
 HIGHEST = 12.0
 # Squared distance of two transfer functions, in standard deviations, below which the data cannot tell them apart.
 APART = 1.0
-# Most steps to a minimum, and the relative gain of the last one: floors between two valleys take many.
-END = (300, 1e-8)
 SEED = 20251122
 
 
@@ -58,7 +56,7 @@ def valleys(found: ReducedModel) -> tuple[Valley, ...]:
     """Return the valleys that were found, in the units of the data, the model's own one first; the weights add up to one."""
     n = found.order
     problem, own, rows, columns = in_units(found)
-    ends = [descend(problem, matrix, n, *END)[0] for matrix in begun(problem, own, n)] if min(n, problem.plant.shape[2]) else []
+    ends = [arrived(problem, matrix, n)[0] for matrix in begun(problem, own, n)] if min(n, problem.plant.shape[2]) else []
     minima = _distinct(problem, own, ends, n, HIGHEST)
     costs = np.array([problem.cost(matrix, n) for matrix in minima])
     weights = np.exp((costs.min() - costs) / 2)
