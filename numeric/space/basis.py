@@ -36,8 +36,11 @@ ComplexArray = NDArray[np.complex128]
 
 NOISE_ORDER = 10
 ROUNDS = 12
-# Nats a sample: a descent that gains less is at its end; a round of colours that gains less is the last one.
-FLAT, SETTLED = 1e-6, 1e-4
+# Nats a sample: a descent that gains less is at its end.
+FLAT = 1e-6
+# Nats of the whole record: a round of colours that gains less is the last one. A likelihood ratio of ten, where degrees are refused, does
+# not move by more than a fiftieth then, however long the record.
+SETTLED = 0.1
 # And of a descent that is only compared with others, and goes on where it is the best.
 ROUGH = 1e-3
 STEPS = 80
@@ -124,7 +127,7 @@ def _likeliest(
         colour = _colour(regression, moments.angles, problem.weights)
         end = _descend(problem, colour, end.h, flat)
         now = np.log(max(end.cost(colour), TINY))
-        if abs(before - now) < SETTLED:
+        if abs(before - now) * moments.samples < SETTLED:
             break
         before = now
     h, power = end.h, max(end.cost(colour) / len(within), TINY)
