@@ -43,10 +43,10 @@ from ..space.result import FaultSpaceEstimate, SpaceOfValley, SpaceUncertainty, 
 from ..space.tapered_moments import BANDS, SEGMENT
 from ..space.uncertainty import space_uncertainty, turned_by_model
 from .bootstrap import redrawn
-from .degree import SLACK, LeastDegree, freedom, least_degree, likelihood_ratio, misfits
+from .degree import CALIBRATED, SLACK, TOO_LOW, LeastDegree, freedom, least_degree, likelihood_ratio, misfits
 from .evidence import arx_of, longest_degree
 from .from_above import from_above
-from .joint import JointMoments, course, even_split, joint_moments, joint_moments_experiments, padded, polished, refitted
+from .joint import JointMoments, course, even_split, joint_moments_experiments, padded, polished, refitted
 from .remainder import as_signals, loose_samples
 
 Experiments = Sequence[tuple[Array, Array]]
@@ -57,6 +57,9 @@ NUMBERS = 2**22
 # Total degrees beyond the order by which it is tested.
 BEYOND = 1
 SEED = 20251123
+# Records of the bootstrap where the answer rests on the misfit. The ratio of one degree more has four degrees of freedom or more, so that
+# the mean of ten is known to sqrt(2 / 4 / 10), 22 %.
+DRAWS = 10
 # What multiplies the model's part of the angle within a valley: the curvature of the likelihood at an estimate is larger, by chance, than
 # it is at the truth. `python benchmarks/space_at_the_bound.py --calibrate` repeats the measurement: the 95 % quantile of the tangent of the
 # angle over that of the stated one, not widened, where the estimate's own valley is alone. It was 1.45 (seeds 60001, 61000 and 62001, 68
@@ -73,15 +76,17 @@ def fault_space_by_rows(
     *,
     n_v: int,
     noise_level: ArrayLike | None = None,
-    draws: int = 0,
+    draws: int | None = None,
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for A (n, n), C (p, n) of the model and n_v < p faults.
 
     Where u is None, y is a list of pairs (y, u), each an experiment of the same system with an initial state of its own; experiments too
     short for the rows are left out.
 
-    The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`); with `draws` their misfit is measured
-    on so many records of the parametric bootstrap, a fifth of a second each. The angle of the answer takes n_z, A and C as right:
+    The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`). Their misfit is that of a formula, and
+    where the answer rests on it, on records of up to CALIBRATED samples, it is measured on DRAWS records of the parametric bootstrap, a
+    tenth of a second each. `draws` is the number of these records, which are then made in any case: 0 leaves it at the formula, and more
+    make the answer surer. The angle of the answer takes n_z, A and C as right:
     `identified_fault_space` has the error of an identified model in it. The basis is in the states of A and the units of y, which do not
     matter otherwise. The noise is taken to have one colour, and powers as those of `noise_level` (one number or one an output, in units of
     y), of which only the ratios matter; without it the same power relative to the deviation of each output. Noise of other ratios turns
@@ -105,7 +110,13 @@ def fault_space_by_rows(
 
 @one_thread()
 def identified_fault_space(
-    y: ArrayLike | Experiments, u: ArrayLike | None, model: ReducedModel, *, n_v: int, noise_level: ArrayLike | None = None, draws: int = 0
+    y: ArrayLike | Experiments,
+    u: ArrayLike | None,
+    model: ReducedModel,
+    *,
+    n_v: int,
+    noise_level: ArrayLike | None = None,
+    draws: int | None = None,
 ) -> FaultSpaceEstimate:
     """Estimate the fault space of y (N, p), u (N, n_u) for a model that `arx_reduction` found in such data, whose error is in the angle.
 
@@ -268,7 +279,7 @@ def _fitted(
     C: Array,
     n_v: int,
     noise_level: ArrayLike | None,
-    draws: int,
+    draws: int | None,
     arx: Arx | None = None,
 ) -> _Rows | FaultSpaceEstimate:
     """Return the rows of the total degree that the data accept, or what there is to say where no row is left."""
@@ -286,8 +297,6 @@ def _fitted(
         return everything(n, p, faults, n + 1, reason)
     coordinates = observed_coordinates(outputs, A, C, n + 1)
     rows, seen = p - faults, coordinates.observed
-    if draws and len(records) > 1:
-        raise InvalidData(f"draws: got {draws} with {len(records)} experiments; the bootstrap makes records like one: leave it out")
     data = pooled(records, -(-(seen + BEYOND) // rows))
     largest = largest_fault_space(coordinates.A, coordinates.C, faults)
     shares = np.ones(p)
@@ -297,11 +306,16 @@ def _fitted(
     least = n + faults - largest
     both = compared(records, data, rows, least, seen + BEYOND, shares)
     data, fits = both.data, both.fits
-    expected, widened = misfits(len(fits) - 1, data, loose(records, both, shares, n, arx)), 1 + SLACK
-    chosen = least_degree(data, fits, least, seen, expected)
+    chosen = least_degree(data, fits, least, seen, misfits(len(fits) - 1, data, loose(records, both, shares, n, arx)))
+    widened = 1 + SLACK
+    if draws is None:
+        plain = least_degree(data, fits, least, seen, misfits(len(fits) - 1, data, 0.0))
+        sure = (plain.decided, plain.degree) == (True, chosen.degree) and chosen.decided
+        hopeless = chosen.probabilities[chosen.degree] < TOO_LOW
+        draws = 0 if sure or hopeless or data.samples > CALIBRATED else DRAWS
     if draws:
-        drawn = _misfits(*records[0], data, fits, chosen, shares, draws)
-        chosen, widened = least_degree(data, fits, least, seen, drawn), drawn[0]
+        drawn = _misfits(records, both, chosen, shares, draws)
+        chosen, widened = least_degree(data, fits, least, seen, drawn), max(widened, drawn[0])
     return _Rows(data, fits[chosen.degree], chosen, faults, largest, widened)
 
 
@@ -355,13 +369,14 @@ def _observed(model_root: Array, coordinates: ObservedCoordinates) -> Array:
     return np.asarray(np.einsum("ir,rcq,cj->ijq", left, changes, np.linalg.inv(coordinates.T)).reshape(model_root.shape))
 
 
-def _misfits(
-    y: Array, u: Array, data: JointMoments, fits: Sequence[KernelBasis], chosen: LeastDegree, shares: Array, draws: int
-) -> list[float]:
+def _misfits(records: Experiments, found: Compared, chosen: LeastDegree, shares: Array, draws: int) -> list[float]:
     """Return the means of the ratios over their degrees of freedom, for one degree more, two, .., on records made from the chosen fit."""
-    ratios = []
-    for record in redrawn(y, u, data, fits[chosen.degree], shares, draws, SEED):
-        again = joint_moments(record, u, data.degree, len(data.moments.angles))
+    data, fits, ratios = found.data, found.fits, []
+    kept = [record for record in records if longest_degree(*record) >= data.degree]
+    made = [redrawn(y, u, data, fits[chosen.degree], shares, draws, SEED + number) for number, (y, u) in enumerate(kept)]
+    for outputs in zip(*made, strict=True):
+        pairs = [(y, u) for y, (_, u) in zip(outputs, kept, strict=True)]
+        again = joint_moments_experiments(pairs, data.degree, len(data.moments.angles))
         count = len(fits[0].rows)
         steps = [refitted(again, even_split(chosen.degree, count), fits[chosen.degree].rows, shares=shares)]
         for total in range(chosen.degree + 1, len(fits)):

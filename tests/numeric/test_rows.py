@@ -4,6 +4,7 @@ and records made to mislead.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from random import Random
 from typing import Any
@@ -442,6 +443,18 @@ def test_the_bootstrap_decides_the_degree_too() -> None:
     quick, careful = (fault_space_by_rows(y, u, system.A, system.C, n_v=1, draws=draws) for draws in (0, 3))
     assert careful.n_z == quick.n_z == 2 and careful.margin != quick.margin
     np.testing.assert_array_equal(careful.basis, quick.basis)
+
+
+def test_the_bootstrap_is_asked_where_the_answer_rests_on_the_misfit_and_there_alone() -> None:
+    zero = planted(31, (0.5,), n=3, p=3, m=2)
+    near = replace(zero, G=zero.G + 0.1 * np.random.default_rng(31).standard_normal(zero.G.shape))  # with no zero, nearly
+    y, u = joint_record(near, 31, 500, 40)
+    asked, formula = (fault_space_by_rows(y, u, near.A, near.C, n_v=2, draws=draws) for draws in (None, 0))
+    assert formula.zeta is None and asked.zeta == 0, (formula.reason, asked.reason)
+    far = replace(zero, G=zero.G + np.random.default_rng(31).standard_normal(zero.G.shape))
+    y, u = joint_record(far, 31, 500, 40)
+    with patch("faultspace.numeric.rows.space.redrawn", side_effect=AssertionError):
+        assert fault_space_by_rows(y, u, far.A, far.C, n_v=2).zeta == 0
 
 
 def test_two_rows_and_no_noise() -> None:
