@@ -26,6 +26,7 @@ import numpy as np
 import scipy.linalg
 
 from ...base.arrays import Array
+from ...base.errors import InvalidData
 from ..count.windows import ObservedCoordinates
 from .result import SpaceUncertainty, condition_maps, kernel_conditions
 
@@ -96,4 +97,11 @@ def _moved(rows: Sequence[Array], changes: Array, coordinates: ObservedCoordinat
         turned[:, :n] += turn @ columns[:n]
     moved = np.array([coordinates.back(change) for change in turned]).reshape(len(turned), *columns.shape)
     Q, R = np.linalg.qr(coordinates.back(columns))
-    return np.asarray((moved - Q @ (Q.T @ moved)) @ np.linalg.inv(R))
+    with np.errstate(all="ignore"):
+        found = (moved - Q @ (Q.T @ moved)) @ np.linalg.inv(R) if np.diag(R).all() else np.array(np.nan)
+    if not np.isfinite(found).all():
+        raise InvalidData(
+            f"the outputs have sizes from {coordinates.scale.min():.1g} to {coordinates.scale.max():.1g}: in these "
+            "units the columns of the fault space are one up to rounding; pass outputs of like sizes, and the C of these"
+        )
+    return np.asarray(found)

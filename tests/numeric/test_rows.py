@@ -457,6 +457,17 @@ def test_the_bootstrap_is_asked_where_the_answer_rests_on_the_misfit_and_there_a
         assert fault_space_by_rows(y, u, far.A, far.C, n_v=2).zeta == 0
 
 
+def test_outputs_of_units_that_rounding_cannot_hold_together_are_refused() -> None:
+    system = planted(26, (0.5,), n=1, p=2, m=1)
+    y, u = joint_record(system, 26, 100, 40)
+    near, far = np.array([1e9, 1e-9]), np.array([1e140, 1e-20])
+    found = fault_space_by_rows(y * near, u, system.A, system.C * near[:, None], n_v=1)
+    assert found.uncertainty is not None and np.isfinite(found.uncertainty.angle())
+    for C in system.C, system.C * far[:, None]:
+        with pytest.raises(InvalidData, match="of like sizes"):
+            fault_space_by_rows(y * far, u, system.A, C, n_v=1)
+
+
 def test_two_rows_and_no_noise() -> None:
     """p - n_v = 2; without noise the space is the true one."""
     system = planted(23, (0.4,), n=4, p=4, m=2)
