@@ -14,7 +14,7 @@ import numpy as np
 from ..base.errors import InvalidData
 from ..base.progress import Progress
 from .choice import MEANS_FROM, noise_mix
-from .count.mean_shift import MeanShift, mean_shift
+from .count.mean_shift import MeanShift, mean_about_zero, mean_shift
 from .count.unlike_healthy import beyond_healthy_inputs
 from .findings import Findings
 from .rows.known_noise import state_units
@@ -78,13 +78,16 @@ def with_shift(answer: Findings) -> Findings:
         found = _moved(answer, against, (start, last))
         if found is None or not found.shifted or found.shift is None or found.covariance is None:
             continue
-        steady = start == first + transient and _steady(answer, against, (start, last))
+        # Inputs would explain what a fault makes of them, and take it out of the variation.
+        own = mean_about_zero(rest.store.read(start, min(last, start + MEANS_FROM)))
+        steady = start == first + transient and own.covariance is not None and _steady(answer, against, (start, last))
         isolated = isolate_shift(
             found.shift,
             found.covariance,
             model,
-            freedom=found.freedom,
+            freedom=found.freedom if own.freedom is None or found.freedom is None else min(found.freedom, own.freedom),
             steady=steady,
+            varying=own.covariance,
             outputs=answer.record.outputs,
             inputs=answer.record.inputs,
         )

@@ -165,6 +165,7 @@ def isolate_shift(
     *,
     freedom: int | None = None,
     steady: bool = True,
+    varying: ArrayLike | None = None,
     outputs: Sequence[str] | None = None,
     inputs: Sequence[str] | None = None,
 ) -> ShiftIsolation:
@@ -175,6 +176,8 @@ def isolate_shift(
     estimated with, None where it is known. `model` is a ReducedModel, whose standard errors are those of its static gain, or a
     StateSpaceModel with A, B, C, D of the shapes (n, n), (n, n_u), (p, n), (p, n_u), which is taken as right. `steady` says whether the
     fault stays what it is and its onset has died out: else nothing is said of actuators, whose response is then more than the static gain.
+    `varying` (p, p) is the covariance of the mean of the residual by its own variation while the fault acts, where that is estimated: of a
+    fault that varies the mean is chance, within such errors, and of one in an actuator the static gain does not tell it.
     `outputs` and `inputs` name the channels, by default y1, .., u1, ... A cause is "excluded" where its probability is below 0.01,
     "consistent" where it is 0.05 or more and the bound is below half a radian, and else "undecided". Of one output all are undecided, and
     so they are where the shift itself is not beyond chance. Raises InvalidData for shapes, names and covariances that cannot be. Source:
@@ -197,7 +200,12 @@ def isolate_shift(
             raise InvalidData(f"{what}: got {len(given)} names for {count}; one for each is needed")
     law = _Law(freedom)
     whiten = np.linalg.inv(np.linalg.cholesky(V))
-    reason = _refusal(law.chance(float(np.sum((whiten @ d) ** 2)), p), p)
+    wide = whiten if varying is None else np.linalg.inv(np.linalg.cholesky(V + _checked(shift, varying, p)[1]))
+    reason, by_itself = (_refusal(law.chance(float(np.sum((metric @ d) ** 2)), p), p) for metric in (whiten, wide))
+    if by_itself and not reason:
+        reason = (
+            f"{by_itself} beside what the residual varies by while the fault acts: a fault that is no constant has such a mean by chance"
+        )
     uncertainty = getattr(model, "uncertainty", None)
     actuators = "" if not n_u else NO_ERRORS if matrices is not model and uncertainty is None else _unsteady(matrices, uncertainty, steady)
     causes = [_cause("sensor", names[0][j], d, np.eye(p)[j], np.zeros((0, p)), whiten, law, silent=bool(reason)) for j in range(p)]
@@ -206,7 +214,7 @@ def isolate_shift(
     else:
         gain, errors = _static_gain(matrices, None if uncertainty is None else uncertainty.root)
         for j, name in enumerate(names[1]):
-            causes.append(_cause("actuator", name, d, gain[:, j], errors[:, :, j], whiten, law, silent=bool(reason)))
+            causes.append(_cause("actuator", name, d, gain[:, j], errors[:, :, j], wide, law, silent=bool(reason)))
     return ShiftIsolation(tuple(causes), _words(causes, reason, actuators), reason, actuators)
 
 

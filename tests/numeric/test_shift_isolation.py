@@ -67,6 +67,19 @@ def test_the_chance_is_that_of_hotellings_statistic_across_the_direction() -> No
     assert np.isclose(isolate_shift(3 * d, 9 * V, MODEL, freedom=20).causes[1].p_value, f.sf(T * 19 / 40, 2, 19))  # type: ignore[arg-type]
 
 
+def test_the_mean_of_a_fault_that_varies_tells_no_cause() -> None:
+    column = GAIN[:, 0] / np.linalg.norm(GAIN[:, 0])
+    d = 10.0 * column + 4.0 * np.array([0.0, 1.0, -1.0])  # what an actuator's fault of changing size leaves, and no static gain tells
+    assert "actuator fault on u1" not in isolate_shift(d, 0.1 * np.eye(3), MODEL).answer
+    chance = isolate_shift(d, 0.1 * np.eye(3), MODEL, varying=200.0 * np.eye(3))
+    assert "what the residual varies by" in chance.reason and not chance.decided
+    assert {cause.answer for cause in chance.causes} == {"undecided"}
+    constant = isolate_shift(10.0 * column, 0.1 * np.eye(3), MODEL, varying=0.1 * np.eye(3))
+    assert constant.answer == f"{NAMES[3]} explains the shift, and no other single sensor or actuator does"
+    with pytest.raises(InvalidData, match="positive definite"):
+        isolate_shift(d, np.eye(3), MODEL, varying=np.zeros((3, 3)))
+
+
 def test_a_true_cause_is_excluded_as_often_as_stated() -> None:
     draw, B, excluded = np.random.default_rng(11), 12, 0
     root = np.linalg.cholesky(covariance(2))
