@@ -15,7 +15,7 @@ from ..base.errors import InvalidData
 from ..base.progress import Progress
 from .choice import MEANS_FROM, noise_mix
 from .count.mean_shift import MeanShift, mean_about_zero, mean_shift
-from .count.unlike_healthy import beyond_healthy_inputs
+from .elsewhere import doubt_of_means
 from .findings import Findings
 from .rows.known_noise import state_units
 from .signal.onset import fault_onset
@@ -112,7 +112,7 @@ def _moved(answer: Findings, against: tuple[int, int], samples: tuple[int, int])
     if before[1] <= before[0] or after[1] <= after[0]:
         return None
     u, u_before = answer.record.stretch(*after)[1], answer.record.stretch(*before)[1]
-    if beyond_healthy_inputs(u_before, u, answer.record.inputs):
+    if doubt_of_means(answer, against[1], u_before, u):
         return None
     r = answer.residual.store
     try:

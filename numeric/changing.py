@@ -16,8 +16,10 @@ from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.sheets import counted
 from .changes.predictor import LEARNT_FROM, Stretch
-from .changes.testing import LEVEL, changes_within, parameters, responses, table
+from .changes.rows import MEAN
+from .changes.testing import LEVEL, RAW, changes_within, parameters, responses, table
 from .count.rank_gap import fault_dimension
+from .elsewhere import doubt_of_means
 from .findings import Findings
 from .space.shift_isolation import gain_errors
 
@@ -40,7 +42,8 @@ def with_changes(answer: Findings) -> Findings:
     start = max(answer.healthy - LEARNT_FROM, 0)
     parts = (_stretch(answer, start, answer.healthy), _stretch(answer, first, last))
     after = replace(parts[1], gain_errors=gain_errors(answer.model))
-    return replace(answer, changes=table(parts[0], after, names, LEVEL))
+    believed = RAW if doubt_of_means(answer, answer.healthy, parts[0].u, after.u) else (*RAW, MEAN)
+    return replace(answer, changes=table(parts[0], after, names, LEVEL, believed))
 
 
 def _stretch(answer: Findings, first: int, last: int) -> Stretch:

@@ -32,6 +32,7 @@ from .count.mean_shift import POWER, mean_about_zero, mean_shift
 from .count.news import news_beyond_healthy
 from .count.rank_gap import fault_dimension
 from .count.unlike_healthy import beyond_healthy_inputs, unlike_healthy
+from .elsewhere import doubt_of_means
 from .experiments import for_each, looked_at
 from .findings import Findings
 from .model.reduced_model import ReducedModel
@@ -231,8 +232,8 @@ def _against_healthy(answer: Findings, r: Array, faults: int | None, on_progress
         mean = replace(mean, shifted=None, reason="the model is too unstable to be run on from the healthy samples", visible=None)
     answer = replace(answer, mean=mean)
     driven = beyond_healthy_inputs(before, u, record.inputs)
-    if driven and mean.shifted:
-        answer = replace(answer, mean=replace(mean, shifted=None, reason=driven, visible=None))
+    if mean.shifted and (doubt := doubt_of_means(answer, until, before, u)):
+        answer = replace(answer, mean=replace(mean, shifted=None, reason=doubt, visible=None))
     try:
         reference = healthy_reference(healthy, before)
         against = fault_dimension_against_healthy(r, reference, u=u)

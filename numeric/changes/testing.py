@@ -128,10 +128,13 @@ def responses(model: StateSpaceModel | HasModel | None, u: Array) -> Array | Non
     return np.stack([model.simulate(np.where(np.arange(u.shape[1]) == j, u, 0.0)) for j in range(u.shape[1])])
 
 
-def table(before: Stretch, after: Stretch, names: tuple[Sequence[str], Sequence[str]], level: float) -> Changes:
-    """Return the table of the stretch `after` against `before`, which is without fault; `names` are those of outputs and inputs."""
+def table(
+    before: Stretch, after: Stretch, names: tuple[Sequence[str], Sequence[str]], level: float, believed: Sequence[str] = RAW
+) -> Changes:
+    """Return the table of the stretch `after` against `before`, which is without fault. `names` are those of outputs and inputs; rows of
+    the kinds `believed` are seen wherever the inputs rest."""
     tests = 7 * len(names[0]) + len(names[1])
-    found = _tested(before, after, names, level, tests, KINDS)
+    found = _tested(before, after, names, level, tests, KINDS, believed)
     half = len(before) // 2
     suspects = [row for row in found.rows if row.seen]
     if not suspects:
@@ -146,7 +149,13 @@ def table(before: Stretch, after: Stretch, names: tuple[Sequence[str], Sequence[
 
 
 def _tested(
-    before: Stretch, after: Stretch, names: tuple[Sequence[str], Sequence[str]], level: float, tests: int, kinds: Sequence[str]
+    before: Stretch,
+    after: Stretch,
+    names: tuple[Sequence[str], Sequence[str]],
+    level: float,
+    tests: int,
+    kinds: Sequence[str],
+    believed: Sequence[str] = RAW,
 ) -> Changes:
     """Return the rows of these kinds, judged together."""
     outputs, inputs = names
@@ -171,7 +180,7 @@ def _tested(
         if len(before) > 1:
             evidence += frozen_sensors(before, after, outputs, one)
     rows = sorted((row for row in evidence if row.kind in kinds), key=lambda row: KINDS.index(row.kind))
-    return judged(rows, level, tests, (len(before), len(after)), _doubt(before, after, inputs), RAW)
+    return judged(rows, level, tests, (len(before), len(after)), _doubt(before, after, inputs), believed)
 
 
 def _doubt(before: Stretch, after: Stretch, inputs: Sequence[str]) -> str:

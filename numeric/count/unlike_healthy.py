@@ -1,6 +1,7 @@
 """What the tests of means and spectra do not look at, and a plot would show: reasons not to say 0, or not to count, beside healthy samples.
 
 beyond_healthy_inputs   the inputs are louder, or elsewhere, than while healthy
+beyond_healthy_levels   what is left of that for means, where the errors of the model's static gain are known
 unlike_healthy          a spike, a sensor that is stuck or dead
 
 They make an answer undecided and never decide one. What is a spike, or too long a run of equal values, follows from the level of the
@@ -42,6 +43,24 @@ def beyond_healthy_inputs(before: Array, u: Array, names: Sequence[str]) -> str:
             away = abs(u[:, i].mean() - middle[i]) / sizes[i]
             how = f"{away:.3g} deviations away" if away * sizes[i] > spread[i] else f"{power[i] ** 0.5 / sizes[i]:.3g} times as loud"
             return f"input {shorten(name)} is {how} after the healthy samples, so that the error of the model can look like a fault"
+    return ""
+
+
+def beyond_healthy_levels(before: Array, u: Array, names: Sequence[str]) -> str:
+    """Say why the mean of the residual need not be that of the healthy samples, up to the errors of the model's static gain, or nothing.
+
+    A mean that inputs move is foretold up to these errors, however far it is, where the plant is linear. So that a curved plant would have
+    shown it, the inputs have to rest where the healthy ones have been.
+    """
+    for i, name in enumerate(names):
+        mean, least, most = u[:, i].mean(), before[:, i].min(), before[:, i].max()
+        if u[:, i].std() > LOUDER * (before[:, i].std() or 1.0):
+            return f"input {shorten(name)} varies more than in the healthy samples, so that the error of the model can look like a fault"
+        if not least <= mean <= most:
+            return (
+                f"input {shorten(name)} rests at {mean:.3g}, where the healthy samples have not been ({least:.3g} to {most:.3g}), so that "
+                "the error of the model can look like a fault"
+            )
     return ""
 
 

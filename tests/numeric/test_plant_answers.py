@@ -36,6 +36,42 @@ def test_a_residual_that_grows_beyond_all_numbers_is_counted_before_it_does() ->
     assert drawn.healthy < found.held[1] < len(drawn.y) and "too unequal" not in found.reason and found.n_v != 0
 
 
+def moved(*, offset: float, curve: float, seed: int) -> tuple[Array, Array]:
+    """Return a record whose input rests a deviation and a half higher after K samples, where its actuator is off by `offset`."""
+    draw = np.random.default_rng(seed)
+    u = draw.standard_normal((2 * K, 1))
+    u[K:] += 1.5
+    driven = u + curve * u**2
+    driven[K:] += offset
+    return PLANT.simulate(driven) + 0.05 * draw.standard_normal((2 * K, 3)), u
+
+
+def test_an_actuator_that_is_off_is_named_although_the_set_point_has_moved() -> None:
+    """The means of the inputs account for what the errors of the static gain allow, and no more."""
+    for seed in range(3):
+        y, u = moved(offset=0.4, curve=0.0, seed=seed)
+        found = identify(y, u, order=2, healthy=K)
+        assert found.moved and found.shift_isolation is not None and found.n_v != 0
+        assert [cause.channel for cause in found.shift_isolation.of("consistent")] == ["u1"]
+        clean = identify(*moved(offset=0.0, curve=0.0, seed=seed), order=2, healthy=K)
+        assert not clean.moved and clean.shift_isolation is None
+
+
+def test_a_plant_that_is_curved_has_no_fault_for_being_driven_elsewhere() -> None:
+    for seed in range(3):
+        found = identify(*moved(offset=0.0, curve=0.1, seed=seed), order=2, healthy=K)
+        assert found.mean is not None and found.mean.shifted is None and "may be curved" in found.mean.reason
+        assert found.shift_isolation is None and found.changes is not None and not found.changes.seen
+
+
+def test_an_input_that_rests_where_it_has_never_been_leaves_the_mean_open() -> None:
+    y, u = moved(offset=0.0, curve=0.0, seed=1)
+    u[K:] += 5.0
+    y[K:] += (PLANT.simulate(np.full((K, 1), 5.0)) + 0.5)[:K]
+    found = identify(y, u, order=2, healthy=K)
+    assert found.mean is not None and found.mean.shifted is None and "have not been" in found.mean.reason
+
+
 @pytest.mark.slow
 def test_the_shape_of_what_laws_leave_is_a_likelihood_ratio() -> None:
     y, u = measured(3)
