@@ -242,9 +242,11 @@ def _changed_all_the_same(answer: Findings) -> Iterator[str]:
     if answer.n_v is None and onset is not None and onset.onsets:
         first = onset.onsets[0]
         names = _several([answer.record.outputs[i] for i in first.changed]) or "all outputs together"
+        # Where the mean has moved the inputs are accounted for.
+        driven = "" if answer.moved else ", and whether it is a fault or the plant driven elsewhere"
         yield (
             f"something changes at sample {first.sample}{after_healthy(answer, first.sample)}, in {names} (see the onset); open is how "
-            "many independent faults that takes, and whether it is a fault or the plant driven elsewhere"
+            f"many independent faults that takes{driven}"
         )
 
 
