@@ -13,6 +13,7 @@ plot_stored_signal            the same for a signal of any length in a store
 plot_residual                 a residual, one output below the other
 plot_onsets                   the same over the whole record, with the changes found in it and their intervals
 plot_angles                   angles of single causes to a fault space, with the angles that chance reaches
+plot_chances                  chances of single causes of a shift
 plot_levels                   what the best law on so many mixed outputs leaves, which jumps at the number of faults
 
 matplotlib is imported when a figure is made, so that the package does without it. Colours are ones that the colour-blind tell
@@ -40,6 +41,7 @@ MOST_POINTS = 3000
 MOST_DRAWN = 1 << 15  # rows of a stored signal that are drawn: of a longer one the extremes of equal parts, two rows each
 TICKS = 7
 DECIBEL = 10.0 / np.log(10.0)  # of the natural logarithm of a power
+LEAST_CHANCE = 1e-12  # that is drawn: less says no more
 MOST_CHANNELS = 8
 SEEN = 0.2  # of the picture: smaller regions are drawn larger by a power of ten that does not go beyond it
 LOWEST = 1e-18  # relative: smaller singular values are drawn there
@@ -376,6 +378,30 @@ def plot_angles(rows: Sequence[tuple[str, float, float | None, str]], *, ax: Any
     ax.set_xscale("log")
     ax.set_xlim(left, 90 * (90 / left) ** 0.2)  # with room for the answers
     ax.set(xlabel="angle to the fault space (degrees)", title="Single causes")
+    return finished(ax, legend=True, outside=True)
+
+
+def plot_chances(rows: Sequence[tuple[str, float, str]], limits: tuple[float, float], *, ax: Any = None) -> Any:
+    """Draw a bar for each (name, chance, answer), hatched by the answer, which stands beside it: the longer, the less likely a shift as far
+    off is by chance, were it the cause. Below the first of the `limits` a cause is excluded, from the second on it is consistent. Chances
+    below LEAST_CHANCE are drawn as that."""
+    ax = _axes(ax)
+    styles = {"consistent": (GREEN, ""), "excluded": (GREY, "//"), "undecided": (ORANGE, "..")}
+    sizes = [-np.log10(max(chance, LEAST_CHANCE)) for _, chance, _ in rows]
+    for place, (size, (_, _, answer)) in enumerate(zip(sizes, rows, strict=True)):
+        colour, hatch = styles[answer]
+        ax.barh(place, size, height=0.6, color=colour, alpha=0.55, hatch=hatch, edgecolor=colour)
+        ax.annotate(answer, (size, place), xytext=(6, 0), textcoords="offset points", va="center", fontsize=9)
+    excluded, consistent = (-np.log10(limit) for limit in limits)
+    ax.axvline(excluded, color="black", linewidth=1.5, label=f"below {limits[0]:g}: excluded")
+    ax.axvline(consistent, color=GREY, linestyle="--", linewidth=1, label=f"from {limits[1]:g} on: consistent")
+    ax.set_yticks(range(len(rows)), [name for name, *_ in rows])
+    ax.set_ylim(len(rows) - 0.4, -0.6)
+    reach = max([*sizes, 2 * excluded])
+    ax.set_xlim(0, 1.2 * reach)  # with room for the answers
+    places = range(0, int(reach) + 1, 2)
+    ax.set_xticks(places, ["1", *(f"$10^{{-{place}}}$" for place in places[1:])])
+    ax.set(xlabel="chance that the shift points so far away from the cause", title="Causes of the shift")
     return finished(ax, legend=True, outside=True)
 
 

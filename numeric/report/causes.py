@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 RESIDUAL = "residual.csv"
 MOST_ONSETS = 6  # that the summary tells
 EARLY = 4  # onsets in the first of so many parts of a record may be its start
-CAUSES_DRAWN = ("residual.png", "isolation.png")
+CAUSES_DRAWN = ("residual.png", "isolation.png", "shift-causes.png")
 
 
 def onset_lines(answer: Findings) -> Iterator[str]:
@@ -180,4 +180,8 @@ def causes_drawn(answer: Findings) -> list[tuple[str, tuple[float, float], Calla
     if isolation is not None and isolation.causes:
         size = (8.0, 1.8 + 0.38 * len(isolation.causes))
         drawings.append((CAUSES_DRAWN[1], size, lambda figure: isolation.plot(figure.add_subplot())))
+    shift = answer.shift_isolation
+    known = sum(cause.p_value is not None for cause in shift.causes) if shift is not None else 0
+    if shift is not None and known:
+        drawings.append((CAUSES_DRAWN[2], (8.0, 1.8 + 0.38 * known), lambda figure: shift.plot(figure.add_subplot())))
     return drawings

@@ -66,6 +66,11 @@ CAPTIONS = {
         "The angle of each single cause to the fault space, with the angle that chance stays below were it the cause.",
         "Bars of angles, one for each sensor and each actuator, with marks at their bounds.",
     ),
+    "shift-causes.png": (
+        "Which sensor or actuator",
+        "How unlikely the direction of the shift is by chance, were this cause the one: what stands beyond the line is excluded.",
+        "Bars of chances, one for each sensor and each actuator, with lines where a cause is excluded and where it is consistent.",
+    ),
     "fault-signal.png": (
         "Fault signal",
         "The reconstructed fault signal over the whole record, and in detail where the residual is loudest.",

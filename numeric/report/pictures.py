@@ -10,7 +10,8 @@ PICTURES     the names of the files
     zeros-and-poles   poles of the model, with the regions that hold them where these are known, and finite zeros of the faults
     spectra           of the residual, before and after the onset, and of the fault signal (spectra.py)
     outputs           the last samples, measured against simulated
-    residual, isolation    of causes.py: the residual of the whole record with its onsets, the angles of single causes
+    residual, isolation, shift-causes    of causes.py: the residual of the whole record with its onsets, the angles of single causes to the
+                           fault space, their chances where the mean has moved
     fault-signal      the whole record, and a detail of it where the residual is loudest
 """
 

@@ -35,6 +35,7 @@ from ...base.errors import InvalidData, shorten
 from ...base.sheets import Shown, counted
 from ...base.threads import one_thread
 from ..data.plain import plain
+from ..drawing import plot_chances
 from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, cause_name, joined
 
 ANGLES = 720  # of the grid on which the least statistic is looked for
@@ -123,6 +124,12 @@ class ShiftIsolation(Shown):
             size = "" if cause.size is None else f": size {cause.size:.4g} +- {cause.deviation:.2g}"
             chance = "" if cause.p_value is None else f", p {cause.p_value:.2g}"
             yield cause.name, f"{cause.answer}{size}{chance}"
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the chances as bars into the matplotlib axes `ax`, new ones where None are given, and return them; causes of which nothing
+        could be computed are left out. Raises ImportError without matplotlib."""
+        rows = [(f"{cause.kind} {cause.channel}", cause.p_value, cause.answer) for cause in self.causes if cause.p_value is not None]
+        return plot_chances(rows, (EXCLUDED, CONSISTENT), ax=ax)
 
     def to_json(self) -> dict[str, Any]:
         """Return a JSON-ready dict, bounds in degrees."""

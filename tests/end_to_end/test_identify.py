@@ -157,10 +157,11 @@ def test_people_read_a_summary_and_find_the_files(as_printed: tuple[Run, Path]) 
 @needs_matplotlib
 def test_the_plots_are_pictures(answered: tuple[Run, Path]) -> None:
     run, out = answered
-    assert set(PICTURES) <= set(run.json["files"])  # noisy data: the levels are pictured too
-    for name in PICTURES:
+    drawn = set(PICTURES) - {"shift-causes.png"}  # no mean has moved; the data are noisy, so that the levels are pictured too
+    assert drawn == set(PICTURES) & set(run.json["files"])
+    for name in drawn:
         assert (out / name).read_bytes().startswith(b"\x89PNG"), name
-    assert (out / report.PAGE).read_text("utf-8").count('<img src="data:image/png;base64,') == len(PICTURES)
+    assert (out / report.PAGE).read_text("utf-8").count('<img src="data:image/png;base64,') == len(drawn)
 
 
 def test_without_matplotlib_it_says_so_and_goes_on(given: tuple[Run, Path]) -> None:

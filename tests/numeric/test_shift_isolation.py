@@ -47,6 +47,19 @@ def test_the_one_cause_is_named_with_its_size_in_any_units(j: int, freedom: int 
     assert all(np.isclose(a.p_value, b.p_value, atol=1e-12) and np.isclose(a.bound, b.bound) for a, b in pairs)  # type: ignore[arg-type]
 
 
+def test_the_chances_are_drawn_of_those_causes_that_have_one() -> None:
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    axes = isolate_shift(40.0 * GAIN[:, 0], np.eye(3), MODEL, steady=False).plot(pyplot.figure().add_subplot())
+    assert [label.get_text() for label in axes.get_yticklabels()] == ["sensor y1", "sensor y2", "sensor y3"]
+    found = isolate_shift(40.0 * GAIN[:, 0], np.eye(3), MODEL)
+    axes = found.plot(pyplot.figure().add_subplot())
+    lengths = [bar.get_width() for bar in axes.patches]
+    assert len(lengths) == 5 and np.argmin(lengths) == 3 and max(lengths) <= 12.0
+    for bar, cause in zip(lengths, found.causes, strict=True):
+        assert cause.p_value is not None and np.isclose(10.0**-bar, max(cause.p_value, 1e-12))
+    pyplot.close("all")
+
+
 def test_a_shift_elsewhere_is_neither() -> None:
     assert (
         isolate_shift([30.0, -20.0, 25.0], np.eye(3), MODEL).answer == "neither: no single sensor and no single actuator explains the shift"
