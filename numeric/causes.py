@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..base.arrays import Array
 from ..base.errors import InvalidData
 from ..base.progress import Progress
 from .choice import MEANS_FROM, noise_mix
@@ -23,6 +24,7 @@ from .space.isolation import isolate
 from .space.shift_isolation import gain_errors, isolate_shift, stays
 
 SETTLED = 1e-4  # of the response to a step, what may be left where its mean is taken for the steady one
+SINGULAR = 1e-10  # of correlations, the least eigenvalue from which a covariance is one of rounding
 
 
 def with_onset(answer: Findings, on_progress: Progress) -> Findings:
@@ -79,20 +81,37 @@ def with_shift(answer: Findings) -> Findings:
         if found is None or not found.shifted or found.shift is None or found.covariance is None:
             continue
         # Inputs would explain what a fault makes of them, and take it out of the variation.
-        own = mean_about_zero(rest.store.read(start, min(last, start + MEANS_FROM)))
-        steady = start == first + transient and own.covariance is not None and _steady(answer, against, (start, last))
+        own = _own(rest.store.read(start, min(last, start + MEANS_FROM)))
+        varying = None if own is None else own.covariance
+        steady = start == first + transient and varying is not None and _steady(answer, against, (start, last))
         isolated = isolate_shift(
             found.shift,
             found.covariance,
             model,
-            freedom=found.freedom if own.freedom is None or found.freedom is None else min(found.freedom, own.freedom),
+            freedom=min((law.freedom for law in (found, own) if law is not None and law.freedom is not None), default=None),
             steady=steady,
-            varying=own.covariance,
+            varying=varying,
             outputs=answer.record.outputs,
             inputs=answer.record.inputs,
         )
         return replace(answer, shift_isolation=replace(isolated, samples=(start, last), against=against))
     return answer
+
+
+def _own(r: Array) -> MeanShift | None:
+    """Return what the mean of these residuals (M, p) is worth by their own variation; None where they have none in some direction, as where
+    a sensor is stuck, or too little to compute with."""
+    try:
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            own = mean_about_zero(r)
+    except (InvalidData, np.linalg.LinAlgError):
+        return None
+    if own.covariance is None or not np.isfinite(own.covariance).all():
+        return None
+    sizes = np.sqrt(np.diag(own.covariance))
+    if not sizes.all() or np.linalg.eigvalsh(own.covariance / np.outer(sizes, sizes))[0] <= SINGULAR:
+        return None
+    return own
 
 
 def _steady(answer: Findings, against: tuple[int, int], samples: tuple[int, int]) -> bool:

@@ -9,7 +9,10 @@ doubt_of_means    why a mean of the residual need not be that of the samples bef
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..base.arrays import Array
+from ..base.errors import InvalidData
 from .count.unlike_healthy import beyond_healthy_inputs, beyond_healthy_levels
 from .doubt.asking import doubts
 from .findings import Findings
@@ -29,7 +32,10 @@ def doubt_of_means(answer: Findings, until: int, before: Array, u: Array) -> str
     elsewhere = beyond_healthy_levels(before, u, answer.record.inputs)
     if elsewhere:
         return elsewhere
-    raised = doubts(answer.record.beginning(until), answer.model, means_removed=answer.means_removed)
+    try:
+        raised = doubts(answer.record.beginning(until), answer.model, means_removed=answer.means_removed)
+    except (InvalidData, np.linalg.LinAlgError):  # so few samples that nothing can be asked
+        return driven
     if CURVED in raised.unasked or any(row.kind == CURVED for row in raised):
         return f"{driven}, for the plant may be curved"
     return ""
