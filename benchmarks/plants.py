@@ -9,7 +9,7 @@ Every tool gets the first half of a record; each half is taken about its own mea
 run on the last third of this half by a model of its first two thirds; the model is then made again from the whole half. `ours, left open`
 is `arx_reduction` with no order told. Free run: 100 (1 - |y - yhat| / |y - mean|) % by output on the second half, simulated from the inputs
 alone, the initial state fitted to it for all tools alike. `ARX` is least squares, its lags by the same rule. Negative fits are worse than
-the mean.
+the mean. Behind an order, `*`: the model is not stable, and its growing modes are run backwards from the end, which no prediction could be.
 
 RECORDS     name -> columns of inputs and outputs in the file NAME_dat.mat
 free_run    the fits (p,) of a model on samples it has not seen
@@ -123,7 +123,8 @@ def cell(tool: str, y: Array, u: Array, most: int) -> str:
             fits = free_run(model, y[half:], u[half:])
     except Exception as error:
         return f"none: {str(error)[:60]}"
-    return f"{', '.join(f'{fit:.0f}' if fit > 0 else 'below 0' for fit in fits)} ({order})"
+    unstable = "" if np.max(np.abs(np.linalg.eigvals(model.A)), initial=0.0) < 1 else "*"
+    return f"{', '.join(f'{fit:.0f}' if fit > 0 else 'below 0' for fit in fits)} ({order}{unstable})"
 
 
 def main() -> None:
