@@ -21,10 +21,9 @@ from .findings import Findings
 from .rows.known_noise import state_units
 from .signal.onset import fault_onset
 from .space.isolation import isolate
-from .space.shift_isolation import gain_errors, isolate_shift, stays
+from .space.shift_isolation import gain_errors, isolate_shift, positive_definite, stays
 
 SETTLED = 1e-4  # of the response to a step, what may be left where its mean is taken for the steady one
-SINGULAR = 1e-10  # of correlations, the least eigenvalue from which a covariance is one of rounding
 
 
 def with_onset(answer: Findings, on_progress: Progress) -> Findings:
@@ -106,12 +105,8 @@ def _own(r: Array) -> MeanShift | None:
             own = mean_about_zero(r)
     except (InvalidData, np.linalg.LinAlgError):
         return None
-    if own.covariance is None or not np.isfinite(own.covariance).all():
-        return None
-    sizes = np.sqrt(np.diag(own.covariance))
-    if not sizes.all() or np.linalg.eigvalsh(own.covariance / np.outer(sizes, sizes))[0] <= SINGULAR:
-        return None
-    return own
+    V = own.covariance
+    return own if V is not None and np.isfinite(V).all() and positive_definite(V) else None
 
 
 def _steady(answer: Findings, against: tuple[int, int], samples: tuple[int, int]) -> bool:

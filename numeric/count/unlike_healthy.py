@@ -53,13 +53,14 @@ def beyond_healthy_levels(before: Array, u: Array, names: Sequence[str]) -> str:
     shown it, the inputs have to rest where the healthy ones have been.
     """
     for i, name in enumerate(names):
-        mean, least, most = u[:, i].mean(), before[:, i].min(), before[:, i].max()
+        middle = before[:, i].mean()
+        mean, least, most = u[:, i].mean() - middle, before[:, i].min() - middle, before[:, i].max() - middle
         if u[:, i].std() > LOUDER * (before[:, i].std() or 1.0):
             return f"input {shorten(name)} varies more than in the healthy samples, so that the error of the model can look like a fault"
         if not least <= mean <= most:
             return (
-                f"input {shorten(name)} rests at {mean:.3g}, where the healthy samples have not been ({least:.3g} to {most:.3g}), so that "
-                "the error of the model can look like a fault"
+                f"input {shorten(name)} rests {mean:+.3g} from its healthy mean, where the healthy samples have not been ({least:+.3g} to "
+                f"{most:+.3g}), so that the error of the model can look like a fault"
             )
     return ""
 

@@ -20,11 +20,12 @@ from .arx_windows import ArxWindows, about_zero, arx_windows, joined_windows, me
 from .compression import Pieces
 from .order_evidence import OrderEvidence, OrderRow, weighed
 from .reduced_model import ReducedModel, described, judged, reduction_problems, weight_inflation
-from .reduction_search import LAST, Found, minima
+from .reduction_search import Found, minima
 from .reduction_starts import hankel_factors
 from .residuals import residual
 from .weighted_reduction import arrived, descend
 
+HELD_BACK = 60, 1e-7  # most steps, and relative gain of the last one, of models that are only held against samples kept back
 KEPT_BACK = 3  # one part in so many is held back
 MOST_HELD = 1 << 15  # samples of an experiment that are held back at most: they stand in memory
 
@@ -103,7 +104,7 @@ def _fits(
     fits = []
     for n, one in enumerate(found):
         moved = one.matrix * np.concatenate([np.ones(n), y])[:, None] / np.concatenate([np.ones(n), u])
-        model = described(training, arx, problem, Found(*descend(problem, moved, n, *LAST)), n)
+        model = described(training, arx, problem, Found(*descend(problem, moved, n, *HELD_BACK)), n)
         try:
             fits.append(_fit(model, training, held))
         except InvalidData:

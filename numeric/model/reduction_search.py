@@ -19,10 +19,10 @@ from .arx_windows import ArxWindows
 from .reduction_starts import one_state_less, starts
 from .weighted_reduction import Reduction, arrived, descend, ladder
 
-# One or three starts kept give the same errors (`--calibrate starts`); budgets only bound the time of the search, the last one its end.
+# One or three starts kept give the same errors (`--calibrate starts`); budgets only bound the time of the search, whose end is `arrived`.
 KEPT = 2  # starts that are followed up the ladder
 NEAREST = 2  # starts of the least cost under the true weight that are followed without the ladder
-RUNGS, TRUE, LAST = (15, 1e-3), (25, 1e-4), (60, 1e-7)  # most steps, and relative gain of a step below which a descent ends
+RUNGS, TRUE = (15, 1e-3), (25, 1e-4)  # most steps, and relative gain of a step below which a descent ends
 DISTINCT = 1e-2  # relative difference of costs from which two starts are thought to lie in different valleys
 PATIENCE = 4  # orders in a row that do not better the criterion: a resonance takes two states, two of them four
 

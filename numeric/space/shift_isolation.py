@@ -6,6 +6,7 @@ there is none.
 
 isolate_shift     the answer for a shift, its covariance and the model that the residual is of
 stays             whether a shift is the same earlier and later
+positive_definite   whether a covariance is one
 gain_errors       the errors of the static gain of an identified model
 ShiftIsolation    it, with a row for each sensor and each input
 ShiftCause        one row
@@ -40,7 +41,7 @@ from .isolation import CONSISTENT, EXCLUDED, RANK, WIDE, Identified, Matrices, c
 
 ANGLES = 720  # of the grid on which the least statistic is looked for
 NO_GAIN = "the model has a pole on the unit circle or outside, as far as its standard errors tell: an offset has no steady response"
-UNSTEADY = "the shift does not stay what it is, so that the static gain does not tell what an actuator does"
+UNSTEADY = "nothing shows that the shift stays what it is, so that the static gain does not tell what an actuator does"
 NO_ERRORS = "the model is of PI-MOESP, which does not tell how sure it is, so that nothing is known of how sure its static gain is"
 
 
@@ -231,6 +232,12 @@ def stays(earlier: Array, later: Array, covariance: Array, freedom: int | None) 
     return _Law(freedom).chance(float(gap @ np.linalg.solve(covariance, gap)), len(gap)) >= EXCLUDED
 
 
+def positive_definite(V: Array) -> bool:
+    """Say whether a covariance (p, p) is more than rounding in every direction, whatever the units."""
+    sizes = np.sqrt(np.maximum(np.diag(V), 0.0))
+    return bool(np.all(sizes > 0) and np.linalg.eigvalsh(V / np.outer(sizes, sizes))[0] > len(V) * np.finfo(np.float64).eps)
+
+
 def gain_errors(model: Matrices | Identified | None) -> Array | None:
     """Return the errors (K, p, n_u) of the static gain of an identified model, whose sum of squares over K is their variance: what it makes
     of inputs whose mean moves by m is wrong by errors @ m. None where the model has no standard errors, or no static gain."""
@@ -247,8 +254,7 @@ def _checked(shift: ArrayLike, covariance: ArrayLike, p: int) -> tuple[Array, Ar
         raise InvalidData(f"shift: got the shapes {d.shape} and {V.shape} of shift and covariance for a model of {counted(p, 'output')}")
     if not (np.all(np.isfinite(d)) and np.all(np.isfinite(V))):
         raise InvalidData("shift: shift and covariance must be finite")
-    sizes = np.sqrt(np.maximum(np.diag(V), 0.0))
-    if not np.all(sizes > 0) or np.linalg.eigvalsh(V / np.outer(sizes, sizes))[0] <= p * np.finfo(np.float64).eps:
+    if not positive_definite(V):
         raise InvalidData("covariance: a positive definite matrix is needed; leave out outputs that are exact combinations of others")
     return d, (V + V.T) / 2
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
@@ -49,13 +50,12 @@ def moved(*, offset: float, seed: int) -> tuple[Array, Array]:
 
 def test_an_actuator_that_is_off_is_named_although_the_set_point_has_moved(tmp_path: Path) -> None:
     """The means of the inputs account for what the errors of the static gain allow, and no more."""
-    pytest.importorskip("matplotlib")
     for seed in range(3):
         y, u = moved(offset=0.4, seed=seed)
         found = identify(y, u, order=2, healthy=K)
         assert found.moved and found.shift_isolation is not None and found.n_v != 0
         assert [cause.channel for cause in found.shift_isolation.of("consistent")] == ["u1"]
-        if seed == 0:
+        if seed == 0 and find_spec("matplotlib") is not None:
             found.save(tmp_path / "answer")
             assert (tmp_path / "answer" / "shift-causes.png").read_bytes().startswith(b"\x89PNG")
         clean = identify(*moved(offset=0.0, seed=seed), order=2, healthy=K)
