@@ -85,8 +85,8 @@ def fault_space_by_rows(
 
     The number of zeros is decided by likelihood ratios of a stated level (`numeric/rows/degree.py`). Their misfit is that of a formula, and
     where the answer rests on it, on records of up to 16 000 samples, it is measured on ten records of the parametric bootstrap, a tenth of
-    a second each at a thousand samples. `draws` is the number of these records, which are then made in any case: 0 leaves it at the formula, and more
-    make the answer surer. The angle of the answer takes n_z, A and C as right:
+    a second each at a thousand samples. `draws` is the number of these records, which are then made in any case: 0 leaves it at the
+    formula, and more make the answer surer. The angle of the answer takes n_z, A and C as right:
     `identified_fault_space` has the error of an identified model in it. The basis is in the states of A and the units of y, which do not
     matter otherwise. The noise is taken to have one colour, and powers as those of `noise_level` (one number or one an output, in units of
     y), of which only the ratios matter; without it the same power relative to the deviation of each output. Noise of other ratios turns
