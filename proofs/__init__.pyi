@@ -1,3 +1,6 @@
+from .brought.answers import ClaimAnswer as ClaimAnswer
+from .brought.answers import ClaimAnswers as ClaimAnswers
+from .brought.claiming import claim as claim
 from .checking import Checked as Checked
 from .checking import CheckedFile as CheckedFile
 from .checking import check as check

@@ -18,7 +18,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from joblib import Parallel, delayed, effective_n_jobs
+from joblib import Parallel, delayed
 
 from ..base.progress import silent
 from .evidence.material import Material, Wanted
@@ -85,14 +85,11 @@ class Answer:
 
 def decided(bench: Workbench, tasks: Sequence[Task]) -> dict[Task, Answer]:
     """Return what each task comes to. `bench` then has the material that was made."""
-    if effective_n_jobs(bench.jobs) == 1:
-        answers: dict[Task, Answer] = {}
-        for task in tasks:
-            bench.progress(str(task), len(answers), len(tasks))
-            answers[task] = _done(task, bench)
-        return answers
     with TemporaryDirectory(prefix="faultspace-") as folder:
-        return _in_rounds(bench, tasks, Path(folder))
+        try:
+            return _in_rounds(bench, tasks, Path(folder))
+        finally:
+            _bench.cache_clear()  # where one process does it all, it is this one
 
 
 def _in_rounds(bench: Workbench, tasks: Sequence[Task], shelf: Path) -> dict[Task, Answer]:

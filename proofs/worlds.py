@@ -4,9 +4,10 @@
     units        a world in parts: the systems of one (n, p, m) over one class of pairs (A, F)
     examined     what becomes of a unit: its orbits certified, each reading tried on all of them
     covered      the table: how much of each (n, p, m) was gone through, against 2^((n+p)(n+m)) and Burnside's number of orbits
+    cost         what all of it takes, by what the orbits of a part took
 
 A unit that is finished is a line of the file of `--out`; the same command goes on where it was stopped. `--scheduler` has the units done
-by the workers of a Dask cluster. Exit code 0: no counterexample; 1: there is one, or a certificate was refused; 2: bad input.
+by the workers of a Dask cluster. Exit code 0: no counterexample; 1: there is one, or a certificate was refused; 2: bad input; 130: stopped.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import argparse
 import json
 import sys
 import time
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
 from pathlib import Path
@@ -24,7 +25,8 @@ from typing import Any
 import joblib
 
 from ..base.errors import InvalidData
-from ..base.progress import silent
+from ..base.messages import say
+from ..base.progress import silent, working
 from ..base.workers import pool
 from .deciding import Check
 from .evidence.corpus import CORPUS, examine
@@ -43,8 +45,12 @@ READINGS = (
     "sharp_windows.gap",
 )  # fmt: skip
 
+Dimensions = tuple[int, int, int]
 Unit = tuple[int, int, int, int]
 Found = dict[str, Any]
+_TYPES: dict[str, tuple[type, ...]] = {
+    **dict.fromkeys(("n", "p", "m", "pair", "orbits", "systems", "accepted"), (int,)), "seconds": (int, float), "failing": (list,)
+}  # fmt: skip
 
 
 def units(n: int, p: int, m: int) -> Iterator[Unit]:
@@ -68,7 +74,7 @@ def examined(unit: Unit) -> Found:
         evidence = [examine(f"systems over GF(2), n={n} p={p} m={m}", one.system, one.size) for one in orbits_over(pairs(n, m)[place], p)]
     except Exception as error:  # a certificate that is refused is a finding, and the other units go on
         return found | {"failing": [f"{type(error).__name__}: {error}"], "seconds": round(time.process_time() - started, 2)}
-    bench.put(CORPUS, evidence)
+    bench.put_answers(CORPUS, evidence)
     for name in READINGS:
         outcome = Check(name).done(bench)
         if outcome.verdict != Verdict.CERTIFIED and outcome.evidence != NONE_MEETS:
@@ -92,6 +98,32 @@ def covered(lines: Iterable[Found]) -> str:
     return "\n".join("  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows)
 
 
+def cost(lines: Iterable[Found], dimensions: Iterable[Dimensions]) -> str:
+    """Return in words what the orbits of these (n, p, m) take of one processor.
+
+    An orbit is said to take what those of its row took, and where a row has none yet, what the slowest row took: rows are sorted by size,
+    and the largest ones are those that a part may miss. Nothing is said where nothing was gone through.
+    """
+    orbits: Counter[Dimensions] = Counter()
+    seconds: dict[Dimensions, float] = defaultdict(float)
+    longest = 0.0
+    for line in lines:
+        row = line["n"], line["p"], line["m"]
+        orbits[row] += line["orbits"]
+        seconds[row] += line["seconds"]
+        longest = max(longest, line["seconds"])
+    rates = {row: seconds[row] / count for row, count in orbits.items() if count}
+    if not rates:
+        return "no orbit was gone through"
+    every = {row: orbit_count(*row) for row in dimensions}
+    gone, there = sum(orbits.values()), sum(every.values())
+    took = f"{gone} of {there} orbits took {sum(seconds.values()):.0f} s of one processor, the longest unit {longest:.0f} s"
+    if gone == there:
+        return took
+    whole = sum(count * rates.get(row, max(rates.values())) for row, count in every.items())
+    return f"{took}; all of them would take about {whole:.0f} s ({whole / 3600:.1f} hours), by what those of each row took"
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Go through the world that the arguments choose, print the table, and return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m faultspace.proofs.worlds", description="Every system over GF(2) of some dimensions.")
@@ -110,49 +142,63 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     if given.scheduler and given.jobs:
         parser.error("--jobs and --scheduler exclude each other: the cluster decides how many work")
-    chosen = list(units(given.n, given.p, given.m))[:: given.part]
+    everything = list(units(given.n, given.p, given.m))
+    chosen = everything[:: given.part]
     try:
-        before = _kept(given.out)
-    except (ValueError, KeyError) as error:
+        finished = _kept(given.out)
+    except (ValueError, KeyError, TypeError, OSError) as error:
         parser.error(f"--out: {given.out} is no file of finished units ({error}); name another")
-    finished = {(line["n"], line["p"], line["m"], line["pair"]) for line in before}
-    waiting = [unit for unit in chosen if unit not in finished]
     try:
-        lines = _run(waiting, given.out, given.jobs or joblib.cpu_count(), given.scheduler)
+        waiting = [unit for unit in chosen if unit not in finished]
+        for unit, line in _run(waiting, given.out, given.jobs or joblib.cpu_count(), given.scheduler):
+            finished[unit] = line
     except InvalidData as error:
         parser.error(str(error))
-    mine = [line for line in (*before, *lines) if (line["n"], line["p"], line["m"], line["pair"]) in set(chosen)]
+    except OSError as error:
+        parser.error(f"--out: {given.out} cannot be written ({error.strerror}); name another")
+    except KeyboardInterrupt:
+        say(f"stopped; {given.out} has what is finished, and the same command goes on from there")
+        return 130
+    mine = [finished[unit] for unit in chosen]
     print(covered(mine))
+    print(cost(mine, dict.fromkeys(unit[:3] for unit in everything)))
     failing = [words for line in mine for words in line["failing"]]
     print("\n".join(failing) if failing else f"no counterexample to any of {len(READINGS)} readings")
     return 1 if failing else 0
 
 
-def _run(waiting: Sequence[Unit], out: Path, jobs: int, scheduler: str | None) -> list[Found]:
-    lines: list[Found] = []
+def _run(waiting: Sequence[Unit], out: Path, jobs: int, scheduler: str | None) -> Iterator[tuple[Unit, Found]]:
+    """Yield each unit with its line, which the file has by then."""
     if not waiting:
-        return lines
-    with pool(jobs, scheduler) as parallel, out.open("a", encoding="utf-8") as file:
-        for line in parallel(joblib.delayed(examined)(unit) for unit in waiting):
+        return
+    shares = [orbit_count(*unit[:3]) / len(pairs(unit[0], unit[2])) for unit in waiting]
+    with pool(jobs, scheduler) as parallel, out.open("a", encoding="utf-8") as file, working("going through the world") as tell:
+        started, done, total = time.monotonic(), 0.0, sum(shares)
+        stream = parallel(joblib.delayed(examined)(unit) for unit in waiting)
+        for number, (unit, share, line) in enumerate(zip(waiting, shares, stream, strict=True), 1):
             file.write(json.dumps({"format": FORMAT} | line) + "\n")
             file.flush()
-            lines.append(line)
-            print(f"{len(lines)}/{len(waiting)} units", file=sys.stderr)
-    return lines
+            yield unit, line
+            done += share
+            left = (time.monotonic() - started) * (total - done) / done
+            tell(f"units of n={unit[0]} p={unit[1]} m={unit[2]}", number, len(waiting), left)
 
 
-def _kept(out: Path) -> list[Found]:
-    """Return the lines of the file. One that a stop cut short, which can be the last alone, is taken out of it."""
+def _kept(out: Path) -> dict[Unit, Found]:
+    """Return the lines of the file by unit. One that a stop cut short, which can be the last alone, is taken out of it."""
     if not out.exists():
-        return []
+        return {}
     text = out.read_text(encoding="utf-8")
     whole = text[: text.rfind("\n") + 1]
     lines = [json.loads(line) for line in whole.splitlines()]
-    if any(line["format"] != FORMAT for line in lines):
-        raise ValueError(f"the format is not {FORMAT}")
+    for line in lines:
+        if line["format"] != FORMAT:
+            raise ValueError(f"the format is not {FORMAT}")
+        if not all(type(line[key]) in types for key, types in _TYPES.items()):
+            raise ValueError(f"a line has other entries than {', '.join(_TYPES)}")
     if whole != text:
         out.write_text(whole, encoding="utf-8")
-    return lines
+    return {(line["n"], line["p"], line["m"], line["pair"]): line for line in lines}
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from ...base.errors import InvalidInput, shorten
@@ -51,10 +52,10 @@ def rows_of(entries: object, field: Field, shape: tuple[int, int] | None, where:
 
 def integers(rows: Sequence[Sequence[object]]) -> list[int] | None:
     """Return the entries where all are plain integers of a size that is supported: most matrices are, and are read ten times faster."""
-    if any(type(x) is not int for row in rows for x in row):
+    numbers: list[Any] = [*chain.from_iterable(rows)]
+    if not {*map(type, numbers)} <= {int}:
         return None
-    numbers: list[int] = [x for row in rows for x in row]  # type: ignore[misc]
-    return numbers if max(map(int.bit_length, numbers), default=0) <= MAX_BITS else None
+    return numbers if max(map(int.bit_length, {*numbers}), default=0) <= MAX_BITS else None
 
 
 def not_rows(entries: object, where: str) -> str:

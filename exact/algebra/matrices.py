@@ -142,7 +142,8 @@ class Matrix:
         if isinstance(self.field, Rationals):
             numerators, denominator = self.flint.numer_denom()
             if denominator == 1:
-                written = [*map(str, numerators.entries())]
+                numbers = [*map(int, numerators.entries())]
+                written = [*map({x: str(x) for x in {*numbers}}.__getitem__, numbers)]
                 return [[*written[i * self.ncols : (i + 1) * self.ncols]] for i in range(self.nrows)]
         return [[self.field.write(x) for x in row] for row in self.elements()]
 

@@ -179,14 +179,12 @@ def kernel_representation(system: System) -> KernelRepresentation:
     [[-1], [2]]
     """
     residual = residual_of(system)
-    picture = image(residual)
-    most = _misleading_primes(residual) + 1
-    for _ in range(most):
-        rows = _rows(residual, picture)
-        if rows is not None:
-            return KernelRepresentation(residual, rows, picture)
-        picture = image(residual, largest=picture.prime - 1)  # an unlucky prime, one of finitely many: ask the next
-    raise ArithmeticError(f"no kernel rows fit at any of {most} primes")
+    picture, tried = image(residual), 1
+    while (rows := _rows(residual, picture)) is None:  # an unlucky prime, one of finitely many: ask the next
+        if tried > _misleading_primes(residual):
+            raise ArithmeticError(f"no kernel rows fit at any of {tried} primes")
+        picture, tried = image(residual, largest=picture.prime - 1), tried + 1
+    return KernelRepresentation(residual, rows, picture)
 
 
 def kernel_of(given: System | KernelRepresentation, where: str = "system") -> KernelRepresentation:

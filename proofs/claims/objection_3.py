@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Evidence, examine
+from ..evidence.corpus import Evidence
 from ..evidence.families import paper_example
+from ..evidence.questions import MINIMAL, RANKS, REACHABILITY, ZEROS
 from ..evidence.search import Box, smallest
 from ..verdict.verdicts import Outcome, Verdict
 from ..verdict.workbench import Workbench, certify, counterexample
@@ -19,7 +20,7 @@ def controllability_needed(bench: Workbench) -> Outcome:
     """'Without controllability the formula fails': the smallest system not controllable where it holds; the paper's example is another."""
 
     def holds(system: ResidualSystem) -> bool:
-        e = examine("search", system)
+        e = bench.examined(system, MINIMAL)
         return not e.controllable and e.observable and e.left_invertible and gap_is_m_from(lambda e: e.system.n)(e)
 
     found = smallest(BOX, lambda f: np.asarray(f.observable & f.left_invertible & ~f.controllable), holds)
@@ -32,7 +33,9 @@ def controllability_needed(bench: Workbench) -> Outcome:
 
 def gap_without_controllability(bench: Workbench) -> Outcome:
     """Where a left-invertible system is not controllable and s >= n, the gap is m all the same."""
-    return certify(bench, lambda e: e.left_invertible and not e.controllable, gap_is_m_from(lambda e: e.system.n), zeros)
+    return certify(
+        bench, (RANKS, REACHABILITY), lambda e: e.left_invertible and not e.controllable, gap_is_m_from(lambda e: e.system.n), zeros
+    )
 
 
 def ranks_without_minimality(bench: Workbench) -> Outcome:
@@ -41,4 +44,4 @@ def ranks_without_minimality(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return all(e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta for s in range(e.kernel.lag, e.system.n + 4))
 
-    return certify(bench, lambda e: e.left_invertible and not (e.controllable and e.observable), holds, zeros)
+    return certify(bench, (*MINIMAL, *ZEROS), lambda e: e.left_invertible and not (e.controllable and e.observable), holds, zeros)

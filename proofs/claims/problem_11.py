@@ -11,6 +11,7 @@ from ...exact.algebra.matrices import Matrix
 from ...exact.structure.kernel_rows import column_conditions, kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Evidence
+from ..evidence.questions import DELAY_KNOWN_STATE, OBSERVABILITY, RANKS, SPACE, WINDOW_SPACES, ZEROS
 from ..evidence.search import Box, Facts, Flags, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -30,13 +31,15 @@ def window_n(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return e.system.n == 0 or e.space_dimensions[max(e.system.n, e.delay_known_state or 0) - 1] == e.fault_space.dimension
 
-    return refute(bench, BOX, candidate, under_assumption_4(True), holds, spaces(lambda s: s.n))
+    asks = RANKS, OBSERVABILITY, DELAY_KNOWN_STATE, SPACE, WINDOW_SPACES
+    return refute(bench, BOX, candidate, asks, under_assumption_4(True), holds, spaces(lambda s: s.n))
 
 
 def window_n_plus_1(bench: Workbench) -> Outcome:
     """At every s >= n + 1 the solutions are the limit Z, without any hypothesis."""
     return certify(
         bench,
+        (SPACE, WINDOW_SPACES),
         lambda e: True,
         lambda e: all(x == e.fault_space.dimension for x in e.space_dimensions[e.system.n :]),
         spaces(lambda s: s.n + 1),
@@ -51,7 +54,7 @@ def lag_plus_1(bench: Workbench) -> Outcome:
             return all(x == e.system.n + e.system.p for x in (*e.space_dimensions, e.fault_space.dimension))
         return all((x == e.fault_space.dimension) == (s >= e.kernel.lag + 1) for s, x in enumerate(e.space_dimensions, 1))
 
-    return certify(bench, lambda e: True, holds, spaces(lambda s: kernel_representation(s).lag + 1))
+    return certify(bench, (RANKS, SPACE, WINDOW_SPACES), lambda e: True, holds, spaces(lambda s: kernel_representation(s).lag + 1))
 
 
 def dimension(bench: Workbench) -> Outcome:
@@ -64,7 +67,7 @@ def dimension(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return e.fault_space.dimension == e.system.m + e.zeta
 
-    return certify(bench, lambda e: e.left_invertible, holds, show)
+    return certify(bench, (RANKS, *ZEROS, SPACE), lambda e: e.left_invertible, holds, show)
 
 
 def first_block_column(bench: Workbench) -> Outcome:

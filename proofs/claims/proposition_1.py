@@ -184,8 +184,7 @@ def parametric(bench: Workbench) -> Outcome:
 def smallest_limit(bench: Workbench, inputs: Sequence[Drive], fails: Callable[[LimitEvidence], bool], scope: str) -> Outcome:
     """The outcome is REFUTED by the first of the small experiments that fails, as the checker has accepted it."""
     for experiment in experiments_in_order(inputs):
-        evidence = bench.examined_experiment(experiment)
-        if fails(evidence):
+        if fails(bench.looked_at(experiment)) and fails(evidence := bench.examined_experiment(experiment)):
             return counterexample(show_words(evidence), f"{BOX}, {scope}", show(evidence))
     return Outcome(Verdict.ERROR, "no counterexample among the small experiments")
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..evidence.corpus import Evidence
 from ..evidence.parametric import gap_claim
+from ..evidence.questions import INFINITE_ZEROS, OBSERVABILITY, RANKS
 from ..evidence.search import Box
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench, certify, refute
@@ -14,7 +15,7 @@ from .common import gap_is_m_from, identity, ranks_and_inversion
 
 def n_alone(bench: Workbench) -> Outcome:
     """The gap is m where the system is left-invertible and s >= n; nothing else is asked."""
-    return certify(bench, lambda e: e.left_invertible, gap_is_m_from(lambda e: e.system.n), ranks_and_inversion)
+    return certify(bench, (RANKS,), lambda e: e.left_invertible, gap_is_m_from(lambda e: e.system.n), ranks_and_inversion)
 
 
 def lag_exactly(bench: Workbench) -> Outcome:
@@ -23,7 +24,7 @@ def lag_exactly(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return all((e.kernel.gap(s) == e.system.m) == (s >= e.kernel.lag or e.system.p == e.system.m) for s in range(0, e.system.n + 3))
 
-    return certify(bench, lambda e: e.left_invertible, holds, ranks_and_inversion)
+    return certify(bench, (RANKS,), lambda e: e.left_invertible, holds, ranks_and_inversion)
 
 
 def without_left_invertibility(bench: Workbench) -> Outcome:
@@ -32,6 +33,7 @@ def without_left_invertibility(bench: Workbench) -> Outcome:
         bench,
         Box(total=4, largest_n=2, largest_m=2, largest_p=2),
         lambda f: np.asarray(~f.left_invertible & f.observable),
+        (RANKS, OBSERVABILITY),
         lambda e: e.observable,
         gap_is_m_from(lambda e: e.system.n),
         ranks_and_inversion,
@@ -44,7 +46,7 @@ def normal_rank(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return all(e.kernel.gap(s) == len(e.infinite_zero_orders) for s in range(e.system.n, e.system.n + 3))
 
-    return certify(bench, lambda e: True, holds, ranks_and_inversion)
+    return certify(bench, (RANKS, INFINITE_ZEROS), lambda e: True, holds, ranks_and_inversion)
 
 
 def parametric(bench: Workbench) -> Outcome:

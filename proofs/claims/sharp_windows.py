@@ -15,6 +15,7 @@ from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.corpus import Evidence
 from ..evidence.families import adversarial, random_systems
+from ..evidence.questions import RANKS
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate, accept
 from ..verdict.verdicts import Outcome, Verdict
@@ -28,7 +29,7 @@ def gap(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return all((e.kernel.gap(s) == e.kernel.normal_rank) == (s >= e.kernel.lag) for s in range(0, e.system.n + 3))
 
-    return certify(bench, lambda e: True, holds, ranks_and_inversion)
+    return certify(bench, (RANKS,), lambda e: True, holds, ranks_and_inversion)
 
 
 def equality_as_many_faults(bench: Workbench) -> Outcome:

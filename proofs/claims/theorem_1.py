@@ -12,9 +12,11 @@ from ...exact.algebra.matrices import column_basis
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import window_matrix
-from ..evidence.alternatives import PairEvidence, comparison_certificate
+from ..evidence.alternatives import PAIRS, PairEvidence, comparison_certificate
+from ..evidence.corpus import CORPUS
 from ..evidence.families import shift_registers
 from ..evidence.parametric import inclusion_claim
+from ..evidence.questions import RANKS
 from ..evidence.search import Box, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -41,14 +43,16 @@ def n_plus_1_samples(bench: Workbench) -> Outcome:
     Pair by pair, and by grouping on kernel rows: the rows of degree at most n, which n + 1 samples show, name the behaviour where no
     row has a larger degree; systems that share them are equal for ever. So one look at the degrees decides all pairs at once.
     """
+    bench.need(PAIRS, CORPUS[RANKS])
+    systems = bench.corpus((RANKS,))
     failing = [e for e in bench.pairs if e.first_difference is not None and e.first_difference > max(e.first.n, e.second.n) + 1]
     outcome = certify_records(bench.pairs, failing, _words, _show)
-    longer = [e for e in bench.corpus if e.kernel.lag > e.system.n]
+    longer = [e for e in systems if e.kernel.lag > e.system.n]
     if longer:
         words = f"{longer[0].system} has a kernel row of degree {longer[0].kernel.lag}"
         certificates = accepted(_of_one(longer[0].system))
         return Outcome(Verdict.REFUTED, words, certificates, len(certificates))
-    total, count = sum(e.weight for e in bench.corpus), sum(e.accepted for e in bench.corpus)
+    total, count = sum(e.weight for e in systems), sum(e.accepted for e in systems)
     words = f"{outcome.evidence}; by kernel rows, none of degree above n, every pair of the {total} systems of the corpus"
     return replace(outcome, evidence=words, accepted=outcome.accepted + count)
 

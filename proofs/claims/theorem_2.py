@@ -11,6 +11,7 @@ from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import reachability_matrix
 from ..evidence.corpus import Evidence
 from ..evidence.parametric import zero_count_claim
+from ..evidence.questions import FINITE_ZEROS, MINIMAL, RANKS, ZEROS
 from ..evidence.search import Box, Facts, Flags, smallest
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -28,7 +29,9 @@ def finite_zeros_only(bench: Workbench) -> Outcome:
         deficient = facts.rank_from_rest(facts.n + 1) < (facts.n + 1) * facts.m
         return np.asarray(deficient & facts.observable & facts.controllable & facts.left_invertible)
 
-    return refute(bench, BOX, with_infinite_zeros, _minimal, lambda e: _formula(e, e.finite_zeros, e.system.n), zeros)
+    return refute(
+        bench, BOX, with_infinite_zeros, (*MINIMAL, FINITE_ZEROS), _minimal, lambda e: _formula(e, e.finite_zeros, e.system.n), zeros
+    )
 
 
 def transfer_function_zeros(bench: Workbench) -> Outcome:
@@ -44,7 +47,11 @@ def transfer_function_zeros(bench: Workbench) -> Outcome:
     found = smallest(BOX, lambda f: np.asarray(f.observable & f.left_invertible & ~f.controllable), confirm)
     if found is None:
         return certify(
-            bench, lambda e: e.observable and e.left_invertible and e.controllable, lambda e: _formula(e, e.zeta, e.system.n), zeros
+            bench,
+            (*MINIMAL, *ZEROS),
+            lambda e: e.observable and e.left_invertible and e.controllable,
+            lambda e: _formula(e, e.zeta, e.system.n),
+            zeros,
         )
     return counterexample(f"{found}, whose transfer function is that of its reachable part", BOX, _with_reachable_part(found))
 
@@ -57,12 +64,12 @@ def every_window(bench: Workbench) -> Outcome:
         return np.asarray((facts.gap(1) != late) & facts.observable & facts.controllable & facts.left_invertible)
 
     box = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
-    return refute(bench, box, short_window, _minimal, lambda e: _formula(e, e.zeta, 1), zeros)
+    return refute(bench, box, short_window, (*MINIMAL, *ZEROS), _minimal, lambda e: _formula(e, e.zeta, 1), zeros)
 
 
 def pencil_zeros_minimal(bench: Workbench) -> Outcome:
     """The formula holds with the zeros of the pencil, finite and infinite, for minimal left-invertible systems and s >= n."""
-    return certify(bench, _minimal, lambda e: _formula(e, e.zeta, e.system.n), zeros)
+    return certify(bench, (*MINIMAL, *ZEROS), _minimal, lambda e: _formula(e, e.zeta, e.system.n), zeros)
 
 
 def pencil_zeros(bench: Workbench) -> Outcome:
@@ -71,7 +78,7 @@ def pencil_zeros(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return all((e.kernel.rank(s) == e.system.n + s * e.system.m - e.zeta) == (s >= e.kernel.lag) for s in range(0, e.system.n + 4))
 
-    return certify(bench, lambda e: e.left_invertible, holds, zeros)
+    return certify(bench, (RANKS, *ZEROS), lambda e: e.left_invertible, holds, zeros)
 
 
 def parametric(bench: Workbench) -> Outcome:

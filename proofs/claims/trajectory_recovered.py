@@ -12,6 +12,7 @@ from ...exact.structure.record import analyze
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix
 from ..evidence.corpus import Evidence
+from ..evidence.questions import DELAY_KNOWN_STATE, DELAY_UNKNOWN_STATE, FINITE_ZEROS, INFINITE_ZEROS, OBSERVABILITY, RANKS
 from ..evidence.search import Box
 from ..verdict.verdicts import Outcome
 from ..verdict.workbench import Workbench, certify, refute
@@ -28,7 +29,7 @@ def state_known(bench: Workbench) -> Outcome:
             return e.delay_known_state is None
         return e.delay_known_state == max(e.infinite_zero_orders, default=0)
 
-    return certify(bench, lambda e: True, holds, delays)
+    return certify(bench, (RANKS, DELAY_KNOWN_STATE, INFINITE_ZEROS), lambda e: True, holds, delays)
 
 
 def state_unknown(bench: Workbench) -> Outcome:
@@ -37,6 +38,7 @@ def state_unknown(bench: Workbench) -> Outcome:
         bench,
         BOX,
         lambda f: np.asarray(f.observable & f.left_invertible & (f.delay_unknown_state > f.n)),
+        (RANKS, OBSERVABILITY, DELAY_UNKNOWN_STATE),
         lambda e: e.observable and e.left_invertible,
         lambda e: e.delay_unknown_state is not None,
         delays,
@@ -50,7 +52,7 @@ def no_finite_zeros(bench: Workbench) -> Outcome:
         hidden = e.system.n - rank(observability_matrix(e.system, e.system.n))
         return (e.delay_unknown_state is not None) == (e.left_invertible and e.finite_zeros == hidden)
 
-    return certify(bench, lambda e: True, holds, lambda s: [*zeros(s), *delays(s)])
+    return certify(bench, (RANKS, DELAY_UNKNOWN_STATE, FINITE_ZEROS), lambda e: True, holds, lambda s: [*zeros(s), *delays(s)])
 
 
 def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:
@@ -59,7 +61,7 @@ def no_finite_zeros_as_a_set(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return (e.delay_unknown_state is not None) == (e.left_invertible and zeros_are_hidden_modes(e.system))
 
-    return certify(bench, lambda e: True, holds, lambda s: [*zeros(s), *delays(s)])
+    return certify(bench, (RANKS, DELAY_UNKNOWN_STATE), lambda e: True, holds, lambda s: [*zeros(s), *delays(s)])
 
 
 def zeros_are_hidden_modes(system: ResidualSystem) -> bool:
@@ -80,4 +82,4 @@ def zero_feedthrough_signal(bench: Workbench) -> Outcome:
         hidden = e.system.n - rank(observability_matrix(e.system, e.system.n))
         return found.pins_v == (rank(e.system.C @ e.system.F) == e.system.m and e.finite_zeros == hidden)
 
-    return certify(bench, lambda e: e.left_invertible and e.system.m > 0 and e.system.G.is_zero(), holds, zeros)
+    return certify(bench, (RANKS, FINITE_ZEROS), lambda e: e.left_invertible and e.system.m > 0 and e.system.G.is_zero(), holds, zeros)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Evidence
+from ..evidence.questions import RANKS, RIGHT_INDICES, SPACE, WINDOW_SPACES, WINDOWS, ZEROS
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
 from ..verdict.verdicts import Outcome
@@ -16,7 +17,13 @@ from .common import spaces, zeros
 
 def ranks(bench: Workbench) -> Outcome:
     """rank [O_s T_s] = s r + sum of min(s, eta_i), which is compared with the rank of each window by itself for s = 1, ..., n + 2."""
-    return certify(bench, lambda e: True, lambda e: all(e.kernel.rank(s) == rank for s, rank in enumerate(e.window_ranks, 1)), _windows)
+    return certify(
+        bench,
+        (RANKS, WINDOWS),
+        lambda e: True,
+        lambda e: all(e.kernel.rank(s) == rank for s, rank in enumerate(e.window_ranks, 1)),
+        _windows,
+    )
 
 
 def indices(bench: Workbench) -> Outcome:
@@ -25,7 +32,7 @@ def indices(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return e.system.n == sum(e.kernel.left_minimal_indices) + sum(e.right_minimal_indices) + e.zeta
 
-    return certify(bench, lambda e: True, holds, _all_indices)
+    return certify(bench, (RANKS, RIGHT_INDICES, *ZEROS), lambda e: True, holds, _all_indices)
 
 
 def solutions(bench: Workbench) -> Outcome:
@@ -38,7 +45,7 @@ def solutions(bench: Workbench) -> Outcome:
         ]
         return list(e.space_dimensions) == predicted
 
-    return certify(bench, lambda e: True, holds, spaces(lambda s: s.n + 1))
+    return certify(bench, (RANKS, WINDOW_SPACES), lambda e: True, holds, spaces(lambda s: s.n + 1))
 
 
 def limit(bench: Workbench) -> Outcome:
@@ -47,7 +54,7 @@ def limit(bench: Workbench) -> Outcome:
     def holds(e: Evidence) -> bool:
         return e.fault_space.dimension == e.kernel.normal_rank + e.zeta + sum(e.right_minimal_indices)
 
-    return certify(bench, lambda e: True, holds, _all_indices)
+    return certify(bench, (RANKS, RIGHT_INDICES, *ZEROS, SPACE), lambda e: True, holds, _all_indices)
 
 
 def _windows(system: ResidualSystem) -> Iterator[Certificate]:

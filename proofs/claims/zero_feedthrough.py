@@ -11,6 +11,7 @@ from ...exact.structure.fault_columns import fault_space
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
 from ..evidence.corpus import Evidence
+from ..evidence.questions import OBSERVABILITY, RANKS, SPACE, ZEROS
 from ..evidence.search import Box
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -27,6 +28,7 @@ def fault_matrices(bench: Workbench) -> Outcome:
         bench,
         BOX,
         lambda f: np.asarray(f.observable & f.left_invertible & ~f.G.any(axis=(1, 2))),
+        (RANKS, OBSERVABILITY, SPACE),
         lambda e: _applies(e) and e.observable,
         _pinned,
         _show,
@@ -40,7 +42,7 @@ def exactly_when(bench: Workbench) -> Outcome:
         condition = rank(e.system.C @ e.system.F) == e.system.m and e.finite_zeros == 0
         return _pinned(e) == condition == (e.zeta == e.system.m)
 
-    return certify(bench, _applies, holds, _show)
+    return certify(bench, (RANKS, *ZEROS, SPACE), _applies, holds, _show)
 
 
 def _applies(e: Evidence) -> bool:

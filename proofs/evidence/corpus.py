@@ -1,8 +1,9 @@
 """The systems that claims are tried on, each with certificates that the checker has accepted: made once a run, read by every claim.
 
-    Evidence     the Structure of a system as accepted certificates state it, with its origin and weight
-    examine      one system: certificates made, checked, and read back into a structure
-    CORPUS       all systems of an effort
+    Evidence     what accepted certificates answer to some questions about a system, with its origin and weight
+    examine      one system: certificates made, checked, and read back
+    by_question  material about systems, a kind for each question
+    CORPUS       all systems of an effort, by question
     describe     how some of them were made, in words with counts
 
 A claim reads evidence only, so that whatever it concludes rests on statements that the checker has accepted.
@@ -11,44 +12,159 @@ A claim reads evidence only, so that whatever it concludes rests on statements t
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, partial
 from itertools import islice
-from typing import Any
+from typing import Any, TypeVar
 
 from ...exact.algebra.fields import QQ, Field, NumberField, PrimeField
-from ...exact.algebra.matrices import Matrix, rank
-from ...exact.structure.fault_columns import FaultSpace, fault_space
-from ...exact.structure.kernel_rows import KernelRow, kernel_representation
-from ...exact.structure.record import Structure
+from ...exact.algebra.matrices import rank
+from ...exact.algebra.polynomials import Poly
+from ...exact.structure.fault_columns import FaultSpace
+from ...exact.structure.kernel_rows import KernelRepresentation, kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..trust import structure_certificates as make
-from ..trust.structure_certificates import accept
+from ..trust.structure_certificates import MOST_READ
 from .exhaustive import orbits
 from .families import adversarial, paper_example, random_systems
 from .material import Material
 from .orbits_by_stages import orbits_by_stages
+from .questions import (
+    DELAY_KNOWN_STATE,
+    DELAY_UNKNOWN_STATE,
+    FINITE_ZEROS,
+    INFINITE_ZEROS,
+    OBSERVABILITY,
+    QUESTIONS,
+    RANKS,
+    REACHABILITY,
+    RIGHT_INDICES,
+    SPACE,
+    WINDOW_SPACES,
+    WINDOWS,
+    Answer,
+    Question,
+    answered,
+)
+
+A = TypeVar("A")
+Questions = Sequence[Question[Any]]
+Source = tuple[str, ResidualSystem, int]
+ByQuestion = Mapping[Question[Any], Material]
 
 
-@dataclass(frozen=True, repr=False)
-class Evidence(Structure):
-    """This is the structure of a system as accepted certificates state it.
+class Unasked(LookupError):
+    """A reading wants to know of a system what it did not ask."""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """This is what accepted certificates state of a system, as far as it was asked: each property is the answer to a question.
 
     `origin` says in words how the system was made, and `weight` how many systems it stands for (the size of an orbit, else 1).
     `window_ranks` are rank [O_s T_s] and `space_dimensions` the dimensions of problem (11) for s = 1, ..., n + 2, each from a certificate
-    of its own, while those of `kernel` and `fault_space` follow from kernel rows. `accepted` counts the certificates.
+    of its own, while those of `kernel` and `fault_space` follow from kernel rows. The other names are those of `Structure`. A property
+    raises Unasked where its question was not asked.
     """
 
     origin: str
+    system: ResidualSystem
     weight: int
-    window_ranks: tuple[int, ...]
-    space_dimensions: tuple[int, ...]
-    accepted: int
+    answers: Mapping[Question[Any], Answer[Any]]
+
+    def answer(self, question: Question[A]) -> A:
+        """Return what accepted certificates state. Raises Unasked for a question that was not asked."""
+        if question not in self.answers:
+            raise Unasked(f"{question} was not asked of {self.system}")
+        value: A = self.answers[question].value
+        return value
+
+    def asked(self, questions: Questions) -> Evidence:
+        """Return the evidence with the answers to these questions and no other; those that are not there yet are found now."""
+        missing = [question for question in questions if question not in self.answers]
+        found = {**self.answers, **{question: answered(question, _kernel(self.system)) for question in missing}}
+        answers = {question: found[question] for question in questions}
+        return Evidence(self.origin, self.system, self.weight, answers)
+
+    @property
+    def accepted(self) -> int:
+        """This is the number of certificates, all of them accepted, that the answers rest on."""
+        return sum(answer.accepted for answer in self.answers.values())
+
+    @property
+    def kernel(self) -> KernelRepresentation:
+        """These are the kernel rows, as the certificate of all window ranks has them."""
+        return self.answer(RANKS)
+
+    @property
+    def left_invertible(self) -> bool:
+        """This tells whether the normal rank is m, on which two certificates agree."""
+        return self.kernel.normal_rank == self.system.m
+
+    @property
+    def observable(self) -> bool:
+        """This tells whether (A, C) is observable."""
+        return self.answer(OBSERVABILITY)
+
+    @property
+    def controllable(self) -> bool:
+        """This tells whether (A, F) is controllable."""
+        return self.answer(REACHABILITY)
+
+    @property
+    def right_minimal_indices(self) -> tuple[int, ...]:
+        """These are the left minimal indices of the transposed system."""
+        return self.answer(RIGHT_INDICES)
+
+    @property
+    def delay_known_state(self) -> int | None:
+        """This is the delay of left inversion with x(0) known, a number of samples, or None."""
+        return self.answer(DELAY_KNOWN_STATE)
+
+    @property
+    def delay_unknown_state(self) -> int | None:
+        """This is the delay of left inversion with x(0) unknown, a number of samples, or None."""
+        return self.answer(DELAY_UNKNOWN_STATE)
+
+    @property
+    def invariant_zero_polynomial(self) -> Poly:
+        """These are its coefficients, ascending."""
+        return self.answer(FINITE_ZEROS)
+
+    @property
+    def finite_zeros(self) -> int:
+        """This is n_f, the number of finite invariant zeros with multiplicity."""
+        return len(self.invariant_zero_polynomial) - 1
+
+    @property
+    def infinite_zero_orders(self) -> tuple[int, ...]:
+        """These are the orders of the zeros at infinity, one for each of the normal rank."""
+        return self.answer(INFINITE_ZEROS)
+
+    @property
+    def zeta(self) -> int:
+        """zeta is the number of zeros of the pencil, finite and infinite together."""
+        return self.finite_zeros + sum(self.infinite_zero_orders)
+
+    @property
+    def fault_space(self) -> FaultSpace:
+        """This is the limit of problem (11)."""
+        return self.answer(SPACE)
 
     @property
     def without_feedthrough(self) -> int:
         """This is the dimension of the members (f, g = 0) of the fault space."""
         return self.fault_space.dimension - rank(self.fault_space.G)
+
+    @property
+    def space_dimensions(self) -> tuple[int, ...]:
+        """These are the dimensions of problem (11) for s = 1, ..., n + 2."""
+        return self.answer(WINDOW_SPACES)
+
+    @property
+    def window_ranks(self) -> tuple[int, ...]:
+        """These are the ranks of [O_s T_s], each matrix by itself, for s = 1, ..., n + 2."""
+        return self.answer(WINDOWS)
 
 
 def describe(evidence: Iterable[Evidence]) -> str:
@@ -65,70 +181,42 @@ def describe(evidence: Iterable[Evidence]) -> str:
     return "; ".join(parts)
 
 
-def examine(origin: str, system: ResidualSystem, weight: int = 1) -> Evidence:
-    """Return certificates of everything that the claims ask about a system, accepted by the checker, read back into a structure.
+def examine(origin: str, system: ResidualSystem, weight: int = 1, questions: Questions = QUESTIONS) -> Evidence:
+    """Return what certificates answer to these questions about a system, accepted by the checker and read back.
 
     Raises checker.Rejected or checker.Malformed where the checker does not accept one, and ArithmeticError where two of them disagree.
     """
-    kernel = kernel_representation(system)
-    windows = range(1, system.n + 3)
-    inversion, observability, reachability = (
-        make.left_invertible(kernel),
-        make.matrix_rank("observability", system),
-        make.matrix_rank("reachability", system),
-    )
-    ranks, dual = make.window_ranks(kernel), make.window_ranks(kernel_representation(system.transposed()))
-    known, unknown = (make.inversion_delay(kernel, known_state=is_known) for is_known in (True, False))
-    finite, infinite = make.finite_zeros(system), make.infinite_zeros(system)
-    limit = make.fault_space(kernel, fault_space(kernel))
-    window_spaces = [make.fault_space(kernel, fault_space(kernel, s)) for s in windows]
-    window_ranks = [make.matrix_rank("window", system, window=s) for s in windows]
-    certificates = [
-        inversion,
-        observability,
-        reachability,
-        ranks,
-        dual,
-        known,
-        unknown,
-        finite,
-        infinite,
-        limit,
-        *window_spaces,
-        *window_ranks,
-    ]
-    for certificate in certificates:
-        accept(certificate)
-
-    field = system.field
-    rows = tuple(KernelRow(row["pivot"], Matrix.of(row["coefficients"], field)) for row in ranks["witness"]["kernel"])
-    basis = limit["statement"]["basis"]
-    evidence = Evidence(
-        kernel=replace(kernel, rows=rows),
-        right_minimal_indices=tuple(dual["statement"]["left_minimal_indices"]),
-        invariant_zero_polynomial=tuple(field.element(c) for c in finite["statement"]["invariant_zero_polynomial"]),
-        infinite_zero_orders=tuple(infinite["statement"]["infinite_zero_orders"]),
-        observable=observability["statement"]["rank"] == system.n,
-        controllable=reachability["statement"]["rank"] == system.n,
-        delay_known_state=known["statement"]["delay"],
-        delay_unknown_state=unknown["statement"]["delay"],
-        fault_space=FaultSpace(system, None, kernel.lag + 1, Matrix.of(basis, field, shape=(len(basis), system.n + system.p))),
-        origin=origin,
-        weight=weight,
-        window_ranks=tuple(certificate["statement"]["rank"] for certificate in window_ranks),
-        space_dimensions=tuple(len(certificate["statement"]["basis"]) for certificate in window_spaces),
-        accepted=len(certificates),
-    )
-    if evidence.left_invertible != (inversion["kind"] == "left-invertible"):
-        raise ArithmeticError(f"two accepted certificates disagree on whether {system} is left-invertible")
-    return evidence
+    return Evidence(origin, system, weight, {}).asked(questions)
 
 
-def _examined(item: tuple[str, ResidualSystem, int]) -> list[Evidence]:
-    return [examine(*item)]
+def by_question(name: str, stage: str, sources: Callable[[Any], Iterable[Source]]) -> ByQuestion:
+    """Return material about the systems of `sources(bench)`, a kind for each question: the evidence on each system, in order."""
+    return {
+        question: Material(f"{name} {question}", f"{stage}: {question}", sources, partial(_examined, question), 40)
+        for question in QUESTIONS
+    }
 
 
-def _sources(bench: Any) -> Iterator[tuple[str, ResidualSystem, int]]:
+def together(parts: Sequence[Sequence[Evidence]], questions: Questions) -> tuple[Evidence, ...]:
+    """Return the evidence on each system with the answers to all of these questions, of which `parts` has one each, in the same order."""
+    found = []
+    for ones in zip(*parts, strict=True):
+        answers = {question: one.answers[question] for question, one in zip(questions, ones, strict=True)}
+        found.append(Evidence(ones[0].origin, ones[0].system, ones[0].weight, answers))
+    return tuple(found)
+
+
+@lru_cache(maxsize=MOST_READ)
+def _kernel(system: ResidualSystem) -> KernelRepresentation:
+    """Return the kernel representation of a system, kept as long as the checker's reading of it is: questions follow each other."""
+    return kernel_representation(system)
+
+
+def _examined(question: Question[Any], item: Source) -> list[Evidence]:
+    return [examine(*item, (question,))]
+
+
+def _sources(bench: Any) -> Iterator[Source]:
     yield "the paper's example", paper_example().residual, 1
     for _, system in adversarial():
         yield "named adversarial systems", system, 1
@@ -171,4 +259,4 @@ def _box(q: int, full: bool) -> str:
     return f"n <= {n}, p <= {p}, m <= {m}"
 
 
-CORPUS = Material("corpus", "certifying the systems", _sources, _examined, 40)
+CORPUS = by_question("corpus", "certifying the systems", _sources)

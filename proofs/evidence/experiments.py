@@ -3,6 +3,7 @@
     LimitEvidence           an experiment, what its signals are like, and what certificates say of both methods and both regressions
     LIMITS                  those of an effort, in families named after how v and u belong together
     examine_experiment      the evidence on one experiment
+    first_look              the same before the checker has seen the certificates
     FAMILIES                the name of a family, and how an experiment of it is drawn
     nilpotent_points        one (A, B) for each of several spectra of u, at which the limit of PI-MOESP is to have full rank
     experiments_in_order    small experiments, for the smallest counterexample
@@ -31,7 +32,7 @@ from ...exact.limits.moments import toeplitz
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix
 from ..trust.limit_certificates import certificates_of
-from ..trust.structure_certificates import accept
+from ..trust.structure_certificates import Certificate, accept
 from .material import Material
 from .seasonal_inputs import in_order, seasonal
 
@@ -115,6 +116,17 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
     certificates = certificates_of(found)
     for certificate in certificates:
         accept(certificate)
+    return _evidence(origin, found, certificates, len(certificates))
+
+
+def first_look(experiment: Experiment) -> LimitEvidence:
+    """Return what the certificates would state, none of them put before the checker: with it a search passes over what cannot fail."""
+    found = limit(experiment)
+    return _evidence("first look", found, certificates_of(found), 0)
+
+
+def _evidence(origin: str, found: PopulationLimits, certificates: Sequence[Certificate], accepted: int) -> LimitEvidence:
+    experiment = found.experiment
     process, residual = found.known.process, experiment.system.residual
     largest = process.Phi.nrows + 1
     lags = found.known.sequence(process.v, process.u, -largest, largest)  # Cov(v(k + l), u(k))
@@ -144,7 +156,7 @@ def examine_experiment(origin: str, experiment: Experiment) -> LimitEvidence:
         state=found.past_inputs.state,
         predicted=_predicted(found, experiment.s),
         weight=1,
-        accepted=len(certificates),
+        accepted=accepted,
     )
 
 

@@ -43,30 +43,41 @@ Made = tuple[Any, ...] | Exception
 
 
 def made(kinds: Sequence[Material], bench: Any, jobs: int, progress: Progress) -> dict[str, Made]:
-    """Return what is made of each kind, by its name; where that failed, the first error, which is for whoever asks for this kind."""
-    found: dict[str, Made] = {kind.name: () for kind in kinds}
-    tasks: list[tuple[Material, Sequence[Any]]] = []
+    """Return what is made of each kind, by its name; where that failed, the first error, which is for whoever asks for this kind.
+
+    Kinds that are made of the same items are made of each batch of them together, so that what is found out about an item serves them all.
+    """
+    alike: dict[Callable[[Any], Iterable[Any]], list[Material]] = {}
     for kind in kinds:
+        alike.setdefault(kind.items, []).append(kind)
+    found: dict[str, Made] = {kind.name: () for kind in kinds}
+    tasks: list[tuple[list[Material], Sequence[Any]]] = []
+    for items_of, some in alike.items():
         try:
-            items = list(kind.items(bench))
+            items = list(items_of(bench))
         except Exception as error:
-            found[kind.name] = error
+            found |= {kind.name: error for kind in some}
             continue
-        tasks += [(kind, items[start : start + kind.together]) for start in range(0, len(items), kind.together)]
+        tasks += [(some, items[start : start + some[0].together]) for start in range(0, len(items), some[0].together)]
     parts: dict[str, list[Any]] = {kind.name: [] for kind in kinds}
     done, total = 0, sum(len(batch) for _, batch in tasks)
-    stream = Parallel(n_jobs=jobs, return_as="generator")(delayed(_made_of)(kind.make, batch) for kind, batch in tasks)
-    for (kind, batch), answer in zip(tasks, stream, strict=True):
-        if isinstance(answer, Exception):
-            found[kind.name] = answer
-        else:
-            parts[kind.name] += answer
+    stream = Parallel(n_jobs=jobs, return_as="generator")(delayed(_made_of)([kind.make for kind in some], batch) for some, batch in tasks)
+    for (some, batch), answers in zip(tasks, stream, strict=True):
+        for kind, answer in zip(some, answers, strict=True):
+            if not isinstance(answer, Exception):
+                parts[kind.name] += answer
+            elif not isinstance(found[kind.name], Exception):
+                found[kind.name] = answer
         done += len(batch)
-        progress(kind.stage, done, total)
+        progress(some[0].stage, done, total)
     return {name: tuple(parts[name]) if before == () else before for name, before in found.items()}
 
 
-def _made_of(make: Callable[[Any], list[Any]], batch: Sequence[Any]) -> list[Any] | Exception:
+def _made_of(makes: Sequence[Callable[[Any], list[Any]]], batch: Sequence[Any]) -> list[list[Any] | Exception]:
+    return [_made_one_way(make, batch) for make in makes]
+
+
+def _made_one_way(make: Callable[[Any], list[Any]], batch: Sequence[Any]) -> list[Any] | Exception:
     try:
         return [one for item in batch for one in make(item)]
     except Exception as error:  # whatever it is, what rests on this kind did not finish, and the rest goes on

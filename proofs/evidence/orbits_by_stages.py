@@ -62,6 +62,7 @@ def orbits_over(pair: Pair, p: int) -> Iterator[Orbit]:
             yield Orbit(system, pair.size * len(images) * tables)
 
 
+@cache
 def orbit_count(n: int, p: int, m: int) -> int:
     """Return the number of orbits: the mean number of systems that a change of basis leaves as they are, over one of each class of them."""
     total, order = 0, 1

@@ -28,6 +28,7 @@ from ...exact.system.systems import ResidualSystem
 Integers = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 Known = dict[tuple[str, int], NDArray[np.int8]]
+FIRST = ("first of its orbit", 0)  # under it Known has the entries of these systems
 PRIME = 2**31 - 1
 CHUNK = 20000
 
@@ -199,32 +200,40 @@ def _residues(numbers: NDArray[Any]) -> Integers:
 
 def chunks(box: Box) -> Iterator[Facts]:
     """Yield the systems of a box in order, in batches of the same dimensions."""
-    for n, m, p, _, digits in _batches(box, CHUNK):
-        yield _facts(n, m, p, digits)
+    for n, m, p, start, stop in _batches(box, CHUNK):
+        yield _facts(n, m, p, _digits(n, m, p, start, stop))
 
 
 def first_of_orbits(box: Box, known: dict[tuple[int, ...], Known] | None = None) -> Iterator[Facts]:
     """Yield, in order, the first system of each orbit under renumbering and changes of sign of states, outputs and faults.
 
     These keep the box as it is. So the first system of the box that fails a statement which they leave as it is, is one of these. `known`,
-    where it is given, keeps what is found out about a batch for the next search, which may be through another box.
+    where it is given, keeps these systems and what is found out about them for the next search, which may be through another box.
     """
     known = {} if known is None else known
-    for n, m, p, start, digits in _batches(box, 16 * CHUNK):
-        for earlier in _precedences(n, m, p):
-            digits = digits[digits @ earlier <= 0]
-        if len(digits):
-            yield _facts(n, m, p, digits, known.setdefault((n, m, p, start), {}))
+    for n, m, p, start, stop in _batches(box, 16 * CHUNK):
+        here = known.setdefault((n, m, p, start), {})
+        if FIRST not in here:
+            digits = _digits(n, m, p, start, stop)
+            for earlier in _precedences(n, m, p):
+                digits = digits[digits @ earlier <= 0]
+            here[FIRST] = digits.astype(np.int8)
+        if len(here[FIRST]):
+            yield _facts(n, m, p, here[FIRST].astype(np.int64), here)
 
 
-def _batches(box: Box, length: int) -> Iterator[tuple[int, int, int, int, Integers]]:
-    """Yield n, m, p, the number of the first system, and the entries of at most so many systems, one a row, A, F, C, G by rows."""
+def _batches(box: Box, length: int) -> Iterator[tuple[int, int, int, int, int]]:
+    """Yield n, m, p and the numbers of the first system and of the one after the last, at most so many systems at once."""
     for n, m, p in box.dimensions():
-        entries = (n + p) * (n + m)
-        total = 3**entries
+        total: int = 3 ** ((n + p) * (n + m))
         for start in range(0, total, length):
-            numbers = np.arange(start, min(start + length, total), dtype=np.int64)
-            yield n, m, p, start, np.stack([numbers // 3**k % 3 for k in reversed(range(entries))], axis=1) - 1
+            yield n, m, p, start, min(start + length, total)
+
+
+def _digits(n: int, m: int, p: int, start: int, stop: int) -> Integers:
+    """Return the entries of the systems with these numbers, one a row, A, F, C, G by rows."""
+    numbers = np.arange(start, stop, dtype=np.int64)
+    return np.stack([numbers // 3**k % 3 for k in reversed(range((n + p) * (n + m)))], axis=1) - 1
 
 
 def _facts(n: int, m: int, p: int, digits: Integers, known: Known | None = None) -> Facts:

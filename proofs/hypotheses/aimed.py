@@ -2,7 +2,7 @@
 
     aimed_systems     as many for each of the four hypotheses: observable, controllable, left-invertible, A stable
     other_columns     one of them with other fault columns of its Z
-    aimed_evidence    the same with accepted certificates, and HIDDEN_ZEROS, made once a run
+    AIMED             the same with accepted certificates, by question, and HIDDEN_ZEROS, made once a run
     HIDDEN_ZEROS      two systems all of whose finite zeros are unobservable modes, the zeros being more than the modes
 
 Most are without feedthrough and with more outputs than faults, so that they have zeros, at infinity and rarely finite ones: that is where
@@ -18,8 +18,7 @@ from ...exact.algebra.matrices import Matrix, beside
 from ...exact.structure.fault_columns import fault_space, with_pair
 from ...exact.structure.kernel_rows import kernel_representation
 from ...exact.system.systems import ResidualSystem
-from ..evidence.corpus import Evidence, examine
-from ..evidence.material import Material
+from ..evidence.corpus import Source, by_question
 from ..verdict.workbench import Workbench
 from .facets import of_system
 
@@ -36,21 +35,12 @@ HIDDEN_ZEROS = (
 Table = list[list[str]]
 
 
-def aimed_evidence(bench: Workbench) -> tuple[Evidence, ...]:
-    """Return the evidence on the aimed systems of the effort."""
-    return bench.material(AIMED)
+def _sources(bench: Workbench) -> Iterator[Source]:
+    for system in (*HIDDEN_ZEROS, *aimed_systems(400 if bench.full else 80)):
+        yield "aimed", system, 1
 
 
-def _sources(bench: Workbench) -> Iterator[ResidualSystem]:
-    yield from HIDDEN_ZEROS
-    yield from aimed_systems(400 if bench.full else 80)
-
-
-def _examined(system: ResidualSystem) -> list[Evidence]:
-    return [examine("aimed", system)]
-
-
-AIMED = Material("aimed systems", "certifying the aimed systems", _sources, _examined, 40)
+AIMED = by_question("aimed systems", "certifying the aimed systems", _sources)
 
 
 def aimed_systems(count: int) -> Iterator[ResidualSystem]:

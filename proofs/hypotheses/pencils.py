@@ -33,6 +33,7 @@ from ..claims.one_determinant import show as show_pair
 from ..evidence.alternatives import comparison_certificate
 from ..evidence.material import Material
 from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial, examine_by_polynomial, pencil_of
+from ..evidence.questions import RANKS
 from ..evidence.search import Box, Facts, Integers, systems_in_order
 from ..trust import structure_certificates as make
 from ..trust.structure_certificates import Certificate
@@ -59,8 +60,8 @@ def _zeta(facts: Facts) -> Integers:
     return facts.n - facts.rank(late) + late * _normal_rank(facts)
 
 
-TWO_FAULTS = Condition(lambda w: w.evidence.kernel.normal_rank >= 2, lambda f, s: np.asarray(_normal_rank(f) >= 2))
-SOME_ZERO = Condition(lambda w: pencil_of(w.evidence.system).zeta >= 1, lambda f, s: np.asarray(_zeta(f) >= 1))
+TWO_FAULTS = Condition((RANKS,), lambda w: w.evidence.kernel.normal_rank >= 2, lambda f, s: np.asarray(_normal_rank(f) >= 2))
+SOME_ZERO = Condition((), lambda w: pencil_of(w.evidence.system).zeta >= 1, lambda f, s: np.asarray(_zeta(f) >= 1))
 SIZES = {**MODEL, "r >= 2": TWO_FAULTS, "zeta >= 1": SOME_ZERO}
 
 
@@ -77,7 +78,7 @@ def codimension() -> Ablation[Windowed]:
         size = bad_set(pencil_of(subject.evidence.system)).codimension
         return size is None or size >= 2
 
-    conclusion = Condition(at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
+    conclusion = Condition((), at_least_two, lambda f, s: np.asarray(f.observable & (_zeta(f) >= 1)))
     return _of_pencils("codimension", "the bad P have codimension at least 2", conclusion, None)
 
 
@@ -87,7 +88,7 @@ def bad_of_full_rank() -> Ablation[Windowed]:
     def exists(subject: Windowed) -> bool:
         return isinstance(bad_pair(pencil_of(subject.evidence.system)), BadPair)
 
-    conclusion = Condition(exists, lambda f, s: np.asarray((_normal_rank(f) >= 2) & (_zeta(f) >= 1)))
+    conclusion = Condition((), exists, lambda f, s: np.asarray((_normal_rank(f) >= 2) & (_zeta(f) >= 1)))
     proof = Proof(("bad_set_full_rank",), frozenset({"r >= 2", "zeta >= 1"}))
     return _of_pencils("bad-of-full-rank", "some P of full column rank is bad", conclusion, proof)
 
@@ -99,8 +100,8 @@ def placement() -> Ablation[Windowed]:
         return every_polynomial_is_reached(pencil_of(subject.evidence.system))
 
     words = "where r >= 1, every nonzero polynomial of degree at most zeta is the zero polynomial of some pair"
-    conclusion = Condition(reached, lambda f, s: np.asarray(f.observable | (_zeta(f) == 0)))
-    some_column = Condition(lambda w: w.evidence.kernel.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
+    conclusion = Condition((), reached, lambda f, s: np.asarray(f.observable | (_zeta(f) == 0)))
+    some_column = Condition((RANKS,), lambda w: w.evidence.kernel.normal_rank >= 1, lambda f, s: np.asarray(_normal_rank(f) >= 1))
     proof = Proof(("zero_assignment_observable",), frozenset({"observable"}))
     made = ("placement", "zero-assignment", words, MODEL, conclusion, _show, some_column, lambda n: NO_WINDOW, LONGER)
     return windowed(*made, proof=proof)

@@ -17,6 +17,7 @@ import numpy as np
 
 from ...exact.algebra.matrices import rank
 from ..claims.common import delays, spaces, zeros
+from ..evidence.questions import DELAY_KNOWN_STATE, DELAY_UNKNOWN_STATE, FINITE_ZEROS, RANKS, SPACE, WINDOW_SPACES, WINDOWS, ZEROS
 from ..evidence.search import Box, Facts, Flags
 from ..verdict.ablation import Ablation, Proof
 from .facets import facets
@@ -55,14 +56,16 @@ def _settled(facts: Facts, s: int) -> Flags:
     return np.asarray(facts.gap(s - 1) == facts.gap(facts.n + 1))
 
 
-GAP_IS_M = Condition(lambda w: w.evidence.kernel.gap(w.window) == w.evidence.system.m, lambda f, s: np.asarray(f.gap(s) == f.m))
-LIMIT_REACHED = Condition(lambda w: w.evidence.space_dimensions[w.window - 1] == w.evidence.fault_space.dimension, _settled)
+GAP_IS_M = Condition((RANKS,), lambda w: w.evidence.kernel.gap(w.window) == w.evidence.system.m, lambda f, s: np.asarray(f.gap(s) == f.m))
+LIMIT_REACHED = Condition(
+    (SPACE, WINDOW_SPACES), lambda w: w.evidence.space_dimensions[w.window - 1] == w.evidence.fault_space.dimension, _settled
+)
 
 
 def rank_formula() -> Ablation[Windowed]:
     """Return the ablation of theorem-2 with the zeros of the pencil."""
     hypotheses = {**MODEL, "s >= n": from_n()}
-    conclusion = Condition(_formula, _formula_look)
+    conclusion = Condition((RANKS, *ZEROS), _formula, _formula_look)
     proof = _proof("theorem_2", "lag_at_most_n", uses={INVERTIBLE, "s >= n"})
     return windowed("rank-formula", "theorem-2", "rank [O_s T_s] = n + s m - zeta", hypotheses, conclusion, zeros, proof=proof)
 
@@ -101,28 +104,31 @@ def solutions_from_lag() -> Ablation[Windowed]:
 def columns() -> Ablation[Windowed]:
     """Return the ablation of the claim on the number of columns of (Fhat, Ghat)."""
     conclusion = Condition(
-        lambda w: w.evidence.fault_space.dimension == w.evidence.system.m + w.evidence.zeta, lambda f, s: f.left_invertible
+        (*ZEROS, SPACE), lambda w: w.evidence.fault_space.dimension == w.evidence.system.m + w.evidence.zeta, lambda f, s: f.left_invertible
     )
     words = "Z has dimension n_z = m + zeta"
     proof = _proof("problem_11_dimension", "zeros_exist", "lag_at_most_n", uses={INVERTIBLE})
     return windowed("columns", "problem-11", words, MODEL, conclusion, zeros, windows=lambda n: NO_WINDOW, proof=proof)
 
 
-NO_FEEDTHROUGH = Condition(lambda w: w.evidence.system.G.is_zero(), lambda f, s: np.asarray(~f.G.any(axis=(1, 2))))
+NO_FEEDTHROUGH = Condition((), lambda w: w.evidence.system.G.is_zero(), lambda f, s: np.asarray(~f.G.any(axis=(1, 2))))
 RELATIVE_DEGREE_ONE = Condition(
+    (),
     lambda w: rank(w.evidence.system.C @ w.evidence.system.F) == w.evidence.system.m,
     lambda f, s: np.asarray(f.rank_from_rest(2) == f.m),
 )
-NO_FINITE_ZEROS = Condition(lambda w: w.evidence.finite_zeros == 0, lambda f, s: np.full(len(f.A), True))
+NO_FINITE_ZEROS = Condition((FINITE_ZEROS,), lambda w: w.evidence.finite_zeros == 0, lambda f, s: np.full(len(f.A), True))
 ONLY_UNOBSERVABLE = Condition(
-    lambda w: w.evidence.finite_zeros == facets(w.evidence.system).unobservable_modes, lambda f, s: np.full(len(f.A), True)
+    (FINITE_ZEROS,), lambda w: w.evidence.finite_zeros == facets(w.evidence.system).unobservable_modes, lambda f, s: np.full(len(f.A), True)
 )
 
 
 def range_of_f() -> Ablation[Windowed]:
     """The ablation of zero-feedthrough: with G = 0 known, im F is determined by the outputs."""
     hypotheses = {**MODEL, "rank CF = m": RELATIVE_DEGREE_ONE, "no finite zeros": NO_FINITE_ZEROS}
-    conclusion = Condition(lambda w: w.evidence.without_feedthrough == rank(w.evidence.system.F), lambda f, s: np.full(len(f.A), False))
+    conclusion = Condition(
+        (SPACE,), lambda w: w.evidence.without_feedthrough == rank(w.evidence.system.F), lambda f, s: np.full(len(f.A), False)
+    )
     words = "the members of Z without feedthrough are im F"
     box = Box(total=4, largest_n=2, largest_m=2, largest_p=2)
     proof = _proof("zero_feedthrough", "theorem_3_part_i", "zeros_exist", uses={INVERTIBLE, "rank CF = m", "no finite zeros"})
@@ -136,7 +142,9 @@ def range_of_f() -> Ablation[Windowed]:
 
 def signal_from_known_state() -> Ablation[Windowed]:
     """Return the ablation of trajectory-recovered where v is found from the outputs and x(0)."""
-    conclusion = Condition(lambda w: w.evidence.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n))
+    conclusion = Condition(
+        (DELAY_KNOWN_STATE,), lambda w: w.evidence.delay_known_state is not None, lambda f, s: np.asarray(f.delay_known_state <= f.n)
+    )
     words = "the outputs and x(0) determine v"
     proof = _proof("trajectory_state_known", uses={INVERTIBLE})
     made = ("signal-known-state", "trajectory-recovered", words, MODEL, conclusion, delays)
@@ -147,7 +155,9 @@ def signal_from_unknown_state() -> Ablation[Windowed]:
     """Return the ablation of trajectory-recovered where v is found from the outputs alone."""
     zeros_hidden = "as many finite zeros as unobservable modes"
     hypotheses = {**MODEL, zeros_hidden: ONLY_UNOBSERVABLE}
-    conclusion = Condition(lambda w: w.evidence.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n))
+    conclusion = Condition(
+        (DELAY_UNKNOWN_STATE,), lambda w: w.evidence.delay_unknown_state is not None, lambda f, s: np.asarray(f.delay_unknown_state <= f.n)
+    )
     words = "the outputs alone determine v"
     proof = _proof("trajectory_no_finite_zeros", "zeros_exist", uses={INVERTIBLE, zeros_hidden})
     made = ("signal-unknown-state", "trajectory-recovered", words, hypotheses, conclusion, delays)
@@ -157,7 +167,9 @@ def signal_from_unknown_state() -> Ablation[Windowed]:
 def every_window() -> Ablation[Windowed]:
     """The ablation of window-ranks: the formula of the indices gives the rank of each window."""
     conclusion = Condition(
-        lambda w: w.evidence.kernel.rank(w.window) == w.evidence.window_ranks[w.window - 1], lambda f, s: np.full(len(f.A), False)
+        (RANKS, WINDOWS),
+        lambda w: w.evidence.kernel.rank(w.window) == w.evidence.window_ranks[w.window - 1],
+        lambda f, s: np.full(len(f.A), False),
     )
     words = "rank [O_s T_s] = s r + sum of min(s, eta_i)"
     proof = _proof("window_ranks", "window_ranks_left_indices", "zeros_exist")
@@ -167,6 +179,7 @@ def every_window() -> Ablation[Windowed]:
 def sharp_gap() -> Ablation[Windowed]:
     """The ablation of sharp-windows: the gap is r for exactly the s >= lag."""
     conclusion = Condition(
+        (RANKS,),
         lambda w: (w.evidence.kernel.gap(w.window) == w.evidence.kernel.normal_rank) == (w.window >= w.evidence.kernel.lag),
         lambda f, s: np.full(len(f.A), False),
     )

@@ -16,12 +16,13 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from ..evidence.corpus import CORPUS, Evidence
+from ..evidence.corpus import CORPUS, Evidence, Questions
+from ..evidence.questions import DELAY_KNOWN_STATE, OBSERVABILITY, RANKS, REACHABILITY
 from ..evidence.search import Box, Facts, Flags
 from ..trust.structure_certificates import Certificate
 from ..verdict.ablation import Ablation, Found, Proof, first_found
 from ..verdict.workbench import Show, Workbench, size
-from .aimed import AIMED, aimed_evidence
+from .aimed import AIMED
 from .facets import degenerate, facets, nilpotent
 
 BOX = Box(total=5, largest_n=2, largest_m=2, largest_p=2)
@@ -68,22 +69,23 @@ class Condition:
     """This is a hypothesis or a conclusion about a system and a window.
 
     `holds` decides on certificates. `first_look` at integer systems leaves out what surely violates it (of a hypothesis) or surely meets it
-    (of a conclusion).
+    (of a conclusion). `asks` are the questions whose answers `holds` reads.
     """
 
+    asks: Questions
     holds: Callable[[Windowed], bool]
     first_look: Callable[[Facts, int], Flags]
 
 
-OBSERVABLE = Condition(lambda w: w.evidence.observable, lambda f, s: f.observable)
-CONTROLLABLE = Condition(lambda w: w.evidence.controllable, lambda f, s: f.controllable)
-LEFT_INVERTIBLE = Condition(lambda w: w.evidence.left_invertible, lambda f, s: f.left_invertible)
-STABLE = Condition(lambda w: facets(w.evidence.system).stable, lambda f, s: nilpotent(f))
+OBSERVABLE = Condition((OBSERVABILITY,), lambda w: w.evidence.observable, lambda f, s: f.observable)
+CONTROLLABLE = Condition((REACHABILITY,), lambda w: w.evidence.controllable, lambda f, s: f.controllable)
+LEFT_INVERTIBLE = Condition((RANKS,), lambda w: w.evidence.left_invertible, lambda f, s: f.left_invertible)
+STABLE = Condition((), lambda w: facets(w.evidence.system).stable, lambda f, s: nilpotent(f))
 
 
 def from_n(extra: int = 0) -> Condition:
     """Return the condition s >= n + extra."""
-    return Condition(lambda w: w.window >= w.evidence.system.n + extra, lambda f, s: np.full(len(f.A), s >= f.n + extra))
+    return Condition((), lambda w: w.window >= w.evidence.system.n + extra, lambda f, s: np.full(len(f.A), s >= f.n + extra))
 
 
 def from_lag(extra: int = 0) -> Condition:
@@ -93,7 +95,7 @@ def from_lag(extra: int = 0) -> Condition:
         reached = facts.gap(s - extra) == facts.gap(facts.n + 1) if s > extra else np.zeros(len(facts.A), dtype=np.bool_)
         return np.asarray(reached | (facts.gap(0) == facts.gap(facts.n + 1)))
 
-    return Condition(lambda w: w.window >= w.evidence.kernel.lag + extra, first_look)
+    return Condition((RANKS,), lambda w: w.window >= w.evidence.kernel.lag + extra, first_look)
 
 
 def _from_delay(subject: Windowed) -> bool:
@@ -106,8 +108,8 @@ def _delay_look(facts: Facts, s: int) -> Flags:
     return np.asarray((facts.delay_known_state <= s) | (facts.delay_known_state > facts.n))
 
 
-EVERYTHING = Condition(lambda w: True, lambda f, s: np.full(len(f.A), True))
-FROM_DELAY = Condition(_from_delay, _delay_look)
+EVERYTHING = Condition((), lambda w: True, lambda f, s: np.full(len(f.A), True))
+FROM_DELAY = Condition((DELAY_KNOWN_STATE,), _from_delay, _delay_look)
 
 NO_WINDOW = range(0, 1)
 
@@ -127,9 +129,11 @@ def windowed(
 ) -> Ablation[Windowed]:
     """Return the ablation on every system of the corpus and every aimed one that is in the scope, at every window."""
 
+    asks = tuple(dict.fromkeys(question for one in (scope, conclusion, *hypotheses.values()) for question in one.asks))
+
     def subjects(bench: Workbench) -> Iterator[Windowed]:
-        bench.need(CORPUS, AIMED)
-        for evidence in (*bench.corpus, *aimed_evidence(bench)):
+        bench.need(*(kinds[question] for kinds in (CORPUS, AIMED) for question in asks))
+        for evidence in (*bench.corpus(asks), *bench.answers(AIMED, asks)):
             for s in windows(evidence.system.n):
                 if scope.holds(subject := Windowed(evidence, s)):
                     yield subject
@@ -144,7 +148,7 @@ def windowed(
         hypotheses={key: condition.holds for key, condition in hypotheses.items()},
         holds=conclusion.holds,
         subjects=subjects,
-        over_q=partial(_smallest, hypotheses, conclusion, scope, windows, box),
+        over_q=partial(_smallest, asks, hypotheses, conclusion, scope, windows, box),
         show=certificates,
         proof=proof,
         implied=implied or {},
@@ -152,6 +156,7 @@ def windowed(
 
 
 def _smallest(
+    asks: Questions,
     hypotheses: Mapping[str, Condition],
     conclusion: Condition,
     scope: Condition,
@@ -176,7 +181,7 @@ def _smallest(
                 system = facts.system(int(index))
                 if bool(degenerate(system)) != poor:
                     continue
-                evidence = bench.examined(system)
+                evidence = bench.examined(system, asks)
                 for s in windows(facts.n):
                     subject = Windowed(evidence, s)
                     if looks[s][index] and all(c.holds(subject) for c in kept) and not conclusion.holds(subject):

@@ -4,25 +4,30 @@
     exported     the terms of a certificate that the checker has verified just now; raises NotCovered, checker.Rejected, checker.Malformed
     translated   the same of one that is well formed, whatever the checker would say of it: tests see that Rocq, too, finds it false
     written      a file with the theorems about the concrete systems, proved by computation
-    Terms        definitions, check (a boolean), statement (a proposition), lemma (that the one implies the other)
 
 No string of a certificate reaches the file. Every number goes through the checker's own parser (`checker.rational`, `checker.index`) to an
 integer of Python, and what writes integers (`text.py`) takes nothing else. The checker's meter bounds the work.
 
-Systems are written with transposed matrices (signals are rows in the theory), as integers over one common denominator. Two things in the
-terms are not in the certificate: words whose outputs are independent modulo its prime, which show the lower bounds that `checker.py` finds
-by elimination, or what its hints come to, determinants and a minor; and combinations of demands likewise. `listed.py` computes them.
+Here are the kinds over Q; those over GF(p) and Q(a) are in export_fields.py. Systems are written with transposed matrices (signals
+are rows in the theory), as integers over one common denominator. Two things in the terms are not in the certificate: words whose outputs
+are independent modulo its prime, which show the lower bounds that `checker.py` finds by elimination, or the hints of which Rocq knows, two
+coprime determinants and a minor; and combinations of demands likewise. `listed.py` computes them. Where window ranks have "nulling", of
+which Rocq knows nothing, exact rows are found and stand in the place of the witness.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from operator import mul
 from typing import Any
 
+from ...exact.structure.kernel_rows import kernel_representation
+from ...exact.system.systems import read_system
 from ..trust import checker, checker_structure
+from ..trust.kernel_witnesses import kernel_witness
+from .export_fields import FIELD_KINDS, finite_zeros
 from .listed import Integers, Listed, NotCovered, added, independent, times, unit
+from .terms import Terms, index, indices, window_of
 from .text import call, natural, naturals, pivoted, sequence, table, vector, whole
 
 Json = Any
@@ -30,37 +35,14 @@ Kernel = list[tuple[int, Integers]]
 MAX_TEXT = 2**20
 MODULES = (
     "Vocabulary", "CertificatesVocabulary", "Lists", "ListedSystems", "CheckRows", "CheckRanks", "CheckBehaviors", "Solutions",
-    "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices",
+    "CheckSolutions", "CheckInversion", "Stacks", "Excitation", "TableRank", "CheckMatrices", "NumbersVocabulary", "FieldArithmetic",
+    "FieldBehaviors", "FieldSolutions", "FieldInversion", "FieldMatrices", "FieldZeros",
 )  # fmt: skip
 HEAD = f"""From Coq Require Import ZArith.
 From mathcomp Require Import all_ssreflect all_algebra.
 From faultspace Require Import {" ".join(MODULES)}.
 Import GRing.Theory.
 Local Open Scope ring_scope.
-"""
-
-
-@dataclass(frozen=True)
-class Terms:
-    """A file of Rocq says this about one certificate. `definitions`: (name, type, term), numbers in them are integers."""
-
-    definitions: tuple[tuple[str, str, str], ...]
-    check: str
-    statement: str
-    lemma: str
-
-    def opening(self) -> str:
-        """Returns the definitions as text."""
-        lines = [f"Definition {name} : {kind} := {term}." for name, kind, term in self.definitions]
-        return "\n".join(["Local Open Scope Z_scope.", *lines, "Local Close Scope Z_scope."])
-
-    def theorem(self) -> str:
-        """Returns the definitions, and the theorem that is proved from them by computation."""
-        return f"""{self.opening()}
-Lemma checked : {self.check} = true.
-Proof. vm_cast_no_check (erefl true). Qed.
-Theorem certified : {self.statement}.
-Proof. exact: ({self.lemma} checked). Qed.
 """
 
 
@@ -75,7 +57,8 @@ def exported(certificate: Json) -> Terms:
 
 def translated(certificate: Json) -> Terms:
     """Returns the terms of a certificate whose numbers parse, verified or not. Raises checker.Malformed, checker.Rejected, NotCovered."""
-    write = COVERED.get(certificate["kind"])
+    kinds = COVERED if _over_rationals(certificate["statement"]) else FIELD_KINDS
+    write = kinds.get(certificate["kind"])
     if write is None:
         raise NotCovered(f"the checks in Rocq do not speak of the kind {checker.shorten(certificate['kind'])}")
     checker.begin()
@@ -86,6 +69,12 @@ def translated(certificate: Json) -> Terms:
     if sum(len(term) for _, _, term in terms.definitions) > MAX_TEXT:
         raise NotCovered(f"the terms for Rocq are longer than {MAX_TEXT} characters")
     return terms
+
+
+def _over_rationals(statement: Json) -> bool:
+    """Says whether no system of a statement names another field."""
+    about = [statement[key] for key in checker.SUBJECTS if key in statement] if type(statement) is dict else []
+    return all(type(one) is not dict or one.get("field", "Q") == "Q" for one in about)
 
 
 def written(terms: Sequence[Terms]) -> str:
@@ -99,11 +88,11 @@ def written(terms: Sequence[Terms]) -> str:
 
 
 def _window_ranks(s: Json, w: Json) -> Terms:
-    if "nulling" in w:
-        raise NotCovered("the checks in Rocq do not speak of states and faults that are nulled")
+    if "nulling" in w:  # of which Rocq knows nothing: exact rows prove the same, and whoever finds them is not believed
+        w = kernel_witness(kernel_representation(read_system(s["system"])))
     system, prime, exact = Listed(s["system"]), _prime(w), "kernel" in w
     kernel = _kernel(w["kernel" if exact else "kernel_modulo"])
-    r, etas, ranks = _index(s["normal_rank"]), naturals(_indices(s["left_minimal_indices"])), naturals(_indices(s.get("window_ranks", [])))
+    r, etas, ranks = index(s["normal_rank"]), naturals(indices(s["left_minimal_indices"])), naturals(indices(s.get("window_ranks", [])))
     name = system.named("system")
     formula = f"(forall s, \\rank (window {name} s) = s * {natural(r)} + \\sum_(eta <- {etas}) minn s eta)%N"
     lower = _lower("lower", system, kernel, w, prime) if exact else ("lower", "hints", _hints(system, kernel, w, prime))
@@ -120,7 +109,7 @@ def _left_invertible(s: Json, w: Json) -> Terms:
     system, prime = Listed(s["system"]), _prime(w)
     statement = f"left_invertible {system.named('system')}"
     if "point" in w:
-        point = _index(w["point"], prime - 1)
+        point = system.point(w["point"], system.p - system.m, prime)
         rows, columns, value = system.minor(point, prime)
         minor = f"{whole(point)} {naturals(rows)} {naturals(columns)} {whole(value)}"
         definitions = _named("system", system), _modulus(prime)
@@ -170,7 +159,7 @@ def _equality(s: Json, w: Json) -> Terms:
         statement = f"(forall s r, word {a} s r <-> word {b} s r) /\\ (forall r, behavior {a} r <-> behavior {b} r)"
         check = call("check_equality", *shape, "l first second rows lower lower'")
         return Terms((*definitions, *lower), check, statement, "equality_sound")
-    window = _window(s["window"])
+    window = window_of(s["window"])
     words = (_words("ws", first, window, prime), _words("ws'", second, window, prime))
     statement = f"forall r, word {a} {natural(window)} r <-> word {b} {natural(window)} r"
     check = call("check_window_equality", *shape, window, "l first second rows ws ws'")
@@ -178,7 +167,7 @@ def _equality(s: Json, w: Json) -> Terms:
 
 
 def _difference(s: Json, w: Json) -> Terms:
-    first, second, window = Listed(s["first"]), Listed(s["second"]), _window(s["window"])
+    first, second, window = Listed(s["first"]), Listed(s["second"]), window_of(s["window"])
     x0, v = _integral_word(first, w)
     return Terms(
         (
@@ -195,10 +184,10 @@ def _difference(s: Json, w: Json) -> Terms:
 
 
 def _fault_space(s: Json, w: Json) -> Terms:
-    system, prime, window = Listed(s["system"]), _prime(w), None if s["window"] is None else _window(s["window"])
+    system, prime, window = Listed(s["system"]), _prime(w), None if s["window"] is None else window_of(s["window"])
     width = system.n + system.p
     given = _kernel(w["kernel"])
-    kernel = [row for _, row in given if window is None or "mix" not in w or len(row) <= window]
+    kernel = [row for _, row in given if window is None or "point" not in w or len(row) <= window]
     basis, d = _cleared(s["basis"])
     pivots = [next((j for j, x in enumerate(row) if x), width) for row in basis]
     beyond = max((len(row) - 1 for row in kernel), default=0) if window is None else window
@@ -226,7 +215,7 @@ def _fault_space(s: Json, w: Json) -> Terms:
 
 
 def _first_column_only(s: Json, w: Json) -> Terms:
-    system, prime, window = Listed(s["system"]), _prime(w), _window(s["window"])
+    system, prime, window = Listed(s["system"]), _prime(w), window_of(s["window"])
     (z,), d = _cleared([s["column"]])
     kernel = _kernel(w["kernel"])
     name, f, g = system.named("system"), f"(recorded d {natural(system.n)} f)", f"(recorded d {natural(system.p)} g)"
@@ -248,7 +237,7 @@ def _first_column_only(s: Json, w: Json) -> Terms:
 
 
 def _inversion_delay(s: Json, w: Json) -> Terms:
-    system, delay = Listed(s["system"]), None if s["delay"] is None else _index(s["delay"], checker.MAX_DIMENSION)
+    system, delay = Listed(s["system"]), None if s["delay"] is None else index(s["delay"], checker.MAX_DIMENSION)
     known = {"known": "true", "unknown": "false"}[s["initial_state"]]
     name = system.named("system")
     x0, v = _integral_word(system, w["word"]) if delay != 0 else ([], [])
@@ -270,10 +259,10 @@ def _inversion_delay(s: Json, w: Json) -> Terms:
 
 
 def _matrix_rank(s: Json, w: Json) -> Terms:
-    system, prime, r, name = Listed(s["system"]), _prime(w), _index(s["rank"]), s["matrix"]
+    system, prime, r, name = Listed(s["system"]), _prime(w), index(s["rank"]), s["matrix"]
     checker.expect(type(name) is str and name in checker_structure.MATRICES, "matrix: unknown name")
     n, m, p = system.sizes
-    samples, e, given = _window(s["window"]) if "window" in s else n, system.den, list[tuple[str, str, str]]()
+    samples, e, given = window_of(s["window"]) if "window" in s else n, system.den, list[tuple[str, str, str]]()
     system.bounded(samples)
     meant, data, sizes = system.named("system"), "", [n, m, p, samples, r]
     if name in ("observability", "toeplitz", "window"):
@@ -311,7 +300,7 @@ def _matrix_rank(s: Json, w: Json) -> Terms:
         sizes = [n, m, p, r]
     lemma = {"residual-hankel": "hankel"}.get(name, name)
     checker.charge(len(weights) * (samples * e.bit_length()) ** 2 // 1000, len(weights) * samples * e.bit_length() // 8)
-    nulls = [(_index(row["pivot"]), list(map(mul, _integers(row["row"]), weights))) for row in w["left_null"]]
+    nulls = [(index(row["pivot"]), list(map(mul, _integers(row["row"]), weights))) for row in w["left_null"]]
     return Terms(
         (
             _named("system", system),
@@ -338,6 +327,7 @@ COVERED: dict[str, Callable[[Json, Json], Terms]] = {
     "fault-space": _fault_space,
     "first-column-only": _first_column_only,
     "matrix-rank": _matrix_rank,
+    "finite-zeros": finite_zeros,
 }
 
 
@@ -345,21 +335,9 @@ COVERED: dict[str, Callable[[Json, Json], Terms]] = {
 
 
 def _prime(w: Json) -> int:
-    prime = _index(w["prime"], checker.MAX_PRIME)
+    prime = index(w["prime"], checker.MAX_PRIME)
     checker.require(checker.is_prime(prime), f"{prime} is not a prime")
     return prime
-
-
-def _index(value: Json, largest: int = checker.MAX_DIMENSION * checker.MAX_WINDOW) -> int:
-    return checker.index(value, "an index", largest)
-
-
-def _indices(values: Json) -> list[int]:
-    return [_index(value) for value in checker.items(values, "indices")]
-
-
-def _window(value: Json) -> int:
-    return _index(value, checker.MAX_WINDOW)
 
 
 def _integers(values: Json) -> list[int]:
@@ -368,7 +346,7 @@ def _integers(values: Json) -> list[int]:
 
 def _kernel(rows: Json) -> Kernel:
     """Returns pivots and coefficients of kernel rows."""
-    return [(_index(row["pivot"]), [_integers(c) for c in row["coefficients"]]) for row in rows]
+    return [(index(row["pivot"]), [_integers(c) for c in row["coefficients"]]) for row in rows]
 
 
 def _rows(kernel: Kernel) -> tuple[str, str, str]:
@@ -376,12 +354,12 @@ def _rows(kernel: Kernel) -> tuple[str, str, str]:
 
 
 def _hints(system: Listed, kernel: Kernel, w: Json, prime: int) -> str:
-    return system.hints(kernel, _index(w["point"], prime - 1), _index(w["mix"], prime - 1), prime)
+    return system.hints(kernel, w["point"], prime)
 
 
 def _lower(name: str, system: Listed, kernel: Kernel, w: Json, prime: int, window: int | None = None) -> tuple[str, str, str]:
     """Returns what shows a lower bound: the hints of the witness, or words, of one more sample than there are states or of a window."""
-    if "mix" in w:
+    if "point" in w:
         return name, "evidence", f"inr ({_hints(system, kernel, w, prime)})"
     return name, "evidence", f"inl {system.words(system.n + 1 if window is None else window, prime)}"
 

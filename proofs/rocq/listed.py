@@ -1,6 +1,6 @@
 """Systems as the theory of the checks lists them: integers over one common denominator, signals as rows.
 
-    Listed        a system over Q: its term, its words modulo a prime, the conditions of its kernel rows, what their hints come to
+    Listed        a system over Q: its term, its words modulo a prime, the conditions of its kernel rows, the hints that Rocq asks of them
     NotCovered    raised where the checks in Rocq do not speak of a kind or a field
     independent   rows reduced modulo a prime: pivots, and the combinations that lead there
     unit, times, added   a row of the identity, a row times a matrix, a sum modulo a prime
@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from operator import mul
+from random import Random
 from typing import Any
 
 from flint import nmod_mat, nmod_poly
@@ -23,6 +24,7 @@ from .text import natural, naturals, sequence, table, vector, whole
 
 Json = Any
 Integers = list[list[int]]
+DRAWS = 8  # of points, and of mixes: most serve
 
 
 class NotCovered(Exception):
@@ -112,23 +114,63 @@ class Listed:
         value = int(nmod_mat(len(rows), len(rows), [table[i][j] for i in rows for j in columns], prime).det()) if rows else 1
         return rows, columns, value
 
-    def hints(self, rows: Sequence[tuple[int, Integers]], point: int, mix: int, prime: int) -> str:
-        """Returns what the hints of kernel rows come to, as a term: a minor of the pencil at the point, the determinants of the rows at
-        their pivots and mixed, and cofactors of these.
+    def point(self, given: Json, missing: int, prime: int) -> int:
+        """Returns the point of a witness, or, where that is infinity, one of no smaller rank. Rejected where only that rank, and not the
+        one at infinity, n + rank G, is n + p less what is missing.
+        """
+        if given != "infinity":
+            return checker.index(given, "point", prime - 1)
+        rank = len(checker.echelon([[x % prime for x in row] for row in self.G], prime))
+        rng = Random(self.n)
+        ranks = {q: len(self.minor(q, prime)[0]) for q in (rng.randrange(prime) for _ in range(DRAWS))}
+        point = max(ranks, key=ranks.__getitem__)
+        checker.require(rank >= self.p - missing or ranks[point] < self.n + self.p - missing, "the rank of G modulo the prime is smaller")
+        return point
+
+    def hints(self, rows: Sequence[tuple[int, Integers]], given: Json, prime: int) -> str:
+        """Returns hints that prove kernel rows minimal where they are, as a term: a minor of the pencil at a point, the determinants of the
+        rows at their pivots and mixed, and cofactors of these. Raises NotCovered where the prime is too small for most mixes to serve.
         """
         degree, k, width = sum(len(row) - 1 for _, row in rows), len(rows), self.n + self.p
-        checker.require(degree < prime, "the prime is not above the sum of the left minimal indices")
+        if 2 * width * k**2 * degree >= prime:  # of the mixes, width k^2 at most fail at each zero of the first determinant
+            raise NotCovered("the prime is small, and the checks in Rocq ask for a mix, of which most serve modulo a large one")
+        point = self.point(given, k, prime)
         checker.charge(sum(len(row) for _, row in rows) * width * (300 + 100 * (self.n + k)))
         demands = [self.demands(row, prime) for _, row in rows]
         at_pivots = [[[y[self.n + pivot] for y in one] for pivot, _ in rows] for one in demands]
-        weights = [[pow(mix, (i + 1) * (b + 1), prime) for i in range(width)] for b in range(k)]
-        mixed = [[[sum(map(mul, w, y)) % prime for y in one] for w in weights] for one in demands]
-        first, second = (checker.determinant_polynomial(table, degree, prime) for table in (at_pivots, mixed))
-        checker.charge(1000 * (degree + 1) ** 2)
-        _, u, v = nmod_poly(first, prime).xgcd(nmod_poly(second, prime))
+        first, rng = determinant_polynomial(at_pivots, degree, prime), Random(k)
+        for _ in range(DRAWS):
+            mix = rng.randrange(1, prime)
+            weights = [[pow(mix, (i + 1) * (b + 1), prime) for i in range(width)] for b in range(k)]
+            mixed = [[[sum(map(mul, w, y)) % prime for y in one] for w in weights] for one in demands]
+            second = determinant_polynomial(mixed, degree, prime)
+            common, u, v = nmod_poly(first, prime).xgcd(nmod_poly(second, prime))
+            if common.degree() == 0:
+                break
         minor_rows, columns, value = self.minor(point, prime)
         polynomials = [vector(first), vector(second), *(vector(int(x) for x in f.coeffs()) for f in (u, v))]
         return f"Hints {whole(point)} {naturals(minor_rows)} {naturals(columns)} {whole(value)} {whole(mix)} {' '.join(polynomials)}"
+
+
+def determinant_polynomial(table: Sequence[Sequence[Sequence[int]]], degree: int, prime: int) -> list[int]:
+    """Returns det of a square matrix of polynomials modulo a prime above its degree, which is `degree` at most: degree + 1 coefficients.
+
+    A polynomial of that degree is the one that has its values at 0, ..., degree, by divided differences.
+    """
+    size, longest = len(table), max((len(f) for row in table for f in row), default=0)
+    if not size:
+        return [1, *[0] * degree]
+    checker.charge((degree + 1) * (2000 + size**2 * (500 + 40 * longest + 40 * size) + 250 * degree), 200 * size**2 * (degree + longest))
+    entries, values = [nmod_poly(list(f), prime) for row in table for f in row], list[int]()
+    for q in range(degree + 1):
+        values.append(int(nmod_mat(size, size, [int(f(q)) for f in entries], prime).det()))
+    for k in range(1, degree + 1):
+        inverse = pow(k, -1, prime)
+        values[k:] = [(y - x) * inverse % prime for x, y in zip(values[k - 1 :], values[k:], strict=False)]
+    found = values[degree:]
+    for k in reversed(range(degree)):  # times (q - k), plus the k-th difference
+        found = [(x - k * y) % prime for x, y in zip([values[k], *found], [*found, 0], strict=True)]
+    return found
 
 
 def independent(rows: Integers, width: int, prime: int) -> list[tuple[int, list[int]]]:

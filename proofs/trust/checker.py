@@ -41,7 +41,7 @@ from array import array
 from collections.abc import Callable, Iterable, Sequence
 from contextvars import ContextVar
 from functools import cache, partial
-from itertools import accumulate, repeat
+from itertools import chain
 from math import gcd, lcm
 from operator import mul
 from typing import Any, NamedTuple, NoReturn
@@ -50,7 +50,7 @@ Json = Any
 Vectors = list[list[int]]  # a polynomial row c_0, c_1, ...: the coordinates of its coefficients, or their residues
 MAX_BYTES, MAX_BITS, MAX_DIMENSION, MAX_WINDOW, MAX_PRIME = 2 * 2**20, 2**16, 512, 4096, 2**64 - 1
 MAX_WORK, MAX_MEMORY = 3 * 10**9, 2**27  # of this checker, for one certificate: in nanoseconds and bytes, by estimates from above
-NUMBER = re.compile(r"(-?[0-9]{1,19730})(?:/([1-9][0-9]{0,19729}))?")
+NUMBER, SHORT = re.compile(r"(-?[0-9]{1,19730})(?:/([1-9][0-9]{0,19729}))?"), re.compile(r"-?[0-9]{1,18}")
 if 0 < sys.get_int_max_str_digits() < 19730:  # Python's own bound is below that of the format
     sys.set_int_max_str_digits(19730)
 
@@ -114,6 +114,17 @@ def rational(value: Json, where: str, integral: bool = False) -> tuple[int, int]
     if max(top.bit_length(), bottom.bit_length()) > MAX_BITS:
         expect(False, f"{where}: more than {MAX_BITS} bits")
     return top // (common := gcd(top, bottom)), bottom // common
+
+
+def short_integers(values: list[Json]) -> list[int] | None:
+    """Return the values where all are INTEGERs in strings, or all in numbers, of 18 digits at most: such lists are read at once."""
+    charge(500 + 200 * len(values), 150 * len(values))
+    kinds = {*map(type, values)}
+    if kinds <= {int}:
+        return values if -(10**18) < min(values, default=0) <= max(values, default=0) < 10**18 else None
+    if kinds == {str} and all(map(SHORT.fullmatch, texts := {*values})):
+        return [*map({x: int(x) for x in texts}.__getitem__, values)]
+    return None
 
 
 def index(value: Json, where: str, largest: int = MAX_DIMENSION * MAX_WINDOW) -> int:
@@ -214,63 +225,6 @@ def echelon(vectors: Iterable[list[int]], prime: int) -> list[tuple[int, list[in
     return sorted(found)
 
 
-def determinant(rows: list[list[int]], prime: int) -> int:
-    """Return a determinant modulo a prime."""
-    value, rows = 1, rows[:]
-    while rows:
-        k = next((k for k, row in enumerate(rows) if row[-1]), None)
-        if k is None:
-            return 0
-        *lead, last = rows.pop(k)
-        value, inverse = value * (-last if (len(rows) - k) % 2 else last) % prime, pow(last, -1, prime)
-        weighted = ((row, row[-1] * inverse % prime) for row in rows)
-        rows = [[(x - c * y) % prime for x, y in zip(row, lead, strict=False)] for row, c in weighted]
-    return value
-
-
-def determinant_polynomial(table: Sequence[Sequence[Sequence[int]]], degree: int, prime: int) -> list[int]:
-    """Return det of a square matrix of polynomials modulo a prime above its degree, which is `degree` at most: degree + 1 coefficients.
-
-    A polynomial of that degree is the one that has its values at 0, ..., degree, by divided differences.
-    """
-    size, longest = len(table), max((len(f) for row in table for f in row), default=0)
-    if size < 2:
-        return [*(table[0][0] if table else [1]), *[0] * degree][: degree + 1]
-    charge(
-        (degree + 1) * (2000 + size**2 * (500 + 40 * longest + 40 * size) + 250 * degree + 200 * longest),
-        200 * size**2 * (degree + longest),
-    )
-    width, values, entries = slot(prime, longest), list[int](), [[*f] + [0] * (longest - len(f)) for row in table for f in row]
-    coefficients = [packed(column, width) for column in zip(*entries, strict=True)]
-    for q in range(degree + 1):
-        powers = accumulate(repeat(q, longest - 1), lambda power, q: power * q % prime, initial=1)
-        found = unpacked(sum(map(mul, coefficients, powers)), width, size**2, prime)
-        values.append(determinant([found[i : i + size] for i in range(0, size**2, size)], prime))
-    for k in range(1, degree + 1):
-        inverse = pow(k, -1, prime)
-        values[k:] = [(y - x) * inverse % prime for x, y in zip(values[k - 1 :], values[k:], strict=False)]
-    found = values[degree:]
-    for k in reversed(range(degree)):  # times (q - k), plus the k-th difference
-        found = [(x - k * y) % prime for x, y in zip([values[k], *found], [*found, 0], strict=True)]
-    return found
-
-
-def coprime(f: list[int], g: list[int], prime: int) -> bool:
-    """Return whether two polynomials modulo a prime, the first not zero, have no common factor, by Euclid."""
-    while any(g):
-        while not g[-1]:
-            g = g[:-1]
-        charge((1 + abs(len(f) - len(g))) * (1500 + 120 * len(g)))
-        inverse, rest = pow(g[-1], -1, prime), f
-        while len(rest) >= len(g):
-            if c := rest[-1] * inverse % prime:
-                at = len(rest) - len(g)
-                rest[at:] = [(x - c * y) % prime for x, y in zip(rest[at:], g, strict=True)]
-            rest.pop()
-        f, g = g, rest
-    return not any(f[1:])
-
-
 # -- systems -----------------------------------------------------------------------------------------------------------
 
 
@@ -300,7 +254,12 @@ class Field:
         charge(1000 + nr * (500 + 200 * nc), 100 * nr * (nc + 1))
         rows, used = items([[]] * nr if value == [] and nc == 0 else value, where, nr, nr), set[Json]()
         for i, row in enumerate(rows):
-            plain = {*map(type, items(row, f"{where}[{i}]", nc, nc))} <= {int, str}
+            items(row, f"{where}[{i}]", nc, nc)
+        if (short := short_integers([*chain.from_iterable(rows)])) is not None:
+            charge(0, room(nr, nc, 60))
+            return Table([short[i * nc : (i + 1) * nc] for i in range(nr)], nc)
+        for i, row in enumerate(rows):
+            plain = {*map(type, row)} <= {int, str}
             for x in {*row} - self.known.keys() if plain else row:
                 self.known[x] = rational(x, f"{where}[{i}]", self.prime > 0)
             used.update(row)
@@ -313,7 +272,8 @@ class Field:
 
     def integers(self, value: Json, size: int, where: str) -> list[int]:
         """Return the coordinates of a VECTOR of that size that is integral."""
-        return [rational(x, where, True)[0] for x in items(value, where, size, size)]
+        given = items(value, where, size, size)
+        return short if (short := short_integers(given)) is not None else [rational(x, where, True)[0] for x in given]
 
     def kernel_rows(self, given: Json, size: int) -> tuple[list[int], list[Vectors]]:
         """Return pivots and coefficients of KROWS whose degrees ascend."""
@@ -337,8 +297,8 @@ class Field:
         """Return rows of coordinates, over den, modulo the prime, over K; Rejected when the denominator vanishes."""
         charge(den.bit_length() + sum(1000 + 200 * len(row) + (sum(map(int.bit_length, row)) >> 3) for row in rows))
         require(den % self.modulus, "the prime divides a denominator")
-        inverse = pow(den, -1, self.modulus)
-        return [[x * inverse % self.modulus for x in row] for row in rows]
+        prime, inverse = self.modulus, pow(den, -1, self.modulus)
+        return [[x % prime for x in row] if den == 1 else [x * inverse % prime for x in row] for row in rows]
 
     def irreducible(self, w: Json) -> bool:
         """Return whether this is seen to be a field."""
@@ -355,16 +315,17 @@ class Field:
         """
         parts = (system.C, G, system.A, F)
         den, cells = common_denominator(part.den for part in parts), sum(len(part.rows) * part.nc for part in parts)
-        bits = max((x.bit_length() for part in parts for row in part.rows for x in row), default=0)
+        bits = max((x.bit_length() for part in parts for row in part.rows for x in (max(row, default=0), min(row, default=0))), default=0)
         size = den.bit_length() + bits
         charge(cells * (300 + (den.bit_length() * bits >> 11) + (size >> 4)), cells * (80 + size // 7))
-        C, G_, A, F_ = ([[x * (den // part.den) for x in row] for row in part.rows] for part in parts)
+        whole = (part.rows if part.den == den else [[x * (den // part.den) for x in row] for row in part.rows] for part in parts)
+        C, G_, A, F_ = whole
         states, faults = list(zip(*C, *A, strict=True)), list(zip(*G_, *F_, strict=True))
         largest = max((sum(map(abs, column)) for column in states + faults), default=0)
         steps, most = max(map(len, rows), default=0), max((abs(x) for row in rows for v in row for x in v), default=0)
         w = most.bit_length() + steps * max(den, largest).bit_length() + 1
         wide, factors = w * len(rows), steps * den.bit_length()  # bits of a number with all rows, of the last factor
-        entries = sum(x.bit_length() for column in states + faults for x in column)
+        entries = sum(map(int.bit_length, chain.from_iterable(states + faults)))
         charge(steps * (cells * (150 + (wide >> 6)) + (entries * wide >> 10)), (len(A) + len(C)) * wide // 3)
         charge(steps * len(C) * (len(rows) * (300 + (wide >> 4)) + (wide * factors >> 10)), len(C) * (wide + factors) // 3)
         carried, factor, found = [0] * len(A), 1, []
@@ -406,7 +367,7 @@ class System:
     def block(self, value: Json, nr: int, nc: int, where: str) -> Table:
         """Return a MATRIX that is kept."""
         found = self.field.matrix(value, nr, nc, where)
-        charge(0, kept=room(nr, nc, max((x.bit_length() for row in found.rows for x in row), default=0)) + found.den.bit_length() // 7)
+        charge(0, kept=room(nr, nc, max(map(int.bit_length, chain.from_iterable(found.rows)), default=0)) + found.den.bit_length() // 7)
         return found
 
     @property
@@ -416,16 +377,23 @@ class System:
         over = "" if self.field.key == "Q" else f" over {shorten(self.data['field'])}"
         return f"({', '.join(f'{name}={shorten(self.data[name])}' for name in 'AFCG')}){dimensions}{over}"
 
-    def pencil(self, q: int = 0) -> Vectors:
-        """Return the rows of [[A - qI, F], [C, G]] modulo the prime."""
+    def pencil(self) -> Vectors:
+        """Return the rows of [[A, F], [C, G]] modulo the prime."""
         if not self.image:
             A, F, C, G = (self.field.residues(part.rows[:: self.field.degree], part.den) for part in (self.A, self.F, self.C, self.G))
             self.image = [[*x, *y] for x, y in zip(A + C, F + G, strict=True)]
-        return [[*row[:i], (row[i] - q) % self.field.modulus, *row[i + 1 :]] if i < self.n else row for i, row in enumerate(self.image)]
+        return self.image
 
     def pencil_rank(self, w: Json) -> int:
-        """Return the rank of the pencil modulo the prime at the hinted point, no more than n plus the normal rank."""
-        return len(echelon(self.pencil(index(w["point"], "point", self.field.modulus - 1)), self.field.modulus))
+        """Return the rank of [[A - qI, F], [C, G]] modulo the prime at the hinted point q, or n + rank G, that at infinity.
+
+        It is no more than n plus the normal rank.
+        """
+        prime, table = self.field.modulus, self.pencil()
+        if w["point"] == "infinity":
+            return self.n + len(echelon((row[self.n :] for row in table[self.n :]), prime))
+        q = index(w["point"], "point", prime - 1)
+        return len(echelon(([*row[:i], (row[i] - q) % prime, *row[i + 1 :]] if i < self.n else row for i, row in enumerate(table)), prime))
 
     def conditions(self, rows: list[Vectors]) -> tuple[list[Vectors], bool]:
         """Return [X_(k+1), N_k], k = 0, ..., mu, of every row of residues, modulo the prime; and whether some row does not annihilate.
@@ -451,31 +419,28 @@ class System:
     def minimal(self, pivots: list[int], rows: list[Vectors], w: Json) -> None:
         """Reject unless the rows, residues that annihilate the system modulo the prime, are seen to be a minimal basis of all that do.
 
-        Then no window has a rank below p s - sum of max(0, s - mu): let k rows N_a with X_a pass. Their minor at the pivots has the degree
-        sum of mu, so that their leading coefficients are independent and they themselves, too. The rank of the pencil leaves no more than
-        k independent [X z] that vanish on it. So what a z with X_0 = 0 is, [X z] = sum of c_a [X_a N_a] with rational c_a. By Cramer a
-        denominator of c divides two determinants: the minor, and that of [X N] times any constant matrix. They are coprime, so the c_a are
-        polynomials, and by the independent leading coefficients no c_a N_a has a degree above that of z. So a z of s samples is one of
-        sum of max(0, s - mu), modulo the prime, where ranks are never above the true ones.
+        Then no window has a rank below p s - sum of max(0, s - mu): let k rows N_a pass, X_a = sum of X_(a,j+1) q^j. As their leading
+        coefficients are independent they are so themselves, and the rank of the pencil leaves no more than k independent [X z] that vanish
+        on it. So what a z with X_0 = 0 is, [X z] = sum of c_a [X_a N_a] with rational c_a. Were there a denominator, then at one of its
+        zeros q, perhaps of an extension, numbers u_a, not all zero, with sum of u_a [X_a N_a](q) = 0: a dependence of the states X_(a,j),
+        1 <= j <= mu_a, in which X_(a,1) has the weight u_a, or, where all rows with u_a other than 0 have degree 0, one of their leading
+        coefficients. But both are seen to be independent. So the c_a are polynomials, and, by the leading coefficients, no c_a N_a has a
+        degree above that of z: a z of s samples is one of sum of max(0, s - mu), modulo the prime, where ranks never exceed the true ones.
         """
-        prime, n, degree = self.field.modulus, self.n, sum(len(row) - 1 for row in rows)
-        mix, terms = index(w["mix"], "mix", prime - 1), sum(map(len, rows))
+        prime, n, terms = self.field.modulus, self.n, sum(map(len, rows))
+        index(w.get("mix", 0), "mix", prime - 1)  # of older files, whose rows were seen by two determinants that it chose
         conditions, left = self.conditions(rows)
         require(not left, "a row does not annihilate the system")
-        require(degree < prime, "the prime is not above the sum of the left minimal indices")
-        first = determinant_polynomial([[[c[n + j] for c in row] for j in pivots] for row in conditions], degree, prime)
-        require(first[degree], "the leading coefficients of the rows at the pivots are dependent")
-        charge(len(rows) * (n + self.p) * (1500 + 80 * terms), 80 * len(rows) * (n + self.p + terms))
-        powers = accumulate(repeat(mix, n + self.p - 1), lambda power, mix: power * mix % prime, initial=mix)
-        size, count = slot(prime, n + self.p), len(rows)
-        weights = [packed([pow(power, b + 1, prime) for b in range(count)], size) for power in powers]
-        mixed = [[*zip(*(unpacked(sum(map(mul, c, weights)), size, count, prime) for c in row), strict=True)] for row in conditions]
-        require(coprime(first, determinant_polynomial(mixed, degree, prime), prime), "the rows may have a common factor")
+        leading = [[row[-1][j] for j in pivots] for row in rows]
+        require(len(echelon(leading, prime)) == len(rows), "the leading coefficients of the rows at the pivots are dependent")
+        charge(terms * (500 + 20 * n), terms * (100 + 10 * n))
+        states = [condition[:n] for row in conditions for condition in row[:-1]]
+        require(len(echelon(states, prime)) == len(states), "the states of the rows are dependent: they may have a common factor")
         require(self.pencil_rank(w) >= n + self.p - len(rows), "there may be more rows")
 
     def unhinted(self, pivots: list[int], rows: list[Vectors], window: int | None) -> None:
         """Reject unless the rows are all, on that window or on every one, as a witness without hints has it seen."""
-        expect(False, "witness: without point and mix it is for checker_fields.py, which is another file")
+        expect(False, "witness: without a point it is for checker_fields.py, which is another file")
 
     def annihilated_by(self, rows: list[Vectors]) -> None:
         """Reject unless every row annihilates the system."""
@@ -483,8 +448,8 @@ class System:
 
     def spanned_by(self, pivots: list[int], rows: list[Vectors], w: Json, window: int | None = None) -> None:
         """Reject unless the rows of degree below s and their shifts span the left null space of [O_s T_s]: s = window, or every s."""
-        expect(("mix" in w) == ("point" in w), "witness: point and mix go together")
-        if "mix" in w:
+        expect("point" in w or "mix" not in w, "witness: mix goes with a point")
+        if "point" in w:
             self.minimal(pivots, [self.field.residues(row) for row in rows], w)
         else:
             self.unhinted(pivots, rows, window)
@@ -512,7 +477,7 @@ class System:
         Where there are no rows, p s is the bound. Else let there be p - m + e, with degrees that add up to n - d and differ by one at most:
         for s up to the least the bound is p s, from the largest on it is p s - (p - m + e) s + n - d.
         """
-        expect(not self.field.prime and {"mix", "point"} <= {*w}, "witness: kernel_modulo needs a point and a mix, and no prime field")
+        expect(not self.field.prime and "point" in w, "witness: kernel_modulo needs a point, and no prime field")
         degrees, (d, e) = [len(row) - 1 for row in rows], self.nulled(w["nulling"]) if "nulling" in w else (0, 0)
         generic = not rows or (len(rows) == self.p - self.m + e and sum(degrees) == self.n - d and degrees[-1] - degrees[0] <= 1)
         require(generic, "the indices are not those of windows that have all the rank that their shape allows")
@@ -595,8 +560,9 @@ def verify(certificate: Json, systems: Iterable[Json | System] = ()) -> Verified
     about = decide(certificate)
     kind, s, proven = KINDS[certificate["kind"]], certificate["statement"], about[0].field.irreducible(certificate["witness"])
     for system in insisted:
-        require(any(system.key == other.key[: len(system.key)] for other in about), f"the statement is not about {system.words}")
-    words = kind.words.format_map({key: shorten(value) for key, value in s.items()})
+        if not any(system.key == other.key[: len(system.key)] for other in about):
+            raise Rejected(f"the statement is not about {system.words}")
+    words = kind.words.format_map({key: shorten(value) for key, value in s.items() if f"{{{key}}}" in kind.words})
     words += "".join(f", {key[:-1]} = {shorten(s[key[:-1]])}" for key in kind.statement.split() if key[-1] == "?" and key[:-1] in s)
     words += f"; for {' and '.join(system.words for system in about)}"
     assumed = [] if proven else [f"f is irreducible, with the coefficients {shorten(about[0].field.key)} (ascending)"]
@@ -658,7 +624,8 @@ def parse(data: bytes) -> Json:
 
     expect(len(data) <= MAX_BYTES, f"more than {MAX_BYTES} bytes")
     try:
-        return json.loads(data.decode(), object_pairs_hook=unique, parse_int=whole, parse_float=refused, parse_constant=refused)
+        known = int if 0 < sys.get_int_max_str_digits() <= 19730 else whole  # Python refuses by itself what is longer than its own bound
+        return json.loads(data.decode(), object_pairs_hook=unique, parse_int=known, parse_float=refused, parse_constant=refused)
     except (ValueError, RecursionError, MemoryError) as error:
         raise Malformed(f"not JSON: {' '.join(str(error).split())[:80]}") from None
 

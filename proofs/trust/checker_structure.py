@@ -51,7 +51,7 @@ class Mat(core.Table):
             rows = [[x % field.prime for x in row] for row in rows]
         super().__init__(rows, nc, den)
         self.field = field
-        self.bits = max(map(int.bit_length, chain.from_iterable(rows)), default=0)
+        self.bits = max([max(max(row).bit_length(), min(row).bit_length()) for row in rows if row], default=0)
         size = core.room(len(rows), nc, self.bits) + den.bit_length() // 7
         self.meter = core.charge(3000 + len(rows) * (1000 + 120 * nc), size)
         self.size = size
@@ -220,19 +220,21 @@ class System(fields.System):
         core.expect(d <= count <= d + m, "nulling: expected a fault for each of the states, and m more at most")
         sides = (("states", d, n), ("faults", count, m), ("motion", count, d))
         V, K, L = (matrix(field, given[key], height, width, key) for key, height, width in sides)
-        system = assembled(field, [[self.A, self.F], [self.C, self.G]], n + m)
-        state, fault, moved = K.den * L.den, V.den * L.den, system.den * K.den  # what each is to be multiplied by
+        den = core.common_denominator(part.den for part in (self.A, self.C, self.F, self.G))
+        A, C, F, G = (part if part.den == den else part.times(den // part.den) for part in (self.A, self.C, self.F, self.G))
+        state, fault, moved = K.den * L.den, V.den * L.den, den * K.den  # what each is to be multiplied by
         sizes = [part.bits + factor.bit_length() for part, factor in ((V, state), (K, fault), (L, moved))]
-        w = max(max(sizes[:2]) + system.bits, sizes[2] + V.bits) + (n + m + d).bit_length() + 1
-        cells = (n + self.p) * (n + m) + count * (n + m + d)
-        core.charge(cells * (400 + (max(sizes) >> 4)), cells * (60 + max(sizes) // 7) + (n + m + d) * w * (n + self.p) // 7)
-        core.charge(count * (n + m + d) * (200 + (w * (n + self.p) * (1 + (max(sizes) >> 5)) >> 6)))
-        table = [sum(x << w * i for i, x in enumerate(column)) for column in zip(*system.rows, strict=True)]
-        carried = [sum(x << w * i for i, x in enumerate(row)) for row in V.rows]
+        w = max(max(sizes[:2]) + max(A.bits, C.bits, F.bits, G.bits), sizes[2] + V.bits) + (n + m + d).bit_length() + 1
+        height, cells = n + self.p, (n + self.p) * (n + m) + count * (n + m + d)
+        core.charge(cells * (400 + (max(sizes) >> 4)), cells * (60 + max(sizes) // 7) + (n + m + d + height) * w * height // 7)
+        core.charge(count * (n + m + d) * (200 + (w * height * (1 + (max(sizes) >> 5)) >> 6)))
+        places = [1 << w * i for i in range(height)]
+        columns = [*zip(*A.rows, *C.rows, strict=True), *zip(*F.rows, *G.rows, strict=True)]
+        table, carried = ([sum(map(mul, line, places)) for line in lines] for lines in (columns, V.rows))
         blank = [0] * n
         for i in range(count):
             weights = [state * x for x in (V.rows[i] if i < d else blank)] + [fault * x for x in K.rows[i]]
-            left = sum(map(mul, weights, table)) - sum(moved * c * one for c, one in zip(L.rows[i], carried, strict=True))
+            left = sum(map(mul, weights, table)) - moved * sum(map(mul, L.rows[i], carried))
             core.require(left == 0, "a state or fault of nulling has an output, or leaves the states")
         core.require(V.rank() == d, "the states of nulling may be dependent")
         beyond = Mat(field, K.rows[d:], m, K.den)

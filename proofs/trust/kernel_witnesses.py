@@ -4,14 +4,13 @@
     kernel_witness     rows of a kernel representation with hints; the next where there are none
     chain_witness      its rows of degree below a window, without hints
     common_witness     the same for two systems with the same rows
-    generic_witness    rows modulo a prime alone, of a system whose windows have all the rank that their shape allows
-    nulling_witness    the same, of one in which states and faults that no output shows keep them from it
+    modular_witness    rows modulo a prime alone, of a system whose windows have all the rank that their shape allows, or all but what
+                       states and faults that no output shows keep from them
     point_witness      an image and a point at which the pencil has full column rank modulo the prime
     irreducible        why a minimal polynomial is irreducible
 
-A hint is drawn, and looked at before it is given away: a point q at which the rank of [[A - qI, F], [C, G]] is that of almost all, and a
-mix t for which two determinants are coprime. Where the field has too few elements for that, the witness has none, and the checker follows
-the chain W_k instead.
+A hint is looked at before it is given away: a point q, or infinity, at which the rank of [[A - qI, F], [C, G]] is that of almost all. Where
+the field has too few elements for that, the witness has none, and the checker follows the chain W_k instead.
 """
 
 from __future__ import annotations
@@ -26,20 +25,16 @@ from flint import fmpz_mat, fmpz_poly, nmod_mat, nmod_poly
 
 from ...exact.algebra.fields import Field, NumberField, PrimeField, Rationals
 from ...exact.algebra.matrices import Matrix, pivot_columns
-from ...exact.structure.generic_rows import GenericRows, generic_rows
 from ...exact.structure.kernel_rows import KernelRepresentation, KernelRow
-from ...exact.structure.modular_rows import pencil_rank_at, rows_modulo
+from ...exact.structure.modular_rows import DRAWS, Point, pencil_rank_at, placed, rows_modulo, states_of
 from ...exact.structure.nulling import nulling
 from ...exact.structure.short_rows import short_rows
-from ...exact.structure.window_columns import residues
 from ...exact.structure.zero_output import zero_output_chain
 from ...exact.system.modular import Image, image, primes_below, reduce_matrix
 from ...exact.system.systems import ResidualSystem
-from . import checker
 
 Witness = dict[str, Any]
 Shown = tuple[tuple[int, ...], Witness]
-DRAWS = 8  # modulo a prime of 27 bits one in a thousand fails, at most; modulo a small one most may
 
 
 def image_witness(kernel: KernelRepresentation) -> Witness:
@@ -50,7 +45,8 @@ def image_witness(kernel: KernelRepresentation) -> Witness:
 def point_witness(kernel: KernelRepresentation) -> Witness:
     """Return the image and, where one is found, a point at which the pencil has rank n + m modulo the prime."""
     system = kernel.image.system
-    return image_witness(kernel) | _point([system], system.p - system.m)
+    point = _point([system], system.p - system.m)
+    return image_witness(kernel) | ({} if point is None else {"point": point})
 
 
 def kernel_witness(kernel: KernelRepresentation, window: int | None = None) -> Witness:
@@ -86,32 +82,27 @@ def window_witness(other: ResidualSystem, kernel: KernelRepresentation, window: 
     raise ArithmeticError("no prime serves both systems")
 
 
-def generic_witness(system: ResidualSystem) -> Shown | None:
+def modular_witness(system: ResidualSystem) -> Shown | None:
     """Return the left minimal indices and the witness of a system over Q or Q(a) whose windows have all the rank that their shape allows.
 
-    None for any other system, and where the first prime misleads: it takes exact rows to see what that one is.
+    Over Q also of one whose windows lack only what states and faults without output take from them, if small numbers tell these. None for
+    any other system, and where the prime misleads: it takes exact rows to see what that one is.
     """
-    picture = image(system)
-    found = None if isinstance(system.field, PrimeField) else generic_rows(picture.system)
-    if found is None or (found.rows and (sum(found.degrees) != system.n or not _alike(found))):
-        return None
-    return _shown(system, picture, found, {})
-
-
-def nulling_witness(system: ResidualSystem) -> Shown | None:
-    """Return the same where only states and faults without output keep windows from that rank, and are told by small numbers. Over Q."""
-    if not isinstance(system.field, Rationals):
+    if isinstance(system.field, PrimeField):
         return None
     picture = image(system)
-    found = generic_rows(picture.system) or _other_rows(picture.system)
-    if found is None or not found.rows or not _alike(found):
+    found = rows_modulo(picture.system)
+    if found is None or (found.degrees and found.degrees[-1] - found.degrees[0] > 1):
         return None
-    n, demands = system.n, _conditions(picture.system, _coefficients(found.rows, system.p, picture.prime))
-    null = nulling(system, picture.system, [row[:n] for demand in demands for row in residues(demand) if any(row[:n])])
+    written = [{"pivot": pivot, "coefficients": row} for pivot, row in zip(found.pivots, found.rows, strict=True)]
+    witness = _named_image(picture, system.field) | {"point": found.point}
+    if not written or (len(written) == system.p - system.m and sum(found.degrees) == system.n):
+        return found.degrees, witness | {"kernel_modulo": written}
+    null = nulling(system, picture.system, found) if isinstance(system.field, Rationals) else None
     if null is None:
         return None
     parts = {"states": null.states, "faults": null.faults, "motion": null.motion}
-    return _shown(system, picture, found, {"nulling": {name: _plain(part) for name, part in parts.items()}})
+    return found.degrees, witness | {"nulling": {name: _plain(part) for name, part in parts.items()}, "kernel_modulo": written}
 
 
 def irreducible(field: Field) -> Witness:
@@ -173,26 +164,13 @@ def _have_gaps(systems: Sequence[ResidualSystem], kernel: KernelRepresentation, 
     return all(chain.gap(k) == kernel.gap(k) for chain in chains for k in range(samples))
 
 
-def _other_rows(picture: ResidualSystem) -> GenericRows | None:
-    found = rows_modulo(picture)
-    return None if found is None else GenericRows(found.rows, tuple(output for _, output in found.leads), found.point)
-
-
-def _alike(found: GenericRows) -> bool:
-    return found.degrees[-1] - found.degrees[0] <= 1
-
-
-def _shown(system: ResidualSystem, picture: Image, found: GenericRows, more: Witness) -> Shown | None:
-    hints = _mixed([picture.system], found.rows, found.pivots, picture.prime)
-    if hints is None:
-        return None
-    written = [{"pivot": pivot, "coefficients": row} for pivot, row in zip(found.pivots, found.rows, strict=True)]
-    return found.degrees, _named_image(picture, system.field) | {"point": found.point} | hints | more | {"kernel_modulo": written}
-
-
 def _plain(matrix: Matrix) -> list[list[object]]:
     """Return the matrix as it is written, integers as such: most are zeros."""
-    return [[x if "/" in str(x) else int(str(x)) for x in row] for row in matrix.to_json()]
+    numerators, denominator = matrix.flint.numer_denom()
+    if denominator == 1:
+        entries: list[object] = [*map(int, numerators.entries())]
+        return [entries[i * matrix.ncols : (i + 1) * matrix.ncols] for i in range(matrix.nrows)]
+    return [[int(x.p) if x.q == 1 else str(x) for x in row] for row in matrix.elements()]
 
 
 class _Same:
@@ -232,85 +210,34 @@ def _written(rows: Sequence[KernelRow]) -> list[dict[str, Any]]:
     return [{"pivot": row.pivot, "coefficients": row.coefficients.to_json()} for row in rows]
 
 
-def _point(systems: Sequence[ResidualSystem], missing: int) -> Witness:
-    """Return a point at which the pencils of all systems have rank n + p less what is missing; nothing where none is found."""
+def _point(systems: Sequence[ResidualSystem], missing: int) -> Point | None:
+    """Return a point at which the pencils of all systems have rank n + p less what is missing; None where none is found."""
     prime, rng = systems[0].field.p, Random(0)  # type: ignore[union-attr]
-    for _ in range(DRAWS):
-        point = rng.randrange(prime)
-        if all(pencil_rank_at(system, point) >= system.n + system.p - missing for system in systems):
-            return {"point": point}
-    return {}
+    draws: list[Point] = ["infinity", *(rng.randrange(prime) for _ in range(DRAWS))]
+    enough = (point for point in draws if all(pencil_rank_at(system, point) >= system.n + system.p - missing for system in systems))
+    return next(enough, None)
 
 
 def _hints(systems: Sequence[ResidualSystem], rows: Sequence[KernelRow], picture: Image) -> Witness | None:
-    """Return a point and a mix with which the checker sees the rows to be a minimal basis for each of the systems over GF(l)."""
-    reduced = [reduce_matrix(row.coefficients, picture.prime, picture.root) for row in rows]
-    point = _point(systems, len(rows))
-    if not point or any(one is None for one in reduced):
+    """Return a point with which the checker sees the rows to be a minimal basis for each of the systems over GF(l)."""
+    prime, count = picture.prime, len(rows)
+    reduced = [reduce_matrix(row.coefficients, prime, picture.root) for row in rows]
+    if any(one is None for one in reduced):
         return None
-    mix = _mixed(systems, [residues(one.flint) for one in reduced if one is not None], [row.pivot for row in rows], picture.prime)
-    return None if mix is None else point | mix
-
-
-def _mixed(systems: Sequence[ResidualSystem], rows: Sequence[list[list[int]]], pivots: Sequence[int], prime: int) -> Witness | None:
-    """Return a mix for rows of residues, with these pivots."""
-    degree, p = sum(len(row) - 1 for row in rows), systems[0].p
-    if prime <= degree:
+    tables, p = [one.elements() for one in reduced if one is not None], systems[0].p
+    longest, blank = max(map(len, tables), default=0), [0] * p
+    coefficients = [
+        nmod_mat(count, p, [int(x) for table in tables for x in (table[k] if k < len(table) else blank)], prime) for k in range(longest)
+    ]
+    leading = nmod_mat(count, count, [int(table[-1][row.pivot]) for table in tables for row in rows], prime)
+    if leading.rank() < count or not all(_serves(system, coefficients, count, sum(map(len, tables))) for system in systems):
         return None
-    coefficients = _coefficients(rows, p, prime)
-    checker.begin()
-    try:
-        places = [[int(i == pivot) for pivot in pivots] for i in range(p)]
-        first = checker.determinant_polynomial(_polynomials(coefficients, places, prime), degree, prime)
-        return _mix(systems, coefficients, first, prime)
-    except checker.Rejected:  # the determinants take more work than there may be
-        return None
+    point = _point(systems, count)
+    return None if point is None else {"point": point}
 
 
-def _coefficients(rows: Sequence[list[list[int]]], p: int, prime: int) -> list[nmod_mat]:
-    """Return N_k of all rows, k = 0, 1, ..., in one matrix each."""
-    blank, longest = [0] * p, max(map(len, rows), default=0)
-    return [nmod_mat(len(rows), p, [x for row in rows for x in (row[k] if k < len(row) else blank)], prime) for k in range(longest)]
-
-
-def _mix(systems: Sequence[ResidualSystem], coefficients: Sequence[nmod_mat], first: list[int], prime: int) -> Witness | None:
-    """Return a mix for which the second determinant of every system has no factor in common with the first."""
-    if not first[-1]:
-        return None
-    rng, count = Random(1), coefficients[0].nrows() if coefficients else 0
-    conditions = [_conditions(system, coefficients) for system in systems]
-    for _ in range(DRAWS):
-        mix = rng.randrange(1, prime)
-        serves = True
-        for system, demands in zip(systems, conditions, strict=True):
-            powers = [pow(mix, i + 1, prime) for i in range(system.n + system.p)]
-            weights = [[pow(power, b + 1, prime) for b in range(count)] for power in powers]
-            second = checker.determinant_polynomial(_polynomials(demands, weights, prime), len(first) - 1, prime)
-            serves = serves and checker.coprime(first[:], second, prime)
-        if serves:
-            return {"mix": mix}
-    return None
-
-
-def _conditions(system: ResidualSystem, coefficients: Sequence[nmod_mat]) -> list[nmod_mat]:
-    """Return [X_(k+1), N_k] of all rows, k = 0, 1, ..., in one matrix each."""
-    A, C, found = system.A.flint, system.C.flint, list[nmod_mat]()
-    n, p = system.n, system.p
-    prime = system.field.p  # type: ignore[union-attr]
-    left = nmod_mat(n, n + p, [int(i == j) for i in range(n) for j in range(n + p)], prime)
-    right = nmod_mat(p, n + p, [int(i == j - n) for i in range(p) for j in range(n + p)], prime)
-    state = nmod_mat(coefficients[0].nrows() if coefficients else 0, n, prime)
-    for coefficient in reversed(coefficients):
-        found.append(state * left + coefficient * right)
-        state = coefficient * C + state * A
-    return found[::-1]
-
-
-def _polynomials(coefficients: Sequence[nmod_mat], weights: Sequence[Sequence[int]], prime: int) -> list[list[list[int]]]:
-    """Return the matrix of polynomials sum of (coefficients_k weights) q^k."""
-    if not coefficients:
-        return []
-    count = coefficients[0].nrows()
-    mixed = nmod_mat(fmpz_mat(weights), prime)
-    values = [[int(x) for x in (coefficient * mixed).entries()] for coefficient in coefficients]
-    return [[[value[a * count + b] for value in values] for b in range(count)] for a in range(count)]
+def _serves(system: ResidualSystem, coefficients: Sequence[nmod_mat], count: int, terms: int) -> bool:
+    """Return whether the states of rows with so many coefficients in all are independent, where they annihilate the system."""
+    states, rest = states_of(system.A.flint, system.C.flint, coefficients, count)
+    left = any(y * system.G.flint + x * system.F.flint for y, x in zip(coefficients, states, strict=True))
+    return not rest and not left and placed(states, system.n, system.field.p).rank() == terms - count  # type: ignore[union-attr]

@@ -35,19 +35,9 @@ from ...exact.system.modular import LARGEST_PRIME, image, reduce_matrix
 from ...exact.system.systems import ResidualSystem
 from ...exact.system.windows import observability_matrix, reachability_matrix, toeplitz_matrix, window_matrix
 from . import checker
-from .kernel_witnesses import (
-    common_witness,
-    generic_witness,
-    irreducible,
-    kernel_witness,
-    named_image,
-    nulling_witness,
-    point_witness,
-    window_witness,
-)
+from .kernel_witnesses import common_witness, irreducible, kernel_witness, modular_witness, named_image, point_witness, window_witness
 
 Certificate = dict[str, Any]
-KERNEL_STATES = 20  # up to here Rocq's kernel is to recompute exact rows in seconds
 MOST_READ = 128  # systems that are kept as the checker read them
 
 
@@ -95,11 +85,9 @@ def window_ranks(kernel: KernelRepresentation) -> Certificate:
 def window_ranks_of(system: ResidualSystem) -> Certificate:
     """Return the certificate of rank [O_s T_s] for every s, with rows modulo a prime alone where these are enough, else with exact rows.
 
-    Up to the states for which Rocq's kernel recomputes exact rows in seconds these are preferred where "nulling" would be needed besides.
+    What keeps a window from the rank that its shape allows is said by states and faults without output, where small numbers say it.
     """
-    found = generic_witness(system)
-    if found is None and system.n > KERNEL_STATES:
-        found = nulling_witness(system)
+    found = modular_witness(system)
     return window_ranks(kernel_representation(system)) if found is None else _window_ranks(system, *found)
 
 

@@ -21,8 +21,8 @@ from ...base.progress import Progress
 from ...exact.limits.experiments import Experiment
 from ...exact.system.systems import ResidualSystem
 from ..evidence.alternatives import ALTERNATIVES, PAIRS, AlternativeEvidence, PairEvidence
-from ..evidence.corpus import CORPUS, Evidence, describe, examine
-from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment
+from ..evidence.corpus import CORPUS, ByQuestion, Evidence, Questions, describe, examine, together
+from ..evidence.experiments import LIMITS, LimitEvidence, examine_experiment, first_look
 from ..evidence.material import Made, Material, Wanted, made
 from ..evidence.pairs_by_polynomial import PAIRS_BY_POLYNOMIAL, PairByPolynomial
 from ..evidence.search import Box, Facts, Flags, Known, first_of_orbits, smallest
@@ -46,10 +46,9 @@ class Workbench:
     progress: Progress
     shelf: Path | None = None
 
-    @cached_property
-    def corpus(self) -> tuple[Evidence, ...]:
-        """These are single systems, with the structure that accepted certificates state."""
-        return self.material(CORPUS)
+    def corpus(self, questions: Questions) -> tuple[Evidence, ...]:
+        """Return single systems with what accepted certificates answer to these questions."""
+        return self.answers(CORPUS, questions)
 
     @cached_property
     def pairs(self) -> tuple[PairEvidence, ...]:
@@ -85,6 +84,20 @@ class Workbench:
             raise found
         return found
 
+    def answers(self, systems: ByQuestion, questions: Questions) -> tuple[Evidence, ...]:
+        """Return the evidence on some systems with the answers to these questions, and no other; what is missing is made all at once."""
+        kinds = [systems[question] for question in questions]
+        self.need(*kinds)
+        missing = [kind for kind in kinds if kind.name not in self._made]
+        if self.shelf is None and missing:
+            self.make(missing)
+        return together([self.material(kind) for kind in kinds], questions)
+
+    def put_answers(self, systems: ByQuestion, found: Sequence[Evidence]) -> None:
+        """Take this as the evidence on some systems, for every question."""
+        for kind in systems.values():
+            self.put(kind, found)
+
     def put(self, kind: Material, found: Sequence[Any]) -> None:
         """Take this as the material of a kind."""
         self._made[kind.name] = tuple(found)
@@ -106,17 +119,24 @@ class Workbench:
     @property
     def corpus_in_words(self) -> str:
         """This says how the corpus was made, with counts; it is empty where no claim of the run asked for it."""
-        return describe(self.corpus) if "corpus" in vars(self) or CORPUS.name in self._made else ""
+        made = [self._made[kind.name] for kind in CORPUS.values() if kind.name in self._made]
+        return next((describe(found) for found in made if not isinstance(found, Exception)), "")
 
     def searched(self, box: Box) -> Iterator[Facts]:
         """Yield the systems of a box in order, one of each orbit, with what earlier searches of this run found out about them."""
         return first_of_orbits(box, self._known)
 
-    def examined(self, system: ResidualSystem) -> Evidence:
-        """Return the evidence on a system that a search came upon, made the first time: several searches come upon the same."""
-        if system not in self._examined:
-            self._examined[system] = examine("search", system)
-        return self._examined[system]
+    def examined(self, system: ResidualSystem, questions: Questions) -> Evidence:
+        """Return what certificates answer to these questions about a system that a search came upon: several come upon the same."""
+        known = self._examined.get(system) or examine("search", system, questions=())
+        self._examined[system] = known.asked((*known.answers, *(question for question in questions if question not in known.answers)))
+        return self._examined[system].asked(questions)
+
+    def looked_at(self, experiment: Experiment) -> LimitEvidence:
+        """Return a first look at an experiment that a search comes upon, taken once."""
+        if experiment not in self._looks:
+            self._looks[experiment] = first_look(experiment)
+        return self._looks[experiment]
 
     def examined_experiment(self, experiment: Experiment) -> LimitEvidence:
         """Return the evidence on an experiment that a search came upon, made the first time."""
@@ -140,6 +160,10 @@ class Workbench:
     def _examined_experiments(self) -> dict[Experiment, LimitEvidence]:
         return {}
 
+    @cached_property
+    def _looks(self) -> dict[Experiment, LimitEvidence]:
+        return {}
+
     @property
     def full(self) -> bool:
         """This says whether this is the run for the background."""
@@ -159,11 +183,11 @@ def size(system: ResidualSystem) -> tuple[int, ...]:
     return (system.n + system.m + system.p, system.n, system.m, system.p)
 
 
-def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome:
+def certify(bench: Workbench, asks: Questions, applies: Test, holds: Test, show: Show) -> Outcome:
     """Return the outcome of the statement `holds` on every system of the corpus to which it applies: CERTIFIED, or REFUTED by the
-    smallest.
+    smallest. Both tests read the answers to the questions that it asks, and no other.
     """
-    tried = [e for e in bench.corpus if applies(e)]
+    tried = [e for e in bench.corpus(asks) if applies(e)]
     failing = sorted((e for e in tried if not holds(e)), key=lambda e: size(e.system))
     if failing:
         system = failing[0].system
@@ -176,19 +200,21 @@ def certify(bench: Workbench, applies: Test, holds: Test, show: Show) -> Outcome
     return Outcome(Verdict.CERTIFIED, evidence, accepted(show(representative)), sum(e.accepted for e in tried))
 
 
-def refute(bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], applies: Test, holds: Test, show: Show) -> Outcome:
+def refute(
+    bench: Workbench, box: Box, candidate: Callable[[Facts], Flags], asks: Questions, applies: Test, holds: Test, show: Show
+) -> Outcome:
     """Return the smallest system of the box to which the statement applies and on which it fails; else `certify`.
 
     `candidate` is the vectorised first look; what it lets through is decided by the accepted certificates of the system.
     """
 
     def confirm(system: ResidualSystem) -> bool:
-        evidence = bench.examined(system)
+        evidence = bench.examined(system, asks)
         return applies(evidence) and not holds(evidence)
 
     found = smallest(box, candidate, confirm)
     if found is None:
-        return certify(bench, applies, holds, show)
+        return certify(bench, asks, applies, holds, show)
     return counterexample(str(found), box, show(found))
 
 

@@ -135,7 +135,7 @@ def _changed(rng: Random, certificate: Certificate, change: Callable[[Random, Ro
     rows.sort(key=len)
     if rng.random() < 0.2 or change is kept:
         w["prime"] = rng.choice(PRIMES)
-        w["point"], w["mix"] = (rng.randrange(w["prime"]) for _ in range(2))
+        w["point"] = rng.choice(("infinity", rng.randrange(w["prime"])))
     pivots = [rng.choice([j for j, x in enumerate(row[-1]) if x % w["prime"]] or [0]) for row in rows]
     if key == "kernel_modulo":
         rows = [[[x % w["prime"] for x in c] for c in row] for row in rows]

@@ -236,8 +236,10 @@ def of_kernel_rows() -> Iterator[Flood]:
             yield flood(f"first column {name}", dumped, "first-column-only", column, witness)
             yield flood(f"inclusion {name}", dumped, "behaviour-inclusion", {"inner": about, "outer": about}, witness)
             yield flood(f"equal {name}", dumped, "behaviour-equality", {"first": about, "second": about}, witness)
-            hints = {**witness, "point": 12345, "mix": 678910}
-            yield flood(f"equal by hints {name}", dumped, "behaviour-equality", {"first": about, "second": about}, hints)
+            hints = {**witness, "point": 12345}
+            for more in (hints, {**hints, "mix": 678910}, {**hints, "point": "infinity"}):
+                words = f"equal by hints {name}, {more['point']}{', mix' if 'mix' in more else ''}"
+                yield flood(words, dumped, "behaviour-equality", {"first": about, "second": about}, more)
             ranks = {
                 "system": about,
                 "normal_rank": p - len(kernel),

@@ -9,7 +9,8 @@ from itertools import product
 
 import pytest
 
-from faultspace.proofs.evidence.corpus import CORPUS
+from faultspace.proofs.evidence.corpus import CORPUS, examine
+from faultspace.proofs.evidence.questions import RANKS
 from faultspace.proofs.evidence.search import Box, chunks
 from faultspace.proofs.hypotheses import ablations
 from faultspace.proofs.hypotheses.aimed import AIMED, HIDDEN_ZEROS, aimed_systems
@@ -157,9 +158,9 @@ def test_a_counterexample_to_what_is_proved_is_an_error() -> None:
 def bench() -> Workbench:
     """Return a workbench with every ninth system of the quick corpus and every fourth of the aimed ones, twenty for each hypothesis."""
     made = Workbench("quick", 1, quiet)
-    made.corpus = tuple(one for item in list(CORPUS.items(made))[::9] for one in CORPUS.make(item))
+    made.put_answers(CORPUS, [examine(*item) for item in list(CORPUS[RANKS].items(made))[::9]])
     few = [*HIDDEN_ZEROS, *list(aimed_systems(80))[::4]]
-    made.put(AIMED, [one for system in few for one in AIMED.make(system)])
+    made.put_answers(AIMED, [examine("aimed", system) for system in few])
     return made
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import islice
 from random import Random
 
 import pytest
 
 from faultspace.exact.limits.experiments import Experiment
 from faultspace.proofs.claims import assumption_2, past_outputs, proposition_1, settle_1
-from faultspace.proofs.evidence.experiments import FAMILIES, LIMITS, LimitEvidence, examine_experiment
+from faultspace.proofs.evidence.experiments import FAMILIES, LIMITS, LimitEvidence, examine_experiment, experiments_in_order, first_look
 from faultspace.proofs.hypotheses.consistency import consistency, driven
 from faultspace.proofs.verdict.ablation import ablate
 from faultspace.proofs.verdict.ledger import expected_without
@@ -113,3 +114,24 @@ def test_a_family_is_what_its_name_says(name: str) -> None:
     assert d.uncorrelated == ("independent" in name)
     assert d.white == (name.startswith(("u white", "u and v white")))
     assert d.past_lags or "K u(k-1)" in name or "coloured" in name or "moving" in name or "autoregressive" in name
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_a_first_look_sees_what_the_accepted_certificates_state(name: str) -> None:
+    experiment = FAMILIES[name](Random(f"{name} 1"))
+    accepted = examine_experiment("first look", experiment)
+    assert accepted.accepted >= 2 and first_look(experiment) == replace(accepted, accepted=0)
+
+
+def test_a_search_rests_on_accepted_certificates_and_not_on_its_first_look(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A look that sees failures everywhere brings no counterexample, and one that fails is put before the checker."""
+    bench = Workbench("quick", 1, lambda stage, done, total: None)
+    inputs = proposition_1.drives([proposition_1.WHITE], proposition_1.LEADS)
+    few = list(islice(experiments_in_order(inputs), 40))
+    monkeypatch.setattr(proposition_1, "experiments_in_order", lambda inputs: iter(few))
+    found = proposition_1.smallest_limit(bench, inputs, lambda e: not e.equal, "")
+    put = {e.experiment for e in bench._examined_experiments.values()}
+    assert found.verdict == Verdict.REFUTED and len(put) == 1 <= len(bench._looks)
+    few = few[:5]
+    never = proposition_1.smallest_limit(bench, inputs, lambda e: e.accepted == 0, "")
+    assert never.verdict == Verdict.ERROR and "no counterexample" in never.evidence

@@ -18,10 +18,11 @@ from faultspace.exact.structure.inversion import delay_unknown_state
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.windows import observability_matrix
 from faultspace.proofs.claims import trajectory_recovered
-from faultspace.proofs.evidence.corpus import examine
+from faultspace.proofs.evidence.corpus import CORPUS, examine
 from faultspace.proofs.evidence.experiments import LimitEvidence, examine_experiment, nilpotent_points
 from faultspace.proofs.evidence.families import adversarial
 from faultspace.proofs.evidence.kept_experiments import WITHOUT_RANK, kept
+from faultspace.proofs.evidence.questions import FINITE_ZEROS, RANKS
 from faultspace.proofs.evidence.seasonal_inputs import in_order, seasonal
 from faultspace.proofs.verdict.verdicts import Verdict
 from faultspace.proofs.verdict.workbench import Workbench
@@ -130,10 +131,10 @@ def test_finite_zeros_count_with_multiplicity() -> None:
     found = [(name, system) for name, system in adversarial() if "unobservable mode" in name]
     assert len(found) == 2
     bench = Workbench("quick", 1, lambda stage, done, total: None)
-    bench.corpus = tuple(examine(*one) for one in found)
+    bench.put_answers(CORPUS, [examine(*one) for one in found])
     outcome = trajectory_recovered.no_finite_zeros(bench)
     assert outcome.verdict == Verdict.CERTIFIED
-    for (_, system), evidence in zip(found, bench.corpus, strict=True):
+    for (_, system), evidence in zip(found, bench.corpus((RANKS, FINITE_ZEROS)), strict=True):
         hidden = system.n - rank(observability_matrix(system, system.n))
         assert (
             evidence.left_invertible and evidence.finite_zeros == hidden + 1 and delay_unknown_state(kernel_representation(system)) is None

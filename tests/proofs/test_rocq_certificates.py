@@ -13,37 +13,52 @@ from typing import Any
 
 import pytest
 
-from faultspace.exact.algebra.fields import QQ
+from faultspace.exact.algebra.fields import QQ, PrimeField
 from faultspace.proofs.rocq import build as rocq_build
 from faultspace.proofs.rocq import export as rocq_export
 from faultspace.proofs.rocq.build import NotProved
-from faultspace.proofs.rocq.export import COVERED, Terms, exported, translated
+from faultspace.proofs.rocq.export import COVERED, exported, translated
 from faultspace.proofs.rocq.listed import NotCovered
+from faultspace.proofs.rocq.numbered import numbers_of
 from faultspace.proofs.rocq.recompute import ACCEPTED, decided, proved, recomputed, theory
 from faultspace.proofs.rocq.sources import sources
+from faultspace.proofs.rocq.terms import Terms
 from faultspace.proofs.trust import checker
+from faultspace.proofs.trust import structure_certificates as make
 from tests.end_to_end.commands import call
-from tests.proofs.examples import RANKS, ROOTED, K, S, certificates, spoiled, written
+from tests.proofs.examples import GONE, RANKS, ROOTED, SQRT2, K, S, certificates, spoiled, stable, written
 from tests.proofs.test_mutations import SYSTEMS, mutated, mutations, of_one_system, of_two_systems
 from tests.thorough import THOROUGH
 
 needs_rocq = pytest.mark.skipif(rocq_build.found() is None, reason=rocq_build.INSTALL)
 KEPT = resources.files("faultspace.proofs").joinpath("certificates").iterdir()
 SHIPPED = [json.loads(one.read_text("utf-8")) for one in KEPT if re.fullmatch(r".+-.+\.json", one.name)]
-EVERY = 101  # mutation is tried
+EVERY = 307  # mutation is tried
+STABLE = written(make.schur_stable(next(stable(QQ))))
 FALSE = spoiled(RANKS, ("statement.normal_rank", 2))
 
 
 def covered(certificate: dict[str, Any]) -> bool:
-    """Return whether the certificate is of a covered kind, over the rational numbers, without a nulling subspace."""
+    """Return whether the certificate is of a covered kind, without a nulling subspace."""
+    return certificate["kind"] in COVERED and '"nulling"' not in json.dumps(certificate)
+
+
+def over(certificate: dict[str, Any]) -> str:
+    """Return the field of a certificate: Q, GF or Q(a)."""
     text = json.dumps(certificate)
-    return certificate["kind"] in COVERED and '"field"' not in text and '"nulling"' not in text
+    return "Q(a)" if '"minimal_polynomial"' in text else "GF" if '"field": {"prime"' in text else "Q"
+
+
+def kind_and_field(certificate: dict[str, Any]) -> tuple[str, str]:
+    """Return the kind and the field of a certificate."""
+    return certificate["kind"], over(certificate)
 
 
 def small_ones() -> list[dict[str, Any]]:
     """Returns certificates of every covered kind, each once, systems without states, faults or outputs among them."""
     made = [c for system in SYSTEMS.values() for c in of_one_system(system)]
-    every = [written(c) for c in [*made, *of_two_systems(), *certificates(QQ)] if covered(c)]
+    fields = [c for field in (QQ, PrimeField(3), SQRT2) for c in certificates(field)]
+    every = [written(c) for c in [*made, *of_two_systems(), *fields] if covered(c)]
     return [*{json.dumps(c): c for c in every}.values()]
 
 
@@ -51,15 +66,15 @@ def small_ones() -> list[dict[str, Any]]:
 @pytest.mark.slow
 def test_the_kernel_proves_every_shipped_certificate_of_a_covered_kind() -> None:
     about = [c for c in SHIPPED if covered(c)]
-    assert {c["kind"] for c in about} >= {*COVERED} - {"behaviour-inclusion"}
+    assert {c["kind"] for c in about} >= {*COVERED} - {"behaviour-inclusion"} and {*map(over, about)} == {"Q", "GF", "Q(a)"}
     assert recomputed(about) == [ACCEPTED] * len(about)
 
 
 @needs_rocq
 def test_the_kernel_proves_small_certificates_of_every_covered_kind() -> None:
-    every_one = sorted(small_ones(), key=lambda c: c["kind"])
-    about = [c for _, of_kind in groupby(every_one, key=lambda c: c["kind"]) for c in [*of_kind][:: 1 if THOROUGH else 6]]
-    assert {c["kind"] for c in about} == {*COVERED}
+    every_one = sorted(small_ones(), key=kind_and_field)
+    about = [c for _, alike in groupby(every_one, key=kind_and_field) for c in [*alike][:: 1 if THOROUGH else 9]]
+    assert {kind_and_field(c) for c in about} == {(kind, field) for kind in COVERED for field in ("Q", "GF", "Q(a)")}
     assert recomputed(about) == [ACCEPTED] * len(about)
 
 
@@ -86,7 +101,9 @@ def test_rocq_and_the_checker_agree_on_mutations() -> None:
             assert not verdict, candidate
     for ours, rocq, candidate in zip(verdicts, decided(terms, theory()), tried, strict=True):
         assert ours == rocq, candidate
-    assert min(verdicts.count(True), verdicts.count(False)) > 20
+    for field in ("Q", "GF", "Q(a)"):
+        of_field = [verdict for verdict, candidate in zip(verdicts, tried, strict=True) if over(candidate) == field]
+        assert min(of_field.count(True), of_field.count(False)) > 10, field
 
 
 @needs_rocq
@@ -175,10 +192,18 @@ def test_a_pivot_that_carries_source_is_refused(tmp_path: Path) -> None:
         assert list(tmp_path.iterdir()) == []
 
 
-def test_other_kinds_and_fields_are_not_covered() -> None:
-    for certificate in ROOTED, next(c for c in SHIPPED if c["kind"] == "moesp-limit"):
+def test_other_kinds_are_not_covered() -> None:
+    for certificate in STABLE, next(c for c in SHIPPED if c["kind"] == "moesp-limit"):
         with pytest.raises(NotCovered):
             exported(certificate)
+
+
+def test_a_reducible_polynomial_is_not_covered() -> None:
+    reducible = spoiled(ROOTED, (f"{S}.field.minimal_polynomial", ["-1", "0", "1"]), ("witness.irreducible", GONE))
+    with pytest.raises((NotCovered, checker.Rejected)):
+        exported(reducible)
+    with pytest.raises(NotCovered, match="reducible"):
+        numbers_of(checker.subject(reducible["statement"]["system"]).field)
 
 
 def test_the_format_tells_what_is_covered_and_by_which_theorem() -> None:
@@ -186,10 +211,12 @@ def test_the_format_tells_what_is_covered_and_by_which_theorem() -> None:
     _, _, section = resources.files("faultspace.proofs").joinpath("trust/FORMAT.md").read_text("utf-8").partition("## What Rocq recomputes")
     rows = dict(re.findall(r"^\| `([\w-]+)` \| (.*) \|$", section, re.M))
     assert set(rows) == set(COVERED)
-    for theorems in rows.values():
-        module, *_ = re.findall(r"`(\w+)\.", theorems)
-        text = texts[f"{module}.v"]
-        assert all(f"Theorem {name} " in text for name in re.findall(r"`(?:\w+\.)?(\w+)`", theorems))
+    for cells in rows.values():
+        over_rationals, over_fields = cells.split(" | ")
+        for theorems in over_rationals, over_fields:
+            module, *_ = re.findall(r"`(\w+)\.", theorems)
+            text = texts[f"{module}.v"]
+            assert all(f"Theorem {name} " in text for name in re.findall(r"`(?:\w+\.)?(\w+)`", theorems))
 
 
 def test_what_is_no_prime_is_rejected_before() -> None:
@@ -200,7 +227,7 @@ def test_what_is_no_prime_is_rejected_before() -> None:
 @needs_rocq
 def test_the_command_tells_what_rocq_says(tmp_path: Path) -> None:
     files = []
-    for name, certificate in {"true": RANKS, "false": FALSE, "rooted": ROOTED}.items():
+    for name, certificate in {"true": RANKS, "false": FALSE, "stable": STABLE}.items():
         files.append(str(tmp_path / f"{name}.json"))
         Path(files[-1]).write_text(json.dumps(certificate), "utf-8")
     run = call("check", "--rocq", files[0])

@@ -71,6 +71,25 @@ def test_first_of_orbits_are_the_least_of_what_renumbering_and_signs_make_of_the
     assert [tuple(row) for row in np.concatenate(parts).tolist()] == slow
 
 
+def test_what_is_known_of_a_box_serves_the_next_and_is_not_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search that was stopped, one through a smaller box and one through a larger see the systems that a search of their own sees."""
+
+    def seen(box: Box, known: dict[tuple[int, ...], search.Known] | None = None) -> list[tuple[list[int], list[int]]]:
+        return [
+            ([*facts.A.shape, *facts.G.shape, *facts.A.ravel(), *facts.G.ravel()], facts.rank(2).tolist())
+            for facts in first_of_orbits(box, known)
+        ]
+
+    monkeypatch.setattr(search, "CHUNK", 50)
+    small, large = Box(total=3, largest_n=1, largest_m=1, largest_p=1), Box(total=4, largest_n=2, largest_m=2, largest_p=2)
+    known: dict[tuple[int, ...], search.Known] = {}
+    next(first_of_orbits(large, known))  # stopped after the first batch
+    assert seen(small, known) == seen(small)
+    assert seen(large, known) == seen(large)
+    monkeypatch.setattr(search, "_digits", None)
+    assert len(seen(large, known)) > len(seen(small, known)) > 0
+
+
 def test_a_box_without_entries_says_so() -> None:
     assert smallest(Box(total=2, largest_n=1, largest_m=1, largest_p=1), everything, lambda s: True) is None
 

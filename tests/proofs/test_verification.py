@@ -8,7 +8,8 @@ import pytest
 
 from faultspace.base.errors import InvalidInput
 from faultspace.proofs import verification
-from faultspace.proofs.evidence.corpus import CORPUS
+from faultspace.proofs.evidence.corpus import CORPUS, examine
+from faultspace.proofs.evidence.questions import RANKS
 from faultspace.proofs.trust import checker
 from faultspace.proofs.verdict import workbench
 from faultspace.proofs.verdict.ledger import Claim, Reading, load
@@ -26,7 +27,7 @@ def quiet(stage: str, done: int, total: int) -> None:
 def bench() -> Workbench:
     """A workbench with a corpus small enough for tests: every fifteenth system of the quick one."""
     made = Workbench("quick", 1, quiet)
-    made.corpus = tuple(one for item in list(CORPUS.items(made))[::15] for one in CORPUS.make(item))
+    made.put_answers(CORPUS, [examine(*item) for item in list(CORPUS[RANKS].items(made))[::15]])
     return made
 
 
@@ -111,11 +112,11 @@ def test_certificates_of_the_example_are_accepted_and_true() -> None:
 
 
 def test_certify_turns_to_refuted_when_the_statement_fails(bench: Workbench) -> None:
-    always = certify(bench, lambda e: True, lambda e: e.kernel.rank(1) <= e.system.p, lambda s: ())
+    always = certify(bench, (RANKS,), lambda e: True, lambda e: e.kernel.rank(1) <= e.system.p, lambda s: ())
     assert always.verdict == Verdict.CERTIFIED and always.accepted > 0
-    too_strong = certify(bench, lambda e: True, lambda e: e.kernel.gap(e.system.n) == e.system.m, lambda s: ())
+    too_strong = certify(bench, (RANKS,), lambda e: True, lambda e: e.kernel.gap(e.system.n) == e.system.m, lambda s: ())
     assert too_strong.verdict == Verdict.REFUTED and "smallest of the corpus" in too_strong.evidence
-    nothing = certify(bench, lambda d: False, lambda d: True, lambda s: ())
+    nothing = certify(bench, (RANKS,), lambda d: False, lambda d: True, lambda s: ())
     assert nothing.verdict == Verdict.ERROR
 
 

@@ -10,14 +10,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from faultspace.base import workers
 from faultspace.proofs import worlds
 from faultspace.proofs.claims import assumption_4
 from faultspace.proofs.evidence import orbits_by_stages as stages
+from faultspace.proofs.evidence.corpus import Questions
 from faultspace.proofs.evidence.exhaustive import orbits
 from faultspace.proofs.evidence.orbits_by_stages import orbit_count, orbits_by_stages
 from faultspace.proofs.trust.checker import Rejected
-from faultspace.proofs.verdict.workbench import certify
-from faultspace.proofs.worlds import covered, main, units
+from faultspace.proofs.verdict.verdicts import Outcome
+from faultspace.proofs.verdict.workbench import Show, Test, Workbench, certify
+from faultspace.proofs.worlds import cost, covered, main, units
 
 SMALL = [(0, 0, 0), (1, 1, 1), (2, 1, 1), (1, 2, 2), (2, 0, 2), (2, 2, 0), (0, 2, 2), (2, 2, 1), (3, 0, 0)]
 
@@ -90,10 +93,87 @@ def test_a_world_is_gone_through_goes_on_where_it_stopped_and_says_what_it_cover
     assert main([*ARGUMENTS, "--out", str(out)]) == 0 and tried == []
 
 
+def without_seconds(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [{key: value for key, value in line.items() if key != "seconds"} for line in lines]
+
+
+def test_a_cluster_finds_the_same_and_each_goes_on_where_the_other_stopped(tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    alone, spread, both = (tmp_path / f"{name}.jsonl" for name in ("alone", "spread", "both"))
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        theirs = ["--scheduler", cluster.scheduler_address]
+        assert main([*ARGUMENTS[:6], *theirs, "--out", str(spread)]) == 0
+        assert main([*ARGUMENTS, "--part", "2", "--out", str(both)]) == 0
+        assert main([*ARGUMENTS[:6], *theirs, "--out", str(both)]) == 0
+    assert main([*ARGUMENTS, "--out", str(alone)]) == 0
+    here = without_seconds(lines_of(alone))
+    assert without_seconds(lines_of(spread)) == here and len(here) == len(list(units(1, 1, 1)))
+    assert sorted(map(str, without_seconds(lines_of(both)))) == sorted(map(str, here))
+
+
+def test_without_a_scheduler_there_one_line_says_so_and_nothing_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.setattr(workers, "PATIENCE", 1)
+    with pytest.raises(SystemExit) as left:
+        main([*ARGUMENTS[:6], "--scheduler", "tcp://127.0.0.1:9", "--out", str(tmp_path / "world.jsonl")])
+    assert left.value.code == 2 and "no Dask scheduler answers" in capsys.readouterr().err
+    assert not (tmp_path / "world.jsonl").exists()
+
+
+def test_a_run_that_is_stopped_keeps_what_is_finished(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out, real = tmp_path / "world.jsonl", worlds.examined
+    stop_at = list(units(1, 1, 1))[4]
+
+    def stopped(unit: worlds.Unit) -> worlds.Found:
+        if unit == stop_at:
+            raise KeyboardInterrupt
+        return real(unit)
+
+    monkeypatch.setattr(worlds, "examined", stopped)
+    assert main([*ARGUMENTS, "--out", str(out)]) == 130
+    said = capsys.readouterr()
+    assert said.out == "" and "the same command goes on from there" in said.err and len(lines_of(out)) == 4
+    monkeypatch.setattr(worlds, "examined", real)
+    assert main([*ARGUMENTS, "--out", str(out)]) == 0
+    units_of = [(line["n"], line["p"], line["m"], line["pair"]) for line in lines_of(out)]
+    assert units_of == list(units(1, 1, 1))
+
+
+def test_a_unit_that_stands_twice_in_the_file_counts_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Two runs at once may write to one file."""
+    out = tmp_path / "world.jsonl"
+    assert main([*ARGUMENTS, "--out", str(out)]) == 0
+    before = capsys.readouterr().out
+    out.write_text(out.read_text(encoding="utf-8") * 2, encoding="utf-8")
+    assert main([*ARGUMENTS, "--out", str(out)]) == 0
+    assert capsys.readouterr().out == before and "1 of 2^" not in before
+
+
+def test_what_all_of_it_takes_is_told_by_what_a_part_took() -> None:
+    """An orbit of a row of which none was gone through yet is taken to be as slow as those of the slowest row."""
+    dimensions = [(0, 1, 1), (1, 0, 0), (1, 1, 1)]
+    assert [orbit_count(*one) for one in dimensions] == [2, 2, 16]
+    line = {"p": 1, "m": 1, "pair": 0, "systems": 0, "accepted": 0, "failing": []}
+    part = [line | {"n": 0, "orbits": 1, "seconds": 2.0}, line | {"n": 1, "orbits": 4, "seconds": 12.0}]
+    words = cost(part, dimensions)
+    assert words.startswith("5 of 20 orbits took 14 s of one processor, the longest unit 12 s; all of them would take about 58 s")
+    whole = [line | {"n": 1, "p": 0, "m": 0, "orbits": 2, "seconds": 1.0}]
+    assert cost(whole, dimensions[1:2]) == "2 of 2 orbits took 1 s of one processor, the longest unit 1 s"
+    assert cost([line | {"n": 1, "orbits": 0, "seconds": 1.0}], dimensions) == cost([], dimensions) == "no orbit was gone through"
+
+
 def test_what_fails_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     """A reading without its hypotheses fails on a unit that has systems which lack them, and so does one with a refused certificate."""
     monkeypatch.setattr(worlds, "READINGS", ("assumption_4.lag",))
-    monkeypatch.setattr(assumption_4, "certify", lambda bench, applies, holds, show: certify(bench, lambda e: True, holds, show))
+
+    def without(bench: Workbench, asks: Questions, applies: Test, holds: Test, show: Show) -> Outcome:
+        return certify(bench, asks, lambda e: True, holds, show)
+
+    monkeypatch.setattr(assumption_4, "certify", without)
     assert main([*ARGUMENTS, "--out", str(tmp_path / "world.jsonl")]) == 1
     assert "assumption_4.lag: REFUTED, fails on" in capsys.readouterr().out
 
@@ -108,7 +188,12 @@ def test_what_fails_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str], 
 def test_bad_input_is_a_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     other = tmp_path / "other.json"
     other.write_text('{"format": "something"}\n', encoding="utf-8")
-    for wrong in (["--n", "-1"], ["--n", "5", "--m", "2"], ["--jobs", "1", "--scheduler", "tcp://nowhere:1"], ["--out", str(other)]):
+    lists, halves, folder = tmp_path / "lists.json", tmp_path / "halves.json", tmp_path / "folder"
+    lists.write_text("[1, 2]\n", encoding="utf-8")
+    halves.write_text('{"format": "faultspace-worlds/1", "n": 1, "p": 1, "m": 1}\n', encoding="utf-8")
+    folder.mkdir()
+    files = [["--out", str(path)] for path in (other, lists, halves, folder, folder / "missing" / "file.jsonl")]
+    for wrong in (["--n", "-1"], ["--n", "5", "--m", "2"], ["--jobs", "1", "--scheduler", "tcp://nowhere:1"], *files):
         with pytest.raises(SystemExit) as left:
             main(["--out", str(tmp_path / "world.jsonl"), *wrong])
         assert left.value.code == 2
