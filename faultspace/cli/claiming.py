@@ -1,0 +1,83 @@
+"""`faultspace claim`: claims of your own, decided; or, with --explain, what each part of them is on a system.
+
+run          the command's body
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.console import Console
+from rich.text import Text
+
+from ..base.errors import InvalidInput, in_file, quote_path
+from ..base.messages import say
+from ..base.progress import evenly, working
+from ..base.sheets import NAME_WIDTH, line
+from ..proofs.brought.answers import ClaimAnswers
+from ..proofs.brought.claim_files import read_claims
+from ..proofs.brought.claiming import MOST, decide_claims, explain
+from ..proofs.brought.claims import Answered, Claim, nearest
+from ..proofs.trust.structure_certificates import sha256
+from .consoles import answers, paragraph, print_json
+from .failures import ANSWERED, NOT_AS_EXPECTED
+from .reading_files import prepare_folder, read_system, read_text, write_json
+
+STYLES = {Answered.REFUTED: "red", Answered.NOT_REFUTED: "green", Answered.VACUOUS: "yellow"}
+
+
+def run(name: str, *, only: list[str], ablation: bool, most: int | None, jobs: int, on: str | None, out: Path | None, as_json: bool) -> int:
+    """Decide the claims of a file, or explain them on the system `on`. The exit code is 1 where a verdict is not the expected one."""
+    with in_file(name):
+        claims = _chosen(read_claims(read_text(name)), only)
+    if on is not None:
+        return _explain(claims, on, as_json=as_json)
+    if out is not None:
+        prepare_folder(out)
+    with in_file(name), working(f"deciding {quote_path(name)}") as tell:
+        found = decide_claims(claims, ablation=ablation, most=MOST if most is None else most, jobs=jobs, on_progress=evenly(tell))
+    if as_json:
+        print_json(found.to_json())
+    else:
+        _print(answers(), found)
+    if out is not None:
+        names = {f"{one['kind']}-{sha256(one)[:12]}.json": one for one in found.certificates}
+        for file, certificate in names.items():
+            write_json(out / file, certificate)
+        say(f"{len(names)} certificates are in {quote_path(str(out))}, for: faultspace check")
+    for one in found.answers:
+        if not one.as_expected:
+            say(f"{one.id} over {one.field}: got {one.verdict}, expected {one.expected}")
+    return ANSWERED if found.as_expected else NOT_AS_EXPECTED
+
+
+def _chosen(claims: list[Claim], only: list[str]) -> list[Claim]:
+    names = tuple(one.id for one in claims)
+    for id in only:
+        if id not in names:
+            raise InvalidInput(f"--claim: got {id}, which is no claim of the file; {nearest(id, names)}")
+    return [one for one in claims if not only or one.id in only]
+
+
+def _print(console: Console, found: ClaimAnswers) -> None:
+    for one in found.answers:
+        paragraph(console, Text(one.title, style=f"bold {STYLES[one.verdict]}"))
+        for label, value in one.sheet():
+            paragraph(console, value, line(label, " ")[:-1] + " " * (len(label) >= NAME_WIDTH))
+        console.print()
+
+
+def _explain(claims: list[Claim], on: str, *, as_json: bool) -> int:
+    system = read_system(on)
+    told = {one.id: list(explain(one, system)) for one in claims}
+    if as_json:
+        rows = {id: [{"level": level, "text": text, "value": value} for level, text, value in parts] for id, parts in told.items()}
+        print_json({"system": system.residual.to_json(), "explained": rows})
+        return ANSWERED
+    console = answers()
+    for id, parts in told.items():
+        paragraph(console, Text.assemble((id, "bold"), f"  on {system.residual}"))
+        for level, text, value in parts:
+            paragraph(console, value, f"{'  ' * (level + 1)}{text} = ")
+        console.print()
+    return ANSWERED

@@ -1,0 +1,205 @@
+"""A box of small systems, gone through in order, one of each orbit where the claim allows it.
+
+    Box           bounds on n, m, p and their sum, the entries, and the field
+    Stretch       systems of equal sizes and equal height, some of them, which follow each other in the order
+    stretches     all of a box, the smallest sizes first
+    height        the largest numerator or denominator of a number
+
+The order is by n + m + p, then n, m, p, then the largest numerator or denominator of the entries, then by the entries of A, F, C, G, by
+rows, -1 before 0 before 1. Over GF(q) the entries are the residues between -q/2 and q/2, in the order of the integers.
+
+Renumbering states, outputs or faults, and changing their signs, takes the box to itself where the entries have their negatives among them
+(else renumbering alone does), and leaves what an invariant claim says as it is. The first system of an orbit is then enough: a system that
+fails is in the orbit of one that comes first and fails too. An orbit is found in two steps: A comes first among all that changes of the
+state make of it, and (F, C, G) comes first among all that the changes which leave A as it is, and those of outputs and faults, make of it.
+Since the order is that of numbers whose digits are the entries, and these changes move digits and turn signs, one scalar product with each
+change says whether its image comes earlier.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import permutations, product
+from math import lcm
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..quantities.batches import Batch
+from ..quantities.elimination import Integers
+
+AT_ONCE = 60_000
+LARGEST_TABLE = 2 * 10**6  # rows of some fourteen numbers of eight bytes: a few hundred megabytes while they are sorted out
+
+
+@dataclass(frozen=True)
+class Box:
+    """All systems with n, m, p in these ranges (first, last), n + m + p <= total, entries among these numbers, over Q or GF(prime)."""
+
+    n: tuple[int, int] = (1, 3)
+    m: tuple[int, int] = (1, 2)
+    p: tuple[int, int] = (1, 3)
+    total: int = 5
+    entries: tuple[Fraction, ...] = (Fraction(-1), Fraction(0), Fraction(1))
+    prime: int | None = None
+
+    def __str__(self) -> str:
+        ranges = ", ".join(f"{low} <= {name} <= {high}" for name, (low, high) in (("n", self.n), ("m", self.m), ("p", self.p)))
+        listed = ", ".join(map(str, self.entries))
+        over = "" if self.prime is None else f" modulo {self.prime}"
+        return f"{ranges}, n + m + p <= {self.total}, entries in {{{listed}}}{over}"
+
+    def sizes(self) -> list[tuple[int, int, int]]:
+        """Return the (n, m, p) of the box in order."""
+        n, m, p = (range(low, high + 1) for low, high in (self.n, self.m, self.p))
+        found = product(n, m, p)
+        return sorted((one for one in found if sum(one) <= self.total), key=lambda one: (sum(one), *one))
+
+    def count(self, n: int, m: int, p: int) -> int:
+        """Return how many systems there are of these sizes."""
+        found: int = len(self.entries) ** ((n + p) * (n + m))
+        return found
+
+    @property
+    def signed(self) -> bool:
+        """Whether the negative of each entry is an entry."""
+        return {-x for x in self.entries} == set(self.entries)
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Some systems of a box: `batch`, with the place in the order (first A, then the rest) and the size of the orbit of each."""
+
+    batch: Batch
+    places: NDArray[np.int64]
+    weights: NDArray[np.int64]
+
+
+def height(x: Fraction) -> int:
+    """Return the larger of numerator and denominator, without sign."""
+    return max(abs(x.numerator), x.denominator)
+
+
+def stretches(box: Box, sizes: tuple[int, int, int], *, reduced: bool) -> Iterator[Stretch]:
+    """Yield all systems of these sizes in order; where `reduced`, the first of each orbit alone.
+
+    Raises OverflowError where there are more than 2 10^6 matrices A, or more triples (F, C, G), of these sizes: they do not fit a table.
+    """
+    for level in sorted({height(x) for x in box.entries}):
+        entries = sorted(x for x in box.entries if height(x) <= level)
+        yield from _level(box, sizes, entries, level, reduced)
+
+
+def _level(box: Box, sizes: tuple[int, int, int], entries: list[Fraction], level: int, reduced: bool) -> Iterator[Stretch]:
+    n, m, p = sizes
+    base = len(entries)
+    lengths = n * n, n * m + p * n + p * m
+    if base ** max(lengths) > LARGEST_TABLE:
+        raise OverflowError
+    high = np.array([height(x) == level for x in entries])
+    scale = lcm(*(x.denominator for x in entries))
+    values = np.array([int(x * scale) for x in entries], dtype=np.int64)
+    signed, over_two = box.signed, box.prime == 2
+    states = _changes(n, signed and not over_two) if reduced else [np.eye(n, dtype=np.int64)]
+    states = states[: len(states) // 2] if reduced and signed and not over_two and n else states  # T and -T do the same to A
+    sides = [_changes(k, signed and not over_two) if reduced else [np.eye(k, dtype=np.int64)] for k in (p, m)]
+    every_A, numbers, stabilizers = _first_states(_digits(base, lengths[0]), states, n, base)
+    rest = _digits(base, lengths[1])
+    triples: dict[bytes, tuple[Integers, Integers, Integers]] = {}
+
+    def of(stabilizer: NDArray[np.bool_]) -> tuple[Integers, Integers, Integers]:
+        name = stabilizer.tobytes()
+        if name not in triples:
+            kept = [change for change, keeps in zip(states, stabilizer, strict=True) if keeps]
+            triples[name] = _first_rests(rest, kept, sides, sizes, base)
+        return triples[name]
+
+    group = len(states) * len(sides[0]) * len(sides[1])
+    for chosen in _portions(every_A, stabilizers, lambda one: len(of(one)[0])):
+        digits, places, weights = [], [], []
+        for i in chosen:
+            found, at, fixed = of(stabilizers[i])
+            whole = np.concatenate([np.broadcast_to(every_A[i], (len(found), lengths[0])), found], axis=1)
+            keep = np.ones(len(found), dtype=bool) if high.all() else high[_places(whole, base)].any(axis=1)
+            digits.append(whole[keep])
+            places.append(numbers[i] * base ** lengths[1] + at[keep])
+            weights.append(group // fixed[keep])
+        table = values[_places(np.concatenate(digits), base)]
+        if len(table):
+            parts = np.split(table, np.cumsum([n * n, n * m, p * n]), axis=1)
+            A, F, C, G = (part.reshape(len(table), *shape) for part, shape in zip(parts, ((n, n), (n, m), (p, n), (p, m)), strict=True))
+            yield Stretch(Batch(A, F, C, G, box.prime, scale), np.concatenate(places), np.concatenate(weights))
+
+
+def _portions(every: Integers, stabilizers: NDArray[np.bool_], size: Callable[[NDArray[np.bool_]], int]) -> Iterator[list[int]]:
+    """Yield the numbers of neighbouring matrices A with together some AT_ONCE systems."""
+    portion: list[int] = []
+    held = 0
+    for i in range(len(every)):
+        portion.append(i)
+        held += size(stabilizers[i])
+        if held >= AT_ONCE:
+            yield portion
+            portion, held = [], 0
+    if portion:
+        yield portion
+
+
+def _digits(base: int, length: int) -> Integers:
+    """Return all vectors of odd or even numbers from 1 - base to base - 1, which are twice the digits less their mean, in order."""
+    numbers = np.arange(base**length, dtype=np.int64)
+    columns = [2 * (numbers // base**k % base) - (base - 1) for k in reversed(range(length))]
+    return np.stack(columns, axis=1) if columns else np.zeros((1, 0), dtype=np.int64)
+
+
+def _places(digits: Integers, base: int) -> Integers:
+    return (digits + (base - 1)) // 2
+
+
+def _powers(base: int, length: int) -> Integers:
+    return np.array([base**k for k in reversed(range(length))], dtype=np.int64)
+
+
+def _changes(size: int, signed: bool) -> list[Integers]:
+    """Return the matrices that renumber and, where `signed`, change signs; the second half are the negatives of the first."""
+    unit = np.eye(size, dtype=np.int64)
+    orders = [unit[list(order)] for order in permutations(range(size))]
+    if not signed or not size:
+        return orders
+    half = [one * np.array([1, *signs])[:, None] for signs in product((1, -1), repeat=size - 1) for one in orders]
+    return [*half, *(-one for one in half)]
+
+
+def _first_states(digits: Integers, changes: list[Integers], n: int, base: int) -> tuple[Integers, Integers, NDArray[np.bool_]]:
+    """Return the matrices A that come first in their orbits, with their numbers, and which changes leave each as it is."""
+    powers = _powers(base, n * n)
+    numbers = np.arange(len(digits), dtype=np.int64)
+    earlier = [powers - (T.T @ powers.reshape(n, n) @ T).ravel() for T in changes]
+    for one in earlier:
+        keep = digits @ one <= 0
+        digits, numbers = digits[keep], numbers[keep]
+    return digits, numbers, np.stack([digits @ one == 0 for one in earlier], axis=1)
+
+
+def _first_rests(
+    digits: Integers, kept: list[Integers], sides: list[list[Integers]], sizes: tuple[int, int, int], base: int
+) -> tuple[Integers, Integers, Integers]:
+    """Return the (F, C, G) that come first, with their numbers, and the number of changes that leave each as it is."""
+    n, m, p = sizes
+    powers = _powers(base, digits.shape[1])
+    F, C, G = (
+        part.reshape(shape) for part, shape in zip(np.split(powers, np.cumsum([n * m, p * n])), ((n, m), (p, n), (p, m)), strict=True)
+    )
+    numbers = np.arange(len(digits), dtype=np.int64)
+    earlier = [
+        powers - np.concatenate([(T.T @ F @ V).ravel(), (U.T @ C @ T).ravel(), (U.T @ G @ V).ravel()]) for T, U, V in product(kept, *sides)
+    ]
+    for one in earlier:
+        keep = digits @ one <= 0
+        digits, numbers = digits[keep], numbers[keep]
+    fixed = np.zeros(len(digits), dtype=np.int64)
+    for one in earlier:
+        fixed += digits @ one == 0
+    return digits, numbers, fixed

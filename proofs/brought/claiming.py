@@ -1,0 +1,108 @@
+"""Your own claim, decided: what `fs.claim` is, and what `faultspace claim` calls.
+
+claim           one claim, given in Python
+decide_claims   the claims of a file
+explain         what each part of a claim is on a given system
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from ...base.errors import InvalidInput, shorten
+from ...base.progress import Progress, silent
+from ...base.threads import one_thread
+from ...exact.system.systems import System, residual_of
+from ..language.evaluating import Asked, Exactly, evaluate, least_deciding
+from ..language.nodes import Node, Undefined, variables
+from ..quantities.registry import Subject
+from .answers import ClaimAnswers
+from .claims import Claim, make_claim
+from .deciding import decide
+
+MOST = 10**9
+Predicate = Callable[[Asked], bool]
+
+
+@one_thread()
+def claim(
+    conclusion: str | Predicate,
+    *,
+    hypotheses: Sequence[str | Predicate] = (),
+    fields: Sequence[str] = ("Q",),
+    box: Mapping[str, Any] | None = None,
+    statement: str = "",
+    source: str = "",
+    ablation: bool = True,
+    most: int = MOST,
+    jobs: int = 1,
+    on_progress: Progress | None = None,
+) -> ClaimAnswers:
+    """Decide a claim of your own about all systems x(k+1) = A x + F v, r = C x + G v: refuted by the smallest counterexample, or not.
+
+    `conclusion` and `hypotheses` are expressions of the language of `docs/your-claims.md`, "delay_known <= n" say, or functions of Python
+    that take an object with the same words and return a bool: `lambda s: s.delay_known <= s.n`. `fields` lists "Q" and "GF(q)"; `box` has
+    "n", "m", "p" (first and last number of states, faults, outputs), "total" (the largest n + m + p) and "entries". With `ablation` the
+    claim is tried without each of its hypotheses, too. `most` bounds the number of systems of the box that are gone through, `jobs` is a
+    number of processes, and `on_progress` is called with (stage, done, total). Each quantity of a counterexample comes with certificates,
+    as far as the checker has a kind for it, and names what has none. Source: [F75], [VD79] for what is asked of every window.
+
+    Raises InvalidInput for what is no expression, for an empty box, and where the claim has no value on a system, which it names.
+
+    >>> import faultspace as fs
+    >>> found = fs.claim("all(gap(s) == m for s in windows(n))", hypotheses=["left_invertible"], box={"total": 4})
+    >>> found.answers[0].verdict, found.answers[0].dropped[0].verdict
+    (<Answered.NOT_REFUTED: 'NOT REFUTED'>, <Answered.REFUTED: 'REFUTED'>)
+    """
+    given: dict[str, Any] = {"conclusion": conclusion, "hypotheses": list(hypotheses), "fields": list(fields)}
+    given |= {"statement": statement, "source": source} | ({} if box is None else {"box": box})
+    return decide_claims([make_claim("claim", given)], ablation=ablation, most=most, jobs=jobs, on_progress=on_progress or silent)
+
+
+def decide_claims(
+    claims: Sequence[Claim], *, ablation: bool = True, most: int = MOST, jobs: int = 1, on_progress: Progress = silent
+) -> ClaimAnswers:
+    """Return the verdict on each claim over each of its fields. Raises InvalidInput as `claim` does, and for numbers out of range."""
+    for name, value in (("most", most), ("jobs", jobs)):
+        if type(value) is not int or value < 1:
+            raise InvalidInput(f"{name}: got {shorten(value)}, expected an integer >= 1")
+    answers = [one for given in claims for one in decide(given, ablation=ablation, most=most, jobs=jobs, progress=on_progress)]
+    return ClaimAnswers(tuple(answers))
+
+
+def explain(given: Claim, system: System) -> Iterator[tuple[int, str, str]]:
+    """Yield (level, text, value) for each part of the hypotheses and the conclusion that has a value of its own on the system."""
+    exactly = Exactly({"": Subject(residual_of(system))})
+    for node in given.nodes:
+        yield from _explained(node, exactly, {}, 0)
+
+
+def _explained(node: Node, exactly: Exactly, bound: dict[str, int], level: int) -> Iterator[tuple[int, str, str]]:
+    if node.op == "constant" or node.op == "variable":
+        return
+    if node.op in ("matrix", "transpose", "hstack", "vstack", "I", "zeros", "power") or node.op.startswith("matrix "):
+        return
+    try:
+        value = str(evaluate(node, exactly, bound))
+    except Undefined as error:
+        value = f"no value: {error}"
+    here = "".join(f", {name} = {bound[name]}" for name in sorted(variables(node)))
+    yield level, node.text + here, value
+    if node.op in ("all", "any", "least") and len(node.args) >= 2:
+        yield from _explained_window(node, exactly, bound, level)
+        return
+    for part in node.args:
+        yield from _explained(part, exactly, bound, level + 1)
+
+
+def _explained_window(node: Node, exactly: Exactly, bound: dict[str, int], level: int) -> Iterator[tuple[int, str, str]]:
+    """Explain the body at the window that decides: the first at which an `all` fails, or at which an `any` or `least` holds."""
+    for part in node.args[:-1]:
+        yield from _explained(part, exactly, bound, level + 1)
+    try:
+        found = least_deciding(node, exactly, bound)
+    except Undefined:
+        return
+    if found is not None:
+        yield from _explained(node.args[-1], exactly, {**bound, node.value: found}, level + 1)

@@ -1,0 +1,241 @@
+"""A claim as it is brought: what it says, under which hypotheses, over which fields and in which box its counterexample is sought.
+
+Claim          a claim that has been read
+Hypothesis     one of its hypotheses, with the label that it is shown by
+Answered       the verdicts: REFUTED, NOT REFUTED, VACUOUS
+make_claim     a Claim from the keys of a file, each checked; KEYS are these
+field_name     how a field is written: Q, GF(2)
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from enum import StrEnum
+from fractions import Fraction
+from typing import Any
+
+from flint import fmpz
+
+from ...base.errors import InvalidInput, shorten
+from ..language.grammar import ABOUT_A_SYSTEM, read
+from ..language.nodes import Node, reads, walk
+from ..quantities.registry import Kind, quantities
+from .boxes import Box
+
+KEYS = ("statement", "source", "about", "hypotheses", "conclusion", "fields", "box", "expected")
+BOX_KEYS = ("n", "m", "p", "total", "entries")
+ABOUT = ("system", "pair", "pair with the same (A, C)", "choice", "record")
+LARGEST_SIZE, LARGEST_TOTAL, LARGEST_PRIME, MOST_ENTRIES = 8, 16, 97, 32
+LONGEST_TEXT, MOST_HYPOTHESES, MOST_FIELDS = 2000, 16, 8
+
+
+class Answered(StrEnum):
+    """What is answered to a claim that is brought."""
+
+    REFUTED = "REFUTED"
+    NOT_REFUTED = "NOT REFUTED"
+    VACUOUS = "VACUOUS"
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """A condition, and the words it is shown by."""
+
+    that: Node
+    label: str
+
+
+@dataclass(frozen=True)
+class Claim:
+    """This is a claim that has been read. `boxes` has a box for each field, in order; `expected` the verdict expected over some of them."""
+
+    id: str
+    statement: str
+    source: str
+    hypotheses: tuple[Hypothesis, ...]
+    conclusion: Node
+    boxes: Mapping[str, Box]
+    expected: Mapping[str, Answered]
+
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """The hypotheses, then the conclusion."""
+        return (*(one.that for one in self.hypotheses), self.conclusion)
+
+
+def field_name(prime: int | None) -> str:
+    """Return the name of the field."""
+    return "Q" if prime is None else f"GF({prime})"
+
+
+def nearest(name: str, known: tuple[str, ...]) -> str:
+    """Return words that name the nearest one, or all of them."""
+    near = get_close_matches(name, known, 1, 0.5)
+    return f"the nearest is {near[0]}" if near else f"expected one of {', '.join(known)}"
+
+
+def make_claim(id: str, given: Mapping[str, Any]) -> Claim:
+    """Return the claim. Raises InvalidInput that begins with the key where something is wrong."""
+    for key in given:
+        if key not in KEYS:
+            raise InvalidInput(f"{key}: got an unknown key; {nearest(str(key), KEYS)}")
+    if "conclusion" not in given:
+        raise InvalidInput("conclusion: got none, expected an expression")
+    _about(given.get("about", "system"))
+    hypotheses = tuple(_hypotheses(given.get("hypotheses", [])))
+    conclusion = expression(given["conclusion"], "conclusion")
+    primes = _fields(given.get("fields", ["Q"]))
+    box = given.get("box", {})
+    if not isinstance(box, Mapping):
+        raise InvalidInput(f"box: got {shorten(box)}, expected a table such as {{n = [1, 3], total = 5}}")
+    boxes = {field_name(prime): make_box(box, prime) for prime in primes}
+    nodes = (*(one.that for one in hypotheses), conclusion)
+    if any(prime is not None for prime in primes):
+        _refuse_the_circle(nodes)
+    expected = _expected(given["expected"], tuple(boxes)) if "expected" in given else {}
+    return Claim(id, _text(given, "statement"), _text(given, "source"), hypotheses, conclusion, boxes, expected)
+
+
+def expression(given: object, where: str, kind: Kind = Kind.WORD) -> Node:
+    """Return the expression of a text, or what a Python predicate makes one. Raises InvalidInput that begins with `where`."""
+    if callable(given):
+        name = getattr(given, "__name__", "a predicate")
+        return Node("python", kind, (), given, "a predicate of Python" if name == "<lambda>" else name, 1)
+    if not isinstance(given, str):
+        raise InvalidInput(f"{where}: got {shorten(given)}, expected an expression as a string")
+    try:
+        return read(given, kind, ABOUT_A_SYSTEM)
+    except InvalidInput as error:
+        raise InvalidInput(f"{where}: {error}") from None
+
+
+def make_box(given: Mapping[str, Any], prime: int | None) -> Box:
+    """Return the box with these bounds over Q or GF(prime). Raises InvalidInput that begins with `box`."""
+    for key in given:
+        if key not in BOX_KEYS:
+            raise InvalidInput(f"box.{key}: got an unknown key; {nearest(str(key), BOX_KEYS)}")
+    plain = Box()
+    ranges = {name: _range(given[name], name) if name in given else getattr(plain, name) for name in ("n", "m", "p")}
+    total = given.get("total", plain.total)
+    if type(total) is not int or not 0 <= total <= LARGEST_TOTAL:
+        raise InvalidInput(f"box.total: got {shorten(total)}, expected an integer from 0 to {LARGEST_TOTAL}")
+    entries = _entries(given["entries"], prime) if "entries" in given else _usual(prime)
+    box = Box(**ranges, total=total, entries=entries, prime=prime)
+    if not box.sizes():
+        least = sum(low for low, _ in ranges.values())
+        raise InvalidInput(f"box: got an empty box, n + m + p is at least {least} and at most total = {total}")
+    return box
+
+
+def _about(about: object) -> None:
+    if about == "system":
+        return
+    if about in ABOUT:
+        raise InvalidInput(f"about: got {shorten(about)}, which this version does not decide yet; expected system")
+    raise InvalidInput(f"about: got {shorten(about)}, expected one of {', '.join(ABOUT)}")
+
+
+def _hypotheses(given: object) -> list[Hypothesis]:
+    if not isinstance(given, (list, tuple)) or len(given) > MOST_HYPOTHESES:
+        raise InvalidInput(f"hypotheses: got {shorten(given)}, expected a list of at most {MOST_HYPOTHESES} expressions")
+    found = []
+    for k, one in enumerate(given):
+        where = f"hypotheses[{k}]"
+        if not isinstance(one, Mapping):
+            that = expression(one, where)
+            found.append(Hypothesis(that, that.text))
+            continue
+        if not set(one) <= {"that", "label"} or "that" not in one or not isinstance(one.get("label", ""), str):
+            raise InvalidInput(f'{where}: got {shorten(dict(one))}, expected {{that = "...", label = "..."}}')
+        that = expression(one["that"], where)
+        found.append(Hypothesis(that, one.get("label") or that.text))
+    return found
+
+
+def _fields(given: object) -> list[int | None]:
+    if not isinstance(given, (list, tuple)) or not 1 <= len(given) <= MOST_FIELDS or len(set(map(str, given))) < len(given):
+        raise InvalidInput(f'fields: got {shorten(given)}, expected a list such as ["Q", "GF(2)"], none twice')
+    return [_prime(one) for one in given]
+
+
+def _prime(given: object) -> int | None:
+    if given == "Q":
+        return None
+    found = re.fullmatch(r"GF\(([0-9]{1,9})\)", str(given))
+    if found is None:
+        raise InvalidInput(f"fields: got {shorten(given)}, expected Q or GF(q); number fields are not searched yet")
+    prime = int(found[1])
+    if prime > LARGEST_PRIME or not fmpz(prime).is_prime():
+        raise InvalidInput(f"fields: got {given}, expected GF(q) with a prime q up to {LARGEST_PRIME}")
+    return prime
+
+
+def _range(given: object, name: str) -> tuple[int, int]:
+    if isinstance(given, (list, tuple)) and len(given) == 2 and all(type(x) is int for x in given):
+        low, high = given
+        if 0 <= low <= high <= LARGEST_SIZE:
+            return low, high
+    raise InvalidInput(f"box.{name}: got {shorten(given)}, expected [first, last] with 0 <= first <= last <= {LARGEST_SIZE}")
+
+
+def _usual(prime: int | None) -> tuple[Fraction, ...]:
+    """Return -1, 0, 1, or all residues between -q/2 and q/2; over GF(2) these are 0 and 1."""
+    if prime is None:
+        return Box().entries
+    return tuple(Fraction(x) for x in range(-((prime - 1) // 2), prime // 2 + 1))
+
+
+def _entries(given: object, prime: int | None) -> tuple[Fraction, ...]:
+    wanted = f'expected a list of at most {MOST_ENTRIES} integers or strings such as "-1/2"'
+    if not isinstance(given, (list, tuple)) or not 1 <= len(given) <= MOST_ENTRIES:
+        raise InvalidInput(f"box.entries: got {shorten(given)}, {wanted}")
+    found = set()
+    for x in given:
+        rational = isinstance(x, str) and re.fullmatch(r"-?[0-9]{1,6}(/[1-9][0-9]{0,5})?", x)
+        if not rational and (type(x) is not int or abs(x) >= 10**6):
+            raise InvalidInput(f"box.entries: got {shorten(x)}, {wanted}")
+        value = Fraction(x)
+        if prime is not None:
+            if value.denominator % prime == 0:
+                raise InvalidInput(f"box.entries: got {x} over GF({prime}), expected denominators that {prime} does not divide")
+            residue = value.numerator * pow(value.denominator, -1, prime) % prime
+            value = Fraction(residue - prime if residue > prime // 2 else residue)
+        found.add(value)
+    return tuple(sorted(found))
+
+
+def _expected(given: object, fields: tuple[str, ...]) -> dict[str, Answered]:
+    known = tuple(Answered)
+    if isinstance(given, Mapping):
+        for name in given:
+            if name not in fields:
+                raise InvalidInput(f"expected.{name}: got a field that the claim does not list; {nearest(str(name), fields)}")
+        told = dict(given)
+    else:
+        told = dict.fromkeys(fields, given)
+    for name, verdict in told.items():
+        if verdict in ("PROVED", "IDENTITY"):
+            raise InvalidInput(f"expected: got {verdict}, which this version does not answer yet, expected one of {', '.join(known)}")
+        if verdict not in known:
+            raise InvalidInput(f"expected: got {shorten(verdict)}, expected one of {', '.join(known)}")
+        told[name] = Answered(verdict)
+    return told
+
+
+def _refuse_the_circle(nodes: tuple[Node, ...]) -> None:
+    for _, name in sorted(reads(*nodes)):
+        if name in quantities() and quantities()[name].only_over_Q:
+            raise InvalidInput(f"fields: got a claim that reads {name} and a finite field, which has no unit circle; expected Q alone")
+    for node in nodes:
+        if any(one.op == "schur_stable" for one in walk(node)):
+            raise InvalidInput("fields: got a claim that reads schur_stable and a finite field, which has no unit circle; expected Q alone")
+
+
+def _text(given: Mapping[str, Any], key: str) -> str:
+    found = given.get(key, "")
+    if not isinstance(found, str) or len(found) > LONGEST_TEXT:
+        raise InvalidInput(f"{key}: got {shorten(found)}, expected a text of at most {LONGEST_TEXT} characters")
+    return " ".join(found.split())

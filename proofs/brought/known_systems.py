@@ -1,0 +1,114 @@
+"""The systems outside the box that every claim is tried on, and how one of them that fails is made smaller.
+
+    known_systems     those of the corpus, and systems of the families that the adversary attacks with, over a field
+    smaller           a system that still fails, with fewer states, faults, outputs and simpler entries, as far as single steps lead
+
+The corpus is the one of `verify`: named systems that were each made to break something, and random ones of every structure. The adversary's
+families have a hidden state, an idle one, two faults that are one, a feedthrough of rank one, or every entry free; here their points are
+small integers, drawn from a seed.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from itertools import islice, product
+
+from ...exact.algebra.fields import QQ, Field, PrimeField, Rationals
+from ...exact.algebra.matrices import Matrix
+from ...exact.system.systems import ResidualSystem
+from ..adversary.structure_families import free_family, hidden_family, idle_family, rank_deficient_family, rank_one_family, system_of
+from ..evidence.attacks import Family
+from ..evidence.families import adversarial, random_systems
+from ..quantities.registry import Subject
+from .boxes import height
+
+RANDOM, DRAWN, SEED = 180, 6, 1
+CORPUS, ADVERSARY = "corpus", "adversary"
+
+
+@dataclass(frozen=True)
+class KnownSystem:
+    """`origin` is the corpus or the adversary."""
+
+    origin: str
+    subject: Subject
+
+
+@lru_cache(maxsize=4)
+def known_systems(prime: int | None) -> tuple[KnownSystem, ...]:
+    """Return them over Q or GF(prime), where integers are taken modulo the prime; each keeps what is found out about it."""
+    field: Field = QQ if prime is None else PrimeField(prime)
+    corpus = [system for _, system in adversarial()] + list(islice(random_systems(QQ, RANDOM, seed=SEED), RANDOM))
+    if prime is not None:
+        corpus = [system for _, system in adversarial()] + list(islice(random_systems(field, RANDOM, seed=SEED), RANDOM))
+    listed = [(CORPUS, one) for one in corpus] + [(ADVERSARY, one) for one in _drawn()]
+    return tuple(KnownSystem(origin, Subject(_over(field, one))) for origin, one in listed if _moves(field, one))
+
+
+def smaller(system: ResidualSystem, fails: Callable[[ResidualSystem], bool]) -> ResidualSystem:
+    """Return a system that fails and that no single step makes smaller: one row and column less, or one entry 0, 1, -1 or nearer to 0."""
+    while True:
+        found = next((one for one in _steps(system) if fails(one)), None)
+        if found is None:
+            return system
+        system = found
+
+
+def _drawn() -> Iterator[ResidualSystem]:
+    rng = random.Random(SEED)
+    families: list[Family] = [rank_deficient_family(), rank_one_family(1, 2), rank_one_family(2, 2)]
+    for n, p, m in product((1, 2, 3), (1, 2), (1, 2)):
+        families += [free_family(n, p, m), free_family(n, p, m, feedthrough=False)]
+        families += [hidden_family(n, p, m), idle_family(n, p, m)] if n > 1 else []
+    for family in families:
+        for _ in range(DRAWN):
+            yield system_of(family.at([rng.randint(-2, 2) for _ in family.box]))
+
+
+def _moves(field: Field, system: ResidualSystem) -> bool:
+    """Whether the system is one over the field, or has integer entries, which are one."""
+    return system.field == field or all(
+        Fraction(int(x.p), int(x.q)).denominator == 1 for name in "AFCG" for row in getattr(system, name).elements() for x in row
+    )
+
+
+def _over(field: Field, system: ResidualSystem) -> ResidualSystem:
+    if system.field == field:
+        return system
+    parts = ([[int(x) for x in row] for row in getattr(system, name).elements()] for name in "AFCG")
+    return ResidualSystem.of(*parts, field=field, n=system.n, m=system.m, p=system.p)
+
+
+def _steps(system: ResidualSystem) -> Iterator[ResidualSystem]:
+    for k in range(system.n):
+        rest = [i for i in range(system.n) if i != k]
+        yield ResidualSystem(system.A.rows(rest).columns(rest), system.F.rows(rest), system.C.columns(rest), system.G)
+    for k in range(system.m):
+        rest = [j for j in range(system.m) if j != k]
+        yield ResidualSystem(system.A, system.F.columns(rest), system.C, system.G.columns(rest))
+    for k in range(system.p):
+        rest = [i for i in range(system.p) if i != k]
+        yield ResidualSystem(system.A, system.F, system.C.rows(rest), system.G.rows(rest))
+    for name in "AFCG":
+        matrix: Matrix = getattr(system, name)
+        table = matrix.elements()
+        for i, j in product(range(matrix.nrows), range(matrix.ncols)):
+            for value in _simpler(table[i][j], system.field):
+                changed = [[value if (a, b) == (i, j) else x for b, x in enumerate(row)] for a, row in enumerate(table)]
+                parts = {other: getattr(system, other) for other in "AFCG"}
+                parts[name] = Matrix.from_elements(system.field, matrix.nrows, matrix.ncols, changed)
+                yield ResidualSystem(**parts)
+
+
+def _simpler(x: object, field: Field) -> list[object]:
+    """Return 0, 1, -1 and half of it, rounded to 0, as far as they are simpler than the entry."""
+    if not isinstance(field, Rationals):
+        return [] if x == 0 else [field.element(0)] if x == 1 else [field.element(0), field.element(1)]
+    value = Fraction(int(x.p), int(x.q))  # type: ignore[attr-defined]
+    weight = (height(value), value != 0, value < 0)
+    candidates = [Fraction(0), Fraction(1), Fraction(-1), Fraction(int(value / 2))]
+    return [field.element(one) for one in dict.fromkeys(candidates) if (height(one), one != 0, one < 0) < weight]

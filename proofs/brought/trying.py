@@ -1,0 +1,167 @@
+"""The systems of a box put to several questions at once: the claim, and the claim without each of its hypotheses.
+
+    Question       some of the hypotheses, and the conclusion
+    Found          what became of a question: the first system that fails, or how many were tried and how many meet the hypotheses
+    Searched       that of every question, and how much of the box was gone through
+    search         all of a box
+
+Each question goes on until a system fails. What several of them ask of a system is found once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import joblib
+import numpy as np
+
+from ...base.errors import InvalidInput
+from ...base.progress import Progress
+from ...base.workers import pool
+from ...exact.system.systems import ResidualSystem
+from ..language.by_batches import Table, UndefinedAt, true_of
+from ..language.invariance import invariant
+from ..language.nodes import Node
+from .boxes import Box, Stretch, stretches
+
+WORTH_SHARING = 10**6
+
+
+@dataclass(frozen=True)
+class Question:
+    """Do all systems that meet these hypotheses have this property? `dropped` is the hypothesis that was left out, if one was."""
+
+    hypotheses: tuple[Node, ...]
+    conclusion: Node
+    dropped: int | None = None
+
+
+@dataclass(frozen=True)
+class Undefined:
+    """The conclusion, or a hypothesis, has no value on a system."""
+
+    message: str
+    system: ResidualSystem
+
+
+@dataclass
+class Found:
+    """`met` counts the systems that meet the hypotheses, up to the one that fails; `failing` is that one."""
+
+    met: int = 0
+    failing: ResidualSystem | None = None
+    undefined: Undefined | None = None
+
+    @property
+    def open(self) -> bool:
+        """Whether the search goes on."""
+        return self.failing is None and self.undefined is None
+
+
+@dataclass
+class Searched:
+    """What became of each question. `systems` of the box were gone through, by `looked_at` of them, one an orbit; all where `exhausted`."""
+
+    found: list[Found]
+    systems: int = 0
+    looked_at: int = 0
+    exhausted: bool = True
+
+
+@dataclass
+class _Part:
+    """What one process found in its share of the systems of some sizes: of each question, place and system of the first that fails."""
+
+    met: list[int]
+    first: list[tuple[tuple[int, int], ResidualSystem | Undefined] | None]
+    systems: int = 0
+    looked_at: int = 0
+    whole: bool = True
+    tables: dict[Node, Table] = field(default_factory=dict)
+
+
+def search(box: Box, questions: Sequence[Question], *, most: int, jobs: int, progress: Progress) -> Searched:
+    """Go through the box until every question has failed, all systems are tried, or `most` of them are."""
+    result = Searched([Found() for _ in questions])
+    reduced = invariant(*{node for one in questions for node in (*one.hypotheses, one.conclusion)})
+    sizes = box.sizes()
+    total = sum(box.count(*one) for one in sizes)
+    shown = max(1, total // 1000)
+    for one in sizes:
+        waiting = [k for k, found in enumerate(result.found) if found.open]
+        if not waiting:
+            break
+        left = most - result.systems
+        if left <= 0:
+            result.exhausted = False
+            break
+        progress("going through the box", result.systems // shown, total // shown)
+        asked = [questions[k] for k in waiting]
+        parts = _share(box, one, asked, left, jobs, reduced=reduced)
+        result.systems += sum(part.systems for part in parts)
+        result.looked_at += sum(part.looked_at for part in parts)
+        result.exhausted &= all(part.whole for part in parts)
+        for place, k in enumerate(waiting):
+            result.found[k].met += sum(part.met[place] for part in parts)
+            firsts = [first for part in parts if (first := part.first[place]) is not None]
+            if firsts:
+                _, failing = min(firsts, key=lambda first: first[0])
+                if isinstance(failing, Undefined):
+                    result.found[k].undefined = failing
+                else:
+                    result.found[k].failing = failing
+    return result
+
+
+def _share(box: Box, sizes: tuple[int, int, int], asked: list[Question], left: int, jobs: int, *, reduced: bool) -> list[_Part]:
+    if jobs == 1 or box.count(*sizes) < WORTH_SHARING:
+        return [_search(box, sizes, asked, left, 0, 1, reduced=reduced)]
+    with pool(jobs, None) as parallel:
+        tasks = (joblib.delayed(_search)(box, sizes, asked, left // jobs, k, jobs, reduced=reduced) for k in range(jobs))
+        return list(parallel(tasks))
+
+
+def _search(box: Box, sizes: tuple[int, int, int], asked: list[Question], left: int, mine: int, of: int, *, reduced: bool) -> _Part:
+    """Try every `of`th stretch of the systems of these sizes, from number `mine` on."""
+    part = _Part([0] * len(asked), [None] * len(asked))
+    try:
+        for number, stretch in enumerate(stretches(box, sizes, reduced=reduced)):
+            if number % of != mine:
+                continue
+            if all(part.first):
+                break
+            if part.systems >= left:
+                part.whole = False
+                break
+            part.systems += int(stretch.weights.sum())
+            part.looked_at += len(stretch.batch)
+            for k, question in enumerate(asked):
+                if part.first[k] is None:
+                    _ask(question, k, number, stretch, part)
+    except OverflowError:
+        part.whole = False
+    part.tables.clear()
+    return part
+
+
+def _ask(question: Question, k: int, number: int, stretch: Stretch, part: _Part) -> None:
+    rows = np.arange(len(stretch.batch))
+    try:
+        for node in question.hypotheses:
+            rows = rows[true_of(node, stretch.batch, rows, part.tables.setdefault(node, Table()))]
+        part.met[k] += int(stretch.weights[rows].sum())
+        conclusion = question.conclusion
+        failing = rows[~true_of(conclusion, stretch.batch, rows, part.tables.setdefault(conclusion, Table()))]
+    except UndefinedAt as error:
+        system = stretch.batch.system(error.index)
+        part.first[k] = (number, int(stretch.places[error.index])), Undefined(str(error), system)
+        return
+    if len(failing):
+        first = int(failing[np.argmin(stretch.places[failing])])
+        part.first[k] = (number, int(stretch.places[first])), stretch.batch.system(first)
+
+
+def must_have_a_value(undefined: Undefined, where: str) -> InvalidInput:
+    """Return the complaint about an expression without a value."""
+    return InvalidInput(f"{where}: on {undefined.system}, {undefined.message}")

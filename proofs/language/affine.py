@@ -1,0 +1,123 @@
+"""What is asked of every number of samples s >= a is decided at finitely many of them.
+
+    check_unbounded     the expression under windows(a) is one that can be decided so; else InvalidInput says where s stands
+    decisive            the values of s that decide it on one system
+
+**Why this decides it.** Let n be the number of states. From s = n on rank O_s stays as it is (Cayley-Hamilton). rank T_(s+1) - rank T_s is
+the number of infinite zeros of order up to s, rank [O_(s+1) T_(s+1)] - rank [O_s T_s] is p less the number of left minimal indices up to s,
+and no index and no order exceeds n, since n is the sum of all indices, orders and finite zeros ([VD79], [F75]); so both grow by a constant
+from s = n on, and `gap` is constant there. The solutions of problem (11) are n + p less the sum of mu + 1 over the indices mu below s, a
+constant from s = n + 1 on. Hence each function with a window is a linear function of its argument from n + 1 on, and, where its argument is
+s + c, a linear function of s from n + 1 - c on. Let S be the largest of these, over the functions in the expression. Sums, differences, and
+multiples by numbers without s of linear functions are linear, so that the two sides of each comparison are linear from S on, and where
+their difference is not constant it changes its sign at one place only. Between two neighbouring ones of these places no comparison
+changes, and neither does the expression, which is made of comparisons by `and`, `or`, `not`, `implies`, `iff`. What it is at a, ..., S, and
+at the last integer up to each place and the two after it, is therefore all that it is from a on. Source: [F75], [VD79].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from math import floor, isinf
+
+from ...base.errors import InvalidInput, shorten
+from ..quantities.registry import Kind
+from .nodes import MOST_WINDOWS, Node, Undefined, variables, walk
+
+LOGIC = ("and", "or", "not", "implies", "iff", "constant", "quantity")
+
+
+def check_unbounded(node: Node, variable: str) -> None:
+    """Raise InvalidInput unless the variable stands in functions with a window, sums, differences and comparisons of integers alone."""
+    if variable not in variables(node):
+        return
+    if node.kind == Kind.WORD and node.op in LOGIC:
+        for part in node.args:
+            check_unbounded(part, variable)
+        return
+    if node.op == "compare" and all(part.kind == Kind.INTEGER for part in node.args):
+        for part in node.args:
+            _check_linear(part, variable)
+        return
+    raise _refusal(node, variable)
+
+
+def _check_linear(node: Node, variable: str) -> None:
+    if variable not in variables(node) or node.op == "variable":
+        return
+    holding = [part for part in node.args if variable in variables(part)]
+    if node.op == "windowed" and node.kind == Kind.INTEGER:
+        argument = node.args[0]
+        shifted = argument.op in "+-" and variable not in variables(argument.args[1]) and argument.args[0].op == "variable"
+        turned = argument.op == "+" and variable not in variables(argument.args[0]) and argument.args[1].op == "variable"
+        if argument.op == "variable" or shifted or turned:
+            return
+        raise InvalidInput(
+            f"column {argument.column}: got {shorten(node.text)} for every {variable}, expected {variable}, {variable} + c or "
+            f"{variable} - c as the number of samples, c without {variable}"
+        )
+    if node.op in ("+", "-", "negative") or (node.op == "*" and len(holding) == 1):
+        for part in holding:
+            _check_linear(part, variable)
+        return
+    raise _refusal(node, variable)
+
+
+def _refusal(node: Node, variable: str) -> InvalidInput:
+    return InvalidInput(
+        f"column {node.column}: got {variable} in {shorten(node.text)}, and windows(a) without an end asks for every {variable} >= a; "
+        f"there {variable} may stand in rank_O, rank_T, rank_OT, gap and solutions, in sums, differences and comparisons alone; give "
+        "windows an end"
+    )
+
+
+def decisive(body: Node, variable: str, start: int, n: int, value: Callable[[Node, int | None], float]) -> list[int]:
+    """Return the values of s >= start, ascending, that decide the expression on a system of n states; see above.
+
+    `value` gives the number that a part of the expression is, with s as told, or, for parts without s, None. Raises Undefined where a
+    place of change is too far to be told, or where `start` is too far before n.
+    """
+    linear_from = max([start, *(n + 1 - _shift(node, variable, value) for node in walk(body) if _holds(node, variable))])
+    if linear_from - start > MOST_WINDOWS:
+        raise Undefined(f"got windows from {start} to {linear_from}, expected at most {MOST_WINDOWS}")
+    points = set(range(start, linear_from + 1))
+    for left, right in _comparisons(body, variable):
+        try:
+            at, after = (_difference(value(left, s), value(right, s)) for s in (linear_from, linear_from + 1))
+        except Undefined:  # it is at every s, and either guarded against or found again where the whole is decided
+            continue
+        if at is None or after is None or at == after:
+            continue
+        place = linear_from - Fraction(at) / Fraction(after - at)
+        points |= {s for s in range(floor(place), floor(place) + 3) if s >= linear_from}
+    return sorted(points)
+
+
+def _difference(left: float, right: float) -> int | None:
+    return None if isinf(left) or isinf(right) else int(left) - int(right)
+
+
+def _holds(node: Node, variable: str) -> bool:
+    return node.op == "windowed" and variable in variables(node)
+
+
+def _shift(node: Node, variable: str, value: Callable[[Node, int | None], float]) -> int:
+    """Return c of the argument s + c; 0 where c is no number, which is told when the whole is decided, unless it is guarded against."""
+    argument = node.args[0]
+    if argument.op == "variable":
+        return 0
+    other = next(part for part in argument.args if variable not in variables(part))
+    try:
+        found = value(other, None)
+    except Undefined:
+        return 0
+    if isinf(found):
+        return 0
+    return int(found) if argument.op == "+" else -int(found)
+
+
+def _comparisons(body: Node, variable: str) -> Iterator[tuple[Node, Node]]:
+    for node in walk(body):
+        if node.op == "compare" and variable in variables(node):
+            yield from zip(node.args, node.args[1:], strict=False)

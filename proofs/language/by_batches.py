@@ -1,0 +1,260 @@
+"""The value of an expression on many small systems at once: those of which all that it reads is equal are decided together.
+
+    true_of       which systems of a batch an expression is true of
+    Table         what has been decided: the numbers that were read -> the answer
+
+An expression is tried on what is known of a system, which at first is its sizes. It asks for a family of ranks or for a matrix by raising
+`Wanted`; that is found for all systems that need it, and the expression is tried again, once for each set of numbers that occurs. What
+cannot be found in batches (`OneByOne`: a matrix whose size depends on the system, numbers beyond 64 bits) is asked of each system exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...exact.algebra.stability import is_schur
+from ..quantities.batches import Batch, Chosen, characteristic
+from ..quantities.elimination import Integers, Overflow, leading_ranks
+from ..quantities.ranks import Ranks, Wanted
+from ..quantities.registry import Subject, quantities
+from .evaluating import Bound, Exactly, check_shapes, evaluate, exponent, side
+from .nodes import Node, Undefined, variables
+
+Flags = NDArray[np.bool_]
+
+
+class OneByOne(Exception):
+    """What is asked cannot be found for many systems at once."""
+
+
+@dataclass(frozen=True)
+class Unanswered:
+    """The expression has no value on a system; `message` says why."""
+
+    message: str
+
+
+@dataclass
+class Table:
+    """The answers of one expression for systems of the same sizes, kept from batch to batch."""
+
+    answers: dict[object, bool | Unanswered | Wanted] = field(default_factory=dict)
+
+
+class UndefinedAt(Undefined):
+    """The expression has no value on the system with this number in the batch."""
+
+    def __init__(self, message: str, index: int) -> None:
+        super().__init__(message)
+        self.index = index
+
+
+@dataclass(frozen=True)
+class _Row:
+    """One set of numbers, of one or more systems of the same sizes."""
+
+    ranks: Ranks
+
+    @property
+    def n(self) -> int:
+        return self.ranks.n
+
+    def quantity(self, subject: str, name: str) -> Any:
+        return quantities()[name].from_ranks(self.ranks)
+
+    def windowed(self, subject: str, name: str, s: int) -> Any:
+        return quantities()[name].from_ranks(self.ranks, s)
+
+    def of_matrix(self, node: Node, bound: Bound) -> Any:
+        if variables(node):
+            raise OneByOne
+        if node not in self.ranks.known:
+            raise Wanted(node)
+        found = self.ranks.known[node]
+        if node.op == "schur_stable":
+            return is_schur(found)
+        return bool(found[0]) if node.op in ("is_zero", "nilpotent") else found[0]
+
+
+def true_of(node: Node, batch: Batch, rows: Chosen, table: Table) -> Flags:
+    """Return of which systems of these rows the expression is true. Raises UndefinedAt where it has no value on one of them."""
+    found = np.zeros(len(rows), dtype=bool)
+    try:
+        _decide(node, batch, rows, np.arange(len(rows)), (), table, found)
+    except (OneByOne, Overflow):
+        for place, index in enumerate(rows):
+            try:
+                found[place] = evaluate(node, Exactly({"": Subject(batch.system(int(index)))}))
+            except Undefined as error:
+                raise UndefinedAt(str(error), int(index)) from None
+    return found
+
+
+def _decide(node: Node, batch: Batch, rows: Chosen, places: Chosen, keys: tuple[Any, ...], table: Table, found: Flags) -> None:
+    """Fill in the answers at these places of `rows`, of which the numbers of `keys` are known."""
+    known = [batch.column(key, rows[places], _finder(key)) for key in keys]
+    numbers = np.concatenate(known, axis=1) if known else np.zeros((len(places), 0), dtype=np.int64)
+    distinct, which = _distinct(numbers)
+    widths = np.cumsum([one.shape[1] for one in known])[:-1]
+    wanting: dict[Any, list[int]] = {}
+    for i, row in enumerate(distinct):
+        name = (keys, row.tobytes())
+        if name not in table.answers:
+            parts = dict(zip(keys, (tuple(map(int, part)) for part in np.split(row, widths)), strict=True)) if known else {}
+            table.answers[name] = _answer(node, Ranks(batch.n, batch.m, batch.p, parts))
+        answer = table.answers[name]
+        if isinstance(answer, Wanted):
+            wanting.setdefault(answer.key, []).append(i)
+        elif isinstance(answer, Unanswered):
+            raise UndefinedAt(answer.message, int(rows[places][np.flatnonzero(which == i)[0]]))
+        elif answer:
+            found[places[which == i]] = True
+    for key, groups in wanting.items():
+        _decide(node, batch, rows, places[np.isin(which, groups)], (*keys, key), table, found)
+
+
+def _answer(node: Node, ranks: Ranks) -> bool | Unanswered | Wanted:
+    try:
+        return bool(evaluate(node, _Row(ranks)))
+    except Wanted as wanted:
+        return wanted
+    except Undefined as error:
+        return Unanswered(str(error))
+
+
+def _distinct(numbers: Integers) -> tuple[Integers, Chosen]:
+    """Return the different rows of a table, and for each row which of them it is."""
+    if not numbers.shape[1]:
+        return numbers[:1], np.zeros(len(numbers), dtype=np.intp)
+    code = np.zeros(len(numbers), dtype=np.int64)
+    for column in numbers.T:  # different rows get different codes, made small again after each column
+        low, high = int(column.min()), int(column.max())
+        if high == low:
+            continue
+        if high - low < 2**20:
+            code = code * (high - low + 1) + (column - low)
+        else:
+            _, inverse = np.unique(column, return_inverse=True)
+            code = code * len(column) + inverse
+        if len(code) and int(code.max()) > 2**24:
+            _, code = np.unique(code, return_inverse=True)
+    _, first, which = np.unique(code, return_index=True, return_inverse=True)
+    return numbers[first], which
+
+
+def _finder(key: Any) -> Any:
+    return (lambda batch: _of_matrices(key, batch)) if isinstance(key, Node) else None
+
+
+def _of_matrices(node: Node, batch: Batch) -> Integers:
+    """Return what a function of a matrix is, for every system of the batch."""
+    built = _matrices(node.args[0], batch)
+    count, rows, columns = built.shape
+    if node.op in ("nilpotent", "schur_stable") and rows != columns:
+        raise OneByOne
+    match node.op:
+        case "rank":
+            found = leading_ranks(built, batch.prime)[:, -1]
+        case "nullity":
+            found = columns - leading_ranks(built, batch.prime)[:, -1]
+        case "rows":
+            found = np.full(count, rows)
+        case "columns":
+            found = np.full(count, columns)
+        case "is_zero":
+            found = _is_zero(_reduced(built, batch))
+        case "nilpotent":
+            found = _is_zero(_powers(built, rows, batch))
+        case _:
+            return characteristic(built)
+    return found[:, None]
+
+
+def _is_zero(matrices: Integers) -> Integers:
+    height, width = matrices.shape[1:]
+    return np.where(np.any(matrices.reshape(len(matrices), height * width), axis=1), 0, 1)
+
+
+@dataclass(frozen=True)
+class _Sizes:
+    """It knows the sizes alone, which all systems of a batch share."""
+
+    sizes: Mapping[str, int]
+
+    @property
+    def n(self) -> int:
+        return self.sizes["n"]
+
+    def quantity(self, subject: str, name: str) -> Any:
+        if name not in self.sizes:
+            raise OneByOne
+        return self.sizes[name]
+
+    def windowed(self, subject: str, name: str, s: int) -> Any:
+        raise OneByOne
+
+    def of_matrix(self, node: Node, bound: Bound) -> Any:
+        raise OneByOne
+
+
+def _matrices(node: Node, batch: Batch) -> Integers:
+    """Return the matrix that an expression is, for every system (N, rows, columns). Raises OneByOne, Overflow; the exact way tells what is
+    wrong with shapes.
+    """
+    sizes = _Sizes({"n": batch.n, "m": batch.m, "p": batch.p})
+
+    def number(part: Node) -> float:
+        found: float = evaluate(part, sizes)
+        return found
+
+    try:
+        match node.op:
+            case "matrix":
+                found: Integers = getattr(batch, node.value[1])
+                return found
+            case "I":
+                k = side(number(node.args[0]), node)
+                return np.broadcast_to(np.eye(k, dtype=np.int64), (len(batch), k, k))
+            case "zeros":
+                return np.zeros((len(batch), *(side(number(part), node) for part in node.args)), dtype=np.int64)
+            case "transpose":
+                return np.swapaxes(_matrices(node.args[0], batch), 1, 2)
+            case "negative":
+                return -_matrices(node.args[0], batch)
+            case "power":
+                base = _matrices(node.args[0], batch)
+                if base.shape[1] != base.shape[2]:
+                    raise OneByOne
+                return _powers(base, exponent(number(node.args[1]), node), batch)
+        parts = [_matrices(part, batch) for part in node.args]
+        check_shapes(node, [part.shape[1:] for part in parts])
+    except Undefined:
+        raise OneByOne from None
+    match node.op:
+        case "matrix +":
+            return _reduced(parts[0] + parts[1], batch)
+        case "matrix -":
+            return _reduced(parts[0] - parts[1], batch)
+        case "matrix @":
+            return batch.product(parts[0], parts[1])
+    return np.concatenate(parts, axis=2 if node.op == "hstack" else 1)
+
+
+def _reduced(built: Integers, batch: Batch) -> Integers:
+    if batch.prime is None:
+        if built.size and max(-int(built.min()), int(built.max())) >= 2**61:
+            raise Overflow("a sum of matrices")
+        return built
+    return built % batch.prime
+
+
+def _powers(base: Integers, k: int, batch: Batch) -> Integers:
+    found = np.broadcast_to(np.eye(base.shape[1], dtype=np.int64), base.shape)
+    for _ in range(k):
+        found = batch.product(found, base)
+    return _reduced(found, batch)

@@ -1,0 +1,215 @@
+"""Many small systems of the same sizes, one a row, and what is found out about all of them together.
+
+    Batch        A (N, n, n), F (N, n, m), C (N, p, n), G (N, p, m): integers over Q, residues over GF(q)
+    column       the numbers of a family for some of the systems, found once
+    matrix       the value of a matrix of the language for some of the systems (`Shape` errors are the language's)
+
+The families, with s = 0, ..., n + 1 unless another count is told:
+
+    O      rank O_s                          T   rank T_s                    OT   rank [O_s T_s]
+    R      rank [F, ..., A^(s-1) F]          dual OT   rank [O_s T_s] of (A', C', F', G')
+    OT without v(0)     rank [O_s T_s] without the columns of v(0)
+    [R; T]              one number, rank [R_n; T_n] with R_n = [A^(n-1) F, ..., F]
+    det(qI - A)         n + 1 coefficients, ascending (over Q)
+    minors of P(q)      the values at q = 0, ..., n of every minor of the size of the normal rank of P (over Q)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...base.errors import InvalidInput
+from ...exact.algebra.fields import QQ, PrimeField
+from ...exact.system.systems import ResidualSystem
+from . import ranks as names
+from .elimination import Integers, Overflow, determinants, leading_ranks, times
+from .zeros import choices
+
+Chosen = NDArray[np.intp]
+
+
+@dataclass
+class _Column:
+    done: NDArray[np.bool_]
+    values: Integers
+
+
+@dataclass
+class Batch:
+    """These are systems of the same sizes over Q (`prime` None) or GF(prime): the matrices are these, over one denominator."""
+
+    A: Integers
+    F: Integers
+    C: Integers
+    G: Integers
+    prime: int | None = None
+    denominator: int = 1
+    _columns: dict[object, _Column] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.A)
+
+    @property
+    def n(self) -> int:
+        """The number of states."""
+        return int(self.A.shape[1])
+
+    @property
+    def m(self) -> int:
+        """The number of faults."""
+        return int(self.F.shape[2])
+
+    @property
+    def p(self) -> int:
+        """The number of outputs."""
+        return int(self.C.shape[1])
+
+    def system(self, index: int) -> ResidualSystem:
+        """Return one of the systems, as an exact one."""
+        tables = [part[index].tolist() for part in (self.A, self.F, self.C, self.G)]
+        if self.denominator != 1:
+            tables = [[[Fraction(x, self.denominator) for x in row] for row in table] for table in tables]
+        over = QQ if self.prime is None else PrimeField(self.prime)
+        return ResidualSystem.of(*tables, field=over, n=self.n, m=self.m, p=self.p)
+
+    def column(self, key: object, rows: Chosen, find: Callable[[Batch], Integers] | None = None) -> Integers:
+        """Return the numbers (len(rows), width) of a family, or of what `find` finds, for the systems of these rows. Raises Overflow."""
+        if self.denominator != 1:
+            raise Overflow("numbers over a denominator")
+        if self.prime is not None and key in (names.CHARACTERISTIC, names.MINORS):
+            raise InvalidInput(f"got a question about the unit circle over GF({self.prime}), expected one over Q")
+        if key not in self._columns:
+            self._columns[key] = _Column(np.zeros(len(self), dtype=bool), np.zeros((len(self), 0), dtype=np.int64))
+        column = self._columns[key]
+        missing = rows[~column.done[rows]]
+        if len(missing):
+            found = (find or FIND[str(key)])(self.part(missing))
+            if column.values.shape[1] < found.shape[1]:
+                wider = np.zeros((len(self), found.shape[1]), dtype=np.int64)
+                wider[:, : column.values.shape[1]] = column.values
+                column.values = wider
+            column.values[missing, : found.shape[1]] = found
+            column.done[missing] = True
+        return column.values[rows]
+
+    def part(self, rows: Chosen) -> Batch:
+        """Return the batch of these rows alone, with nothing known of it; the batch itself where these are all."""
+        if len(rows) == len(self):
+            return self
+        return Batch(self.A[rows], self.F[rows], self.C[rows], self.G[rows], self.prime, self.denominator)
+
+    def transposed(self) -> Batch:
+        """Return (A', C', F', G')."""
+        A, F, C, G = (np.swapaxes(part, 1, 2) for part in (self.A, self.C, self.F, self.G))
+        return Batch(A, F, C, G, self.prime, self.denominator)
+
+    def product(self, left: Integers, right: Integers) -> Integers:
+        """Return the products of matrices, reduced over GF(prime). Raises Overflow."""
+        found = times(left, right)
+        return found if self.prime is None else found % self.prime
+
+
+def observed(batch: Batch, s: int) -> Integers:
+    """Return O_s of every system."""
+    blocks, row = [np.zeros((len(batch), 0, batch.n), dtype=np.int64)], batch.C
+    for k in range(s):
+        blocks.append(row)
+        if k < s - 1:
+            row = batch.product(row, batch.A)
+    return np.concatenate(blocks, axis=1)
+
+
+def driven(batch: Batch, s: int) -> Integers:
+    """Return T_s of every system."""
+    p, m = batch.p, batch.m
+    built = np.zeros((len(batch), p * s, m * s), dtype=np.int64)
+    markov, state = batch.G, batch.F
+    for k in range(s):
+        for i in range(k, s):
+            built[:, i * p : (i + 1) * p, (i - k) * m : (i - k + 1) * m] = markov
+        if k < s - 1:
+            markov = batch.product(batch.C, state)
+            state = batch.product(batch.A, state)
+    return built
+
+
+def reached(batch: Batch, s: int) -> Integers:
+    """Return [A^(s-1) F, ..., F] of every system."""
+    blocks, column = [np.zeros((len(batch), batch.n, 0), dtype=np.int64)], batch.F
+    for k in range(s):
+        blocks.append(column)
+        if k < s - 1:
+            column = batch.product(batch.A, column)
+    return np.concatenate(blocks[::-1], axis=2)
+
+
+def window(batch: Batch, s: int) -> Integers:
+    """Return [O_s T_s] of every system."""
+    return np.concatenate([observed(batch, s), driven(batch, s)], axis=2)
+
+
+def _by_samples(batch: Batch, built: Integers, height: int) -> Integers:
+    """Return the ranks of the first 0, 1, ..., n + 1 block rows of `height` rows."""
+    ranks = leading_ranks(built, batch.prime)
+    return ranks[:, [height * s for s in range(batch.n + 2)]]
+
+
+def _window(batch: Batch) -> Integers:
+    return _by_samples(batch, window(batch, batch.n + 1), batch.p)
+
+
+def _later(batch: Batch) -> Integers:
+    built = window(batch, batch.n + 1)
+    return _by_samples(batch, np.delete(built, np.s_[batch.n : batch.n + batch.m], axis=2), batch.p)
+
+
+def _silent(batch: Batch) -> Integers:
+    built = np.concatenate([driven(batch, batch.n), reached(batch, batch.n)], axis=1)
+    return leading_ranks(built, batch.prime)[:, -1:]
+
+
+def characteristic(matrices: Integers) -> Integers:
+    """Return det(qI - M) for integer matrices (N, k, k), ascending: the coefficients are sums of principal minors. Raises Overflow."""
+    count, size, _ = matrices.shape
+    found = np.zeros((count, size + 1), dtype=np.int64)
+    for subset in range(1 << size):
+        rows = [i for i in range(size) if subset >> i & 1]
+        found[:, size - len(rows)] += (-1) ** len(rows) * determinants(matrices[:, rows][:, :, rows])
+    return found
+
+
+def _minors(batch: Batch) -> Integers:
+    """Return the values of the minors of size n + r, r the normal rank; narrower rows are filled up with zeros."""
+    n, m, p = batch.n, batch.m, batch.p
+    every = np.arange(len(batch))
+    table = batch.column(names.DRIVEN, every)
+    rank = table[:, n + 1] - table[:, n]
+    tables = {int(r): choices(n, m, p, int(r)) for r in np.unique(rank)}
+    found = np.zeros((len(batch), max((len(one) for one in tables.values()), default=0) * (n + 1)), dtype=np.int64)
+    for r, minors in tables.items():
+        rows = np.flatnonzero(rank == r)
+        part = batch.part(rows)
+        for q in range(n + 1):
+            upper = np.concatenate([q * np.eye(n, dtype=np.int64) - part.A, -part.F], axis=2)
+            pencil = np.concatenate([upper, np.concatenate([part.C, part.G], axis=2)], axis=1)
+            for k, (chosen, columns) in enumerate(minors):
+                found[rows, k * (n + 1) + q] = determinants(pencil[:, chosen][:, :, columns])
+    return found
+
+
+FIND: dict[str, Callable[[Batch], Integers]] = {
+    names.OBSERVED: lambda batch: _by_samples(batch, observed(batch, batch.n + 1), batch.p),
+    names.DRIVEN: lambda batch: _by_samples(batch, driven(batch, batch.n + 1), batch.p),
+    names.WINDOW: _window,
+    names.REACHED: lambda batch: _by_samples(batch, observed(batch.transposed(), batch.n + 1), batch.m),
+    names.DUAL: lambda batch: _window(batch.transposed()),
+    names.LATER: _later,
+    names.SILENT: _silent,
+    names.CHARACTERISTIC: lambda batch: characteristic(batch.A),
+    names.MINORS: _minors,
+}

@@ -1,0 +1,67 @@
+"""What a quantity is, and the one list of them: a file of this folder that has a tuple QUANTITIES adds to it.
+
+    Kind          what an expression is: INTEGER (inf included), LIST of integers, WORD (true or false), MATRIX
+    Quantity      a name with its meaning, its exact value, the same from ranks alone, and the certificates that bear it
+    quantities    name -> Quantity, of every file of this folder
+
+Each quantity is found in two ways. `exact` asks the room `exact` about one system, over Q or GF(p), of any size. `from_ranks` says the same
+by ranks of built matrices, as definitions do: these ranks are found for many thousands of small systems at once, so that it serves boxes.
+The tests hold the two against each other and against a third, slow one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Any
+
+from .certified import Certifier
+from .ranks import Ranks
+from .subjects import Subject
+
+
+class Kind(StrEnum):
+    """This is what an expression stands for."""
+
+    INTEGER = "an integer"
+    LIST = "a list of integers"
+    WORD = "true or false"
+    MATRIX = "a matrix"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A name that claims may use. A `windowed` one is a function of a number of samples s >= 0, and the functions here take s too.
+
+    `meaning` says in words what it is; `only_over_Q` marks what asks for the unit circle. `certificates` makes, of a subject (and s), what
+    the checker accepts and what implies the value; it is None where no kind of certificate does.
+    """
+
+    name: str
+    kind: Kind
+    meaning: str
+    exact: Callable[..., Any]
+    from_ranks: Callable[..., Any]
+    certificates: Certifier | None
+    windowed: bool = False
+    only_over_Q: bool = False
+
+
+@cache
+def quantities() -> dict[str, Quantity]:
+    """Return every quantity by its name, file by file. Raises ValueError where two files use one name."""
+    found: dict[str, Quantity] = {}
+    package = __name__.rpartition(".")[0]
+    for module in sorted(one.name for one in iter_modules(import_module(package).__path__)):
+        for one in getattr(import_module(f".{module}", package), "QUANTITIES", ()):
+            if one.name in found:
+                raise ValueError(f"two quantities have the name {one.name}")
+            found[one.name] = one
+    return found
+
+
+__all__ = ["Kind", "Quantity", "Ranks", "Subject", "quantities"]

@@ -1,0 +1,67 @@
+"""These are the functions of a number of samples s: ranks of window matrices, and the solutions of problem (11). Source: [G25], [SB21]."""
+
+from __future__ import annotations
+
+from ...exact.structure.fault_columns import fault_space_dimension
+from . import certified
+from .ranks import DRIVEN, OBSERVED, WINDOW, Ranks
+from .registry import Kind, Quantity
+from .subjects import Subject
+
+
+def _driven(subject: Subject, s: int) -> int:
+    """rank T_(k+1) - rank T_k counts the infinite zeros of order up to k."""
+    return sum(max(s - order, 0) for order in subject.infinite_zero_orders)
+
+
+def _solutions(ranks: Ranks, s: int) -> int:
+    return ranks.n + ranks.p - sum(mu + 1 for mu in ranks.left_minimal_indices if mu < s)
+
+
+QUANTITIES = (
+    Quantity(
+        "rank_O",
+        Kind.INTEGER,
+        "rank O_s, O_s = [C; CA; ...; CA^(s-1)]",
+        lambda x, s: x.silent.rank(s),
+        lambda r, s: r.at(OBSERVED, s),
+        certified.silent_windows,
+        windowed=True,
+    ),
+    Quantity("rank_T", Kind.INTEGER, "rank T_s", _driven, lambda r, s: r.at(DRIVEN, s), certified.driven, windowed=True),
+    Quantity(
+        "rank_OT",
+        Kind.INTEGER,
+        "rank [O_s T_s]",
+        lambda x, s: x.kernel.rank(s),
+        lambda r, s: r.at(WINDOW, s),
+        certified.windows,
+        windowed=True,
+    ),
+    Quantity(
+        "gap",
+        Kind.INTEGER,
+        "rank [O_(s+1) T_(s+1)] - rank [O_s T_s]",
+        lambda x, s: x.kernel.gap(s),
+        lambda r, s: r.step(WINDOW, s),
+        certified.windows,
+        windowed=True,
+    ),
+    Quantity(
+        "solutions",
+        Kind.INTEGER,
+        "the dimension of the solutions of problem (11) on s samples",
+        lambda x, s: fault_space_dimension(x.kernel, s),
+        _solutions,
+        certified.solutions,
+        windowed=True,
+    ),
+    Quantity(
+        "n_z",
+        Kind.INTEGER,
+        "the dimension of all solutions of problem (11), which is that from lag + 1 samples on",
+        lambda x: fault_space_dimension(x.kernel),
+        lambda r: _solutions(r, r.n + 1),
+        certified.solutions,
+    ),
+)
