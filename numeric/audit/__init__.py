@@ -5,6 +5,14 @@
     adapter      what an implementation is: a few optional functions; PROTOCOL.md has them for other languages
     reference    our own numeric branch as an implementation
     records      Check, Measurement, CheckResult, and `perform`
+    signatures   whether functions take what they will be given
+    names        how people name checks, with patterns
+    expectations failures that are known
+
+    diagnosing/  what is probably wrong with an answer that failed
+    reports/     failures folded, JUnit, badges, versions
+    upstream/    checks as data and as scripts, for those who do not have this
+    reproducers/ a script for each finding, made with FINDINGS.md
 
     checks/      what is asked, one file a topic
     vectors/     exact systems, data, answers and derived bounds, as JSON that any language can read

@@ -18,6 +18,7 @@ record; under noise a refusal stands for "undecided", and is no failure.
 
     FUNCTIONS    the names above
     offered      the functions that an object or module has
+    not_promised what it says it never promised; excused: the reason for a check
     guarded      a function whose refusals raise Refused and whose crashes raise Broken
     load         the object that `module:object`, `file.py:object`, a module or a file names
 """
@@ -29,14 +30,13 @@ import importlib.util
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, Protocol
 
-import numpy as np
-
 from ...base.arrays import Array
-from ...base.errors import InvalidData
-from .records import Broken, Function, Refused
+from ...base.errors import InvalidData, shorten
+from .records import Broken, Check, Function, Refused
 
 FUNCTIONS = (
     "identify",
@@ -128,13 +128,29 @@ def offered(implementation: object) -> dict[str, Function]:
     return found
 
 
+def not_promised(implementation: object) -> dict[str, str]:
+    """Return pattern -> reason for the checks that the implementation says it never promised to pass: its NOT_PROMISED.
+
+    A pattern stands for SLUG/VECTOR, with * and ?, as in {"exact-recovery*/*": "fits a finite impulse response"}. Raises InvalidData for
+    what is no such mapping, and for an empty reason.
+    """
+    found = getattr(implementation, "NOT_PROMISED", {})
+    if not isinstance(found, Mapping) or not all(isinstance(one, str) and one.strip() for pair in found.items() for one in pair):
+        raise InvalidData(f"NOT_PROMISED: got {shorten(found)}, expected patterns SLUG/VECTOR with the reason for each")
+    return dict(found)
+
+
+def excused(check: Check, patterns: Mapping[str, str]) -> str:
+    """Return the reason of the first pattern that the check fits; empty where none does."""
+    return next((reason for pattern, reason in patterns.items() if fnmatchcase(f"{check.slug}/{check.vector}", pattern)), "")
+
+
 def guarded(function: Function) -> Function:
     """Return `function` with its refusals and crashes told apart."""
 
     def call(*arguments: Any) -> Any:
         try:
-            with np.errstate(all="ignore"):
-                answer = function(*arguments)
+            answer = function(*arguments)
         except (Refused, Broken):
             raise
         except (ValueError, ArithmeticError) as error:

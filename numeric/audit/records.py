@@ -2,27 +2,35 @@
 
 Check         slug, function tested, vector, claim, effect on a user, severity, kind, and `measure`, which calls the function
 Measurement   quantity, got, bound: a distance from the exact answer, and what rounding may make of it
+Sides         the answer beside the truth that a measurement compared, and the way of comparing
 Named         what both are called by
 CheckResult   a check's outcome: verdict (a Status), the worst measurement, in words what happened
 Demand        must-hold, must-refuse (an answer is the failure) or free (told, never failed)
+NEARNESS      how many bounds off is near
 Refused       the implementation declined to answer; Broken: it crashed, hung or answered what is no answer
 perform       runs one check; never raises for what the implementation does
 broken        the result of a check during which the implementation broke
 grouped       results by slug and function
 message       a failure in words, with the line that shows it again
+plain         nested numbers as JSON has them
+first_difference   where in a record the answer begins to differ
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import asdict, dataclass, field, fields
 from enum import StrEnum
-from math import inf, isnan
+from fractions import Fraction
+from math import inf, isfinite, isnan
 from typing import Any
+
+import numpy as np
 
 from ...base.threads import one_thread
 
+NEARNESS = 10.0  # a bound is a worst case to first order, with constants of the methods that we know: another's may be some times larger
 Function = Callable[..., Any]
 
 
@@ -56,22 +64,54 @@ class Severity(StrEnum):
 
 
 class Status(StrEnum):
-    """A check has this status; FAIL is beyond the bound, or an answer where none can be, and REFUSED is none where one is due."""
+    """A check has this status; FAIL is beyond the bound, or an answer where none can be, and REFUSED is none where one is due.
+
+    NEAR is beyond a bound of rounding by less than NEARNESS: it is told and counted apart, and fails nothing. EXPECTED is whatever is not
+    right where somebody said so before, UNEXPECTED what is right all the same.
+    """
 
     PASS = "pass"
     FAIL = "fail"
     REFUSED = "refused"
     BROKEN = "broken"
+    NEAR = "near"
     NOT_OFFERED = "not offered"
+    EXPECTED = "expected failure"
+    UNEXPECTED = "unexpected pass"
+
+
+GREEN = frozenset({Status.PASS, Status.NOT_OFFERED, Status.EXPECTED})
+"""Of one of these there is nothing to tell."""
+
+
+@dataclass(frozen=True)
+class Sides:
+    """The answer stands beside the truth, both in the units of the question, as numbers or nested lists of them (Fraction where exact).
+
+    of: what of the answer was compared, a key of `upstream.recipes.RECIPES`. bounds: what rounding allows, a number or a list of the
+    truth's shape. given: what the way of comparing needs besides, by name. place: the indices of the entry that is furthest off, where
+    single entries are compared.
+    """
+
+    of: str
+    answer: Any
+    truth: Any
+    bounds: Any = 0.0
+    given: Mapping[str, Any] = field(default_factory=dict)
+    place: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """A measurement is a distance `got` >= 0 from the exact answer beside its `bound`; a bound of 0 asks for equality."""
+    """A measurement is a distance `got` >= 0 from the exact answer beside its `bound`; a bound of 0 asks for equality.
+
+    `sides` are what was compared, None where nothing of the answer was (manners, costs).
+    """
 
     quantity: str
     got: float
     bound: float
+    sides: Sides | None = None
 
     @property
     def ratio(self) -> float:
@@ -109,7 +149,8 @@ class Named:
 class Check(Named):
     """This is one question to one function on one vector. `measure` takes the guarded function and gives measurements.
 
-    `claim`: the statement in the ledger that the expected answer rests on, None where it is plain good manners.
+    `claim`: the statement in the ledger that the expected answer rests on, None where it is plain good manners. `nearness`: below this
+    ratio a miss is called near; one where the bound is not one of rounding, so that there is nothing between right and wrong.
     """
 
     claim: str | None
@@ -117,11 +158,18 @@ class Check(Named):
     severity: Severity
     measure: Callable[[Function], Iterable[Measurement]]
     kind: Demand = Demand.MUST_HOLD
+    nearness: float = NEARNESS
 
 
 @dataclass(frozen=True)
 class CheckResult(Named):
-    """This is the outcome of one check; got, bound, ratio are those of the worst measurement (None where nothing was measured)."""
+    """This is the outcome of one check; got, bound, ratio are those of the worst measurement (None where nothing was measured).
+
+    answer, truth: what that measurement compared, as floats, ready for JSON; None where it compared nothing of the answer.
+    place: the indices of the entry that is furthest off. sample: where in a record the answer begins to differ by more than the bound.
+    explanation: what is probably wrong, found by computation; empty where nothing was found or nobody asked.
+    `not_promised`: why the implementation never promised what is asked, in its own words; empty where it did not say so.
+    """
 
     claim: str | None
     effect: str
@@ -134,16 +182,29 @@ class CheckResult(Named):
     ratio: float | None
     detail: str
     seconds: float
+    not_promised: str = ""
+    answer: Any = None
+    truth: Any = None
+    place: tuple[int, ...] = ()
+    sample: int | None = None
+    explanation: str = ""
 
     @property
     def failed(self) -> bool:
-        """It has failed where a must is not met."""
-        return self.kind != Demand.FREE and self.verdict not in (Status.PASS, Status.NOT_OFFERED)
+        """It has failed where a must is not met. What is near, not offered or was never promised is counted apart."""
+        return self.kind != Demand.FREE and not self.not_promised and self.verdict not in (*GREEN, Status.NEAR)
 
     def to_json(self) -> dict[str, Any]:
         """Return what is ready for JSON; numbers that are not finite as strings."""
         values = {name: str(value) if isinstance(value, float) and abs(value) == inf else value for name, value in asdict(self).items()}
-        return {"check": self.name, **values, "failed": self.failed}
+        return {"check": self.name, **values, "place": list(self.place), "failed": self.failed}
+
+    @staticmethod
+    def from_json(data: Mapping[str, Any]) -> CheckResult:
+        """Return the result that `to_json` wrote. Raises KeyError, TypeError or ValueError for anything else."""
+        values = {one.name: data[one.name] for one in fields(CheckResult)}
+        numbers = {name: None if values[name] is None else float(values[name]) for name in ("got", "bound", "ratio", "seconds")}
+        return CheckResult(**{**values, **numbers, "place": tuple(values["place"])})
 
 
 @one_thread()
@@ -153,12 +214,13 @@ def perform(check: Check, function: Function) -> CheckResult:
     worst: Measurement | None = None
     detail = ""
     try:
-        measured = list(check.measure(function))
+        with np.errstate(all="ignore"):  # around all, so that what the function itself sets is seen, and undone
+            measured = list(check.measure(function))
         if check.kind is Demand.MUST_REFUSE:
             verdict, detail = Status.FAIL, "answered where no answer can be right"
         else:
             worst = max(measured, key=lambda one: one.ratio)
-            verdict = Status.PASS if worst.ratio <= 1 else Status.FAIL
+            verdict = Status.PASS if worst.ratio <= 1 else Status.NEAR if worst.ratio < check.nearness else Status.FAIL
             beyond = [one.quantity for one in measured if one.ratio > 1]
             detail = f"beyond the bound: {', '.join(dict.fromkeys(beyond))}" if beyond else ""
     except Refused as refusal:
@@ -192,6 +254,7 @@ def message(result: CheckResult, adapter: str = "ADAPTER") -> str:
     if result.ratio is not None and result.bound is not None:
         measured += f" bound {result.bound:.3g}, ratio {result.ratio:.3g}."
     detail = f" {result.detail}." if result.detail else ""
+    detail += f" Probably: {result.explanation}" if result.explanation else ""
     return (
         f"{result.name} ({result.function}): {result.verdict}.{measured}{detail} Effect: {result.effect} ({result.severity}). "
         f"Again: faultspace audit {adapter} --check '{result.full_name}'"
@@ -218,4 +281,45 @@ def _result(check: Check, verdict: Status, worst: Measurement | None, detail: st
         worst.ratio if worst else None,
         detail,
         seconds,
+        **_beside(worst.sides if worst else None),
     )
+
+
+def plain(value: Any) -> Any:
+    """Return numbers and nested lists of them as JSON has them: floats, [re, im] for a complex number, what is not finite as a string."""
+    if isinstance(value, (bool, int, str)) or value is None:
+        return value
+    if isinstance(value, complex):
+        return [plain(value.real), plain(value.imag)]
+    if isinstance(value, (Fraction, float)):
+        number = float(value)
+        return number if isfinite(number) else {inf: "Infinity", -inf: "-Infinity"}.get(number, "NaN")
+    return plain(value.item()) if getattr(value, "shape", None) == () else [plain(one) for one in value]
+
+
+def first_difference(sides: Sides) -> int | None:
+    """Return the first sample up to which a signal is further from the truth than its bound allows; None for what is no signal."""
+    if sides.of not in ("signal", "residual"):
+        return None
+    off = [[float(a - b) for a, b in zip(mine, true, strict=True)] for mine, true in zip(sides.answer, sides.truth, strict=True)]
+    if sides.of == "residual":  # of which a row of the kernel sees what no initial state can cause, with its last sample
+        row = [[float(c) for c in coefficients] for coefficients in sides.given["kernel_row"]]
+        seen = [
+            [sum(c * x for k, part in enumerate(row) for c, x in zip(part, off[t + k], strict=True))]
+            for t in range(len(off) - len(row) + 1)
+        ]
+        off = [[0.0]] * (len(row) - 1) + seen
+    sum_of_squares = 0.0
+    for sample, parts in enumerate(off):
+        sum_of_squares += sum(x * x for x in parts)
+        if not sum_of_squares**0.5 <= sides.bounds:
+            return sample
+    return None
+
+
+def _beside(sides: Sides | None) -> dict[str, Any]:
+    """These are the fields of a result that tell what was compared."""
+    if sides is None:
+        return {}
+    both = {"answer": plain(sides.answer), "truth": plain(sides.truth)}
+    return {**both, "place": tuple(int(i) for i in sides.place), "sample": first_difference(sides)}

@@ -53,9 +53,9 @@ def fault_dimension(r: Array) -> int | None:
 
 
 def fault_space(r: Array, A: Array, C: Array, n_v: int, block_rows: int) -> Array:
-    """The space is from the exact ranks of the windows, as the data have no noise."""
+    """The space is from the exact ranks of the windows; where there is noise after all, and it is undecided, there is none."""
     found = space(r, A, C, n_v=n_v, block_rows=block_rows)
-    if not found.meaningful:
+    if not found.meaningful or (found.method == "likelihood" and not found.decided):
         raise InvalidData(found.reason)
     return found.basis
 

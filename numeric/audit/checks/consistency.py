@@ -13,11 +13,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..records import Check, Function, Measurement, Severity
+from ..records import Check, Function, Measurement, Severity, Sides
 from ..vectors.exact_comparison import matched, poles
 from ..vectors.recipe_vectors import ConsistencyVector, NoisyVector
 from ..vectors.shipped_vectors import shipped
-from .faults import as_number
+from .faults import compared_count
 from .identification import matrices
 
 
@@ -34,15 +34,18 @@ def _coloured(vector: ConsistencyVector) -> Check:
         y, u = vector.record()
         n, n_u, p = vector.system.residual.n, vector.system.nu, vector.system.residual.p
         A, *_ = matrices(function(y, u, n, vector.block_rows), n, n_u, p)
-        yield Measurement("poles", float(np.max(matched(poles(A), vector.poles)[1])), vector.bound)
+        got = poles(A)
+        places, off = matched(got, vector.poles)
+        sides = Sides("eigenvalues", [got[j] for j in places], list(vector.poles), [vector.bound] * n)
+        yield Measurement("poles", float(np.max(off)), vector.bound, sides)
 
     effect = "a fault with memory biases the model, and more data do not help"
-    return Check("consistent-under-coloured-fault", "identify", vector.slug, "past-outputs", effect, Severity.SILENT, measure)
+    return Check("consistent-under-coloured-fault", "identify", vector.slug, "past-outputs", effect, Severity.SILENT, measure, nearness=1.0)
 
 
 def _noisy(vector: NoisyVector) -> Check:
     def measure(function: Function) -> Iterator[Measurement]:
-        yield Measurement("n_v", abs(as_number(function(vector.record())) - vector.system.m), 0.0)
+        yield compared_count("n_v", function(vector.record()), vector.system.m)
 
     effect = "a wrong number of faults wherever there is any noise, were it a thousandth"
     return Check("fault-dimension-noisy", "fault_dimension", vector.slug, "proposition-3", effect, Severity.SILENT, measure)

@@ -1,7 +1,6 @@
 """These checks use signals that do not excite: what the data cannot tell must not be told.
 
     checks          ranks of windows are what they are; n_v is free; a fault space, a model must be refused
-    sine_samples    cos(k a), cos a = 3/5: rational and without a period
 
 A fault that is constant, a sine or in proportion to another shows fewer independent faults than there are: problem (11) then has solutions
 that are none of the system's. An input that is constant or one sine determines no system of order two: other B, D and initial states give
@@ -11,7 +10,6 @@ the same outputs. Both are shown exactly in the tests.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from fractions import Fraction
 
 from faultspace.exact.algebra.matrices import Matrix
 from faultspace.exact.structure.signals import simulate
@@ -19,9 +17,10 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from ..records import Check, Demand, Function, Measurement, Severity
 from ..vectors.fault_vectors import UnexcitingVector
-from ..vectors.rationals import floats, matrix
+from ..vectors.inputs import unexciting_inputs
+from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, shipped
-from .faults import as_number, ranks_off
+from .faults import compared_count, ranks_off
 
 
 def checks() -> Iterator[Check]:
@@ -33,20 +32,6 @@ def checks() -> Iterator[Check]:
     model = next(one for one in shipped("identification") if (one.order, one.B.ncols) == (2, 1))
     for name, u in unexciting_inputs(model.u.nrows).items():
         yield _model(name, model, u)
-
-
-def sine_samples(count: int) -> list[Fraction]:
-    """The samples are cos(k a) for k = 0 .. count - 1."""
-    c, s, result = Fraction(1), Fraction(0), []
-    for _ in range(count):
-        result.append(c)
-        c, s = c * 3 / 5 - s * 4 / 5, c * 4 / 5 + s * 3 / 5
-    return result
-
-
-def unexciting_inputs(samples: int) -> dict[str, Matrix]:
-    """Return two inputs of one channel: a constant and a sine, exciting of order one and two."""
-    return {"constant": matrix([[Fraction(3, 2)]] * samples, 1), "sine": matrix([[x] for x in sine_samples(samples)], 1)}
 
 
 def response(model: IdentificationVector, u: Matrix) -> Matrix:
@@ -66,7 +51,7 @@ def _count(vector: UnexcitingVector) -> Check:
     """Yield checks that are free, since the data show fewer faults than there are."""
 
     def measure(function: Function) -> Iterator[Measurement]:
-        yield Measurement("n_v, as many as the data show", abs(as_number(function(floats(vector.r))) - vector.visible), 0.0)
+        yield compared_count("n_v, as many as the data show", function(floats(vector.r)), vector.visible)
 
     effect = "faults that do not excite are counted, or not: the data cannot tell"
     slug = "fault-dimension-unexciting"

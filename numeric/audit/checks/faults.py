@@ -1,15 +1,16 @@
 """Check residuals, window ranks, the number of faults, the fault space and the fault signal, on each record in all views.
 
 checks           what is asked of every function, as given and in the views of SUFFIXES, each against the exact answer of its view
-with_input       data whose residual is known
 spaces_off       dimension and two-sided distance of a fault space
+compared_count   a number of faults against the one that is due
 as_number        n_v as a number
+residual_off, window_ranks_off, count_off, signal_off    the measurements of each function on one vector
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from fractions import Fraction
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -17,19 +18,19 @@ import numpy as np
 
 from faultspace.exact.algebra.matrices import Matrix, beside
 from faultspace.exact.structure.kernel_rows import kernel_representation
-from faultspace.exact.structure.signals import hankel, simulate
+from faultspace.exact.structure.signals import hankel
 from faultspace.exact.system.systems import ResidualSystem
 
 from ....base.errors import InvalidData
 from ....base.sheets import counted
 from ...space.distances import compare_subspaces
-from ..records import Broken, Check, Demand, Function, Measurement, Severity
+from ..records import Broken, Check, Demand, Function, Measurement, Severity, Sides
 from ..vectors.exact_comparison import lifted
 from ..vectors.fault_vectors import FaultVector, channel_units
-from ..vectors.rationals import floats, matrix, scaled
+from ..vectors.inputs import LONG_WINDOW, with_input
+from ..vectors.rationals import floats, fractions, matrix, scaled
 from ..vectors.shipped_vectors import shipped
 
-LONG_WINDOW = 10
 # Suffix of the slug, what the answer then depends on, the views compared.
 SUFFIXES: dict[str, tuple[str, tuple[str, ...]]] = {
     "": ("", ("as-given",)),
@@ -49,17 +50,17 @@ def checks() -> Iterator[Check]:
     """Yield all checks of the module."""
     for vector in shipped("faults"):
         effect = "the residual still holds the response to the input: input and fault cannot be told apart"
-        yield from _in_views("residual-free-of-input", "residual", vector, "proposition-1", effect, _residual_off)
+        yield from _in_views("residual-free-of-input", "residual", vector, "proposition-1", effect, residual_off)
         effect = "wrong ranks of windows: wrong number of faults, wrong lag"
-        yield from _in_views("window-ranks", "window_ranks", vector, "window-ranks", effect, _ranks_off)
-        yield from _in_views("fault-dimension", "fault_dimension", vector, "proposition-3", "a wrong number of faults", _count_off)
+        yield from _in_views("window-ranks", "window_ranks", vector, "window-ranks", effect, window_ranks_off)
+        yield from _in_views("fault-dimension", "fault_dimension", vector, "proposition-3", "a wrong number of faults", count_off)
         yield _as_many_as_outputs(vector)
         effect = "fault matrices that do not explain the data, or true ones left out"
         yield from _in_views("fault-space", "fault_space", vector, "problem-11", effect, space_off)
         yield _window("fault-space-long-window", vector, LONG_WINDOW)
         yield _window("fault-space-shortest-window", vector, vector.lag + 1)
         effect = "a wrong fault signal: wrong size or time of a fault"
-        yield from _in_views("fault-signal", "reconstruct", vector, "trajectory-recovered", effect, _signal_off)
+        yield from _in_views("fault-signal", "reconstruct", vector, "trajectory-recovered", effect, signal_off)
 
 
 def _in_views(slug: str, function: str, vector: FaultVector, claim: str, effect: str, compare: Measure) -> Iterator[Check]:
@@ -79,21 +80,13 @@ def _in_views(slug: str, function: str, vector: FaultVector, claim: str, effect:
         yield Check(slug + suffix, function, vector.slug, claim, effect + when, Severity.SILENT, partial(measure, views))
 
 
-def with_input(r: Matrix, system: ResidualSystem, size: Fraction) -> tuple[Matrix, Matrix]:
-    """Return (y, u), where y is r plus the response from rest to u for the model B = F, D = G.
-
-    Channel j of u is size at every (j + 2)nd sample and -size between.
-    """
-    u = matrix([[size if k % (j + 2) == 0 else -size for j in range(system.m)] for k in range(r.nrows)], system.m)
-    return r + simulate(system, Matrix.zero(system.field, system.n, 1), u).residuals, u
-
-
-def _residual_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
+def residual_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
     """Compare what the model's free response cannot touch, M(q) r with M(q) C A^k = 0, with the exact one: any initial state will do."""
     system = vector.system
     y, u = with_input(vector.r, system, vector.view.scale)
     got = function(floats(y), floats(u), *(floats(M) for M in (system.A, system.F, system.C, system.G)))
-    off = lifted(got, "r", vector.r.shape) - vector.r
+    answer = lifted(got, "r", vector.r.shape)
+    off = answer - vector.r
     free = ResidualSystem.of(system.A, _no_columns(system.n), system.C, _no_columns(system.p), n=system.n, m=0, p=system.p)
     bound = vector.bounds["residual"]
     assert bound is not None
@@ -103,7 +96,9 @@ def _residual_off(vector: FaultVector, function: Function) -> Iterator[Measureme
         seen = beside(*(coefficients.rows([k]) for k in range(coefficients.nrows))) @ hankel(off, coefficients.nrows)
         # |M(q) d| <= sum_k |c_k U| |U^-1 d| for the channels' units U
         size = float(np.sum(np.linalg.norm(floats(scaled(coefficients, units)), axis=1)))
-        yield Measurement(f"kernel row {number} of r", float(np.linalg.norm(floats(seen))), size * bound)
+        given = {"kernel_row": fractions(coefficients)}
+        sides = Sides("residual", fractions(answer), fractions(vector.r), size * bound, given)
+        yield Measurement(f"kernel row {number} of r", float(np.linalg.norm(floats(seen))), size * bound, sides)
 
 
 def _no_columns(rows: int) -> Matrix:
@@ -111,7 +106,7 @@ def _no_columns(rows: int) -> Matrix:
     return matrix([[] for _ in range(rows)], 0)
 
 
-def _ranks_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
+def window_ranks_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
     """Ask for the ranks R_s for s = 1, 2, ... and compare them."""
     yield from ranks_off(function(floats(vector.r), len(vector.ranks)), vector.ranks)
 
@@ -122,19 +117,24 @@ def ranks_off(answer: Any, due: tuple[int, ...]) -> Iterator[Measurement]:
     if len(ranks) != len(due):
         raise Broken(f"{counted(len(ranks), 'rank')} for {counted(len(due), 'window')}")
     for s, (got, exact) in enumerate(zip(ranks, due, strict=True), start=1):
-        yield Measurement(f"rank R_{s}", abs(float(got) - exact), 0.0)
+        yield Measurement(f"rank R_{s}", abs(float(got) - exact), 0.0, Sides("ranks", [float(one) for one in ranks], list(due)))
 
 
-def _count_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
-    yield Measurement("n_v", abs(as_number(function(floats(vector.r))) - vector.n_v), 0.0)
+def count_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
+    yield compared_count("n_v", function(floats(vector.r)), vector.n_v)
+
+
+def compared_count(quantity: str, answer: Any, due: int) -> Measurement:
+    """Measure a number of faults against the one that is due."""
+    got = as_number(answer)
+    return Measurement(quantity, abs(got - due), 0.0, Sides("count", got, due))
 
 
 def _as_many_as_outputs(vector: FaultVector) -> Check:
     """Ask about the first m outputs alone, between which m faults leave no relation, nor would noise. Any answer is free and is shown."""
 
     def measure(function: Function) -> Iterator[Measurement]:
-        got = function(floats(vector.r.columns(range(vector.n_v))))
-        yield Measurement("n_v, as many as outputs", abs(as_number(got) - vector.n_v), 0.0)
+        yield compared_count("n_v, as many as outputs", function(floats(vector.r.columns(range(vector.n_v)))), vector.n_v)
 
     effect = "noise is taken for faults, or faults for noise"
     slug, severity = "as-many-faults-as-outputs", Severity.SOMETIMES
@@ -172,15 +172,19 @@ def spaces_off(got: Any, truth: Matrix, bound: float) -> Iterator[Measurement]:
         compared = compare_subspaces(np.asarray(got, dtype=float), floats(truth))
     except (InvalidData, ValueError, TypeError) as error:
         raise Broken(f"no basis of columns [f; g]: {error}") from None
-    yield Measurement("dimension of the fault space", float(abs(compared.dimensions[0] - compared.dimensions[1])), 0.0)
-    yield Measurement("sine of the largest angle, two-sided", compared.two_sided, bound)
+    sides = Sides("space", np.asarray(got, dtype=float).tolist(), fractions(truth), bound)
+    dimensions = replace(sides, of="dimension", answer=compared.dimensions[0], truth=compared.dimensions[1], bounds=0.0)
+    yield Measurement("dimension of the fault space", float(abs(compared.dimensions[0] - compared.dimensions[1])), 0.0, dimensions)
+    yield Measurement("sine of the largest angle, two-sided", compared.two_sided, bound, sides)
 
 
-def _signal_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
+def signal_off(vector: FaultVector, function: Function) -> Iterator[Measurement]:
     """Compare v from the known initial state, up to the delay at the end of the record."""
     system, bound = vector.system, vector.bounds["signal"]
     assert bound is not None
     start = floats(vector.x0).ravel()
     got = function(floats(vector.r), *(floats(M) for M in (system.A, system.F, system.C, system.G)), start)
-    off = floats(lifted(got, "v", vector.v.shape) - vector.v)[: vector.trusted]
-    yield Measurement("v", float(np.linalg.norm(off)), bound)
+    answer = lifted(got, "v", vector.v.shape)
+    off = floats(answer - vector.v)[: vector.trusted]
+    sides = Sides("signal", fractions(answer)[: vector.trusted], fractions(vector.v)[: vector.trusted], bound)
+    yield Measurement("v", float(np.linalg.norm(off)), bound, sides)

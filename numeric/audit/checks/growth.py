@@ -1,4 +1,4 @@
-"""Check how memory and time grow with the length of the record: in proportion, or with its square.
+"""Check how memory and time grow with the length of the record: in proportion, or with its square; and that the answers stay right.
 
     checks              for every function that reads a record
     footprint, Held     peak memory beyond what was there, of this process and all that it started
@@ -8,13 +8,17 @@
 The bound on the exponent is midway between linear and quadratic. What stays under a floor costs nobody anything and counts as no growth;
 the smaller cost is taken to be at least the floor's share, because small amounts drown in what the process holds anyway. Time may leap
 where data outgrow a cache: only a growth that goes on to twice the length is called one.
+
+The records are those of the kind of trouble with whole numbers, driven by signs: small integers, exact at any length, and so is the truth.
+Coefficients, Markov parameters, residuals and fault signals are whole numbers then, and right is what is nearer to them than to any other;
+the fault space is held against the bound that its own record gives.
 """
 
 from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from math import log
@@ -23,12 +27,20 @@ from typing import Any
 import numpy as np
 import psutil
 
+from faultspace.exact.algebra.matrices import Matrix
+
 from ....base.arrays import Array
 from ....base.processes import family, resident
 from ...model.models import StateSpaceModel
-from ..records import Check, Function, Measurement, Severity
+from ...space.by_ranks import noise_free_fault_space
+from ..records import Broken, Check, Function, Measurement, Severity
+from ..vectors.exact_comparison import distances, markov, polynomial_from_the_top
+from ..vectors.fault_vectors import FaultVector
 from ..vectors.rationals import floats, signs
-from ..vectors.shipped_vectors import FaultVector, IdentificationVector, shipped
+from ..vectors.shipped_vectors import shipped
+from ..vectors.trouble import Trouble, default_troubles
+from .faults import as_number, ranks_off, spaces_off
+from .identification import matrices
 
 LENGTHS = (3000, 12000)  # a square of 8-byte numbers is 1.2 GB at the longer, one of bytes 0.14
 BOUND = 1.5  # of the exponent: half way, on its scale, between what is linear and what is a square
@@ -36,6 +48,7 @@ MEMORY_FLOOR = 32e6  # bytes
 TIME_FLOOR = 0.1  # seconds
 EVERY = 0.004  # seconds between two looks at the memory
 SEED = 20250523
+NEAREST = 0.5  # from a whole number: what is nearer is no other
 
 
 @dataclass
@@ -111,6 +124,7 @@ def checks() -> Iterator[Check]:
     for function in ("identify", "residual", "window_ranks", "fault_dimension", "fault_space", "reconstruct"):
         yield _grows("memory-grows-with-N", function, "memory runs out on records of ordinary length")
         yield _grows("time-grows-with-N", function, "no answer in bearable time on records of ordinary length")
+        yield _right(function)
 
 
 def _grows(slug: str, name: str, effect: str) -> Check:
@@ -127,7 +141,83 @@ def _grows(slug: str, name: str, effect: str) -> Check:
             got = min(got, exponent((large, further), lengths, TIME_FLOOR))
         yield Measurement("exponent of time", got, BOUND)
 
-    return Check(slug, name, f"N{LENGTHS[0]}-N{LENGTHS[1]}", None, effect, Severity.NUISANCE, measure)
+    return Check(slug, name, f"N{LENGTHS[0]}-N{LENGTHS[1]}", None, effect, Severity.NUISANCE, measure, nearness=1.0)
+
+
+def _right(name: str) -> Check:
+    def measure(function: Function) -> Iterator[Measurement]:
+        arguments = question(name, LENGTHS[1])
+        yield from _OFF[name](arguments, function(*arguments))
+
+    effect = "wrong answers on records of ordinary length"
+    return Check("right-on-long-records", name, f"N{LENGTHS[1]}", None, effect, Severity.SILENT, measure, nearness=1.0)
+
+
+def _model_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    model = _whole_numbers().model
+    assert model is not None
+    n, n_u, p = model.order, model.B.ncols, model.C.nrows
+    found, count = matrices(answer, n, n_u, p), 2 * n + 2
+    off = distances(markov(*found, count), markov(model.A, model.B, model.C, model.D, count))
+    yield Measurement("Markov parameters", float(np.max(off)), NEAREST)
+    polynomials = [polynomial_from_the_top(one) for one in (found[0], model.A)]
+    off = np.array([abs(float(x - y)) for x, y in zip(*polynomials, strict=True)])
+    yield Measurement("characteristic polynomial", float(np.max(off)), NEAREST)
+
+
+def _residual_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    """The input is the fault, so that nothing is left but a free response, which a nilpotent A has forgotten after n samples."""
+    got = as_signal(answer, arguments[0].shape)
+    yield Measurement("r", float(np.max(np.abs(got[len(arguments[2]) :]))), NEAREST)
+
+
+def _ranks_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    yield from ranks_off(answer, _fault().ranks)
+
+
+def _count_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    yield Measurement("n_v", abs(as_number(answer) - _fault().n_v), 0.0)
+
+
+def _space_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    r, A, C, n_v, block_rows = arguments
+    bound = noise_free_fault_space(r, A, C, n_v=n_v, block_rows=block_rows).error_bound
+    assert bound is not None
+    yield from spaces_off(answer, _fault().space, bound)
+
+
+def _signal_off(arguments: tuple[Any, ...], answer: Any) -> Iterator[Measurement]:
+    due, late = _driven(len(arguments[0]), _fault().system.m), _fault().v.nrows - _fault().trusted
+    got = as_signal(answer, due.shape)
+    yield Measurement("v", float(np.max(np.abs(got - due)[: len(due) - late])), NEAREST)
+
+
+def as_signal(answer: Any, shape: tuple[int, ...]) -> Array:
+    """Return the answer as an array of that shape. Raises Broken for anything else."""
+    try:
+        return np.asarray(answer, dtype=float).reshape(shape)
+    except (TypeError, ValueError):
+        raise Broken(f"a signal of shape {shape} is due, and this is none") from None
+
+
+_OFF: dict[str, Callable[[tuple[Any, ...], Any], Iterator[Measurement]]] = {
+    "identify": _model_off,
+    "residual": _residual_off,
+    "window_ranks": _ranks_off,
+    "fault_dimension": _count_off,
+    "fault_space": _space_off,
+    "reconstruct": _signal_off,
+}
+
+
+def _whole_numbers() -> Trouble:
+    return next(one for one in default_troubles() if one.kind == "whole-numbers")
+
+
+def _fault() -> FaultVector:
+    vector = _whole_numbers().faults
+    assert vector is not None
+    return vector
 
 
 def _memory(function: Function, arguments: tuple[Any, ...]) -> float:
@@ -145,21 +235,38 @@ def _time(function: Function, arguments: tuple[Any, ...]) -> float:
 def question(name: str, length: int) -> tuple[Any, ...]:
     """Return the function's arguments with a record of that length, driven by signs."""
     if name == "identify":
-        model: IdentificationVector = next(one for one in shipped("identification") if (one.B.ncols, one.C.nrows) == (2, 2))
+        model = _whole_numbers().model
+        assert model is not None
         u = _driven(length, model.B.ncols)
-        return _response(u, model.A, model.B, model.C, model.D), u, model.order, model.block_rows
-    fault: FaultVector = shipped("faults")[0]
-    A, F, C, G = (floats(M) for M in (fault.system.A, fault.system.F, fault.system.C, fault.system.G))
+        return _response(u, *driven_system(name)), u, model.order, model.block_rows
+    fault = _fault_of(name)
+    A, F, C, G = (floats(M) for M in driven_system(name))
     v = _driven(length, fault.system.m)
-    r = _response(v, fault.system.A, fault.system.F, fault.system.C, fault.system.G)
+    r = _response(v, *driven_system(name))
     arguments: dict[str, tuple[Any, ...]] = {
         "residual": (r, v, A, F, C, G),
-        "window_ranks": (r, len(A) + 2),
+        "window_ranks": (r, len(fault.ranks)),
         "fault_dimension": (r,),
         "fault_space": (r, A, C, fault.n_v, len(A) + 1),
         "reconstruct": (r, A, F, C, G, np.zeros(len(A))),
     }
     return arguments[name]
+
+
+def driven_system(name: str) -> tuple[Matrix, Matrix, Matrix, Matrix]:
+    """Return the system (A, B, C, D), or (A, F, C, G), that the signs drive in the records of a function."""
+    if name == "identify":
+        model = _whole_numbers().model
+        assert model is not None
+        return model.A, model.B, model.C, model.D
+    system = _fault_of(name).system
+    return system.A, system.F, system.C, system.G
+
+
+def _fault_of(name: str) -> FaultVector:
+    # The count is asked of the first vector: its record has no whole numbers, and one fault as well.
+    fault: FaultVector = shipped("faults")[0] if name == "fault_dimension" else _fault()
+    return fault
 
 
 def _driven(length: int, channels: int) -> Array:

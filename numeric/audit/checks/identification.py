@@ -8,6 +8,7 @@ models_off  the measurements that compare (A, B, C, D) with a vector
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -16,9 +17,9 @@ import numpy as np
 from faultspace.exact.algebra.matrices import Matrix
 
 from ....base.arrays import Array
-from ..records import Broken, Check, Function, Measurement, Severity
+from ..records import Broken, Check, Function, Measurement, Severity, Sides
 from ..vectors.exact_comparison import distances, lifted, markov, matched, poles, polynomial_from_the_top, transfer
-from ..vectors.rationals import floats, scaled
+from ..vectors.rationals import floats, fractions, scaled
 from ..vectors.shipped_vectors import POINTS, IdentificationVector, shipped
 
 SCALES = (-12, -6, 6)  # powers of ten
@@ -102,24 +103,51 @@ def models_off(
     A, B, C, D = matrices(answer, n, n_u, p)
     # The answer in the vector's own units; the order of channels is taken over by the vector.
     found = A, scaled(B, units[1]), _rows_over(C, units[0]), _rows_over(scaled(D, units[1]), units[0])
+    gains = [[out / of for of in units[1]] for out in units[0]]  # by which a response in the vector's units becomes that in the question's
     truth = vector.A, vector.B.columns(inputs), vector.C.rows(outputs), vector.D.rows(outputs).columns(inputs)
     entries = np.ix_(outputs, inputs)
     count = 2 * n + 2
-    moved = vector.bound("markov", part)[:, entries[0], entries[1]]
-    yield _worst("Markov parameters", distances(markov(*found, count), markov(*truth, count)), moved)
-    for z, bound in zip(POINTS, vector.bound("transfer", part), strict=True):
-        yield _worst(f"transfer function at {z}", distances([transfer(*found, z)], [transfer(*truth, z)])[0], bound[entries])
+    if vector.asked("markov", part):
+        moved = vector.bound("markov", part)[:, entries[0], entries[1]]
+        got, due = markov(*found, count), markov(*truth, count)
+        yield _worst("Markov parameters", distances(got, due), moved, _responses("markov", got, due, moved, gains))
+    for z, bound in zip(POINTS, vector.bounds["transfer"] if part is None else vector.parts[part][2]["transfer"], strict=True):
+        if bound is not None:
+            got, due = [transfer(*found, z)], [transfer(*truth, z)]
+            allowed = np.array(bound, dtype=float)[entries]
+            sides = _responses("transfer", got, due, allowed[None], gains, z=z)
+            yield _worst(f"transfer function at {z}", distances(got, due)[0], allowed, sides)
     polynomials = [polynomial_from_the_top(one)[1:] for one in (A, vector.A)]
     off = np.array([abs(float(x - y)) for x, y in zip(*polynomials, strict=True)])
-    yield _worst("characteristic polynomial", off, vector.bound("characteristic_polynomial", part))
-    yield _worst("eigenvalues", matched(poles(A), poles(vector.A))[1], vector.bound("poles", part))
+    if vector.asked("characteristic_polynomial", part):
+        allowed = vector.bound("characteristic_polynomial", part)
+        yield _worst("characteristic polynomial", off, allowed, Sides("polynomial", polynomials[0], polynomials[1], allowed.tolist()))
+    if vector.asked("poles", part):
+        got_poles, due_poles, allowed = poles(A), poles(vector.A), vector.bound("poles", part)
+        places, off = matched(got_poles, due_poles)
+        sides = Sides("eigenvalues", [got_poles[j] for j in places], list(due_poles), allowed.tolist())
+        yield _worst("eigenvalues", off, allowed, sides)
+
+
+def _responses(
+    of: str, got: Sequence[Matrix], due: Sequence[Matrix], bounds: Array, gains: Sequence[Sequence[Fraction]], **given: Any
+) -> Sides:
+    """Return both sides in the units of the question."""
+
+    def moved(parts: Sequence[Any]) -> list[Any]:
+        return [[[x * gain for x, gain in zip(*rows, strict=True)] for rows in zip(one, gains, strict=True)] for one in parts]
+
+    floats_of_gains = np.array([[float(gain) for gain in row] for row in gains])
+    answer, truth = (moved([fractions(one) for one in side]) for side in (got, due))
+    return Sides(of, answer, truth, (bounds * floats_of_gains).tolist(), given)
 
 
 def _rows_over(given: Matrix, units: Sequence[Fraction]) -> Matrix:
     return scaled(given.transposed(), [1 / unit for unit in units]).transposed()
 
 
-def _worst(quantity: str, got: Array, bound: Array) -> Measurement:
+def _worst(quantity: str, got: Array, bound: Array, sides: Sides) -> Measurement:
     """This measures the entry with the largest ratio."""
     place = np.unravel_index(int(np.argmax(got / np.maximum(bound, np.finfo(float).tiny))), got.shape)
-    return Measurement(quantity, float(got[place]), float(bound[place]))
+    indices = (*[0] * (np.ndim(sides.bounds) - got.ndim), *map(int, place))
+    return Measurement(quantity, float(got[place]), float(bound[place]), replace(sides, place=indices))

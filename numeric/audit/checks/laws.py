@@ -24,11 +24,11 @@ from ....base.arrays import Array
 from ....base.errors import InvalidData
 from ...model.models import StateSpaceModel
 from ...space.distances import compare_subspaces
-from ..records import Broken, Check, Demand, Function, Measurement, Refused, Severity
+from ..records import Broken, Check, Demand, Function, Measurement, Refused, Severity, Sides
 from ..vectors.rationals import floats, signs
 from ..vectors.recipe_vectors import NoisyVector
 from ..vectors.shipped_vectors import shipped
-from .faults import as_number
+from .faults import compared_count
 
 LEVEL = 0.35
 """The sine of the angle by which a space may be off under noise and the error of a model from so many samples: the largest of our own on
@@ -53,7 +53,9 @@ def checks() -> Iterator[Check]:
             if not noise:
                 continue
             effect = f"fault matrices that do not explain the data, or true ones left out{when}"
-            yield Check(f"space-of-record{slug}", "identified_fault_space", vector.slug, "problem-11", effect, Severity.SILENT, found)
+            yield Check(
+                f"space-of-record{slug}", "identified_fault_space", vector.slug, "problem-11", effect, Severity.SILENT, found, nearness=1.0
+            )
     yield from _refusals(shipped("noisy")[0])
 
 
@@ -77,13 +79,13 @@ def _input_matrices(F: Array, G: Array) -> tuple[Array, Array]:
 def _count(vector: NoisyVector, noise: float, units: bool, function: Function) -> Iterator[Measurement]:
     y, u = record(vector, noise, units)
     try:
-        got = as_number(function(y, u, vector.system.n))
+        got = function(y, u, vector.system.n)
     except Refused:
         if not noise:
             raise
         yield Measurement("undecided, as it may be", 0.0, 0.0)
         return
-    yield Measurement("n_v", abs(got - vector.system.m), 0.0)
+    yield compared_count("n_v", got, vector.system.m)
 
 
 def space_errors(vector: NoisyVector, units: bool, function: Function) -> Iterator[Measurement]:
@@ -99,11 +101,14 @@ def space_errors(vector: NoisyVector, units: bool, function: Function) -> Iterat
     wanted = _responses(floats(system.A), floats(system.C), true, np.ones(system.p))
     try:
         A, C, columns = (np.atleast_2d(np.asarray(part, dtype=float)) for part in answer)
-        compared = compare_subspaces(_responses(A, C, columns, scale), wanted)
+        answered = _responses(A, C, columns, scale)
+        compared = compare_subspaces(answered, wanted)
     except (InvalidData, ValueError, TypeError) as error:
         raise Broken(f"no A, C and basis of columns [f; g]: {error}") from None
-    yield Measurement("dimension of the fault space", float(abs(compared.dimensions[0] - compared.dimensions[1])), 0.0)
-    yield Measurement("sine of the largest angle, two-sided", compared.two_sided, LEVEL)
+    sides = Sides("responses", answered.tolist(), wanted.tolist(), LEVEL, {"units": scale.tolist(), "window": WINDOW})
+    dimensions = Sides("dimension", *compared.dimensions)
+    yield Measurement("dimension of the fault space", float(abs(compared.dimensions[0] - compared.dimensions[1])), 0.0, dimensions)
+    yield Measurement("sine of the largest angle, two-sided", compared.two_sided, LEVEL, sides)
 
 
 def _responses(A: Array, C: Array, columns: Array, scale: Array) -> Array:

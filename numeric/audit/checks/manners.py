@@ -1,6 +1,7 @@
 """Equal questions get equal answers, and the caller's arrays come back as they were.
 
 checks      deterministic, inputs-untouched: for every function, on one vector each
+questions   those vectors, as arguments;   copies, equal    of arguments, of answers
 """
 
 from __future__ import annotations
@@ -12,18 +13,18 @@ from typing import Any
 import numpy as np
 
 from ..records import Check, Function, Measurement, Severity
+from ..vectors.inputs import with_input
 from ..vectors.shipped_vectors import floats, shipped
-from .faults import with_input
 
 
 def checks() -> Iterator[Check]:
     """This yields all checks of the module."""
-    for function, vector, arguments in _questions():
+    for function, vector, arguments in questions():
         yield _deterministic(function, vector, arguments)
         yield _untouched(function, vector, arguments)
 
 
-def _questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
+def questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
     """Each is (function, vector, arguments)."""
     model, fault, system = (shipped(kind)[0] for kind in ("identification", "faults", "structure"))
     r, A, F, C, G = (floats(M) for M in (fault.r, fault.system.A, fault.system.F, fault.system.C, fault.system.G))
@@ -37,28 +38,38 @@ def _questions() -> Iterator[tuple[str, str, tuple[Any, ...]]]:
     yield "structure", system.slug, tuple(floats(M) for M in (system.system.A, system.system.F, system.system.C, system.system.G))
 
 
-def _copies(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+def copies(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     return tuple(one.copy() if isinstance(one, np.ndarray) else one for one in arguments)
 
 
 def _deterministic(name: str, vector: str, arguments: tuple[Any, ...]) -> Check:
     def measure(function: Function) -> Iterator[Measurement]:
-        first, second = (_flat(function(*_copies(arguments))) for _ in range(2))
-        differ = first.shape != second.shape or not np.array_equal(first, second, equal_nan=True)
-        yield Measurement("two calls differ", float(differ), 0.0)
+        first, second = (_flat(function(*copies(arguments))) for _ in range(2))
+        yield Measurement("two calls differ", float(not _alike(first, second)), 0.0)
 
     return Check("deterministic", name, vector, None, "no result can be reproduced", Severity.NUISANCE, measure)
 
 
 def _untouched(name: str, vector: str, arguments: tuple[Any, ...]) -> Check:
     def measure(function: Function) -> Iterator[Measurement]:
-        given = _copies(arguments)
+        given = copies(arguments)
         function(*given)
         changed = sum(not np.array_equal(one, other) for one, other in zip(given, arguments, strict=True))
         yield Measurement("arguments changed", float(changed), 0.0)
 
     effect = "the caller's data are altered: whatever is computed next is wrong"
     return Check("inputs-untouched", name, vector, None, effect, Severity.SOMETIMES, measure)
+
+
+def equal(one: Any, other: Any) -> bool:
+    """Say whether two answers have the same numbers, to the last bit; a refusal, None, is like a refusal."""
+    if one is None or other is None:
+        return one is other
+    return _alike(_flat(one), _flat(other))
+
+
+def _alike(first: Any, second: Any) -> bool:
+    return bool(first.shape == second.shape and np.array_equal(first, second, equal_nan=True))
 
 
 def _flat(answer: Any) -> Any:

@@ -16,7 +16,7 @@ while true
     switch q.call
       case "functions",       a.functions = {"window_ranks", "fault_dimension"};
       case "window_ranks",    a.ranks = num2cell(window_ranks(q.r, q.windows));
-      case "fault_dimension", a.n_v = diff(window_ranks(q.r, 9, true))(end);
+      case "fault_dimension", a.n_v = diff(window_ranks(q.r, 11, true))(end);
     end
   catch e, a = struct("refused", e.message); end
   puts([jsonencode(a) "\n"]); fflush(stdout); clear a

@@ -4,7 +4,8 @@
     identification_vectors  n_u, p = 1, 2, 3, with and without D and initial state; smooth inputs; a long window
     structure_vectors       the same questions for the system itself; not left-invertible, without zeros; other coordinates
     consistency_vectors     a coloured fault
-    documents               all files, name -> JSON document
+    documents               all files but one, name -> JSON document
+    trouble_documents       that of the kinds of trouble
     main                    `python -m faultspace.numeric.audit.making --out DIR` writes the files
 
 The bounds are those of the problem, not of one program. A model: the largest over two ways to compress (QR, Gram) and two regressions for B
@@ -32,22 +33,19 @@ from faultspace.exact.limits.moesp import limit
 from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.system.systems import FaultySystem, ResidualSystem
 
-from ....base.arrays import Array
-from ...model.compression import EPS, compress
-from ...model.past_inputs import pi_moesp, pi_moesp_from_compression
-from ...rounding.conditioning import SMALL, ModelError, by_gram, by_qr, moesp_error, noise_free_range, output_error_error, setting
-from ..vectors.exact_comparison import matched, poles, roots
+from ...model.compression import EPS
+from ...rounding.conditioning import SMALL
+from ..vectors.exact_comparison import roots
 from ..vectors.fault_vectors import FaultView
 from ..vectors.rationals import ROUNDING, floats, matrix, scaled
 from ..vectors.recipe_vectors import ConsistencyVector
-from ..vectors.shipped_vectors import FORMAT, KINDS, POINTS, IdentificationVector, StructureVector
+from ..vectors.shipped_vectors import FORMAT, KINDS, IdentificationVector, StructureVector
+from ..vectors.trouble import SEED
+from ..vectors.trouble import document as trouble_document
+from .all_troubles import drawn_troubles
 from .drawing import drawn, stable, upward
 from .fault_records import fault_vectors, noisy_vectors, unexciting_vectors
-
-
-def _upward(values: Any) -> Any:
-    return [_upward(one) for one in values] if isinstance(values, (list, np.ndarray)) else upward(float(values))
-
+from .model_bounds import model_bounds
 
 # -- identification -----------------------------------------------------------------------------------------------------------------
 
@@ -90,32 +88,11 @@ def _bounded(blank: IdentificationVector) -> IdentificationVector:
     needed = 2 * (n_u + p + 1) * s - 1  # as many windows as rows of [U; Y], past and future: with past outputs there are more
     cuts = {"time-shift": (7, N), "first-half": (0, N // 2), "second-half": (N // 2, N)}
     parts = {
-        slug: (first, last, _model_bounds(blank, y[first:last], u[first:last]))
+        slug: (first, last, model_bounds(blank, y[first:last], u[first:last]))
         for slug, (first, last) in cuts.items()
         if last - first >= needed
     }
-    return replace(blank, bounds=_model_bounds(blank, y, u), parts=parts)
-
-
-def _model_bounds(vector: IdentificationVector, y: Array, u: Array) -> dict[str, Any]:
-    """Return the largest bound of four routes from these samples."""
-    s, n = vector.block_rows, vector.order
-    errors: list[ModelError] = []
-    for route, backward_error in (("qr", by_qr), ("gram", by_gram)):
-        compressed = compress(y, u, block_rows=s, route=route)
-        for found in (pi_moesp_from_compression(compressed, order=n), pi_moesp(y, u, order=n, block_rows=s, route=route)):
-            where = setting(compressed, found)
-            moved = noise_free_range(where, backward_error(where))
-            errors.append(moesp_error(where, backward_error(where), moved))
-            errors.append(output_error_error(where, moved, [(y, u)]))
-    exact = poles(vector.A)
-    of_poles = [one.poles[matched(np.linalg.eigvals(one.model.A).tolist(), exact)[0]] for one in errors]
-    return {
-        "markov": _upward(np.max([one.markov(2 * n + 2) for one in errors], axis=0)),
-        "characteristic_polynomial": _upward(np.max([one.characteristic_polynomial for one in errors], axis=0)),
-        "transfer": _upward([np.max([one.transfer(z) for one in errors], axis=0) for z in POINTS]),
-        "poles": _upward(np.max(of_poles, axis=0)),
-    }
+    return replace(blank, bounds=model_bounds(blank, y, u), parts=parts)
 
 
 # -- structure ----------------------------------------------------------------------------------------------------------------------
@@ -243,6 +220,11 @@ def documents() -> dict[str, dict[str, Any]]:
     }
 
 
+def trouble_documents() -> dict[str, dict[str, Any]]:
+    """Return the file of the kinds of trouble, of the default seed."""
+    return {"trouble.json": trouble_document(drawn_troubles(SEED), SEED)}
+
+
 def written(document: Mapping[str, Any]) -> str:
     """The file has one vector on each line."""
     head = {name: value for name, value in document.items() if name != "vectors"}
@@ -255,7 +237,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m faultspace.numeric.audit.making", description="Make the audit's vectors.")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files, made if it is not there")
     out: Path = parser.parse_args(arguments).out
-    texts = {name: written(document) for name, document in documents().items()}
+    texts = {name: written(document) for name, document in {**documents(), **trouble_documents()}.items()}
     out.mkdir(parents=True, exist_ok=True)
     for name, text in texts.items():
         (out / name).write_text(text, "utf-8")

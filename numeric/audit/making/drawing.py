@@ -2,6 +2,7 @@
 
 drawn, stable    random rational matrices
 upward           a bound rounded up
+TELLING          how large a bound may be, beside its quantity
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import numpy as np
 from faultspace.exact.algebra.matrices import Matrix
 
 from ..vectors.rationals import matrix
+
+TELLING = 1e-2  # of the quantity's size: a bound above it asks for nothing
 
 
 def drawn(rng: Random, height: int, width: int, denominator: int) -> Matrix:

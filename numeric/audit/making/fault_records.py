@@ -28,14 +28,12 @@ from ...model.residuals import residual
 from ...rounding.residual_conditioning import fault_signal_error, fitted_state_error
 from ...signal.reconstruction import reconstruct_fault
 from ...space.by_ranks import noise_free_fault_space
-from ..checks.excitation import unexciting_inputs
-from ..checks.faults import LONG_WINDOW, with_input
 from ..vectors.fault_vectors import AS_GIVEN, HALF, VIEWS, FaultVector, FaultView, UnexcitingVector, channel_units, in_channel_units
+from ..vectors.inputs import LONG_WINDOW, unexciting_inputs, with_input
 from ..vectors.rationals import floats, fractions, matrix, scaled
 from ..vectors.recipe_vectors import NoisyVector
-from .drawing import drawn, stable, upward
+from .drawing import TELLING, drawn, stable, upward
 
-TELLING = 1e-2  # of the signal: a bound above it asks for nothing
 CLEAR = 10.0  # how far above the noise's norm the least singular value must be, both certified
 
 
@@ -121,20 +119,20 @@ def _seen(slug: str, view: FaultView, system: ResidualSystem, x0: Matrix, v: Mat
         ranks = tuple(rank(hankel(r, s)) for s in range(1, windows + 1))
         gaps = tuple(singular_values(hankel(in_channel_units(r), s)) for s in range(1, windows + 1))
     basis = known.fault_space.basis.transposed()
-    bounds = {"residual": _residual_bound(r, system, view.scale), "signal": _signal_bound(r, system, x0)}
-    space = {s: _space_bound(r, system, s) for s in {lag + 1, n + 1, LONG_WINDOW}}
+    bounds = {"residual": residual_bound(r, system, view.scale), "signal": signal_bound(r, system, x0)}
+    space = {s: space_bound(r, system, s) for s in {lag + 1, n + 1, LONG_WINDOW}}
     return FaultVector(slug, view, system, x0, v, ranks, gaps, system.m, basis, lag, v.nrows - delay, bounds, space)
 
 
-def _space_bound(r: Matrix, system: ResidualSystem, block_rows: int) -> float:
+def space_bound(r: Matrix, system: ResidualSystem, block_rows: int) -> float:
     found = noise_free_fault_space(floats(r), floats(system.A), floats(system.C), n_v=system.m, block_rows=block_rows)
     if not found.meaningful or found.error_bound is None:
         raise ArithmeticError(f"no bound for the fault space from {block_rows} block rows: {found.reason}")
     return upward(found.error_bound)
 
 
-def _residual_bound(r: Matrix, system: ResidualSystem, size: Fraction) -> float:
-    """Return the bound for y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `checks.faults.with_input`), in
+def residual_bound(r: Matrix, system: ResidualSystem, size: Fraction) -> float:
+    """Return the bound for y = r + the response from rest to u = size, -size, ... with B = F, D = G (see `vectors.inputs.with_input`), in
     channel units: what is computed for an output has its unit as a factor, whoever computes it.
     """
     units = channel_units(r)
@@ -145,7 +143,7 @@ def _residual_bound(r: Matrix, system: ResidualSystem, size: Fraction) -> float:
     return upward(fitted_state_error(floats(y), floats(u), model, residual(floats(y), floats(u), model).r))
 
 
-def _signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix) -> float | None:
+def signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix) -> float | None:
     """Return None where a zero on or outside the unit circle lets errors of the last samples grow backwards into the record, and where
     rounding may make so much of the signal that nothing is asked.
     """

@@ -1,18 +1,20 @@
 """This is what people read of a scoreboard.
 
 table          Markdown: a row a slug, a column an implementation; passed/asked
-findings       Markdown: each implementation's failures, with version, vector, numbers and the line that shows them again
+findings       Markdown: each implementation's failures, with version, vector, numbers, and the line and the script that show them again
+found          which findings these are
 write_pages    puts the table between README's two marks and writes FINDINGS.md
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 
 from ..records import Demand
 from .records import Audited, Board, Tally
+from .reproducers import reproducers, write
 
 BEGIN, END = "<!-- scoreboard -->", "<!-- end of scoreboard -->"
 HEAD = """# What the audit found
@@ -56,8 +58,8 @@ def _cell(audited: Audited, slug: str, function: str) -> str:
     return f"**{found.asked - found.failed}/{found.asked}**" if found.failed else f"{found.asked}/{found.asked}"
 
 
-def findings(board: Board) -> str:
-    """Return one section for each implementation that fails."""
+def findings(board: Board, scripts: Mapping[tuple[str, str], str]) -> str:
+    """Return one section for each implementation that fails; `scripts` has the path of the script by implementation and check."""
     parts = [HEAD]
     for audited in board.audited:
         failed = [one for one in audited.tallies if one.failed]
@@ -69,10 +71,25 @@ def findings(board: Board) -> str:
             parts.append(f"- **{first.slug}** of `{first.function}`: {count}. {_words(first)} Effect: {first.effect}.")
             if others:
                 parts.append(f"  The same in {', '.join(f'{one.slug} ({one.failed} of {one.asked})' for one in others)}.")
-            parts.append(f"  `faultspace audit --peer {audited.name} --check '{first.slug}[{first.vector}]-{first.function}'`")
+            path = scripts.get((audited.name, _full_name(first)))
+            link = f"; without faultspace: [{path.rpartition('/')[2]}]({path})" if path else ""
+            parts.append(f"  `faultspace audit --peer {audited.name} --check '{_full_name(first)}'`{link}")
         parts.append("")
     by_hand = files("faultspace.numeric.audit").joinpath("peers/by_hand.md").read_text("utf-8")
     return "\n".join(parts) + "\n" + by_hand
+
+
+def found(board: Board) -> list[tuple[str, str]]:
+    """Return (implementation, full name of the check) of each finding, the first of those that are alike."""
+    return [
+        (audited.name, _full_name(first))
+        for audited in board.audited
+        for first, *_ in _alike([one for one in audited.tallies if one.failed])
+    ]
+
+
+def _full_name(one: Tally) -> str:
+    return f"{one.slug}[{one.vector}]-{one.function}"
 
 
 def _alike(failed: Sequence[Tally]) -> list[list[Tally]]:
@@ -98,10 +115,12 @@ def _short(text: str) -> str:
 
 
 def write_pages(board: Board, folder: Path) -> None:
-    """Write README.md between its marks, where it has them, and FINDINGS.md."""
+    """Write README.md between its marks, where it has them, FINDINGS.md, and a script for each finding."""
     readme = folder / "README.md"
     if readme.exists() and BEGIN in (text := readme.read_text("utf-8")):
         before, _, rest = text.partition(BEGIN)
         _, _, after = rest.partition(END)
         readme.write_text(f"{before}{BEGIN}\n{table(board)}\n{END}{after}", "utf-8")
-    (folder / "FINDINGS.md").write_text(findings(board), "utf-8")
+    scripts = list(reproducers(found(board)))
+    write(folder, scripts)
+    (folder / "FINDINGS.md").write_text(findings(board, {(one.peer, one.check): one.path for one in scripts}), "utf-8")

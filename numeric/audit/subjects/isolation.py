@@ -15,19 +15,22 @@ from typing import Any, Self
 from ....base.errors import InvalidData
 from ....base.processes import STANDARD, Limits
 from ..records import Broken, Check, CheckResult, broken
+from ..vectors.trouble import SEED
 from .programs import Program
 
 LOADING = 120.0  # seconds for Python and the adapter's imports, whatever a check may take
 
 
 class Isolated:
-    """This is the adapter `name` (see `adapter.load`). `functions`: what it offers. Raises InvalidData where it cannot be loaded."""
+    """This is the adapter `name` (see `adapter.load`), asked vectors of this seed. `functions`: what it offers. Raises InvalidData where it
+    cannot be loaded.
+    """
 
-    def __init__(self, name: str, limits: Limits = STANDARD) -> None:
+    def __init__(self, name: str, limits: Limits = STANDARD, seed: int = SEED) -> None:
         self._name = name
         # -P: what lies in the present folder must not stand in for a module of ours. The paths are the caller's, so that both see the same.
         paths = os.pathsep.join(path for path in sys.path if path)
-        command = [sys.executable, "-P", "-m", "faultspace.numeric.audit.subjects.worker", name]
+        command = [sys.executable, "-P", "-m", "faultspace.numeric.audit.subjects.worker", name, str(seed)]
         self._program = Program(command, limits, environment={**os.environ, "PYTHONPATH": paths})
         self._loaded = False
         try:
@@ -57,6 +60,16 @@ class Isolated:
         except (Broken, InvalidData) as failure:  # after a crash it may be loaded again, or not
             self.close()
             return broken(check, failure, time.perf_counter() - begun)
+
+    def explain(self, check: Check) -> str:
+        """This is what is probably wrong where the check fails; nothing where finding that out takes too long or breaks the adapter."""
+        try:
+            if not self._loaded:
+                self._load()
+            return str(self._ask({"explain": check.name, "function": check.function})["explanation"])
+        except (Broken, InvalidData):
+            self.close()
+            return ""
 
     def _load(self) -> list[str]:
         answer = self._ask({"load": True}, LOADING)

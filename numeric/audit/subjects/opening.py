@@ -1,6 +1,7 @@
 """This says who is put through the checks: an object in this process, an adapter by its name, a program, a published package.
 
-Auditee      has `functions`, what it offers, and `perform`, which gives the result of one check and never raises for what the subject does
+Auditee      has `functions`, what it offers, `perform`, which gives the result of one check, and `explain`, which says what is probably
+             wrong where it fails; neither raises for what the subject does
 InProcess    an object whose functions run in this process, without limits
 opened       the subject that the arguments of `audit` name, closed at the end
 label        how `faultspace audit` is told of it
@@ -12,13 +13,17 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Protocol
 
 from ....base.errors import InvalidData
 from ....base.processes import Limits
-from ..adapter import guarded, offered
+from ..adapter import excused, guarded, not_promised
+from ..diagnosing.explaining import explained
 from ..peers import peer as peer_named
 from ..records import Check, CheckResult, perform
+from ..signatures import fitting
+from ..vectors.trouble import SEED
 from .isolation import Isolated
 from .subprocess_adapter import Exec
 
@@ -34,12 +39,15 @@ class Auditee(Protocol):
 
     def perform(self, check: Check) -> CheckResult: ...
 
+    def explain(self, check: Check) -> str: ...
+
 
 class InProcess:
     """This is an object with one or more of the functions. Raises InvalidData where it has none."""
 
     def __init__(self, implementation: object) -> None:
-        self._called = {name: guarded(one) for name, one in offered(implementation).items()}
+        self._called = {name: guarded(one) for name, one in fitting(implementation).items()}
+        self._apart = not_promised(implementation)
 
     @property
     def functions(self) -> tuple[str, ...]:
@@ -48,11 +56,15 @@ class InProcess:
 
     def perform(self, check: Check) -> CheckResult:
         """This is the result of one check."""
-        return perform(check, self._called[check.function])
+        return replace(perform(check, self._called[check.function]), not_promised=excused(check, self._apart))
+
+    def explain(self, check: Check) -> str:
+        """This is what is probably wrong where the check fails."""
+        return explained(check, self._called[check.function])
 
 
 @contextmanager
-def opened(adapter: object, command: Command | None, peer: str | None, limits: Limits) -> Iterator[Auditee]:
+def opened(adapter: object, command: Command | None, peer: str | None, limits: Limits, seed: int = SEED) -> Iterator[Auditee]:
     """At most one of the three is given; without any it is our own reference. Raises InvalidData for more, and where nothing answers."""
     if sum(one is not None for one in (adapter, command, peer)) > 1:
         raise InvalidData("got more than one of an adapter, command= and peer=, expected one of them")
@@ -67,7 +79,7 @@ def opened(adapter: object, command: Command | None, peer: str | None, limits: L
         with Exec(command, limits) as program:
             yield InProcess(program)
     elif adapter is None or isinstance(adapter, str):
-        with Isolated(adapter or REFERENCE, limits) as worker:
+        with Isolated(adapter or REFERENCE, limits, seed) as worker:
             yield worker
     else:
         yield InProcess(adapter)

@@ -2,8 +2,13 @@
 
 Program     starts it with the first question; `ask` sends one line and gives the next one back; `close` ends it and all that it started
 
-What the program does wrong raises Broken with the words for it: hangs, ends, takes too much memory, talks out of turn. It is killed
-then, and started again with the next question.
+What the program does wrong raises Broken with the words for it: hangs, ends, takes too much memory, talks out of turn, starts too many
+processes, leaves some behind. It is killed then, and started again with the next question.
+
+Time and memory are looked at at every GLANCE, whether or not the program writes meanwhile. Behind that stands a limit of the kernel on the
+data of each process, BACKSTOP times the memory allowed, for what grows faster than anyone looks. What a program starts carries a mark in
+its environment, by which it is found wherever it went: into another session, to another parent. Processes that are there after the first
+answer belong to the program; what comes later must be gone PATIENCE after the answer.
 """
 
 from __future__ import annotations
@@ -16,16 +21,22 @@ import tempfile
 import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from secrets import token_hex
 from signal import Signals
 
 import psutil
 
-from ....base.errors import InvalidData
+from ....base.errors import InvalidData, shorten
 from ....base.processes import Limits, family, kill_session, resident, session
 from ..records import Broken
 
 LONGEST_ANSWER = 64 << 20
 GLANCE = 0.05  # seconds between two looks at the memory: what grows by gigabytes a second is seen in time
+BACKSTOP = 4  # times the memory allowed: reserved is more than held, and the words for too much are those of a look
+CROWD = 200  # processes: no method needs as many, and a program that forks without end has them at once
+PATIENCE = 1.0  # seconds that what was started for an answer has to end after it
+MARK = "FAULTSPACE_AUDITED"
+HELPER = "multiprocessing.resource_tracker"  # Python's own, which lives as long as the program
 
 
 class Program:
@@ -35,7 +46,9 @@ class Program:
         self.command = shlex.join(command)
         self.limits = limits
         self._arguments = list(command)
-        self._environment = environment
+        self._mark = token_hex(16)
+        self._environment = {**(os.environ if environment is None else environment), MARK: self._mark}
+        self._own: set[psutil.Process] | None = None
         self._process: subprocess.Popen[bytes] | None = None
         self._pending = b""
         self._family: set[psutil.Process] = set()
@@ -57,7 +70,7 @@ class Program:
         if process is None:
             return
         # Those in other sessions too: as seen at the last glances, whatever their parents did meanwhile.
-        started, self._family = self._family | set(family(process.pid)), set()
+        started, self._family, self._own = self._family | set(family(process.pid)) | self._marked(), set(), None
         kill_session(process.pid)
         for one in started:
             with suppress(psutil.Error):
@@ -72,7 +85,12 @@ class Program:
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115
         try:
             self._process = session(
-                self._arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, env=self._environment
+                self._arguments,
+                data=BACKSTOP * self.limits.memory,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self._errors,
+                env=self._environment,
             )
         except OSError as error:
             self._errors.close()
@@ -85,7 +103,7 @@ class Program:
         """Writes and reads at once, so that neither side waits for the other with a full pipe."""
         process = self._process
         assert process is not None and process.stdin is not None and process.stdout is not None
-        deadline = time.monotonic() + seconds
+        deadline, glance = time.monotonic() + seconds, time.monotonic() + GLANCE
         with selectors.DefaultSelector() as selector:
             selector.register(process.stdout, selectors.EVENT_READ)
             if self._pending or selector.select(0):
@@ -95,8 +113,9 @@ class Program:
                 if time.monotonic() > deadline:
                     raise Broken(f"no answer within {seconds:g} s")
                 ready = selector.select(min(GLANCE, max(deadline - time.monotonic(), 0)))
-                if not ready:
+                if time.monotonic() >= glance:
                     self._glance(process)
+                    glance = time.monotonic() + GLANCE
                 for key, _ in ready:
                     if key.fileobj is process.stdin:
                         try:
@@ -113,11 +132,35 @@ class Program:
                 if len(self._pending) > LONGEST_ANSWER:
                     raise Broken(f"printed more than {LONGEST_ANSWER} bytes without an end of line")
         answer, _, self._pending = self._pending.partition(b"\n")
+        self._see_who_stays()
         return answer
+
+    def _marked(self) -> set[psutil.Process]:
+        """Return the processes that carry the mark, wherever they are."""
+        found = set()
+        for one in psutil.process_iter():
+            with suppress(psutil.Error, OSError):
+                if one.environ().get(MARK) == self._mark:
+                    found.add(one)
+        return found
+
+    def _see_who_stays(self) -> None:
+        """Raises Broken for processes that were started for an answer and outlive it."""
+        if self._own is None:
+            self._own = self._marked()
+            return
+        deadline = time.monotonic() + PATIENCE
+        while left := [one for one in (self._marked() | self._family) - self._own if _lives(one)]:
+            if time.monotonic() > deadline:
+                self._family |= set(left)
+                raise Broken(f"left {len(left)} process{'' if len(left) == 1 else 'es'} behind: {_words(left[0])}")
+            time.sleep(GLANCE)
 
     def _glance(self, process: subprocess.Popen[bytes]) -> None:
         """Raises Broken for too much memory or too much on standard error."""
         self._family |= set(family(process.pid))
+        if (crowd := sum(one.is_running() for one in self._family)) > CROWD:
+            raise Broken(f"started {crowd} processes, {CROWD} are allowed")
         if (held := resident(one for one in self._family if one.is_running())) > self.limits.memory:
             raise Broken(f"held {held / 2**30:.1f} GiB of memory, {self.limits.memory / 2**30:.2g} GiB are allowed")
         if os.fstat(self._errors.fileno()).st_size > LONGEST_ANSWER:
@@ -133,3 +176,16 @@ class Program:
             known = {one.value: one.name for one in Signals}
             how = f" ({known.get(-process.returncode, f'signal {-process.returncode}')})"
         return how + (f"; it said: {words}" if words else "")
+
+
+def _lives(process: psutil.Process) -> bool:
+    """Say whether it runs, and is neither a zombie nor a helper of Python's own."""
+    with suppress(psutil.Error):
+        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE and HELPER not in _words(process)
+    return False
+
+
+def _words(process: psutil.Process) -> str:
+    with suppress(psutil.Error):
+        return shorten(shlex.join(process.cmdline()) or process.name())
+    return "ended meanwhile"

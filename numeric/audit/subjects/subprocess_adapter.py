@@ -61,7 +61,8 @@ class Exec:
             raise InvalidData("got no program, expected a command such as 'octave-cli --quiet adapter.m'")
         self._program = Program(words, limits)
         try:
-            offered = self._ask({"call": "functions"}).get("functions")
+            answer = self._ask({"call": "functions"})
+            offered, self.NOT_PROMISED = answer.get("functions"), answer.get("not_promised", {})
         except (Broken, Refused) as failure:
             raise InvalidData(f"the program {self._program.command} does not speak the protocol: {failure}") from None
         if not isinstance(offered, list) or any(name not in FUNCTIONS for name in offered):

@@ -1,8 +1,9 @@
-"""`python -m faultspace.numeric.audit.subjects.worker ADAPTER`: checks of a named adapter in a process of its own, asked by JSON lines.
+"""`python -m faultspace.numeric.audit.subjects.worker ADAPTER SEED`: checks of a named adapter in its own process, asked by JSON lines.
 
     {"load": true}                                 -> {"functions": [...]}, or {"invalid": why}
     {"check": slug[vector], "function": name}      -> {"record": {...}}
-    either                                         -> {"broken": why}
+    {"explain": slug[vector], "function": name}    -> {"explanation": what is probably wrong}
+    any of them                                    -> {"broken": why}
 
 The lines go through copies of the standard streams that the adapter does not see; what it prints itself is dropped. A copy of the
 process that comes back from a function, because the adapter forked, never answers: it leaves a mark and ends.
@@ -22,14 +23,17 @@ from typing import Any
 import psutil
 
 from ....base.errors import InvalidData
-from ..adapter import guarded, load, offered
+from ..adapter import excused, guarded, load, not_promised
 from ..checks.catalogue import all_checks
+from ..diagnosing.explaining import explained
 from ..records import Function, perform
+from ..signatures import fitting
+from ..vectors.trouble import SEED
 
 PATIENCE = 1.0  # seconds that copies of this process have to come back
 
 
-def main(name: str) -> int:
+def main(name: str, seed: int = SEED) -> int:
     """This answers until standard input ends."""
     with os.fdopen(os.dup(0)) as questions, os.fdopen(os.dup(1), "w") as answers, open(os.devnull, "r+b") as nowhere:
         for taken in (0, 1):
@@ -37,15 +41,19 @@ def main(name: str) -> int:
         # An adapter may import what lies in the present folder and beside it, as it could if it were run.
         sys.path[:0] = ["", *([str(Path(name.rpartition(":")[0] or name).parent)] if ".py" in name else [])]
         functions: dict[str, Function] = {}
-        checks = {(one.name, one.function): one for one in all_checks()}
+        apart: dict[str, str] = {}
+        checks = {(one.name, one.function): one for one in all_checks(seed)}
         for line in questions:
             question = json.loads(line)
             with _Copies() as copies:
                 if "load" in question:
-                    answer = _loaded(name, functions)
+                    answer = _loaded(name, functions, apart)
+                elif "explain" in question:
+                    check = checks[question["explain"], question["function"]]
+                    answer = {"explanation": explained(check, functions[check.function])}
                 else:
                     check = checks[question["check"], question["function"]]
-                    answer = {"record": asdict(perform(check, functions[check.function]))}
+                    answer = {"record": asdict(perform(check, functions[check.function])) | {"not_promised": excused(check, apart)}}
                 if copies.seen():
                     answer = {"broken": "forked: a copy of the process came back from the call"}
             answers.write(json.dumps(answer) + "\n")
@@ -53,10 +61,12 @@ def main(name: str) -> int:
     return 0
 
 
-def _loaded(name: str, functions: dict[str, Function]) -> dict[str, Any]:
-    """Fill `functions` with what the adapter offers."""
+def _loaded(name: str, functions: dict[str, Function], apart: dict[str, str]) -> dict[str, Any]:
+    """Fill `functions` with what the adapter offers, and `apart` with what it never promised."""
     try:
-        functions |= {key: guarded(one) for key, one in offered(load(name)).items()}
+        found = load(name)
+        functions |= {key: guarded(one) for key, one in fitting(found).items()}
+        apart |= not_promised(found)
     except InvalidData as error:
         return {"invalid": str(error)}
     return {"functions": list(functions)}
@@ -96,4 +106,4 @@ def _command(process: psutil.Process) -> list[str]:
 
 
 if __name__ == "__main__":
-    raise SystemExit(main(sys.argv[1]))
+    raise SystemExit(main(sys.argv[1], int(sys.argv[2])))

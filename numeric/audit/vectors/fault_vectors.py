@@ -4,6 +4,7 @@
     FaultView           the same record in other units, another state basis, another order of outputs, or a part of it
     VIEWS               the views that every fault vector is given in
     UnexcitingVector    a fault signal from which the number of faults cannot be told: ranks and gaps alone
+    samples_that_settle how long a record must be for a number of faults to be due
     channel_units       powers of ten of the size of each channel
 
 A view is a fault vector of its own, over the transformed system, so that whatever is asked of the one can be asked of the other.
@@ -26,6 +27,7 @@ from faultspace.exact.system.systems import ResidualSystem
 
 from .rationals import floats, matrix, residual_system, scaled
 
+SETTLED, WIDE = 3, 2  # two gaps may be equal by chance, and nearly square matrices have small singular values by chance
 HALF = 45  # of the 90 samples of each record
 CLEAR = 1e3 * 2.0**-53  # of the norm of R_s, channels in their units: a thousand times what rounding moves a singular value by
 
@@ -161,7 +163,7 @@ class FaultVector:
         v = matrix(data["v"], len(data["v"][0]))
         whole = FaultVector._read(data["slug"], AS_GIVEN, data, v)
         views = {}
-        for one, view in zip(data["views"], VIEWS, strict=True):
+        for one, view in zip(data["views"], VIEWS if data["views"] else (), strict=True):
             part = scaled(v.rows(range(*one["samples"])), [Fraction(one["fault_scale"])] * v.ncols)
             views[one["slug"]] = FaultVector._read(data["slug"], view, one, part)
         return FaultVector(**{name: getattr(whole, name) for name in FaultVector.__dataclass_fields__ if name != "views"}, views=views)
@@ -219,6 +221,15 @@ class UnexcitingVector:
         known, shown = data["expected"], residual_system(data["system"])
         v, x0 = matrix(data["v"], shown.m), matrix(data["x0"], 1)
         return UnexcitingVector(data["slug"], shown, x0, v, tuple(known["window_ranks"]), gaps_from_json(data), known["shown"])
+
+
+def samples_that_settle(p: int, lag: int) -> int:
+    """Return how many samples show that the ranks have settled: SETTLED equal gaps, of windows with WIDE times as many columns as rows.
+
+    Below that a number of faults is not to be told from the data alone: a longer lag would look the same.
+    """
+    longest = lag + SETTLED
+    return (WIDE * p + 1) * longest - 1
 
 
 def channel_units(r: Matrix) -> list[Fraction]:

@@ -4,13 +4,16 @@ matrix      from strings, integers or Fractions
 residual_system   A, F, C, G of the file of a vector
 fractions   the entries
 floats      each entry correctly rounded (to nearest, ties to even): the stated rounding
+roundings   which matrices became which arrays
 scaled      columns in other units
 signs       +-1 by a linear congruential generator that any language can run
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from fractions import Fraction
 from typing import Any
 
@@ -43,7 +46,24 @@ def fractions(given: Matrix) -> list[list[Fraction]]:
 def floats(given: Matrix) -> Array:
     """Return each entry correctly rounded; a new array at every call."""
     # Python divides two integers with one rounding, to nearest, ties to even.
-    return np.array([[int(x.p) / int(x.q) for x in row] for row in given.elements()], dtype=np.float64).reshape(given.shape)
+    found = np.array([[int(x.p) / int(x.q) for x in row] for row in given.elements()], dtype=np.float64).reshape(given.shape)
+    if (kept := _ROUNDED.get()) is not None:
+        kept.append((found.copy(), given))
+    return found
+
+
+_ROUNDED: ContextVar[list[tuple[Array, Matrix]] | None] = ContextVar("rounded", default=None)
+
+
+@contextmanager
+def roundings() -> Iterator[list[tuple[Array, Matrix]]]:
+    """Keep what `floats` rounds in the body: each array with the matrix that it was."""
+    kept: list[tuple[Array, Matrix]] = []
+    token = _ROUNDED.set(kept)
+    try:
+        yield kept
+    finally:
+        _ROUNDED.reset(token)
 
 
 def scaled(given: Matrix, factors: Sequence[Fraction]) -> Matrix:

@@ -56,7 +56,8 @@ class IdentificationVector:
     """This is x(k+1) = A x + B u, y = C x + D u from x0, exactly; `bounds` for an order-`order` model from `block_rows` block rows.
 
     bounds: "markov" (2 n + 2, p, n_u), "characteristic_polynomial" (n,) for z^(n-1), ..., 1, "transfer" (points, p, n_u), "poles" (n,)
-    in the order of `poles`. parts: slug -> (first, last, bounds of the same names) for the record cut to samples first .. last - 1.
+    in the order of `poles`; None for what is not asked. parts: slug -> (first, last, bounds of the same names) for the record cut to
+    samples first .. last - 1.
     """
 
     slug: str
@@ -83,6 +84,10 @@ class IdentificationVector:
     def bound(self, name: str, part: str | None = None) -> Array:
         """Return the bounds of that name as an array, for the whole record or a part of it."""
         return np.array(self.bounds[name] if part is None else self.parts[part][2][name], dtype=float)
+
+    def asked(self, name: str, part: str | None = None) -> bool:
+        """Say whether the quantity of that name is asked: it is not where rounding may make anything of it, and has no bound then."""
+        return (self.bounds if part is None else self.parts[part][2])[name] is not None
 
     def to_json(self) -> dict[str, Any]:
         """Return the vector in JSON, with the exact outputs and answers spelt out for other languages."""

@@ -272,7 +272,7 @@ FAULTS = [
     mutant(
         "as-many-as-outputs", "n_v = p (published)", "fault-dimension", "fault-dimension-permuted-outputs", fault_dimension=_whole_outputs
     ),
-    mutant("gap-below-the-lag", "rank R_2 - rank R_1", "fault-dimension", "fault-dimension-below-the-lag", fault_dimension=_gap_at_one),
+    mutant("gap-below-the-lag", "rank R_2 - rank R_1", "fault-dimension", fault_dimension=_gap_at_one),
     mutant("window-of-n", "n block rows where lag + 1 are needed", "fault-space", fault_space=_window_of_n),
     mutant("space-at-one", "rank of R_s by the threshold 1.0 (published)", "fault-space-1e-6", fault_space=_space_at(1.0)),
     mutant("space-at-1e-9", "rank of R_s by the threshold 1e-9", "fault-space-1e6", fault_space=_space_at(1e-9)),

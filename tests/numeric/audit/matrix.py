@@ -1,4 +1,4 @@
-"""`python -m tests.numeric.audit.matrix --out FILE`: every mutant through every check of the functions it breaks, as Markdown tables.
+"""`python -m tests.numeric.audit.matrix --out FILE [--jobs N]`: every mutant through every check of its functions, as Markdown tables.
 
 matrix     (mutant, slug) -> (failed, asked)
 page       one table a function: a row a mutant, a column a slug
@@ -8,7 +8,11 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import chdir
+from multiprocessing import get_context
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from rich.progress import track
 
@@ -29,8 +33,9 @@ on another, and whether square-memory is seen in `time-grows-with-N` depends on 
 """
 
 
-def counted(mutant: Mutant) -> dict[tuple[str, str], tuple[int, int]]:
-    """The counts are those of one mutant."""
+def counted(place: int) -> dict[tuple[str, str], tuple[int, int]]:
+    """The counts are those of one mutant, which has a process of its own: some change what the next one would find."""
+    mutant = MUTANTS[place]
     result: dict[tuple[str, str], tuple[int, int]] = {}
     for record in audit(mutant.adapter):
         failed, asked = result.get((mutant.name, record.slug), (0, 0))
@@ -66,10 +71,17 @@ def main() -> None:
     """This writes the page."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, metavar="FILE")
-    out: Path = parser.parse_args().out
+    parser.add_argument("--jobs", type=int, default=1, metavar="N")
+    options = parser.parse_args()
+    out: Path = options.out.resolve()
     counts: dict[tuple[str, str], tuple[int, int]] = {}
-    for mutant in track(MUTANTS, "mutants"):
-        counts |= counted(mutant)
+    with (
+        ProcessPoolExecutor(options.jobs, get_context("spawn"), max_tasks_per_child=1) as pool,
+        TemporaryDirectory() as folder,
+        chdir(folder),
+    ):
+        for found in track(pool.map(counted, range(len(MUTANTS))), "mutants", len(MUTANTS)):
+            counts |= found
     out.write_text(page(MUTANTS, counts), "utf-8")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -13,8 +14,9 @@ import pytest
 from faultspace.base.errors import InvalidData
 from faultspace.numeric.audit import adapter, reference
 from faultspace.numeric.audit.adapter import FUNCTIONS, load
-from faultspace.numeric.audit.checks.catalogue import all_checks
-from faultspace.numeric.audit.records import CheckResult, Demand, Measurement, message
+from faultspace.numeric.audit.checks.catalogue import all_checks, quick_checks
+from faultspace.numeric.audit.making.kinds_of_trouble import KINDS
+from faultspace.numeric.audit.records import CheckResult, Demand, Measurement, message, perform
 from faultspace.numeric.audit.running import ExpectedFailure, audit, parametrize_with_checks
 
 # What mypy checks: the reference is what the protocols describe.
@@ -79,7 +81,7 @@ def _raises(error: BaseException) -> Any:
         (lambda r: None, "refused"),
         (_raises(IndexError("out of range")), "broken"),
         (_raises(MemoryError()), "broken"),
-        (lambda: 3, "broken"),
+        (_raises(TypeError("of ours")), "broken"),
         (_raises(SystemExit(0)), "broken"),
         (lambda r: "many", "broken"),
         (lambda r: float("nan"), "fail"),
@@ -125,7 +127,7 @@ def test_an_expected_failure_passes_and_turns_red_when_it_passes() -> None:
         expected=[ExpectedFailure("refuses-nan-residual[two-faults]-fault_dimension", "of one function alone")],
     )
     assert (one.function, one.failed) == ("window_ranks", False) and (other.function, other.failed) == ("fault_dimension", True)
-    (record,) = audit(SimpleNamespace(fault_dimension=lambda: 2), only=[mark.name], expected=[mark])
+    (record,) = audit(SimpleNamespace(fault_dimension=_raises(IndexError("x"))), only=[mark.name], expected=[mark])
     assert record.failed and record.verdict == "broken"
     with pytest.raises(InvalidData, match="needs a reason"):
         ExpectedFailure("fault-dimension", " ")
@@ -136,7 +138,7 @@ def test_an_expected_failure_passes_and_turns_red_when_it_passes() -> None:
 def test_the_pytest_face_is_red_where_the_records_are() -> None:
     decorated: Any = parametrize_with_checks(SimpleNamespace(fault_dimension=lambda r: 2))
     cases = {case.id: case.values[0] for case in decorated.args[1]}
-    with pytest.raises(AssertionError, match=r"fault-dimension\[one-fault\].*ratio inf"):
+    with pytest.raises(AssertionError, match=r"fault-dimension\[one-fault\](?s:.*)answered 2, true 1"):
         cases["fault-dimension[one-fault]-fault_dimension"]()
     cases["fault-dimension[two-faults]-fault_dimension"]()
 
@@ -157,3 +159,62 @@ def test_adapters_by_name(tmp_path: Path) -> None:
     for name in (f"{file}:Yours", str(tmp_path / "none.py"), "no.such.module:x", str(broken)):
         with pytest.raises(InvalidData, match="adapter"):
             load(name)
+
+
+def _off_by(ratio: float, **changes: Any) -> CheckResult:
+    """Return the result of a check whose only measurement is so many bounds off."""
+    (check,) = (one for one in all_checks() if one.full_name == "fault-space[one-fault]-fault_space")
+    return perform(replace(check, measure=lambda function: [Measurement("angle", ratio, 1.0)], **changes), len)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "changes", "verdict", "failed"),
+    [
+        (1.0, {}, "pass", False),
+        (1.1, {}, "near", False),
+        (9.9, {}, "near", False),
+        (10.0, {}, "fail", True),
+        (1.1, {"nearness": 1.0}, "fail", True),
+    ],
+)
+def test_a_miss_by_less_than_ten_bounds_of_rounding_is_near(ratio: float, changes: Any, verdict: str, failed: bool) -> None:
+    record = _off_by(ratio, **changes)
+    assert (record.verdict, record.failed) == (verdict, failed)
+
+
+def test_what_is_no_bound_of_rounding_knows_nothing_near() -> None:
+    """The bias of a method, an exponent of growth and a level under noise are on one side or on the other."""
+    strict = {one.slug for one in all_checks() if one.nearness == 1}
+    assert strict == {
+        "consistent-under-coloured-fault",
+        "memory-grows-with-N",
+        "time-grows-with-N",
+        "right-on-long-records",
+        "space-of-record-noisy",
+        "space-of-record-noisy-other-units",
+    }
+
+
+def test_what_was_never_promised_is_counted_apart(tmp_path: Path) -> None:
+    text = "NOT_PROMISED = {'fault-dimension/two-*': 'one fault only'}\ndef fault_dimension(r):\n    return 1\n"
+    mine = tmp_path / "mine.py"
+    mine.write_text(text, "utf-8")
+    only = ["fault-dimension[two-faults]", "fault-dimension[bad-units]"]
+    for adapter_ in (str(mine), load(str(mine))):
+        here, other = audit(adapter_, only=only)
+        assert (here.verdict, here.failed, here.not_promised) == ("fail", False, "one fault only")
+        assert (other.verdict, other.failed, other.not_promised) == ("fail", True, "")
+    with pytest.raises(InvalidData, match="NOT_PROMISED"):
+        audit(SimpleNamespace(fault_dimension=len, NOT_PROMISED={"*": " "}))
+
+
+def test_the_quick_set_has_every_question_once_and_every_kind_of_trouble() -> None:
+    whole, part = list(all_checks()), list(quick_checks(all_checks()))
+    assert {(one.slug, one.function) for one in whole} == {(one.slug, one.function) for one in part}
+    assert {kind.slug for kind in KINDS} <= {one.vector for one in part} and len(part) < 0.7 * len(whole)
+
+
+def test_a_seed_is_a_natural_number() -> None:
+    for seed in (-1, 1.5, True):
+        with pytest.raises(InvalidData, match="seed"):
+            audit(reference, seed=seed)  # type: ignore[arg-type]

@@ -70,14 +70,30 @@ def test_what_breaks_is_told_and_the_run_goes_on(tmp_path: Path, body: str, verd
 
 def test_a_process_left_behind_ends_with_the_audit(tmp_path: Path) -> None:
     number = tmp_path / "number"
-    (record,) = audit(_adapter(tmp_path, child(number)), only=[ONE])
-    assert record.verdict == "pass" and ends(number)
+    first, second = audit(_adapter(tmp_path, child(number)), only=[ONE, TWO])
+    assert first.verdict == "broken" and "left 1 process behind" in first.detail and ends(number) and second.verdict == "pass"
 
 
 def test_a_process_that_leaves_the_session_ends_with_the_audit(tmp_path: Path) -> None:
     number = tmp_path / "number"
     (record,) = audit(_adapter(tmp_path, f"{child(number, ', start_new_session=True')}; time.sleep(0.3)"), only=[ONE])
-    assert record.verdict == "pass" and ends(number)
+    assert record.verdict == "broken" and "left 1 process behind" in record.detail and ends(number)
+
+
+def test_a_process_that_no_parent_and_no_session_leads_to_is_found_by_its_mark(tmp_path: Path) -> None:
+    """It forks twice and leaves the session at once, as daemons do."""
+    number = tmp_path / "number"
+    written = f"open({str(number)!r}, 'w').write(str(os.getpid()))"
+    grand = f"import os, time; os.setsid(); {written} if not os.fork() else os._exit(0); time.sleep(60)"
+    body = f"import subprocess; subprocess.run([sys.executable, '-c', {grand!r}]); time.sleep(0.3)"
+    (record,) = audit(_adapter(tmp_path, body), only=[ONE])
+    assert record.verdict == "broken" and "left 1 process behind" in record.detail and ends(number)
+
+
+def test_what_ends_soon_after_the_answer_is_not_left_behind(tmp_path: Path) -> None:
+    body = "import subprocess; subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(0.1)'])"
+    (record,) = audit(_adapter(tmp_path, body), only=[ONE])
+    assert record.verdict == "pass"
 
 
 def test_an_adapter_that_loads_once_only_breaks_what_comes_after(tmp_path: Path) -> None:
@@ -110,7 +126,7 @@ def test_the_same_records_with_and_without_a_process_of_its_own() -> None:
 def test_what_the_worker_cannot_load(tmp_path: Path, text: str, words: str) -> None:
     file = tmp_path / "broken.py"
     file.write_text(text + "\n", "utf-8")
-    assert words in worker._loaded(str(file), {})["invalid"]
+    assert words in worker._loaded(str(file), {}, {})["invalid"]
 
 
 @pytest.mark.parametrize(("text", "words"), [("import no_such_package", "no_such_package"), ("import os; os._exit(1)", "ended without")])

@@ -31,8 +31,11 @@ def test_the_named_check_catches_it(mutant: Mutant, slug: str) -> None:
     failed = [record for record in records if record.failed]
     print(f"{mutant.name}: {len(failed)} of {len(records)} {slug}: {', '.join(record.vector for record in failed)}")
     assert failed, mutant.wrong
-    # A model of another order is no answer at all.
-    assert all(record.verdict == ("broken" if mutant.name == "order-ignored" else "fail") for record in failed)
+    # A model of another order is no answer at all; what writes into a read-only array is stopped, as is who
+    # finds what is no number, or every other sample.
+    stopped = dict.fromkeys(("changed-and-restored", "strides-ignored", "thinned"), "refused")
+    due = {"order-ignored": "broken", **stopped}.get(mutant.name, "fail")
+    assert due in {record.verdict for record in failed}
 
 
 @pytest.mark.parametrize(

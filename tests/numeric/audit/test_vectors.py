@@ -17,12 +17,12 @@ from faultspace.exact.algebra.matrices import rank, stacked
 from faultspace.exact.structure.record import analyze
 from faultspace.exact.structure.signals import data_fault_space, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
-from faultspace.numeric.audit.checks.excitation import unexciting_inputs
 from faultspace.numeric.audit.making import fault_records
 from faultspace.numeric.audit.making.all_vectors import MAKERS, documents, main
 from faultspace.numeric.audit.making.fault_records import singular_values
 from faultspace.numeric.audit.vectors.exact_comparison import markov, polynomial_from_the_top
 from faultspace.numeric.audit.vectors.fault_vectors import VIEWS, in_channel_units
+from faultspace.numeric.audit.vectors.inputs import unexciting_inputs
 from faultspace.numeric.audit.vectors.shipped_vectors import KINDS, floats, fractions, matrix, scaled, shipped, signs
 from faultspace.numeric.model.models import StateSpaceModel
 from faultspace.numeric.space.by_ranks import noise_free_fault_space
@@ -73,12 +73,13 @@ def test_shipped_files_are_what_the_tool_makes(kind: str, made: dict[str, Any]) 
 
 def test_the_tool_writes_them(tmp_path: Path, made: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("faultspace.numeric.audit.making.all_vectors.documents", lambda: made)
+    monkeypatch.setattr("faultspace.numeric.audit.making.all_vectors.trouble_documents", lambda: {})
     assert main(["--out", str(tmp_path / "new")]) == 0
     assert {path.name for path in (tmp_path / "new").iterdir()} == {f"{kind}.json" for kind in KINDS}
     assert json.loads((tmp_path / "new" / "faults.json").read_text("utf-8")) == made["faults.json"]
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", [*KINDS, "trouble"])
 def test_schema(kind: str) -> None:
     schema, document = _read("schema.json"), _read(f"{kind}.json")
     validator = jsonschema.Draft202012Validator(schema)

@@ -1,0 +1,83 @@
+"""Say how options are read and shown: the parts that the commands of `command_line` are declared with.
+
+Effort, Expected     the words that an option can be
+Plain                a command whose help shows its arguments as they are typed
+number               the parser of a number from a least one on
+in_our_words         a complaint about options as all complaints about input are
+Json, Verbose, Floats, OneSystem   options and an argument that several commands have
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from enum import StrEnum
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperCommand
+
+from ..base.errors import shorten
+
+
+class Effort(StrEnum):
+    """It says how long `verify` looks."""
+
+    quick = "quick"
+    full = "full"
+
+
+class Expected(StrEnum):
+    """These are the answers that `compare` can be made to expect."""
+
+    equivalent = "equivalent"
+    different = "different"
+
+
+class Plain(TyperCommand):
+    """The usage and the list of arguments show each by its `metavar`, without braces and types around it."""
+
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """Return the words after the command's name."""
+        return ["[OPTIONS]", *(str(one.metavar) for one in self.get_params(ctx) if one.param_type_name == "argument")]
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write arguments and options with their help."""
+        rows: dict[str, list[tuple[str, str]]] = {"argument": [], "option": []}
+        for one in self.get_params(ctx):
+            if record := one.get_help_record(ctx):
+                rows[one.param_type_name].append((str(one.metavar) if one.param_type_name == "argument" else record[0], record[1]))
+        for kind, shown in rows.items():
+            if shown:
+                with formatter.section(f"{kind.title()}s"):
+                    formatter.write_dl(shown)
+
+
+def number(kind: type[int] | type[float], least: float, such_as: float) -> Callable[[str], Any]:
+    """Return the parser of a number from `least` on, which says what it got, what it needs and what to try."""
+
+    def parsed(text: str) -> Any:
+        try:
+            value = kind(str(text))
+        except ValueError:
+            value = None
+        open_end = kind is float and not least
+        if value is None or not (value > 0 if open_end else least <= value) or value == float("inf"):
+            wanted = "positive number" if open_end else f"{'whole ' if kind is int else ''}number from {least:g} on"
+            raise typer.BadParameter(f"got {shorten(str(text))}, expected a {wanted}, try {such_as:g}")
+        return value
+
+    return parsed
+
+
+def in_our_words(message: str) -> str:
+    """Return a complaint about options as all complaints about input are: the place, what was got, what is expected."""
+    message = re.sub(r"^Invalid value for '([^']*)': ", lambda found: f"{found[1].split(' / ')[-1]}: ", message)
+    message = re.sub(r"^Missing (option|argument) '([^']*)'\.", r"\2: got none, expected the \1", message)
+    return re.sub(r"(?:Value error, )?'([^']*)' is not one of (.*?)\.?$", r"got '\1', expected one of \2", message)
+
+
+Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else on standard output.")]
+Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print the long tables, too.")]
+Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as the dyadic rationals that they are.")]
+OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", show_default=False, help="A system file, - or example:NAME.")]

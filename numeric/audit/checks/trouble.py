@@ -1,0 +1,88 @@
+"""Checks of every kind of trouble: the plain questions of each function that it concerns, on one vector each, drawn from a seed.
+
+checks      those of all kinds for a seed
+questions   the plain questions of a kind, and what compares the answers
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from functools import partial
+
+from ..making.all_troubles import troubles
+from ..records import Check, Demand, Function, Measurement, Severity
+from ..vectors.fault_vectors import FaultVector
+from ..vectors.rationals import floats
+from ..vectors.shipped_vectors import IdentificationVector
+from ..vectors.trouble import Trouble
+from . import structure
+from .faults import count_off, residual_off, signal_off, space_off, window_ranks_off
+from .identification import RECOVERY, models_off
+
+Compare = Callable[[Function], Iterator[Measurement]]
+
+
+def checks(seed: int) -> Iterator[Check]:
+    """This yields all checks of the module."""
+    for one in troubles(seed):
+        yield from of_trouble(one)
+
+
+def of_trouble(trouble: Trouble) -> Iterator[Check]:
+    """Yield the checks of the functions that the kind concerns, as far as it has vectors and bounds for them."""
+    if trouble.structure:
+        yield from structure.of_vector(trouble.structure)
+    for slug, function, claim, effect, compare in questions(trouble):
+        if function != "structure":
+            yield Check(slug, function, trouble.kind, claim, effect, Severity.SILENT, partial(_measured, compare))
+    if trouble.faults and trouble.faults.n_v >= trouble.faults.system.p:
+        yield _free_count("as-many-faults-as-outputs", "noise is taken for faults, or faults for noise", trouble.faults)
+    if trouble.faults and trouble.faults.n_v == 0:
+        yield _free_count("fault-dimension-unexciting", "no fault is taken for one that does not excite, or the reverse", trouble.faults)
+
+
+def _measured(compare: Compare, function: Function) -> Iterator[Measurement]:
+    yield from compare(function)
+
+
+def questions(trouble: Trouble) -> Iterator[tuple[str, str, str, str, Compare]]:
+    """Yield (slug, function, claim, effect, what compares the answers of a function with the truth), one or two a function."""
+    vector, model = trouble.faults, trouble.model
+    if trouble.structure:
+        effect = "faults that no output shows are missed, or seen where there are none"
+        yield "finite-zeros", "structure", "window-ranks", effect, partial(structure.zeros_off, trouble.structure)
+    if vector:
+        for slug, function, claim, effect, compare in _of_faults(vector):
+            if function in trouble.asks and not (function == "reconstruct" and vector.bounds["signal"] is None):
+                yield slug, function, claim, effect, partial(compare, vector)
+    if model and any(model.asked(name) for name in ("markov", "characteristic_polynomial", "poles")):
+        yield "exact-recovery", "identify", "proposition-1", RECOVERY, partial(_model_off, model)
+
+
+def _of_faults(vector: FaultVector) -> Iterator[tuple[str, str, str, str, Callable[[FaultVector, Function], Iterator[Measurement]]]]:
+    effect = "the residual still holds the response to the input: input and fault cannot be told apart"
+    yield "residual-free-of-input", "residual", "proposition-1", effect, residual_off
+    yield "window-ranks", "window_ranks", "window-ranks", "wrong ranks of windows: wrong number of faults, wrong lag", window_ranks_off
+    yield "fault-dimension", "fault_dimension", "proposition-3", "a wrong number of faults", count_off
+    effect = "fault matrices that do not explain the data, or true ones left out"
+    yield "fault-space", "fault_space", "problem-11", effect, space_off
+    effect, shortest = "fault matrices that change with the length of the window", partial(space_off, block_rows=vector.lag + 1)
+    yield "fault-space-shortest-window", "fault_space", "sharp-windows", effect, shortest
+    yield "fault-signal", "reconstruct", "trajectory-recovered", "a wrong fault signal: wrong size or time of a fault", signal_off
+
+
+def _free_count(slug: str, effect: str, vector: FaultVector) -> Check:
+    """The count is free: as many faults as outputs look like noise in every output, and none like one that does not excite."""
+
+    def measure(function: Function) -> Iterator[Measurement]:
+        yield from count_off(vector, function)
+
+    return Check(slug, "fault_dimension", vector.slug, "proposition-3", effect, Severity.SOMETIMES, measure, Demand.FREE)
+
+
+def _model_off(vector: IdentificationVector, function: Function) -> Iterator[Measurement]:
+    answer = function(floats(vector.y), floats(vector.u), vector.order, vector.block_rows)
+    ones = [Fraction(1)]
+    p, n_u = vector.C.nrows, vector.B.ncols
+    yield from models_off(answer, vector, range(p), range(n_u), ones * p, ones * n_u)

@@ -1,0 +1,151 @@
+"""Systems with planted poles and zeros, exactly: scalar channels, a tall system behind them, another basis over all of it.
+
+A channel has its poles and zeros by construction. A bank of channels, side by side, followed by a tall system that has no zeros has those
+of the channels and no others; it is observable where the tall one is. All entries are dyadic, so that floats hold them.
+
+    Bank        channels side by side, as matrices
+    channel     one input, one output, the given numerator over the given denominator, in controllable canonical form
+    delay       a channel that holds its input back by so many samples
+    beside      banks side by side
+    series      a bank, and a system that reads its outputs
+    tall        a stable system drawn at random, of a given number of states, inputs and outputs
+    tall_without_zeros   the same, drawn again until it has neither finite nor infinite zeros
+    hidden      the same system in another basis of its states and of its faults
+    times       a product of polynomials (ascending coefficients)
+    factor      z - a;   pair   z^2 - 2 re z + (re^2 + im^2)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from random import Random
+
+from faultspace.exact.algebra.matrices import Matrix
+from faultspace.exact.structure.record import analyze
+from faultspace.exact.system.systems import ResidualSystem
+
+from ..vectors.rationals import fractions, matrix
+
+Polynomial = Sequence[Fraction]
+HALVES = (Fraction(1, 2), Fraction(-1, 2), Fraction(1, 4), Fraction(-1, 4), Fraction(3, 4), Fraction(-3, 4))
+DRAWS = 100
+
+
+def factor(root: Fraction | int) -> list[Fraction]:
+    """Return z - root."""
+    return [-Fraction(root), Fraction(1)]
+
+
+def pair(real: Fraction | int, imaginary: Fraction | int) -> list[Fraction]:
+    """Return the polynomial with the roots real +- imaginary i."""
+    real, imaginary = Fraction(real), Fraction(imaginary)
+    return [real**2 + imaginary**2, -2 * real, Fraction(1)]
+
+
+def times(*factors: Polynomial) -> list[Fraction]:
+    """Return the product of the polynomials; 1 where there are none."""
+
+    result = [Fraction(1)]
+    for one in factors:
+        product = [Fraction(0)] * (len(result) + len(one) - 1)
+        for i, a in enumerate(result):
+            for j, b in enumerate(one):
+                product[i + j] += a * b
+        result = product
+    return result
+
+
+def channel(numerator: Polynomial, denominator: Polynomial) -> ResidualSystem:
+    """Return numerator / denominator, the denominator monic and of no lower degree."""
+    n = len(denominator) - 1
+    padded = [*numerator, *([Fraction(0)] * (n + 1 - len(numerator)))]
+    direct = padded[n]
+    A = [[Fraction(int(j == i + 1)) for j in range(n)] for i in range(n - 1)]
+    if n:
+        A.append([-a for a in denominator[:n]])
+    F = [[Fraction(int(i == n - 1))] for i in range(n)]
+    C = [[padded[i] - direct * denominator[i] for i in range(n)]]
+    return ResidualSystem(matrix(A, n), matrix(F, 1), matrix(C, n), matrix([[direct]], 1))
+
+
+def delay(samples: int) -> ResidualSystem:
+    """Return z^-samples."""
+    return channel([Fraction(1)], times(*[factor(0)] * samples))
+
+
+def beside(*parts: ResidualSystem) -> ResidualSystem:
+    """Return the systems side by side: states, inputs and outputs one after the other."""
+
+    def diagonal(name: str) -> Matrix:
+        blocks = [getattr(one, name) for one in parts]
+        width = sum(one.ncols for one in blocks)
+        rows, before = [], 0
+        for one in blocks:
+            rows += [[*([0] * before), *row, *([0] * (width - before - one.ncols))] for row in fractions(one)]
+            before += one.ncols
+        return matrix(rows, width)
+
+    return ResidualSystem(*(diagonal(name) for name in "AFCG"))
+
+
+def series(first: ResidualSystem, second: ResidualSystem) -> ResidualSystem:
+    """Return the system that reads the outputs of `first` as its faults; states of `first` come first."""
+    through, outputs = second.F @ first.C, second.G @ first.C
+    A = [[*row, *([0] * second.n)] for row in fractions(first.A)]
+    A += [[*left, *right] for left, right in zip(fractions(through), fractions(second.A), strict=True)]
+    F = fractions(first.F) + fractions(second.F @ first.G)
+    C = [[*left, *right] for left, right in zip(fractions(outputs), fractions(second.C), strict=True)]
+    n = first.n + second.n
+    return ResidualSystem(matrix(A, n), matrix(F, first.m), matrix(C, n), second.G @ first.G)
+
+
+def tall(rng: Random, n: int, m: int, p: int) -> ResidualSystem:
+    """Return a system with eigenvalues among HALVES, fourths elsewhere; G has rank m where p >= m, most of the time."""
+    A = [[rng.choice(HALVES) if j == i else Fraction(rng.randint(-1, 1), 4) if j > i else 0 for j in range(n)] for i in range(n)]
+    return ResidualSystem(matrix(A, n), *(drawn_dyadic(rng, *shape) for shape in ((n, m), (p, n), (p, m))))
+
+
+def tall_without_zeros(rng: Random, n: int, m: int, p: int) -> ResidualSystem:
+    """Raises ArithmeticError where DRAWS systems all have zeros, as all square ones with states have."""
+    for _ in range(DRAWS):
+        found = tall(rng, n, m, p)
+        known = analyze(found)
+        if known.left_invertible and known.zeta == 0 and known.observable:
+            return found
+    raise ArithmeticError(f"no system with {n} states, {m} faults and {p} outputs has no zeros among {DRAWS} draws")
+
+
+def drawn_dyadic(rng: Random, height: int, width: int) -> Matrix:
+    """Return entries +-1/2, +-1, +-3/2, +-2."""
+    values = [Fraction(d, 2) for d in range(-4, 5) if d]
+    return matrix([[rng.choice(values) for _ in range(width)] for _ in range(height)], width)
+
+
+def hidden(rng: Random, system: ResidualSystem) -> ResidualSystem:
+    """Return the system in the states T x and the faults V v, T and V products of a permutation and of shears by +-1."""
+    T, inverse = _unimodular(rng, system.n)
+    V, _ = _unimodular(rng, system.m)
+    return ResidualSystem(T @ system.A @ inverse, T @ system.F @ V, system.C @ inverse, system.G @ V)
+
+
+def _unimodular(rng: Random, size: int) -> tuple[Matrix, Matrix]:
+    """Return an integer matrix of determinant +-1, a shear for each row at most, and its inverse."""
+    one = matrix([[int(i == j) for j in range(size)] for i in range(size)], size)
+    order = list(range(size))
+    rng.shuffle(order)
+    there, back = one.rows(order), one.columns(order)
+    back = there.transposed()
+    for i in range(1, size):
+        j, sign = rng.randrange(i), rng.choice((-1, 1))
+        shear = matrix([[int(a == b) + sign * int((a, b) == (i, j)) for b in range(size)] for a in range(size)], size)
+        undone = matrix([[int(a == b) - sign * int((a, b) == (i, j)) for b in range(size)] for a in range(size)], size)
+        there, back = shear @ there, back @ undone
+    return there, back
+
+
+def scaled_direct(system: ResidualSystem, factor_: Fraction, columns: Iterable[int]) -> ResidualSystem:
+    """Return the system with these columns of G multiplied by the factor."""
+    chosen = set(columns)
+    G = [[x * factor_ if j in chosen else x for j, x in enumerate(row)] for row in fractions(system.G)]
+    return system.with_faults(system.F, matrix(G, system.m))

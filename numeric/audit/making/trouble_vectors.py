@@ -1,0 +1,214 @@
+"""How a kind of trouble becomes vectors: systems and signals from a seed, truth by the exact branch, bounds from conditioning.
+
+made             the vectors of a kind for a seed: of the system, of a record without fault, of a residual
+unbounded        the same before there are bounds: all of it exact, so that every machine makes the same
+Unsuitable       the draw does not meet the conditions of the question, and the next one is tried
+zero_bounds      how far rounding may carry each zero, repeated ones as well
+eigenvalue_bounds    the same for the poles of a model whose A is wrong by so much
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from random import Random
+
+import numpy as np
+
+from faultspace.exact.algebra.matrices import Matrix, rank, stacked
+from faultspace.exact.structure.record import Structure, analyze
+from faultspace.exact.structure.signals import excitation_matrix, hankel, simulate
+from faultspace.exact.system.systems import ResidualSystem
+
+from ....base.arrays import Array
+from ...model.compression import EPS
+from ...rounding.conditioning import SMALL
+from ..vectors.exact_comparison import roots
+from ..vectors.fault_vectors import AS_GIVEN, HALF, FaultVector, in_channel_units, samples_that_settle
+from ..vectors.rationals import floats, matrix
+from ..vectors.shipped_vectors import IdentificationVector, StructureVector
+from ..vectors.trouble import Trouble
+from .drawing import upward
+from .fault_records import residual_bound, signal_bound, singular_values, space_bound
+from .kinds_of_trouble import COUNT, MODEL, RANKS, RESIDUAL, SIGNAL, SPACE, STRUCTURE, Kind
+from .model_bounds import model_bounds, telling
+
+ATTEMPTS = 100
+MORE = 15  # samples beyond those that windows need
+ANGLES = 24  # of a circle about a zero
+COARSE, FINE = 8.0, 1.25  # between the radii of two circles
+
+
+class Unsuitable(ArithmeticError):
+    """The draw does not meet the conditions of the question."""
+
+
+def made(kind: Kind, seed: int) -> Trouble:
+    """Return the vectors of the kind with their bounds. Raises ArithmeticError where no draw of ATTEMPTS meets the conditions."""
+    found = unbounded(kind, seed)
+    return replace(
+        found,
+        structure=found.structure and _bounded_structure(found.structure),
+        model=found.model and _bounded_model(found.model),
+        faults=found.faults and _bounded_faults(found.faults, kind),
+    )
+
+
+def unbounded(kind: Kind, seed: int) -> Trouble:
+    """Return the vectors of the kind without bounds. Raises ArithmeticError as `made` does."""
+    reasons = []
+    for attempt in range(ATTEMPTS):
+        rng = Random(f"{kind.slug} {seed} {attempt}")
+        try:
+            return _vectors(kind, kind.drawn(rng), rng)
+        except Unsuitable as reason:
+            reasons.append(str(reason))
+    raise ArithmeticError(f"{kind.slug}, seed {seed}: none of {ATTEMPTS} draws will do: {'; '.join(dict.fromkeys(reasons))}")
+
+
+def _vectors(kind: Kind, system: ResidualSystem, rng: Random) -> Trouble:
+    known = analyze(system)
+    asked = set(kind.asks)
+    return Trouble(
+        kind.slug,
+        kind.what,
+        tuple(kind.asks),
+        _structure(kind.slug, system, known) if STRUCTURE in asked else None,
+        _model(kind.slug, system, known, rng) if MODEL in asked else None,
+        _faults(kind, system, known, rng) if asked & {RESIDUAL, RANKS, COUNT, SPACE, SIGNAL} else None,
+    )
+
+
+# -- zeros ------------------------------------------------------------------------------------------------------------------------------
+
+
+def _structure(slug: str, system: ResidualSystem, known: Structure) -> StructureVector:
+    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros and known.left_invertible else ()
+    return StructureVector(slug, system, known.kernel.normal_rank, zeros, (), known.infinite_zero_orders)
+
+
+def _bounded_structure(vector: StructureVector) -> StructureVector:
+    return replace(vector, zero_bounds=tuple(upward(one) for one in zero_bounds(vector.system, vector.zeros)))
+
+
+def zero_bounds(system: ResidualSystem, zeros: Sequence[complex]) -> list[float]:
+    """Return for each zero z0 the radius within which z can be a zero of a pencil that rounding does not tell from this one.
+
+    Such a pencil is off by d = SMALL (rows + columns) eps |P(z)|, and z is a zero of one where the least singular value of P(z) is at most
+    d. The radius is the least of those tried, on whose circle no point is: for a simple zero that is d over its condition
+    number, for one in a chain of length k it goes with the kth root of d.
+    """
+    A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
+    n, m, p = system.n, system.m, system.p
+    fixed, slope = np.block([[-A, -F], [C, G]]), np.zeros((n + p, n + m))
+    slope[:n, :n] = np.eye(n)
+
+    def apart(points: Array) -> bool:
+        pencils = fixed + points[:, np.newaxis, np.newaxis] * slope
+        least = np.linalg.svd(pencils, compute_uv=False)[:, n + m - 1]
+        return bool(np.all(least > SMALL * (2 * n + m + p) * EPS * np.linalg.norm(pencils, axis=(1, 2))))
+
+    return _radii(apart, zeros)
+
+
+def eigenvalue_bounds(A: Array, moved: float, exact: Sequence[complex]) -> list[float]:
+    """Return for each eigenvalue the radius within which A + dA, |dA| <= moved, can have one; what `zero_bounds` is for a pencil."""
+    unit = np.eye(len(A))
+
+    def apart(points: Array) -> bool:
+        least = np.linalg.svd(points[:, np.newaxis, np.newaxis] * unit - A, compute_uv=False)[:, -1]
+        return bool(np.all(least > moved + SMALL * len(A) * EPS * float(np.linalg.norm(A))))
+
+    return _radii(apart, exact)
+
+
+def _radii(apart: Callable[[Array], bool], centres: Sequence[complex]) -> list[float]:
+    """Return for each centre the least radius tried, in coarse steps and then in fine ones, on whose circle all points are `apart`."""
+    turns = np.exp(2j * np.pi * (np.arange(ANGLES) + 0.5) / ANGLES)
+    found = {}
+    for centre in set(centres):
+        size = max(1.0, abs(centre))
+        radius = EPS * size
+        while not apart(centre + COARSE * radius * turns):
+            radius *= COARSE
+            if radius > size / EPS:
+                raise ArithmeticError("rounding may put a zero anywhere")
+        while not apart(centre + radius * turns):
+            radius *= FINE
+        found[centre] = radius
+    return [found[centre] for centre in centres]
+
+
+# -- models -----------------------------------------------------------------------------------------------------------------------------
+
+
+def _model(slug: str, system: ResidualSystem, known: Structure, rng: Random) -> IdentificationVector:
+    """B and D are F and G. The window is one longer than it must be."""
+    if not known.observable:
+        raise Unsuitable("not observable")
+    n, m, p = system.n, system.m, system.p
+    s = max(_observability_index(system) + 2, 2, -(-n // m) + 1)
+    samples = 2 * (m + p + 1) * s + 20
+    x0, u = _signal(rng, n, 1), _signal(rng, samples, m)
+    driven = simulate(system, x0, u)
+    if rank(excitation_matrix(driven, 2 * s)) < n + 2 * s * m:
+        raise Unsuitable("the input does not excite")
+    return IdentificationVector(slug, system.A, system.F, system.C, system.G, x0, u, s, {})
+
+
+def _bounded_model(vector: IdentificationVector) -> IdentificationVector:
+    whole = replace(vector, bounds=model_bounds(vector, floats(vector.y), floats(vector.u), eigenvalue_bounds))
+    return replace(whole, bounds=telling(whole))
+
+
+def _observability_index(system: ResidualSystem) -> int:
+    rows, blocks = system.C, 1
+    while rank(rows) < system.n:
+        rows, blocks = stacked(system.C, rows @ system.A), blocks + 1
+    return blocks
+
+
+def _signal(rng: Random, height: int, width: int) -> Matrix:
+    digits = [d for d in range(-9, 10) if d]
+    return matrix([[rng.choice(digits) for _ in range(width)] for _ in range(height)], width)
+
+
+# -- residuals --------------------------------------------------------------------------------------------------------------------------
+
+
+def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -> FaultVector:
+    n, m, p, lag = system.n, system.m, system.p, known.kernel.lag
+    windows = lag + 2
+    samples = max(HALF, (p + 1) * (max(windows, n + 1) + 1), samples_that_settle(p, lag)) + MORE
+    x0, v = _signal(rng, n, 1), _signal(rng, samples, m)
+    trajectory = simulate(system, x0, v)
+    longest = max(windows, n + 1)
+    if known.left_invertible and rank(excitation_matrix(trajectory, longest)) < n + m * longest:
+        raise Unsuitable("the fault does not excite")
+    r = trajectory.residuals
+    ranks = tuple(rank(hankel(r, s)) for s in range(1, windows + 1))
+    gaps = tuple(singular_values(hankel(in_channel_units(r), s)) for s in range(1, windows + 1))
+    delay = known.delay_known_state
+    basis = known.fault_space.basis.transposed()
+    trusted = samples - delay if delay is not None else 0
+    blank = FaultVector(kind.slug, AS_GIVEN, system, x0, v, ranks, gaps, m, basis, lag, trusted, {}, {})
+    if not blank.clear:
+        raise Unsuitable("rounding hides a rank")
+    return blank
+
+
+def _bounded_faults(vector: FaultVector, kind: Kind) -> FaultVector:
+    r, system, asked = vector.r, vector.system, set(kind.asks)
+    bounds = {
+        "residual": residual_bound(r, system, Fraction(1)) if RESIDUAL in asked else None,
+        "signal": signal_bound(r, system, vector.x0) if SIGNAL in asked and not _grows(analyze(system)) else None,
+    }
+    windows = sorted({vector.lag + 1, system.n + 1}) if SPACE in asked else []
+    return replace(vector, bounds=bounds, space_bounds={s: space_bound(r, system, s) for s in windows})
+
+
+def _grows(known: Structure) -> bool:
+    """Say whether a zero on or outside the unit circle lets errors grow backwards. Their enclosures have fifty bits and more."""
+    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
+    return any(abs(zero) > 1 - 1e-9 for zero in zeros)

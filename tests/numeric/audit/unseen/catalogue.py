@@ -1,0 +1,52 @@
+"""All mutants of this folder.
+
+ALL        every Unseen, in the order of the files
+BY_NAME    the same by slug
+adapters   an object with an implementation for each slug, for a program that loads one by name
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+from tests.numeric.audit.unseen import (
+    fault_dimension,
+    fault_space,
+    from_records,
+    identify,
+    identify_channels,
+    limits,
+    manners,
+    reconstruct,
+    residual,
+    structure,
+    structure_ranks,
+    window_ranks,
+)
+from tests.numeric.audit.unseen.form import Mutants, Unseen
+
+FILES = (
+    identify,
+    identify_channels,
+    residual,
+    window_ranks,
+    fault_dimension,
+    fault_space,
+    reconstruct,
+    structure,
+    structure_ranks,
+    from_records,
+    manners,
+    limits,
+)
+
+
+def _all() -> tuple[Unseen, ...]:
+    """Return the mutants that each file makes, once."""
+    registers = {id(one): one for file in FILES for one in vars(file).values() if isinstance(one, Mutants)}
+    return tuple(one for register in registers.values() for one in register.all)
+
+
+ALL = _all()
+BY_NAME = {one.name: one for one in ALL}
+adapters = SimpleNamespace(**{one.name: one.adapter for one in ALL})

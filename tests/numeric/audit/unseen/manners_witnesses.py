@@ -1,0 +1,240 @@
+"""Witnesses of bad manners: one call or several, and what is left behind. What they find changed they put back.
+
+keeps               the arguments are bit by bit what they were
+read_only           a witness, asked with arguments that cannot be written into
+leaves              what `read` says is the same after the call; `put_back` mends it
+quiet               nothing is written to file descriptor 1
+again_after         a witness, asked after another question
+altered_and_asked   a count, of an array that has changed since it was asked for, or of a view
+keeps_the_answer    an answer does not change when another question is asked
+unshared            the answer is no view of an argument
+asked_often         a witness, asked after so many equal questions
+forgets             no argument is kept alive
+grows               the memory that a call takes beside the length of the record, or the time
+ends                a question is refused within a second
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import os
+import signal
+import sys
+import tempfile
+import time
+import tracemalloc
+import weakref
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from faultspace.numeric.audit.adapter import guarded
+from faultspace.numeric.audit.records import Broken, Refused
+from tests.numeric.audit.unseen.form import Function, Witness
+from tests.numeric.audit.unseen.witnesses import copies
+
+
+def keeps(*arguments: Any) -> Witness:
+    """Compare the bytes of the arguments before and after."""
+
+    def witness(function: Function) -> float:
+        given = copies(arguments)
+        before = [one.tobytes() for one in given if isinstance(one, np.ndarray)]
+        function(*given)
+        return 0.0 if before == [one.tobytes() for one in given if isinstance(one, np.ndarray)] else np.inf
+
+    return witness
+
+
+def read_only(then: Witness, *arguments: Any) -> Witness:
+    """Refuse writing into the arguments; the answer is judged by `then`."""
+
+    def witness(function: Function) -> float:
+        given = copies(arguments)
+        for one in given:
+            if isinstance(one, np.ndarray):
+                one.flags.writeable = False
+        try:
+            guarded(function)(*given)
+        except (Refused, Broken):
+            return np.inf
+        return then(function)
+
+    return witness
+
+
+def leaves(read: Callable[[], Any], put_back: Callable[[], Any], *arguments: Any) -> Witness:
+    """Compare what `read` says before and after."""
+
+    def witness(function: Function) -> float:
+        before = read()
+        function(*copies(arguments))
+        after = read()
+        if before == after:
+            return 0.0
+        put_back()
+        return np.inf
+
+    return witness
+
+
+def quiet(*arguments: Any) -> Witness:
+    """Catch what goes to file descriptor 1."""
+
+    def witness(function: Function) -> float:
+        sys.stdout.flush()
+        with tempfile.TemporaryFile() as caught:
+            kept = os.dup(1)
+            os.dup2(caught.fileno(), 1)
+            try:
+                with contextlib.redirect_stdout(os.fdopen(os.dup(1), "w")) as out:
+                    function(*copies(arguments))
+                    out.close()
+            finally:
+                os.dup2(kept, 1)
+                os.close(kept)
+            return np.inf if caught.seek(0, os.SEEK_END) else 0.0
+
+    return witness
+
+
+def again_after(first: Sequence[Any], then: Witness) -> Witness:
+    """Ask another question first."""
+
+    def witness(function: Function) -> float:
+        with contextlib.suppress(Refused, Broken):
+            guarded(function)(*copies(first))
+        return then(function)
+
+    return witness
+
+
+def altered_and_asked(view: Any, n_v: int, r: Any) -> Witness:
+    """Ask for a view of an array of pure noise that has r in every second row, or for an array that held another residual before."""
+
+    def witness(function: Function) -> float:
+        noise = np.random.default_rng(0).standard_normal((2 * len(r), r.shape[1]))
+        if view is not None:
+            noise[::2] = r
+            held = noise[::2]
+        else:
+            held = noise[: len(r)].copy()
+            held[:] = held[:, :1] * np.arange(1, r.shape[1] + 1)
+            held[0] = 1.0
+            held[:] = 0.9 ** np.arange(len(r))[:, None]
+            with contextlib.suppress(Refused, Broken):
+                guarded(function)(held)
+            held[:] = r
+        try:
+            return 0.0 if guarded(function)(held) == n_v else np.inf
+        except (Refused, Broken):
+            return np.inf
+
+    return witness
+
+
+def keeps_the_answer(first: Sequence[Any], second: Sequence[Any]) -> Witness:
+    """Hold the first answer while asking the second."""
+
+    def witness(function: Function) -> float:
+        held = function(*copies(first))
+        before = held.copy()
+        function(*copies(second))
+        return 0.0 if np.array_equal(before, held) else np.inf
+
+    return witness
+
+
+def unshared(*arguments: Any) -> Witness:
+    """See whether the answer shares memory with an argument."""
+
+    def witness(function: Function) -> float:
+        given = copies(arguments)
+        found = function(*given)
+        return np.inf if any(isinstance(one, np.ndarray) and np.shares_memory(one, found) for one in given) else 0.0
+
+    return witness
+
+
+def asked_often(times: int, then: Witness, *arguments: Any) -> Witness:
+    """Ask the same many times before."""
+
+    def witness(function: Function) -> float:
+        for _ in range(times):
+            function(*arguments)
+        return then(function)
+
+    return witness
+
+
+class _Named(np.ndarray[Any, Any]):
+    """An array that weak references may follow."""
+
+
+def forgets(*arguments: Any) -> Witness:
+    """Follow the first argument by a weak reference."""
+
+    def witness(function: Function) -> float:
+        given = copies(arguments)
+        given[0] = given[0].view(_Named)
+        ghost = weakref.ref(given[0])
+        function(*given)
+        del given
+        gc.collect()
+        return 0.0 if ghost() is None else np.inf
+
+    return witness
+
+
+def _spent(function: Function, arguments: Sequence[Any], memory: bool) -> float:
+    if not memory:
+        least = np.inf
+        for _ in range(2):
+            begin = time.process_time()
+            function(*arguments)
+            least = min(least, time.process_time() - begin)
+        return least
+    tracemalloc.start()
+    try:
+        function(*arguments)
+        return float(tracemalloc.get_traced_memory()[1])
+    finally:
+        tracemalloc.stop()
+
+
+def grows(short: Sequence[Any], long: Sequence[Any], *, memory: bool) -> Witness:
+    """The exponent of memory or time between records of unlike lengths, beside midway between linear and quadratic."""
+
+    def witness(function: Function) -> float:
+        # What a first call imports or remembers for good is nobody's growth.
+        function(*short)
+        ratio = len(long[0]) / len(short[0])
+        most = [_spent(function, one, memory) for one in (short, long)]
+        return float(np.log(most[1] / max(most[0], 1e-9)) / np.log(ratio) / 1.5)
+
+    return witness
+
+
+def ends(*arguments: Any) -> Witness:
+    """A question without an answer is refused before a second has gone."""
+
+    def alarmed(*_: Any) -> None:
+        raise TimeoutError("a second has gone")
+
+    def witness(function: Function) -> float:
+        before = signal.signal(signal.SIGALRM, alarmed)
+        signal.setitimer(signal.ITIMER_REAL, 1.0)
+        try:
+            guarded(function)(*copies(arguments))
+        except Refused:
+            return 0.0
+        except Broken:
+            return np.inf
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, before)
+        return np.inf
+
+    return witness

@@ -1,0 +1,122 @@
+"""What the audit says of each mutant: the slugs that fail, or that it escapes.
+
+    python -m tests.numeric.audit.unseen.table [--only GLOB] [--json FILE] [--seconds N] [--check-seconds N]
+
+Each mutant is audited in processes of its own: as an adapter given by name, each check within `--check-seconds`, all of them within
+`--seconds`. FILE is written after each mutant, and what stands in it already is not asked again, so that a run can be stopped and taken
+up. The exit code is 1 where a mutant escapes.
+
+outcome     the slugs that fail, by how many checks, and one of the details; or what went wrong
+escapes     names of those that no check catches
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import multiprocessing
+import os
+import signal
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from fnmatch import fnmatch
+from pathlib import Path
+from typing import Any
+
+from faultspace.numeric.audit.running import audit
+from tests.numeric.audit.unseen.catalogue import ALL
+from tests.numeric.audit.unseen.form import Unseen
+
+SHOWN = 4  # slugs of one mutant in a line
+
+
+def _audited(name: str, check_seconds: float, into: Any) -> None:
+    """Audit one mutant and send what fails; the process leads a group, which can be ended with all that it has started."""
+    os.setpgid(0, 0)
+    found = audit(f"tests.numeric.audit.unseen.catalogue:adapters.{name}", seconds=check_seconds)
+    failed = [(one.name, one.slug, str(one.verdict), one.detail) for one in found.failed]
+    into.send((len(found), failed))
+    into.close()
+
+
+def outcome(one: Unseen, seconds: float, check_seconds: float) -> dict[str, Any]:
+    """Return what the audit says of a mutant within so many seconds."""
+    ours, theirs = multiprocessing.Pipe(duplex=False)
+    process = multiprocessing.get_context("fork").Process(target=_audited, args=(one.name, check_seconds, theirs))
+    begun = time.perf_counter()
+    process.start()
+    theirs.close()
+    told: dict[str, Any] = {"function": one.function, "wrong": one.wrong, "where": one.where}
+    try:
+        if not ours.poll(seconds):
+            return told | {"ended": f"no end within {seconds:g} s"}
+        checks, failed = ours.recv()
+    except EOFError:
+        return told | {"ended": "the audit itself ended without an answer"}
+    finally:
+        if process.is_alive():
+            process.join(5.0)
+        if process.is_alive() and process.pid is not None:
+            os.killpg(process.pid, signal.SIGKILL)
+        process.join()
+        told["seconds"] = round(time.perf_counter() - begun, 1)
+    slugs = Counter(slug for _, slug, _, _ in failed)
+    first = {"name": failed[0][0], "verdict": failed[0][2], "detail": failed[0][3]} if failed else None
+    return told | {"checks": checks, "failed": len(failed), "slugs": dict(slugs.most_common()), "first": first}
+
+
+def escapes(found: dict[str, dict[str, Any]]) -> list[str]:
+    """Return the slugs of the mutants that pass every check."""
+    return [name for name, one in found.items() if "ended" not in one and not one["failed"]]
+
+
+def _line(one: dict[str, Any]) -> str:
+    if "ended" in one:
+        return str(one["ended"])
+    if not one["failed"]:
+        return f"ESCAPES {one['checks']} checks"
+    slugs = list(one["slugs"])
+    more = f", and {len(slugs) - SHOWN} more" if len(slugs) > SHOWN else ""
+    return f"{one['failed']} of {one['checks']}: {', '.join(slugs[:SHOWN])}{more}"
+
+
+def _write(file: Path | None, found: dict[str, dict[str, Any]]) -> None:
+    if file is None:
+        return
+    part = file.with_name(file.name + ".part")
+    part.write_text(json.dumps(found, indent=1) + "\n", "utf-8")
+    part.replace(file)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print a line a mutant, then who escapes; return the exit code."""
+    asked = argparse.ArgumentParser(
+        prog="python -m tests.numeric.audit.unseen.table", description="What the audit says of each unseen mutant."
+    )
+    asked.add_argument("--only", default="*", metavar="GLOB", help="the mutants whose slugs match")
+    asked.add_argument("--json", type=Path, metavar="FILE", help="where the results go, and where those that are known come from")
+    asked.add_argument("--seconds", type=float, default=600.0, help="for one mutant in all")
+    asked.add_argument("--check-seconds", type=float, default=30.0, help="for one check of it")
+    options = asked.parse_args(arguments)
+    chosen = [one for one in ALL if fnmatch(one.name, options.only)]
+    if not chosen:
+        asked.error(f"--only {options.only}: there is no such mutant; the first of {len(ALL)} is {ALL[0].name}")
+    known = json.loads(options.json.read_text("utf-8")) if options.json and options.json.exists() else {}
+    for number, one in enumerate(chosen, 1):
+        if one.name not in known:
+            known[one.name] = outcome(one, options.seconds, options.check_seconds)
+            _write(options.json, known)
+        print(f"[{number}/{len(chosen)}] {one.name}: {_line(known[one.name])}", flush=True)
+    asked_for = {one.name: known[one.name] for one in chosen}
+    left = escapes(asked_for)
+    ended = [name for name, one in asked_for.items() if "ended" in one]
+    print(f"{len(chosen)} mutants: {len(chosen) - len(left) - len(ended)} caught, {len(left)} escape, {len(ended)} did not end")
+    for name in left:
+        print(f"  {name}: {asked_for[name]['wrong']}")
+    return int(bool(left or ended))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

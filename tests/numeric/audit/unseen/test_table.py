@@ -1,0 +1,42 @@
+"""The command: limits hold, known results are not asked again, an escape is told and makes the exit code 1."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.numeric.audit.unseen import table
+from tests.numeric.audit.unseen.catalogue import ALL
+
+
+def test_a_mutant_that_takes_too_long_is_ended() -> None:
+    assert table.outcome(ALL[0], 0.01, 30.0)["ended"] == "no end within 0.01 s"
+
+
+def test_what_is_known_is_not_asked_again_and_an_escape_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    first, second = ALL[0], ALL[1]
+    asked: list[str] = []
+
+    def answer(one: object, seconds: float, check_seconds: float) -> dict[str, object]:
+        asked.append(second.name)
+        return {"wrong": "w", "checks": 7, "failed": 0, "slugs": {}, "first": None}
+
+    monkeypatch.setattr(table, "ALL", (first, second))
+    monkeypatch.setattr(table, "outcome", answer)
+    file = tmp_path / "found.json"
+    file.write_text(json.dumps({first.name: {"wrong": "v", "checks": 9, "failed": 2, "slugs": {"some-slug": 2}, "first": None}}), "utf-8")
+    assert table.main(["--json", str(file)]) == 1
+    assert asked == [second.name] and set(json.loads(file.read_text("utf-8"))) == {first.name, second.name}
+    said = capsys.readouterr().out
+    assert f"{first.name}: 2 of 9: some-slug" in said and f"{second.name}: ESCAPES 7 checks" in said
+    assert "2 mutants: 1 caught, 1 escape, 0 did not end" in said
+
+
+def test_a_glob_without_a_mutant_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        table.main(["--only", "no-such-*"])
+    assert "there is no such mutant" in capsys.readouterr().err
