@@ -12,8 +12,7 @@ decibels over the outputs. One seed a trial: rates do not depend on the order of
     without u      the same, u kept back
     healthy        identified, against the residual of a second record of the same plant without fault and the same model
 
-With --constants: how often the rules of `numeric/count/residual_laws.py` are right and wrong when one of their constants is multiplied by a
-factor, on the noisy cells where they are asked, and which factor gives most right answers with fewer wrong ones than one in a hundred.
+What the constants of the rules are worth, `constants.py` measures on the same draws.
 """
 
 from __future__ import annotations
@@ -22,25 +21,18 @@ import argparse
 import time
 from collections import Counter
 from dataclasses import dataclass
-from unittest.mock import patch
 
 import numpy as np
 import scipy.signal
 from numpy.typing import NDArray
 
-from faultspace.numeric.count import residual_laws
 from faultspace.numeric.count.against_healthy import fault_dimension_against_healthy
 from faultspace.numeric.count.healthy_model import healthy_reference
-from faultspace.numeric.count.one_row import WindowMoments
 from faultspace.numeric.count.rank_gap import fault_dimension
-from faultspace.numeric.count.residual_laws import LawLevel, law_level
 from faultspace.numeric.model.past_inputs import pi_moesp
 from faultspace.numeric.model.residuals import residual
 
 Array = NDArray[np.float64]
-CONSTANTS = ("ALARM", "CLEAR", "CLEAR_LAST", "CLEAR_SINGLE", "SLACK", "SLACK_LAST", "SETTLED", "STEEP", "SPARSE")
-MOST_WRONG = 0.01
-FACTORS = (0.5, 0.7, 1.0, 1.4, 2.0)
 
 
 @dataclass(frozen=True)
@@ -141,39 +133,6 @@ def residuals(cell: Cell, random: np.random.Generator, samples: int) -> tuple[Ar
     return r, u, residual(quiet, before, model).r, before
 
 
-def constants(trials: int, seed: int, samples: int) -> None:
-    """Print right and wrong answers by the factor of each constant; what the laws leave of a record is computed once."""
-    answers: dict[tuple[str, float], Counter[str]] = {(name, factor): Counter() for name in CONSTANTS for factor in FACTORS}
-    usual = {name: float(getattr(residual_laws, name)) for name in CONSTANTS}
-    cells = [cell for cell in CELLS if cell.model in ("true", "identified") and np.isfinite(cell.decibel)]
-    for cell in cells:
-        for trial in range(trials):
-            random = np.random.default_rng((seed, cell.p, cell.m, trial))
-            known: dict[tuple[int, bytes], LawLevel] = {}
-
-            def level(moments: WindowMoments, mixes: tuple[Array, ...], known: dict[tuple[int, bytes], LawLevel] = known) -> LawLevel:
-                key = (moments.channels, b"".join(mix.tobytes() for mix in mixes))
-                return known[key] if key in known else known.setdefault(key, law_level(moments, mixes))
-
-            with patch.object(residual_laws, "law_level", level):
-                r, inputs, _, _ = residuals(cell, random, samples)
-                u = inputs if cell.model == "identified" else None
-                for name, factor in answers:
-                    with patch.object(residual_laws, name, usual[name] * factor):
-                        n_v = fault_dimension(r, u=u).n_v
-                    answers[name, factor]["undecided" if n_v is None else "right" if n_v == cell.m else "wrong"] += 1
-    print(f"right/wrong of {trials * len(cells)} records, N = {samples}, seed {seed}, by factor")
-    print(f"{'':>12} {'now':>6} " + " ".join(f"{factor:>7g}" for factor in FACTORS) + f"  most right with under {MOST_WRONG:.0%} wrong")
-    for name in CONSTANTS:
-        found = [answers[name, factor] for factor in FACTORS]
-        few = [
-            (each["right"], factor) for each, factor in zip(found, FACTORS, strict=True) if each["wrong"] < MOST_WRONG * trials * len(cells)
-        ]
-        figures = " ".join(f"{'{}/{}'.format(each['right'], each['wrong']):>7}" for each in found)
-        best = f"{usual[name] * max(few, key=lambda one: (one[0], -abs(np.log(one[1]))))[1]:.3g}" if few else "none"
-        print(f"{name:>12} {usual[name]:>6g} {figures}  {best}")
-
-
 def main() -> None:
     """Measure every cell and print a line each."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
@@ -182,11 +141,7 @@ def main() -> None:
     parser.add_argument("--samples", type=int, default=1001)
     parser.add_argument("--model", choices=sorted({cell.model for cell in CELLS}), help="only these cells")
     parser.add_argument("--markdown", action="store_true", help="print a table in Markdown")
-    parser.add_argument("--constants", action="store_true", help="what the constants of the rules are worth")
     arguments = parser.parse_args()
-    if arguments.constants:
-        constants(arguments.trials, arguments.seed, arguments.samples)
-        return
     heads = ("model", "outputs", "faults", "noise", "spread", "right", "undecided", "wrong", "answers", "seconds")
     print(f"{arguments.trials} trials a row, N = {arguments.samples}")
     row = "{:>10} {:>7} {:>6} {:>7} {:>6} {:>5} {:>9} {:>5}  {} {}"

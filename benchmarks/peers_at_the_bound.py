@@ -115,7 +115,7 @@ def run(options: argparse.Namespace) -> Iterator[Comparison]:
     if options.json and options.json.exists():
         stored = from_json(json.loads(options.json.read_text("utf-8")))
         known = stored if (stored.seed, stored.systems) == (options.seed, options.systems) else known
-    gone = tuple(name for name in dict.fromkeys([*known.absent, *absent]) if name not in versions)
+    gone = tuple(name for name in dict.fromkeys([*known.absent, *absent]) if name not in {**known.versions, **versions})
     known = replace(known, versions={**known.versions, **versions}, absent=gone)
     cells = [(samples, cell) for samples in options.samples for cell in CELLS if cell.kind in options.cells]
     with ExitStack() as stack:

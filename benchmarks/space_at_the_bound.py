@@ -2,6 +2,7 @@
 
     python benchmarks/space_at_the_bound.py [--systems 100] [--seed 1] [--cells study random] [--samples 1001 10000] [--limit SECONDS]
         [--jobs 1]
+    python benchmarks/space_at_the_bound.py --cases FILE [--table] [the same but --jobs and --limit]
     python benchmarks/space_at_the_bound.py --calibrate [the same]
 
 `identified_fault_space` with n_v and the order of the model given, on the systems of `space_at_the_bound_cells.py`. Error: the two-sided
@@ -20,6 +21,9 @@ found counts, decided or not. A row a cell and N:
 with more; and what WIDENED of `numeric/rows/space.py` is set by: quantiles of the tangent of the angle over that of the stated one, not
 widened, in records where the estimate's own valley has a probability of ALONE.
 
+With --cases every record is kept in FILE, and a run that was stopped goes on where it was (`kept_cases.py`); records come in rounds of one
+a cell, so that all cells have as many wherever it ends. --table measures nothing and shows what FILE has.
+
 Brackets of rates are Wilson's 95 % intervals. Seconds are CPU seconds of the space alone; hold BLAS to one thread.
 """
 
@@ -28,14 +32,16 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import TypeVar
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, TypeVar
 from unittest.mock import patch
 
 import joblib
 import numpy as np
 import scipy.stats
 from at_the_bound import summary
+from kept_cases import Cases
 from numpy.typing import NDArray
 from space_at_the_bound_cells import CELLS, Cell, Trial
 
@@ -197,14 +203,51 @@ def tables(options: argparse.Namespace) -> Iterator[str]:
     yield f"| {' | '.join(HEADS)} |\n|{'---|' * len(HEADS)}"
     with joblib.Parallel(n_jobs=options.jobs) as run:
         for samples in options.samples:
+            found = made(run, options, samples, compared) if options.cases is None else kept(options, samples)
             together: dict[str, list[Outcome]] = {}
-            for cell, outcomes in made(run, options, samples, compared):
+            for cell, outcomes in found:
                 together.setdefault(f"{cell.kind}, all, {'coloured' if cell.coloured else 'white'}", []).extend(outcomes)
                 if outcomes:
                     yield line(cell.name, samples, outcomes)
             for name, outcomes in together.items():
                 if outcomes:
                     yield line(name, samples, outcomes)
+
+
+def places(options: argparse.Namespace, samples: int) -> Iterator[tuple[Cell, int, str]]:
+    """Yield cell, number and key of every record of this length, in rounds."""
+    for number in range(options.systems):
+        for cell in CELLS:
+            if cell.kind in options.cells:
+                yield cell, number, f"{cell.name}, {samples}, {options.seed}, {number}"
+
+
+def measured(options: argparse.Namespace) -> None:
+    """Measure and keep the records that FILE does not have yet."""
+    cases = Cases(options.cases)
+    cases.begin()
+    for samples in options.samples:
+        for cell, number, key in places(options, samples):
+            if key not in cases.found:
+                cases.add(key, asdict(compared(cell, options.seed, number, samples)))
+
+
+def kept(options: argparse.Namespace, samples: int) -> list[tuple[Cell, list[Outcome]]]:
+    """Return the records of each cell that FILE has."""
+    cases = Cases(options.cases).found
+    found: dict[Cell, list[Outcome]] = {}
+    for cell, _, key in places(options, samples):
+        if key in cases:
+            case = cases[key]
+            found.setdefault(cell, []).append(Outcome(case["bound"], _found(case["true"]), _found(case["identified"])))
+    return list(found.items())
+
+
+def _found(case: dict[str, Any]) -> Found:
+    """Return what `asdict` has made a dictionary of."""
+    return Found(
+        case["verdict"], case["error"], case["seconds"], None if case["angles"] is None else (case["angles"][0], case["angles"][1])
+    )
 
 
 @dataclass(frozen=True)
@@ -262,7 +305,11 @@ def main() -> None:
     parser.add_argument("--limit", type=float, default=float("inf"), help="seconds for all")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--calibrate", action="store_true", help="how often the angle holds by the number of starts")
+    parser.add_argument("--cases", type=Path, help="keep the records in this file, and go on with it")
+    parser.add_argument("--table", action="store_true", help="only show what the file has")
     options = parser.parse_args()
+    if options.cases is not None and not options.table:
+        measured(options)
     print(f"seed {options.seed}" if options.calibrate else f"median [95 % interval of the median] 90 % quantile; seed {options.seed}\n")
     for text in calibration(options) if options.calibrate else tables(options):
         print(text, flush=True)

@@ -66,7 +66,7 @@ def fitted_state_error(y: Array, u: Array, model: StateSpaceModel, r: Array) -> 
     free = _norm(observability_matrix(model.A, np.eye(model.n), N))
     moved = _arithmetic(model) * (_norm(model.C) + _gain(model, N) * _norm(model.A)) * free
     moved += reflections_error(model.n + 1, N * model.p) * _norm(Phi)
-    least = float(np.linalg.svd(Phi, compute_uv=False)[-1])
+    least = float(np.linalg.svd(Phi, compute_uv=False).min(initial=np.inf))  # without states nothing is fitted
     rounded = reflections_error(model.n + 1, N * model.p) * _norm(error)
     return simulation_error(model, y, u, state_norm(model, u, zero)) + rounded + moved * (_norm(theta) + _norm(r) / least)
 
@@ -76,8 +76,8 @@ def fault_signal_error(r: Array, A: Array, F: Array, C: Array, G: Array, found: 
     N, m, n = len(r), F.shape[1], len(A)
     model = StateSpaceModel(A, F, C, G)
     free = observability_matrix(A, C, N)
-    pulse = np.vstack([G, (free.reshape(N, -1, n)[: N - 1] @ F).reshape(-1, m)])
     p = len(C)
+    pulse = np.vstack([G, (free.reshape(N, p, n)[: N - 1] @ F).reshape(-1, m)])
     T = np.zeros((N * p, N * m))
     for k in range(N):
         T[k * p :, k * m : (k + 1) * m] = pulse[: (N - k) * p]

@@ -56,8 +56,27 @@ def finite_zeros(A: Array, F: Array, C: Array, G: Array) -> NDArray[np.complex12
     left = np.block([[W, -F], [np.zeros((C.shape[0], k)), -G]])
     L = np.linalg.lstsq(left, np.vstack([A @ W, C @ W]), rcond=None)[0][:k]
     rest = _complement_of_reached(L, _null_space(left)[:k])
-    zeros = np.linalg.eigvals(rest.T @ L @ rest).astype(complex)
+    zeros = np.array([_polished(zero, A, F, C, G) for zero in np.linalg.eigvals(rest.T @ L @ rest)], dtype=complex)
     return np.asarray(zeros[np.argsort(np.abs(zeros))])
+
+
+def _polished(zero: complex, A: Array, F: Array, C: Array, G: Array) -> complex:
+    """Return the zero after a step of Newton's method on the least singular value of the pencil, where that makes it smaller.
+
+    The steps to V* lose digits where the entries of the pencil are of unlike size; the pencil itself has them all. At a multiple zero the
+    slope is lost, and the step with it.
+    """
+    n, m = F.shape
+    if len(C) < m:  # the pencil has no full column rank to lose
+        return zero
+    pencil = np.block([[zero * np.eye(n) - A, -F], [C, G]])
+    left, values, right = np.linalg.svd(pencil)
+    slope = np.vdot(left[:n, n + m - 1], right[n + m - 1, :n].conj())
+    if abs(slope) <= TOLERANCE:
+        return zero
+    better = zero - values[n + m - 1] / slope
+    pencil[:n, :n] += (better - zero) * np.eye(n)
+    return better if np.linalg.svd(pencil, compute_uv=False)[n + m - 1] < values[n + m - 1] else zero
 
 
 def _complement_of_reached(L: Array, B: Array) -> Array:
@@ -87,8 +106,10 @@ def output_nulling(A: Array, F: Array, C: Array, G: Array) -> Array:
     while True:
         left, values, _ = np.linalg.svd(np.vstack([normals @ F, G]))
         free = left[:, int(np.sum(values > TOLERANCE * max(1.0, _largest(values)))) :]
-        _, strengths, right = np.linalg.svd(free.T @ np.vstack([normals @ A, C]))
-        rank = int(np.sum(strengths > TOLERANCE * max(1.0, _largest(strengths))))
+        constraints = np.vstack([normals @ A, C])
+        _, strengths, right = np.linalg.svd(free.T @ constraints)
+        # What cancels in the projection leaves rounding of the size of what was projected.
+        rank = int(np.sum(strengths > TOLERANCE * max(1.0, float(np.linalg.norm(constraints)))))
         if rank == normals.shape[0]:
             return np.asarray(right[rank:].T)
         normals = right[:rank]
