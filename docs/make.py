@@ -1,5 +1,5 @@
 """What docs/ has from the ledger: the table of the claims with their readings, that of the hypotheses, that of the attacks on them, and the
-picture of the README.
+picture of the README; and the table of the quantities that claims of your own can speak of.
 
     python docs/make.py     writes them anew
     TABLES                  the page -> the function that makes the rows of its table
@@ -18,6 +18,7 @@ from pathlib import Path
 from faultspace.proofs.adversary.results import SWEPT, AttackRecord, stored
 from faultspace.proofs.evidence.attacks import Aim
 from faultspace.proofs.hypotheses import ablations
+from faultspace.proofs.quantities.registry import Kind, quantities
 from faultspace.proofs.verdict.ledger import Claim, expected_without, load
 from faultspace.proofs.verdict.picture import Line, draw
 from faultspace.proofs.verdict.verdicts import Verdict, of_readings
@@ -103,7 +104,23 @@ def nearest(record: AttackRecord) -> str:
     return f"{record['nearest']:.1e}: {record['measured']}"
 
 
-TABLES: dict[str, Callable[[], list[str]]] = {"adversary.md": attacks_table, "claims.md": claims_table, "hypotheses.md": hypotheses_table}
+def quantities_table() -> list[str]:
+    """Return the table of your-claims.md, a row a quantity."""
+    rows = ["| name | what it is | meaning | borne by certificates |", "|---|---|---|---|"]
+    for name, one in sorted(quantities().items(), key=lambda item: (item[1].windowed, list(Kind).index(item[1].kind), item[0])):
+        borne = "no: computed" if one.certificates is None else "where true" if name == "stable" else "read off" if name in "nmp" else "yes"
+        meaning = one.meaning.replace("|", r"\|")
+        kind = "a function of s" if one.windowed else str(one.kind)
+        rows.append(f"| `{name}{'(s)' if one.windowed else ''}` | {kind}{', over Q' if one.only_over_Q else ''} | {meaning} | {borne} |")
+    return rows
+
+
+TABLES: dict[str, Callable[[], list[str]]] = {
+    "adversary.md": attacks_table,
+    "claims.md": claims_table,
+    "hypotheses.md": hypotheses_table,
+    "your-claims.md": quantities_table,
+}
 
 
 def filled(page: str, rows: list[str]) -> str:

@@ -3,6 +3,7 @@
 PREFIX         "example:"
 DESCRIPTIONS   name -> what is to be seen in it, for systems
 EXPERIMENTS    the same for experiments, which `faultspace limit` reads
+CLAIMS         the same for files of claims, in TOML, which `faultspace claim` reads
 content        the bytes of one, by its name with the prefix
 """
 
@@ -30,10 +31,17 @@ EXPERIMENTS = {
     "independent-fault": "a coloured fault independent of the input: PI-MOESP finds A, B, C, D, past outputs as instruments do not",
 }
 
+CLAIMS = {
+    "claims": "ten claims, from one line to longer ones, which `faultspace claim` decides",
+    "literature": "statements of the field with their sources, right ones and wrong or loose ones, with their verdicts",
+    "ledger": "the paper's claims about single systems, in the language of claims, with the verdicts of `faultspace verify`",
+}
+
 
 def content(name: str) -> bytes:
     """Return the file behind `example:NAME`. Raises InvalidInput for a name that is none."""
     stem = name.removeprefix(PREFIX)
-    if stem not in DESCRIPTIONS | EXPERIMENTS:
-        raise InvalidInput(f"got example {shorten(stem)}, expected one of {', '.join(DESCRIPTIONS | EXPERIMENTS)}")
-    return resources.files(__package__).joinpath("examples", f"{stem}.json").read_bytes()
+    if stem not in DESCRIPTIONS | EXPERIMENTS | CLAIMS:
+        raise InvalidInput(f"got example {shorten(stem)}, expected one of {', '.join(DESCRIPTIONS | EXPERIMENTS | CLAIMS)}")
+    ending = "toml" if stem in CLAIMS else "json"
+    return resources.files(__package__).joinpath("examples", f"{stem}.{ending}").read_bytes()

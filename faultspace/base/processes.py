@@ -32,11 +32,17 @@ STANDARD = Limits()
 
 
 def session(
-    command: Sequence[str], *, address_space: int | None = None, cpu_seconds: float | None = None, **settings: Any
+    command: Sequence[str],
+    *,
+    address_space: int | None = None,
+    data: int | None = None,
+    cpu_seconds: float | None = None,
+    **settings: Any,
 ) -> subprocess.Popen[bytes]:
     """The program started as the leader of a session; `settings` are those of Popen. Raises OSError where it does not start.
 
-    `address_space`, in bytes, and `cpu_seconds` are limits that the kernel keeps, of each process: a watch like `resident` needs neither.
+    `address_space` and `data`, in bytes, and `cpu_seconds` are limits that the kernel keeps, of each process: a watch like `resident` needs
+    none. Of `data` is what a process may write to, of `address_space` also what it has only reserved.
     """
 
     def limited() -> None:
@@ -44,11 +50,13 @@ def session(
 
         if address_space is not None:
             resource.setrlimit(resource.RLIMIT_AS, (address_space,) * 2)
+        if data is not None:
+            resource.setrlimit(resource.RLIMIT_DATA, (data,) * 2)
         if cpu_seconds is not None:
             whole = ceil(cpu_seconds)
             resource.setrlimit(resource.RLIMIT_CPU, (whole, whole + 1))
 
-    before = None if address_space is None and cpu_seconds is None else limited
+    before = None if address_space is None and data is None and cpu_seconds is None else limited
     return subprocess.Popen(command, start_new_session=True, preexec_fn=before, **settings)
 
 

@@ -1,52 +1,116 @@
 """Run `faultspace audit`, which puts an implementation through the checks of `faultspace.numeric.audit`.
 
-run          the command's body
-list_peers   the published packages that adapters come for
-by_function  a row for each function: checks, passed, failed, the largest ratio of what a check got to its bound
-table        a row for each check, as --verbose prints it
+Asked         who is audited, by which checks, within which limits
+performed     the audit of that; saved: one that was done before
+report        prints it, writes the files asked for, and returns the exit code
+list_checks   the checks that would be asked
+list_peers    the published packages that adapters come for
+export, reproduce   the checks as files and a check as a script, for those who do not have faultspace
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
 
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from ..base.errors import InvalidInput, quote_path
+from ..base.processes import Limits
 from ..base.progress import working
-from ..numeric.audit.outcome import Audit, FunctionTally
+from ..base.writing import reason, write_text
+from ..numeric.audit.checks.catalogue import chosen
+from ..numeric.audit.expectations import expected_in
+from ..numeric.audit.outcome import Audit
 from ..numeric.audit.peers import PEERS
-from ..numeric.audit.records import CheckResult, Demand
+from ..numeric.audit.reports.badge import endpoint, svg
+from ..numeric.audit.reports.junit import document
 from ..numeric.audit.running import audit
-from .consoles import answers, paragraph, print_json, print_table
+from ..numeric.audit.subjects.opening import opened
+from .audit_pages import print_report
+from .consoles import answers, print_json, print_table
 from .failures import ANSWERED, NOT_AS_EXPECTED
 
-HELP = "free: asked without a must, or not offered; ratio: what was got over its bound, at most 1 where all is well; -v prints every check."
+
+@dataclass(frozen=True)
+class Asked:
+    """At most one of `adapter`, `command` and `peer` is given; without any of them it is our own code. `only` names checks, `seed` and
+    `quick` are those of `audit`."""
+
+    adapter: str | None
+    command: str | None
+    peer: str | None
+    only: tuple[str, ...]
+    seed: int
+    quick: bool
+    seconds: float
+    gibibytes: float
+
+    @property
+    def limits(self) -> Limits:
+        """These are the limits of a check."""
+        return Limits(self.seconds, int(self.gibibytes * 2**30))
 
 
-def run(
-    adapter: str | None,
-    *,
-    command: str | None,
-    peer: str | None,
-    only: Sequence[str],
-    seconds: float,
-    gibibytes: float,
-    as_json: bool,
-    verbose: bool = False,
-) -> int:
-    """Audit the adapter of that name, the program `command` or the package `peer`, each check within so many seconds and GiB.
-
-    The code is 0 where every must is met, else 1. Raises InvalidInput.
-    """
+def performed(asked: Asked, expected: Path | None) -> Audit:
+    """Return the audit, with the failures that a file expects. Raises InvalidInput."""
+    known = () if expected is None else expected_in(expected)
     with working("starting the adapter") as tell:
-        found = audit(adapter, command=command, peer=peer, only=only, seconds=seconds, gibibytes=gibibytes, on_progress=tell)
+        return audit(
+            asked.adapter,
+            command=asked.command,
+            peer=asked.peer,
+            only=asked.only,
+            seed=asked.seed,
+            quick=asked.quick,
+            expected=known,
+            seconds=asked.seconds,
+            gibibytes=asked.gibibytes,
+            on_progress=tell,
+        )
+
+
+def saved(file: Path) -> Audit:
+    """Return the audit that `faultspace audit --json` printed into a file. Raises InvalidInput."""
+    try:
+        written = json.loads(file.read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        wanted = "expected what `faultspace audit --json` prints"
+        raise InvalidInput(f"{quote_path(str(file))}: cannot be read as JSON ({reason(error)}), {wanted}") from None
+    return Audit.from_json(written)
+
+
+def report(found: Audit, *, junit: Path | None, badge: Path | None, detail: int, as_json: bool) -> int:
+    """Print the audit, and write the files asked for first. The code is 0 where every must is met, else 1. Raises InvalidInput.
+
+    detail: -1 prints a line a cause, 0 what is known of each, 1 also a row a slug, 2 or more a row a check.
+    """
+    if badge is not None and badge.suffix not in (".svg", ".json"):
+        raise InvalidInput(f"--badge: got {quote_path(str(badge))}, expected a file that ends in .svg or .json")
+    if junit is not None:
+        write_text(junit, document(found.adapter, found.results))
+    if badge is not None:
+        write_text(badge, svg(found.results) if badge.suffix == ".svg" else json.dumps(endpoint(found.results)) + "\n")
     if as_json:
         print_json(found.to_json())
     else:
-        _print(answers(), found, verbose=verbose)
+        print_report(found, detail)
     return NOT_AS_EXPECTED if found.failed else ANSWERED
+
+
+def list_checks(asked: Asked, *, as_json: bool) -> int:
+    """Print the full names of the checks that would be asked, one a line, and return 0. Raises InvalidInput."""
+    with opened(asked.adapter, asked.command, asked.peer, asked.limits) as subject:
+        checks = chosen(subject.functions, asked.only, asked.seed, asked.quick)
+    if as_json:
+        print_json([{"check": one.full_name, "kind": str(one.kind), "claim": one.claim, "effect": one.effect} for one in checks])
+    else:
+        for one in checks:
+            sys.stdout.write(one.full_name + "\n")
+    return ANSWERED
 
 
 def list_peers(*, as_json: bool) -> int:
@@ -64,52 +128,21 @@ def list_peers(*, as_json: bool) -> int:
     return ANSWERED
 
 
-def _print(console: Console, found: Audit, *, verbose: bool) -> None:
-    """Print the tables, the failures in words, and the summary line as the last."""
-    if verbose:
-        print_table(console, table(found))
-        console.print()
-    print_table(console, by_function(found.functions))
-    for words in found.failures:
-        paragraph(console, words, Text("! ", style="bold red"))
-    if not verbose:
-        paragraph(console, Text(HELP, style="dim"))
-    paragraph(console, Text(found.title, style="bold red" if found.failed else "bold green"))
+def export(asked: Asked, folder: Path) -> int:
+    """Write the checks into a folder, print how many there are, and return 0. Raises InvalidInput."""
+    from ..numeric.audit.upstream.exporting import write_checks
+
+    with working("writing the checks") as tell:
+        count = write_checks(folder, asked.only, tell)
+    sys.stdout.write(f"{count} checks in {quote_path(str(folder))}; README.md there says how to read them\n")
+    return ANSWERED
 
 
-def by_function(tallies: Sequence[FunctionTally]) -> Table:
-    """Return a table with one row for each function. What is free, or not offered, is not counted, as it cannot fail."""
-    result = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
-    result.add_column("function", overflow="fold")
-    for column in ("checks", "passed", "failed", "free"):
-        result.add_column(column, justify="right", no_wrap=True)
-    result.add_column("largest ratio", justify="right", no_wrap=True)
-    for one in tallies:
-        name = f"! {one.function}" if one.failed else one.function
-        ratio = "-" if one.largest_ratio is None else f"{one.largest_ratio:.2g}"
-        cells = (name, str(one.checks), str(one.passed), str(one.failed), str(one.free), ratio)
-        result.add_row(*(Text(cell, style="bold red" if one.failed else "") for cell in cells))
-    return result
+def reproduce(asked: Asked, name: str, language: str) -> int:
+    """Print the script that shows a check, and return 0. Raises InvalidInput."""
+    from ..numeric.audit.upstream.reproducing import script
 
-
-def table(results: Sequence[CheckResult]) -> Table:
-    """Return a table with one row for each check, under the name of its function."""
-    rows = Table(box=None, pad_edge=False, header_style="bold")
-    for column in ("check", "claim", "asks", "verdict"):
-        rows.add_column(column, no_wrap=True)
-    rows.add_column("quantity", overflow="fold", min_width=24)
-    for column in ("got", "bound", "ratio"):
-        rows.add_column(column, justify="right", no_wrap=True)
-    for function in dict.fromkeys(one.function for one in results):
-        rows.add_row(Text(function, style="bold"))
-        for one in results:
-            if one.function == function:
-                rows.add_row(*_row(one))
-    return rows
-
-
-def _row(result: CheckResult) -> list[Text]:
-    numbers = [("" if x is None else f"{x:.2g}") for x in (result.got, result.bound, result.ratio)]
-    asks = str(result.kind) if result.kind != Demand.MUST_HOLD else ""
-    cells = (result.name, result.claim or "", asks, result.verdict, result.quantity or "", *numbers)
-    return [Text(cell, style="red" if result.failed else "") for cell in cells]
+    with opened(asked.adapter, asked.command, asked.peer, asked.limits) as subject:
+        functions = subject.functions
+    sys.stdout.write(script(name, functions, language, adapter=asked.adapter, peer=asked.peer, command=asked.command))
+    return ANSWERED

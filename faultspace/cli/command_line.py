@@ -3,28 +3,25 @@
 main         runs it and returns the exit code
 app          the commands, for typer
 parser       what typer makes of them, once a process: their signatures take longer to read than most commands to run
-Plain        a command whose help shows its arguments as they are typed
 """
 
 from __future__ import annotations
 
 import os
-import re
 import sys
 from collections.abc import Callable, Sequence
-from enum import StrEnum
 from functools import cache, wraps
 from pathlib import Path
 from typing import Annotated, Any, ParamSpec
 
 import typer
-from typer.core import TyperCommand
 from typer.main import get_command
 
 from .. import __version__
-from ..base.errors import shorten
 from ..base.messages import say
+from .audit_command import audit
 from .failures import BAD_INPUT, INTERRUPTED, asks_report, guarded
+from .option_types import Effort, Expected, Floats, Json, OneSystem, Plain, Verbose, in_our_words, number
 
 Given = ParamSpec("Given")
 
@@ -41,69 +38,6 @@ app = typer.Typer(
 
 # Some releases of typer bring their own click and none of them names this base of BadParameter.
 _UsageError: type[Any] = typer.BadParameter.__bases__[0]
-
-
-class Effort(StrEnum):
-    """It says how long `verify` looks."""
-
-    quick = "quick"
-    full = "full"
-
-
-class Expected(StrEnum):
-    """These are the answers that `compare` can be made to expect."""
-
-    equivalent = "equivalent"
-    different = "different"
-
-
-class Plain(TyperCommand):
-    """The usage and the list of arguments show each by its `metavar`, without braces and types around it."""
-
-    def collect_usage_pieces(self, ctx: Any) -> list[str]:
-        """Return the words after the command's name."""
-        return ["[OPTIONS]", *(str(one.metavar) for one in self.get_params(ctx) if one.param_type_name == "argument")]
-
-    def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Write arguments and options with their help."""
-        rows: dict[str, list[tuple[str, str]]] = {"argument": [], "option": []}
-        for one in self.get_params(ctx):
-            if record := one.get_help_record(ctx):
-                rows[one.param_type_name].append((str(one.metavar) if one.param_type_name == "argument" else record[0], record[1]))
-        for kind, shown in rows.items():
-            if shown:
-                with formatter.section(f"{kind.title()}s"):
-                    formatter.write_dl(shown)
-
-
-def _number(kind: type[int] | type[float], least: float, such_as: float) -> Callable[[str], Any]:
-    """Return the parser of a number from `least` on, which says what it got, what it needs and what to try."""
-
-    def parsed(text: str) -> Any:
-        try:
-            value = kind(str(text))
-        except ValueError:
-            value = None
-        open_end = kind is float and not least
-        if value is None or not (value > 0 if open_end else least <= value) or value == float("inf"):
-            wanted = "positive number" if open_end else f"{'whole ' if kind is int else ''}number from {least:g} on"
-            raise typer.BadParameter(f"got {shorten(str(text))}, expected a {wanted}, try {such_as:g}")
-        return value
-
-    return parsed
-
-
-def _in_our_words(message: str) -> str:
-    """Return a complaint about options as all complaints about input are: the place, what was got, what is expected."""
-    message = re.sub(r"^Invalid value for '([^']*)': ", lambda found: f"{found[1].split(' / ')[-1]}: ", message)
-    message = re.sub(r"^Missing (option|argument) '([^']*)'\.", r"\2: got none, expected the \1", message)
-    return re.sub(r"(?:Value error, )?'([^']*)' is not one of (.*?)\.?$", r"got '\1', expected one of \2", message)
-
-
-Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else on standard output.")]
-Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="Print the long tables, too.")]
-Floats = Annotated[bool, typer.Option("--floats-exactly", help="Take floats as the dyadic rationals that they are.")]
-OneSystem = Annotated[str, typer.Argument(metavar="SYSTEM", show_default=False, help="A system file, - or example:NAME.")]
 
 
 @cache
@@ -128,7 +62,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return code if isinstance(code, int) else 0
     except _UsageError as error:
         context = getattr(error, "ctx", None)
-        say(f"{_in_our_words(error.format_message())} (see: {context.command_path if context else 'faultspace'} --help)")
+        say(f"{in_our_words(error.format_message())} (see: {context.command_path if context else 'faultspace'} --help)")
         return BAD_INPUT
     except (KeyboardInterrupt, typer.Abort):
         say("interrupted")
@@ -173,7 +107,7 @@ def verify(
         list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim, a page of it; may be repeated.")
     ] = None,
     jobs: Annotated[
-        int | None, typer.Option(metavar="K", parser=_number(int, 1, 2), help="Processes at a time.", show_default="all cores")
+        int | None, typer.Option(metavar="K", parser=number(int, 1, 2), help="Processes at a time.", show_default="all cores")
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the headline certificates and verdicts.json there.")] = None,
     recheck: Annotated[
@@ -210,6 +144,34 @@ def check(
     from . import checking
 
     return checking.run(certificate, systems=system or [], rocq=rocq, as_json=json)
+
+
+@_command()
+def claim(
+    file: Annotated[str, typer.Argument(metavar="FILE", show_default=False, help="Claims in TOML, - or example:claims.")],
+    only: Annotated[
+        list[str] | None, typer.Option("--claim", metavar="ID", help="Only this claim of the file; may be repeated.", show_default=False)
+    ] = None,
+    ablation: Annotated[bool, typer.Option("--ablation/--no-ablation", help="Try each claim without each of its hypotheses, too.")] = True,
+    most: Annotated[
+        int | None,
+        typer.Option(metavar="K", parser=number(int, 1, 10**9), help="Go through no more systems of a box.", show_default="10^9"),
+    ] = None,
+    jobs: Annotated[int, typer.Option(metavar="K", parser=number(int, 1, 2), help="Processes at a time, for large boxes.")] = 1,
+    explain: Annotated[
+        str | None, typer.Option(metavar="SYSTEM", help="Tell what each part of the claims is on this system, instead.", show_default=False)
+    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the certificates there.", show_default=False)] = None,
+    json: Json = False,
+) -> int:
+    """Decide claims of your own about systems.
+
+    Each is refuted by the smallest counterexample of its box, with certificates, or not refuted, or vacuous; docs/your-claims.md tells the
+    language. Exit 1 where a claim names the verdict that it expects and gets another one.
+    """
+    from . import claiming
+
+    return claiming.run(file, only=only or [], ablation=ablation, most=most, jobs=jobs, on=explain, out=out, as_json=json)
 
 
 @_command()
@@ -287,19 +249,19 @@ def identify(
         ),
     ] = None,
     order: Annotated[
-        int | None, typer.Option(metavar="N", parser=_number(int, 1, 3), help="Number of states.", show_default="chosen from the data")
+        int | None, typer.Option(metavar="N", parser=number(int, 1, 3), help="Number of states.", show_default="chosen from the data")
     ] = None,
     block_rows: Annotated[
         int | None,
-        typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of a window.", show_default="what the record carries"),
+        typer.Option(metavar="K", parser=number(int, 2, 20), help="Samples of a window.", show_default="what the record carries"),
     ] = None,
     faults: Annotated[
-        int | None, typer.Option(metavar="K", parser=_number(int, 0, 1), help="Number of independent faults.", show_default="estimated")
+        int | None, typer.Option(metavar="K", parser=number(int, 0, 1), help="Number of independent faults.", show_default="estimated")
     ] = None,
     healthy_until: Annotated[
         int | None,
         typer.Option(
-            metavar="K", parser=_number(int, 1, 1000), help="The first K samples are without fault: count beyond them.", show_default=False
+            metavar="K", parser=number(int, 1, 1000), help="The first K samples are without fault: count beyond them.", show_default=False
         ),
     ] = None,
     healthy: Annotated[
@@ -315,7 +277,7 @@ def identify(
         list[float] | None,
         typer.Option(
             metavar="SIGMA",
-            parser=_number(float, 0, 0.1),
+            parser=number(float, 0, 0.1),
             help="Deviation of the sensors' noise, once or once an output, in its units.",
             show_default=False,
         ),
@@ -335,7 +297,7 @@ def identify(
         float | None,
         typer.Option(
             metavar="SECONDS",
-            parser=_number(float, 0, 0.1),
+            parser=number(float, 0, 0.1),
             help="Time from sample to sample; the model's file keeps it.",
             show_default=False,
         ),
@@ -377,7 +339,7 @@ def monitor(
     healthy_until: Annotated[
         int | None,
         typer.Option(
-            metavar="K", parser=_number(int, 1, 10000), help="Instead: the first K samples of the stream are one.", show_default=False
+            metavar="K", parser=number(int, 1, 10000), help="Instead: the first K samples of the stream are one.", show_default=False
         ),
     ] = None,
     follow: Annotated[
@@ -385,20 +347,20 @@ def monitor(
     ] = None,
     idle: Annotated[
         float | None,
-        typer.Option(metavar="SECONDS", parser=_number(float, 0, 60), help="Stop when nothing came for so long.", show_default="never"),
+        typer.Option(metavar="SECONDS", parser=number(float, 0, 60), help="Stop when nothing came for so long.", show_default="never"),
     ] = None,
     level: Annotated[
         float | None,
         typer.Option(
             metavar="RATE",
-            parser=_number(float, 0, 1e-4),
+            parser=number(float, 0, 1e-4),
             help="False alarms a sample, all tests together.",
             show_default="0.0001, or as saved",
         ),
     ] = None,
     window: Annotated[
         int | None,
-        typer.Option(metavar="K", parser=_number(int, 2, 20), help="Samples of the chi-square test.", show_default="20, or as in MODEL"),
+        typer.Option(metavar="K", parser=number(int, 2, 20), help="Samples of the chi-square test.", show_default="20, or as in MODEL"),
     ] = None,
     save: Annotated[
         Path | None,
@@ -422,16 +384,16 @@ def monitor(
 def monte_carlo(
     out: Annotated[Path, typer.Option(metavar="DIR", show_default=False, help="Write tables, figures and all cases there.")],
     systems: Annotated[
-        int, typer.Option(metavar="K", parser=_number(int, 1, 100), help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")
+        int, typer.Option(metavar="K", parser=number(int, 1, 100), help="Random systems, a quarter each with 0, 1, 2, 3 zeros.")
     ] = 100,
-    samples: Annotated[int, typer.Option(metavar="K", parser=_number(int, 1, 1001), help="Samples of each record.")] = 1001,
+    samples: Annotated[int, typer.Option(metavar="K", parser=number(int, 1, 1001), help="Samples of each record.")] = 1001,
     jobs: Annotated[
         int | None,
-        typer.Option(metavar="K", parser=_number(int, 1, 2), help="Processes at a time.", show_default="as many cores as are worth it"),
+        typer.Option(metavar="K", parser=number(int, 1, 2), help="Processes at a time.", show_default="as many cores as are worth it"),
     ] = None,
     dask: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Work on the Dask cluster with this scheduler instead.")] = None,
     seed: Annotated[
-        int, typer.Option(metavar="K", parser=_number(int, 0, 1907), help="Equal seeds give equal results, whoever does the work.")
+        int, typer.Option(metavar="K", parser=number(int, 0, 1907), help="Equal seeds give equal results, whoever does the work.")
     ] = 1907,
     json: Json = False,
 ) -> int:
@@ -445,39 +407,7 @@ def monte_carlo(
     return studying.run(systems=systems, samples=samples, jobs=jobs, cluster=dask, seed=seed, out=out, as_json=json)
 
 
-@_command()
-def audit(
-    adapter: Annotated[
-        str | None,
-        typer.Argument(metavar="[ADAPTER]", show_default=False, help="module:object, file.py:object, module or file; else our own code."),
-    ] = None,
-    command: Annotated[
-        str | None, typer.Option("--exec", metavar="CMD", help="A program that speaks JSON lines instead.", show_default=False)
-    ] = None,
-    peer: Annotated[str | None, typer.Option(metavar="NAME", help="A published package instead; see --peers.", show_default=False)] = None,
-    peers: Annotated[bool, typer.Option("--peers", help="List the packages that adapters come for, and what each needs.")] = False,
-    check: Annotated[
-        list[str] | None, typer.Option("--check", metavar="SLUG", help="Only these: SLUG, SLUG[VECTOR], SLUG[VECTOR]-FUNCTION; repeatable.")
-    ] = None,
-    timeout: Annotated[
-        float, typer.Option(metavar="SECONDS", parser=_number(float, 0.1, 60), help="How long a check, with --exec an answer, may take.")
-    ] = 60.0,
-    memory: Annotated[float, typer.Option(metavar="GIB", parser=_number(float, 0.5, 4), help="How much memory a check may take.")] = 4.0,
-    verbose: Verbose = False,
-    json: Json = False,
-) -> int:
-    """Put an implementation through checks.
-
-    The answers are known exactly; exit 1 if a must is not met. The adapter has some of: identify, residual, window_ranks, fault_dimension,
-    fault_space, reconstruct, structure, count_faults, identified_fault_space. It runs in a process of
-    its own: what hangs, crashes, forks or takes too much memory is told as that, and the next check goes on.
-    """
-    from . import auditing
-
-    if peers:
-        return auditing.list_peers(as_json=json)
-    limits = {"seconds": timeout, "gibibytes": memory}
-    return auditing.run(adapter, command=command, peer=peer, only=check or [], verbose=verbose, as_json=json, **limits)
+_command()(audit)
 
 
 @_command()

@@ -1,6 +1,7 @@
 """Print answers on standard output; how far a command has come is shown on standard error (`base/progress.py`).
 
 answers        the console for tables: colours and the window's width on a terminal, plain and 140 wide or more elsewhere
+full_width     the same, elsewhere as wide as a table needs
 print_json     one document on one line
 print_table    a table, or its rows as paragraphs where it is too wide
 paragraph      a text after a label: broken between words on a terminal, the lines below in line with the first; one line elsewhere
@@ -35,6 +36,12 @@ def answers() -> Console:
     plain = not sys.stdout.isatty()
     width = max(PIPED_WIDTH, _columns()) if plain else None
     return _Answers(file=sys.stdout, width=width, markup=False, highlight=False, emoji=False)
+
+
+def full_width() -> Console:
+    """Return a console for answers whose tables are never folded where nobody looks at a window."""
+    console = answers()
+    return console if console.is_terminal else _Answers(file=sys.stdout, width=UNBOUNDED, markup=False, highlight=False, emoji=False)
 
 
 def paragraph(console: Console, text: Text | str, label: Text | str = "") -> None:

@@ -1,6 +1,7 @@
 """Open the JSON files that people exchange; what is in them is judged by `faultspace.exact` and the checker.
 
     read_json       the document in a file, strictly: UTF-8, no key twice, no NaN, bounded size
+    read_text       the text of a file, of UTF-8 and bounded size
     read_system     the system in a file; the model of `identify` too, where floats are taken exactly
     read_experiment the experiment in a file
     write_json      a document into a file, whole or not at all
@@ -69,18 +70,24 @@ def read_experiment(name: str, *, floats_exactly: bool = False) -> Experiment:
 def read_json(name: str, *, number: Callable[[str], object] = float) -> Any:
     """Read the document in a file; `number` reads numbers with a point or an exponent. Raises InvalidInput."""
     with in_file(name):
-        try:
-            text = _content(name).decode("utf-8-sig")
-        except UnicodeDecodeError as error:
-            raise InvalidInput(f"got byte {error.object[error.start]:#04x} at {error.start}, expected JSON in UTF-8") from None
-        if not text.strip():
-            raise InvalidInput("got an empty file, expected JSON")
+        text = read_text(name, "JSON")
         try:
             return json.loads(text, object_pairs_hook=_object, parse_constant=_refused, parse_float=number, parse_int=_integer)
         except json.JSONDecodeError as error:
             place = f"line {error.lineno} column {error.colno}"
             hint = f"; measured data? {_IDENTIFY}" if Path(name).suffix.lower() in _TABLES else ""
             raise InvalidInput(f"got text that is not JSON ({error.msg.rstrip(':')}, {place}), expected JSON{hint}") from None
+
+
+def read_text(name: str, kind: str = "TOML") -> str:
+    """Return the text of a file. Raises InvalidInput where it cannot be read, is empty or no UTF-8; `kind` is what was expected."""
+    try:
+        text = _content(name, kind).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InvalidInput(f"got byte {error.object[error.start]:#04x} at {error.start}, expected {kind} in UTF-8") from None
+    if not text.strip():
+        raise InvalidInput(f"got an empty file, expected {kind}")
+    return text
 
 
 def write_json(path: Path, document: object) -> None:
@@ -125,7 +132,7 @@ def _positive(value: object) -> bool:
         return False
 
 
-def _content(name: str) -> bytes:
+def _content(name: str, kind: str) -> bytes:
     try:
         if name.startswith(packaged_examples.PREFIX):
             return packaged_examples.content(name)
@@ -137,7 +144,7 @@ def _content(name: str) -> bytes:
     except InvalidInput:
         raise
     except (OSError, ValueError) as error:
-        raise InvalidInput(f"cannot be read ({reason(error)}), expected a JSON file") from None
+        raise InvalidInput(f"cannot be read ({reason(error)}), expected a {kind} file") from None
     if len(content) > MAX_FILE_BYTES:
         raise InvalidInput(f"got more than {MAX_FILE_BYTES} bytes, expected at most that")
     return content

@@ -10,6 +10,7 @@ import contextlib
 import io
 import re
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
@@ -49,11 +50,12 @@ def test_a_function_has_a_line_and_failures_are_told_in_words(made: Made) -> Non
     run = call("audit")
     assert (run.code, run.err) == (1, "")
     lines = [" ".join(line.split()) for line in run.out.splitlines()]
-    assert lines[0] == "function checks passed failed free largest ratio"
-    assert lines[1:3] == ["! fault_space 4 0 2 2 3e+02", "identify 2 2 0 0 0.5"], "what failed comes first"
-    assert lines[3].startswith("! exact-recovery[delayed] (fault_space): fail. relative error of A: got 3e-07, bound 1e-09, ratio 300.")
-    assert lines[3].endswith("Also: zero-outside.")
-    assert lines[-1] == "6 checks of identify, fault_space: 2 failed" and len(lines) == 6
+    assert lines[0] == "! fault_space: fail: exact-recovery[delayed]", "what failed comes first"
+    assert lines[1] == "relative error of A: off by 3e-07, bound 1e-09, ratio 300"
+    assert lines[3] == "again: faultspace audit None --check 'exact-recovery[delayed]-fault_space'"
+    table = lines.index("function checks pass fail free largest ratio")
+    assert lines[table + 1 : table + 3] == ["! fault_space 4 0 2 2 3e+02", "identify 2 2 0 0 0.5"]
+    assert lines[-1] == "6 checks of identify, fault_space: 2 failed" and len(lines) == 15
 
 
 def test_without_a_failure_the_code_is_0(made: Made) -> None:
@@ -65,10 +67,28 @@ def test_without_a_failure_the_code_is_0(made: Made) -> None:
 
 def test_every_check_is_printed_when_asked_for(made: Made) -> None:
     made(RESULTS)
-    short, long = call("audit").out, call("audit", "-v").out
-    assert all(one.name in long for one in RESULTS) and RESULTS[1].name not in short
-    assert long.splitlines()[-1] == short.splitlines()[-1]
+    short, slugs, long = call("audit").out, call("audit", "-v").out, call("audit", "-vv").out
+    assert all(one.name in long for one in RESULTS) and RESULTS[1].name not in short and RESULTS[1].name not in slugs
+    assert "exact-recovery identify 2 2 0.5" in " ".join(slugs.split())
+    assert long.splitlines()[-1] == slugs.splitlines()[-1] == short.splitlines()[-1]
     assert call("audit", "--json").json == call("audit", "-v", "--json").json
+
+
+def test_a_verdict_that_nobody_knew_of_has_a_column_and_an_entry_of_its_own(made: Made) -> None:
+    """Pages are drawn from the list of verdicts, not from two words."""
+    made((*RESULTS[:2], replace(RESULTS[0], verdict=str(Status.UNEXPECTED), vector="n9")))
+    run = call("audit")
+    assert "! identify: unexpected pass: exact-recovery[n9]" in run.out
+    assert "function checks pass unexpected pass free largest ratio" in " ".join(run.out.split())
+    assert run.code == 1
+
+
+def test_nothing_is_folded_where_nobody_looks(made: Made) -> None:
+    long = "n3-" + "very-" * 60 + "long"
+    made((replace(RESULTS[2], vector=long, detail="it said " + "word " * 80),))
+    lines = call("audit", "-vv").out.splitlines()
+    assert any(long in line and "relative error of A" in line for line in lines)
+    assert any(line.strip() == ("it said " + "word " * 80).strip() for line in lines)
 
 
 class Window(io.StringIO):
@@ -85,7 +105,7 @@ def test_nothing_is_cut_on_a_terminal_of_any_width(made: Made, monkeypatch: pyte
         monkeypatch.setenv(name, value)
     window = Window()
     with contextlib.redirect_stdout(window):
-        assert main(["audit", "-v"]) == 1
+        assert main(["audit", "-vv"]) == 1
     printed = re.sub(r"\x1b\[[0-9;?]*m", "", window.getvalue())
     assert max(map(len, printed.splitlines())) <= width and "…" not in printed
     together = re.sub(r"\s", "", printed)

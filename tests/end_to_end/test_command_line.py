@@ -25,7 +25,7 @@ from faultspace.cli.command_line import app
 from faultspace.exact.structure.kernel_rows import kernel_representation
 from faultspace.exact.system.systems import read_system
 from faultspace.example_data import FILE_NAME
-from faultspace.packaged_examples import DESCRIPTIONS, EXPERIMENTS
+from faultspace.packaged_examples import CLAIMS, DESCRIPTIONS, EXPERIMENTS
 from faultspace.proofs.trust import structure_certificates as certificates
 from tests.end_to_end.commands import EXAMPLES, ROOT, Run, call, command, environment, example, validator
 from tests.oracle.strategies import system_pairs, systems
@@ -323,10 +323,10 @@ def test_check_insists_on_a_system(tmp_path: Path, certificate: Any) -> None:
 
 
 def test_every_packaged_file_is_described_and_no_other() -> None:
-    files = sorted(path.name.removesuffix(".json") for path in EXAMPLES.iterdir())
-    assert files == sorted([*DESCRIPTIONS, *EXPERIMENTS])
+    files = sorted(path.name for path in EXAMPLES.iterdir())
+    assert files == sorted([*(f"{name}.json" for name in (*DESCRIPTIONS, *EXPERIMENTS)), *(f"{name}.toml" for name in CLAIMS)])
     listed = [line.split()[0] for line in call("examples").out.splitlines()]
-    assert listed == [f"example:{name}" for name in (*DESCRIPTIONS, *EXPERIMENTS)]
+    assert listed == [f"example:{name}" for name in (*DESCRIPTIONS, *EXPERIMENTS, *CLAIMS)]
 
 
 @pytest.mark.parametrize("name", list(DESCRIPTIONS))
@@ -335,7 +335,7 @@ def test_packaged_systems_are_valid_and_copied_whole(tmp_path: Path, name: str) 
     run = call("examples", str(tmp_path / "new" / "folder"))
     assert run.code == 0
     assert json.loads((tmp_path / "new" / "folder" / f"{name}.json").read_text("utf-8")) == example(name)
-    copied = [FILE_NAME, *(f"{n}.json" for n in (*DESCRIPTIONS, *EXPERIMENTS))]
+    copied = [FILE_NAME, *(f"{n}.json" for n in (*DESCRIPTIONS, *EXPERIMENTS)), *(f"{n}.toml" for n in CLAIMS)]
     assert sorted(path.name for path in (tmp_path / "new" / "folder").iterdir()) == sorted(copied)
 
 

@@ -65,7 +65,7 @@ def as_printed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Run, Path]:
     with pytest.MonkeyPatch.context() as patch:
         if importlib.util.find_spec("matplotlib") is not None:
             patch.setattr("matplotlib.figure.Figure.savefig", lambda figure, path, **options: Path(path).write_bytes(b"not rendered"))
-        run = call(*shlex.split(listed.err.partition("for: faultspace ")[2].replace("\n", " ")))
+        run = call("identify", *shlex.split(listed.err.partition("for: faultspace identify ")[2].replace("\n", " ")))
     assert run.code == 0, run.err
     return run, folder
 
