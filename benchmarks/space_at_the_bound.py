@@ -197,11 +197,12 @@ def made(
     share = options.limit / len(cells) / len(options.samples)
     for cell in cells:
         end, outcomes = time.monotonic() + share, list[T]()
-        for first in range(0, options.systems, options.jobs):
+        records = [(seed, number) for number in range(options.systems) for seed in options.seed]
+        for first in range(0, len(records), options.jobs):
             if time.monotonic() > end:
                 break
-            numbers = range(first, min(first + options.jobs, options.systems))
-            outcomes += run(joblib.delayed(trial)(cell, options.seed, number, samples) for number in numbers)
+            several = records[first : first + options.jobs]
+            outcomes += run(joblib.delayed(trial)(cell, seed, number, samples) for seed, number in several)
         yield cell, outcomes
 
 
@@ -221,12 +222,13 @@ def tables(options: argparse.Namespace) -> Iterator[str]:
                     yield line(name, samples, outcomes)
 
 
-def places(options: argparse.Namespace, samples: int) -> Iterator[tuple[Cell, int, str]]:
-    """Yield cell, number and key of every record of this length, in rounds."""
+def places(options: argparse.Namespace, samples: int) -> Iterator[tuple[Cell, int, int, str]]:
+    """Yield cell, seed, number and key of every record of this length, in rounds."""
     for number in range(options.systems):
-        for cell in CELLS:
-            if cell.kind in options.cells:
-                yield cell, number, f"{cell.name}, {samples}, {options.seed}, {number}"
+        for seed in options.seed:
+            for cell in CELLS:
+                if cell.kind in options.cells:
+                    yield cell, seed, number, f"{cell.name}, {samples}, {seed}, {number}"
 
 
 def measured(options: argparse.Namespace) -> None:
@@ -234,16 +236,16 @@ def measured(options: argparse.Namespace) -> None:
     cases = Cases(options.cases)
     cases.begin()
     for samples in options.samples:
-        for cell, number, key in places(options, samples):
+        for cell, seed, number, key in places(options, samples):
             if key not in cases.found:
-                cases.add(key, asdict(options.compared(cell, options.seed, number, samples)))
+                cases.add(key, asdict(options.compared(cell, seed, number, samples)))
 
 
 def kept(options: argparse.Namespace, samples: int) -> list[tuple[Cell, list[Outcome]]]:
     """Return the records of each cell that FILE has."""
     cases = Cases(options.cases).found
     found: dict[Cell, list[Outcome]] = {}
-    for cell, _, key in places(options, samples):
+    for cell, _, _, key in places(options, samples):
         if key in cases:
             case = cases[key]
             true = None if case["true"] is None else _found(case["true"])
@@ -306,8 +308,8 @@ def calibration(options: argparse.Namespace) -> Iterator[str]:
 def main() -> None:
     """Print the table in Markdown."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--systems", type=int, default=100, help="records a cell")
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--systems", type=int, default=100, help="records a cell and seed")
+    parser.add_argument("--seed", type=int, nargs="+", default=[1])
     parser.add_argument("--samples", type=int, nargs="+", default=[1001, 10000])
     parser.add_argument("--cells", nargs="+", default=["study", "random"], choices=["study", "random"])
     parser.add_argument("--limit", type=float, default=float("inf"), help="seconds for all")
@@ -321,7 +323,8 @@ def main() -> None:
     options = parser.parse_args()
     if options.cases is not None and not options.table:
         measured(options)
-    print(f"seed {options.seed}" if options.calibrate else f"median [95 % interval of the median] 90 % quantile; seed {options.seed}\n")
+    seeds = f"seed {' and '.join(map(str, options.seed))}"
+    print(seeds if options.calibrate else f"median [95 % interval of the median] 90 % quantile; {seeds}\n")
     for text in calibration(options) if options.calibrate else tables(options):
         print(text, flush=True)
 
