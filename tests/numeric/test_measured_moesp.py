@@ -106,7 +106,7 @@ def test_the_flexible_structure_drops_after_28() -> None:
     y, u = record("flexible_structure_dat.mat", 2)
     assert y.shape == (8523, 28)
     half = len(y) // 2
-    with pytest.raises(InvalidData, match="no clean gap .* the largest is after 28"):
+    with pytest.raises(InvalidData, match=r"no clean gap .* the largest is after 28"):
         pi_moesp(y[:half], u[:half], block_rows=30)
     found = pi_moesp(y[:half], u[:half], order=34, block_rows=30)
     assert np.mean(fit(found.model, y[half:], u[half:])) > 91

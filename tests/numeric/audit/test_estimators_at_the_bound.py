@@ -36,7 +36,7 @@ class Reduction:
 
 
 def beyond_the_reduction() -> tuple[ExpectedFailure, ...]:
-    """Return the checks of models that a reduction does not have: it fits a stable transfer function, which has no mode that inputs miss."""
+    """Return the checks of models that no reduction has: it fits a stable transfer function, which has no mode that inputs miss."""
     expected = []
     for trouble in default_troubles():
         if trouble.model and trouble.model.asked("poles"):
