@@ -2,19 +2,36 @@
 
 markov has no initial state and takes the impulse response to be over after m samples: it should be long enough for that, and m n_u unknowns
 ask for as many samples at least. The package has no normal rank and no infinite zeros: `structure` tells the finite zeros alone.
+
+without_slycot    the same where slycot is not installed, which finds the zeros otherwise: those of square systems alone
 """
 
 from __future__ import annotations
 
+import sys
 import warnings
+from types import SimpleNamespace
 from typing import Any
+from unittest.mock import patch
 
 import control
+import numpy as np
 
 from ....base.arrays import Array
 from ..records import Refused
+from ..vectors.rationals import floats
+from ..vectors.shipped_vectors import IdentificationVector
+from ._promises import asked_of, models, systems
 
 LONGEST = 100
+OVER = 1e-10  # what is left of an impulse response that is over: less than the bounds of the checks
+AT_REST = "markov has no initial state"
+ENDS = "markov takes the impulse response to be over after m samples"
+
+
+def _taken(samples: int, n_u: int, order: int) -> int:
+    """Return the number m of Markov parameters."""
+    return max(min(samples // (2 * n_u), LONGEST), 4 * order + 1)
 
 
 def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any, Any, Any]:
@@ -22,7 +39,7 @@ def identify(y: Array, u: Array, order: int, block_rows: int) -> tuple[Any, Any,
     Hankel matrix takes (the default m, as many as samples, is right for a single input at rest alone).
     """
     n_u, p = u.shape[1], y.shape[1]
-    m = max(min(len(u) // (2 * n_u), LONGEST), 4 * order + 1)
+    m = _taken(len(u), n_u, order)
     with warnings.catch_warnings():
         warnings.simplefilter("error", UserWarning)  # "Not enough data for requested number of parameters"
         try:
@@ -39,3 +56,26 @@ def structure(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
         return {"finite_zeros": [complex(z) for z in control.StateSpace(A, F, C, G, True).zeros()]}
     except NotImplementedError as lacking:
         raise Refused(str(lacking)) from lacking
+
+
+def _without_slycot(A: Array, F: Array, C: Array, G: Array) -> dict[str, Any]:
+    # The package imports slycot where it needs it, and takes a module of None for one that is not installed.
+    with patch.dict(sys.modules, {"slycot": None}):
+        return structure(A, F, C, G)
+
+
+without_slycot = SimpleNamespace(
+    structure=_without_slycot,
+    NOT_PROMISED=asked_of("structure", {name for name, one in systems().items() if one.p != one.m}, "zeros of square systems alone"),
+)
+
+
+def _lasts(model: IdentificationVector) -> bool:
+    """Say whether the impulse response is not over after m samples."""
+    radius = np.abs(np.linalg.eigvals(floats(model.A))).max(initial=0.0)
+    return bool(radius ** _taken(model.u.nrows, model.u.ncols, model.order) > OVER)
+
+
+NOT_PROMISED = asked_of("identify", {name for name, model in models().items() if _lasts(model)}, ENDS) | asked_of(
+    "identify", {name for name, model in models().items() if floats(model.x0).any()}, AT_REST
+)

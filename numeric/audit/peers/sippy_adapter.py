@@ -1,6 +1,6 @@
 """This calls sippy_unipi: system_identification(y, u, "MOESP"). A user sets the horizons to the window and the order to the one asked for.
 
-identify           with the package's default SS_D_required=False: D is zero
+identify           with the package's default SS_D_required=False: D is zero, and a plant with a D is not what was promised
 with_feedthrough   the same package with SS_D_required=True, which is what a user sets who knows of a D
 
 Models come without an initial state (x0 is zeros in SS_model), so that there is nothing else to ask.
@@ -16,6 +16,12 @@ from typing import Any
 from sippy_unipi import system_identification
 
 from ....base.arrays import Array
+from ..vectors.rationals import floats
+from ._promises import asked_of, models
+
+NOT_PROMISED = asked_of(
+    "identify", {name for name, model in models().items() if floats(model.D).any()}, "the default SS_D_required=False estimates no D"
+)
 
 
 def _identified(y: Array, u: Array, order: int, block_rows: int, **options: bool) -> tuple[Any, Any, Any, Any]:

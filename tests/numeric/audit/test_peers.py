@@ -23,7 +23,9 @@ OFFERED = {
     "sippy_unipi-D": ["identify"],
     "nfoursid": ["identify"],
     "ctrlsys": ["identify", "structure"],
+    "ctrlsys-C": ["identify"],
     "python-control": ["identify", "structure"],
+    "python-control-alone": ["structure"],
     "slycot": ["structure"],
     "octave-control": ["identify", "structure"],
     "fault_id": ["identify", "window_ranks", "fault_dimension", "fault_space"],
@@ -35,6 +37,8 @@ RIGHT = [
     ("nfoursid", "exact-recovery[n2-u2-p3]"),
     ("ctrlsys", "finite-zeros[square-proper]"),
     ("ctrlsys", "infinite-zeros[chain-of-delays]"),
+    ("ctrlsys-C", "exact-recovery[n2-u1-p1]"),  # B and D by N4SID
+    ("python-control-alone", "finite-zeros[square-proper]"),
     ("python-control", "consistent-under-coloured-fault[coloured]"),
     ("python-control", "finite-zeros[square-proper]"),
     ("slycot", "infinite-zeros[chain-of-delays]"),
@@ -55,6 +59,7 @@ WRONG = [
     ("octave-control", "consistent-under-coloured-fault[coloured]", "fail"),
     ("nfoursid", "memory-grows-with-N[N3000-N12000]", "fail"),
     ("nfoursid", "other-units[n2-u1-p1]", "fail"),  # normal equations
+    ("ctrlsys-C", "consistent-under-coloured-fault[coloured]", "fail"),  # A and C by MOESP with past outputs
     ("ctrlsys", "refuses-shapes[two-faults]", "fail"),  # an array smaller than told
     ("ctrlsys", "exact-recovery[n2-u1-p1]", "fail"),  # B and D of ib01bd
     ("octave-control", "long-window[n4-u2-p3-s20]", "broken"),  # IB01BD: parameter 30
