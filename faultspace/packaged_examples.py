@@ -34,6 +34,7 @@ EXPERIMENTS = {
 CLAIMS = {
     "claims": "ten claims, from one line to longer ones, which `faultspace claim` decides",
     "literature": "statements of the field with their sources, right ones and wrong or loose ones, with their verdicts",
+    "papers": "three papers as a new user reads them: seven readings of their abstracts, with their verdicts",
     "ledger": "the paper's claims about single systems, in the language of claims, with the verdicts of `faultspace verify`",
 }
 

@@ -409,6 +409,7 @@ LEDGER = {one.id: one for one in read_claims(content("example:ledger").decode())
 
 
 LITERATURE = {one.id: one for one in read_claims(content("example:literature").decode())}
+PAPERS = {one.id: one for one in read_claims(content("example:papers").decode())}
 
 
 def test_there_are_ten_examples_and_forty_statements() -> None:
@@ -417,10 +418,10 @@ def test_there_are_ten_examples_and_forty_statements() -> None:
     assert {one.expected["Q"] for one in LITERATURE.values()} == {Answered.REFUTED, Answered.NOT_REFUTED}
 
 
-@pytest.mark.parametrize("name", list(LITERATURE)[:: every()])
+@pytest.mark.parametrize("name", list(LITERATURE)[:: every()] + list(PAPERS))
 def test_a_statement_of_the_field_gets_its_verdict(name: str) -> None:
     """What is known to be true is not refuted, and what is known to be false is."""
-    claim = LITERATURE[name]
+    claim = (LITERATURE | PAPERS)[name]
     box = claim.boxes["Q"]
     (answer,) = deciding.decide(replace(claim, boxes={"Q": replace(box, n=(1, 2))}), ablation=False, most=10**9, jobs=1, progress=silent)
     assert answer.as_expected, answer.title
