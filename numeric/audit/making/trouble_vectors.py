@@ -33,6 +33,7 @@ from .drawing import upward
 from .fault_records import residual_bound, signal_bound, singular_values, space_bound
 from .kinds_of_trouble import COUNT, MODEL, RANKS, RESIDUAL, SIGNAL, SPACE, STRUCTURE, Kind
 from .model_bounds import model_bounds, telling
+from .planting import digits
 
 ATTEMPTS = 100
 MORE = 15  # samples beyond those that windows need
@@ -84,19 +85,19 @@ def _vectors(kind: Kind, system: ResidualSystem, rng: Random) -> Trouble:
 
 
 def _structure(slug: str, system: ResidualSystem, known: Structure) -> StructureVector:
-    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros and known.left_invertible else ()
+    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
     return StructureVector(slug, system, known.kernel.normal_rank, zeros, (), known.infinite_zero_orders)
 
 
 def _bounded_structure(vector: StructureVector) -> StructureVector:
-    return replace(vector, zero_bounds=tuple(upward(one) for one in zero_bounds(vector.system, vector.zeros)))
+    return replace(vector, zero_bounds=tuple(upward(one) for one in zero_bounds(vector.system, vector.zeros, vector.normal_rank)))
 
 
-def zero_bounds(system: ResidualSystem, zeros: Sequence[complex]) -> list[float]:
+def zero_bounds(system: ResidualSystem, zeros: Sequence[complex], normal_rank: int) -> list[float]:
     """Return for each zero z0 the radius within which z can be a zero of a pencil that rounding does not tell from this one.
 
-    Such a pencil is off by d = SMALL (rows + columns) eps |P(z)|, and z is a zero of one where the least singular value of P(z) is at most
-    d. The radius is the least of those tried, on whose circle no point is: for a simple zero that is d over its condition
+    Such a pencil is off by d = SMALL (rows + columns) eps |P(z)| and has the same normal rank; z is a zero of one where the last singular
+    value of P(z) that this rank leaves different from zero is at most d. The radius is the least of those tried, on whose circle no point is: for a simple zero that is d over its condition
     number, for one in a chain of length k it goes with the kth root of d.
     """
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
@@ -106,7 +107,7 @@ def zero_bounds(system: ResidualSystem, zeros: Sequence[complex]) -> list[float]
 
     def apart(points: Array) -> bool:
         pencils = fixed + points[:, np.newaxis, np.newaxis] * slope
-        least = np.linalg.svd(pencils, compute_uv=False)[:, n + m - 1]
+        least = np.linalg.svd(pencils, compute_uv=False)[:, n + normal_rank - 1]
         return bool(np.all(least > SMALL * (2 * n + m + p) * EPS * np.linalg.norm(pencils, axis=(1, 2))))
 
     return _radii(apart, zeros)
@@ -150,7 +151,7 @@ def _model(slug: str, system: ResidualSystem, known: Structure, rng: Random) -> 
     n, m, p = system.n, system.m, system.p
     s = max(_observability_index(system) + 2, 2, -(-n // m) + 1)
     samples = 2 * (m + p + 1) * s + 20
-    x0, u = _signal(rng, n, 1), _signal(rng, samples, m)
+    x0, u = digits(rng, n, 1), digits(rng, samples, m)
     driven = simulate(system, x0, u)
     if rank(excitation_matrix(driven, 2 * s)) < n + 2 * s * m:
         raise Unsuitable("the input does not excite")
@@ -169,11 +170,6 @@ def _observability_index(system: ResidualSystem) -> int:
     return blocks
 
 
-def _signal(rng: Random, height: int, width: int) -> Matrix:
-    digits = [d for d in range(-9, 10) if d]
-    return matrix([[rng.choice(digits) for _ in range(width)] for _ in range(height)], width)
-
-
 # -- residuals --------------------------------------------------------------------------------------------------------------------------
 
 
@@ -181,7 +177,7 @@ def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -
     n, m, p, lag = system.n, system.m, system.p, known.kernel.lag
     windows = lag + 2
     samples = max(HALF, (p + 1) * (max(windows, n + 1) + 1), samples_that_settle(p, lag)) + MORE
-    x0, v = _signal(rng, n, 1), _signal(rng, samples, m)
+    x0, v = digits(rng, n, 1), kind.moves(rng, samples, m)
     trajectory = simulate(system, x0, v)
     longest = max(windows, n + 1)
     if known.left_invertible and rank(excitation_matrix(trajectory, longest)) < n + m * longest:
@@ -191,7 +187,7 @@ def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -
     gaps = tuple(singular_values(hankel(in_channel_units(r), s)) for s in range(1, windows + 1))
     delay = known.delay_known_state
     basis = known.fault_space.basis.transposed()
-    trusted = samples - delay if delay is not None else 0
+    trusted = v.nrows - delay if delay is not None else 0
     blank = FaultVector(kind.slug, AS_GIVEN, system, x0, v, ranks, gaps, m, basis, lag, trusted, {}, {})
     if not blank.clear:
         raise Unsuitable("rounding hides a rank")
