@@ -27,12 +27,14 @@ from . import (
     manners,
     misfits,
     refusals,
+    sequences,
+    silence,
     structure,
     surroundings,
     trouble,
 )
 
-MODULES = (surroundings, identification, consistency, faults, excitation, structure, refusals, misfits, manners, forms, growth, laws)
+MODULES = (surroundings, identification, consistency, faults, excitation, structure, refusals, misfits, silence, manners, forms, sequences, growth, laws)
 
 
 def all_checks(seed: int = SEED) -> Iterator[Check]:

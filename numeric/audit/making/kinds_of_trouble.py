@@ -275,7 +275,7 @@ def _nilpotent(rng: Random) -> ResidualSystem:
 
 
 def _very_large(rng: Random) -> Polynomial:
-    return times(factor(rng.choice((-1, 1)) * 2 ** rng.randint(12, 16)), factor(_quarter(rng)))
+    return times(factor(rng.choice((-1, 1)) * rng.randint(1001, 4096)), factor(_quarter(rng)))
 
 
 def _five(rng: Random) -> Polynomial:

@@ -1,6 +1,7 @@
 """How a kind of trouble becomes vectors: systems and signals from a seed, truth by the exact branch, bounds from conditioning.
 
 made             the vectors of a kind for a seed: of the system, of a record without fault, of a residual
+structure_vector of a system alone
 unbounded        the same before there are bounds: all of it exact, so that every machine makes the same
 Unsuitable       the draw does not meet the conditions of the question, and the next one is tried
 zero_bounds      how far rounding may carry each zero, repeated ones as well
@@ -87,6 +88,11 @@ def _vectors(kind: Kind, system: ResidualSystem, rng: Random) -> Trouble:
 def _structure(slug: str, system: ResidualSystem, known: Structure) -> StructureVector:
     zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
     return StructureVector(slug, system, known.kernel.normal_rank, zeros, (), known.infinite_zero_orders)
+
+
+def structure_vector(slug: str, system: ResidualSystem) -> StructureVector:
+    """Return the questions of structure of a system, with their bounds."""
+    return _bounded_structure(_structure(slug, system, analyze(system)))
 
 
 def _bounded_structure(vector: StructureVector) -> StructureVector:
