@@ -31,12 +31,13 @@ from ..vectors.rationals import floats, matrix
 from ..vectors.shipped_vectors import IdentificationVector, StructureVector
 from ..vectors.trouble import Trouble
 from .drawing import upward
-from .fault_records import residual_bound, signal_bound, singular_values, space_bound
+from .fault_records import leading_signal_bound, residual_bound, signal_bound, singular_values, space_bound
 from .kinds_of_trouble import COUNT, MODEL, RANKS, RESIDUAL, SIGNAL, SPACE, STRUCTURE, Kind
 from .model_bounds import model_bounds, telling
 from .planting import digits
 
 ATTEMPTS = 100
+APART, LEADING = 1.25, 3  # zeros so far outside let the end of a record disturb its first third by nothing that counts
 MORE = 15  # samples beyond those that windows need
 ANGLES = 24  # of a circle about a zero
 COARSE, FINE = 8.0, 1.25  # between the radii of two circles
@@ -194,6 +195,8 @@ def _faults(kind: Kind, system: ResidualSystem, known: Structure, rng: Random) -
     delay = known.delay_known_state
     basis = known.fault_space.basis.transposed()
     trusted = v.nrows - delay if delay is not None else 0
+    if _outside(known):
+        trusted //= LEADING
     blank = FaultVector(kind.slug, AS_GIVEN, system, x0, v, ranks, gaps, m, basis, lag, trusted, {}, {})
     if not blank.clear:
         raise Unsuitable("rounding hides a rank")
@@ -204,13 +207,30 @@ def _bounded_faults(vector: FaultVector, kind: Kind) -> FaultVector:
     r, system, asked = vector.r, vector.system, set(kind.asks)
     bounds = {
         "residual": residual_bound(r, system, Fraction(1)) if RESIDUAL in asked else None,
-        "signal": signal_bound(r, system, vector.x0) if SIGNAL in asked and not _grows(analyze(system)) else None,
+        "signal": _signal_bound(vector) if SIGNAL in asked else None,
     }
     windows = sorted({vector.lag + 1, system.n + 1}) if SPACE in asked else []
     return replace(vector, bounds=bounds, space_bounds={s: space_bound(r, system, s) for s in windows})
 
 
+def _signal_bound(vector: FaultVector) -> float | None:
+    known = analyze(vector.system)
+    outside = _outside(known)
+    if outside:
+        return leading_signal_bound(vector.r, vector.system, vector.x0, vector.trusted, outside)
+    return None if _grows(known) else signal_bound(vector.r, vector.system, vector.x0)
+
+
+def _outside(known: Structure) -> list[float]:
+    """Return the moduli of the zeros that are not inside the unit circle; none where one of them is nearer to it than APART."""
+    moduli = [abs(zero) for zero in _finite(known) if abs(zero) > 1 - 1e-9]
+    return moduli if min(moduli, default=0.0) >= APART else []
+
+
 def _grows(known: Structure) -> bool:
-    """Say whether a zero on or outside the unit circle lets errors grow backwards. Their enclosures have fifty bits and more."""
-    zeros = roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
-    return any(abs(zero) > 1 - 1e-9 for zero in zeros)
+    """Say whether a zero on or outside the unit circle lets errors grow. Their enclosures have fifty bits and more."""
+    return any(abs(zero) > 1 - 1e-9 for zero in _finite(known))
+
+
+def _finite(known: Structure) -> Sequence[complex]:
+    return roots(known.invariant_zero_polynomial) if known.finite_zeros else ()
