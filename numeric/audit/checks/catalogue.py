@@ -34,7 +34,22 @@ from . import (
     trouble,
 )
 
-MODULES = (surroundings, identification, consistency, faults, excitation, structure, refusals, misfits, silence, manners, forms, sequences, growth, laws)
+MODULES = (
+    surroundings,
+    identification,
+    consistency,
+    faults,
+    excitation,
+    structure,
+    refusals,
+    misfits,
+    silence,
+    manners,
+    forms,
+    sequences,
+    growth,
+    laws,
+)
 
 
 def all_checks(seed: int = SEED) -> Iterator[Check]:

@@ -36,7 +36,7 @@ LEVEL = 0.35
 LOUD = 300.0
 ASKED = ("one-fault-in-noise", "two-faults-in-noise")
 SEED = 1000  # added to that of the record for the signs of the input
-SAME, UNITS, SMALL = (1.0,), (1e-3, 1.0, 1e3), (1e-9,)  # of outputs: as they are; as milli and kilo are; as nano is, all of them
+SAME, UNITS, SMALL = (1.0,), (1e-3, 1.0, 1e3), (1e-12,)  # of outputs: as they are; as milli and kilo are; all small
 WINDOW = 10  # samples of a response
 
 

@@ -17,7 +17,7 @@ from random import Random
 
 import numpy as np
 
-from faultspace.exact.algebra.matrices import Matrix, rank, stacked
+from faultspace.exact.algebra.matrices import rank, stacked
 from faultspace.exact.structure.record import Structure, analyze
 from faultspace.exact.structure.signals import excitation_matrix, hankel, simulate
 from faultspace.exact.system.systems import ResidualSystem
@@ -27,7 +27,7 @@ from ...model.compression import EPS
 from ...rounding.conditioning import SMALL
 from ..vectors.exact_comparison import roots
 from ..vectors.fault_vectors import AS_GIVEN, HALF, FaultVector, in_channel_units, samples_that_settle
-from ..vectors.rationals import floats, matrix
+from ..vectors.rationals import floats
 from ..vectors.shipped_vectors import IdentificationVector, StructureVector
 from ..vectors.trouble import Trouble
 from .drawing import upward
@@ -104,8 +104,8 @@ def zero_bounds(system: ResidualSystem, zeros: Sequence[complex], normal_rank: i
     """Return for each zero z0 the radius within which z can be a zero of a pencil that rounding does not tell from this one.
 
     Such a pencil is off by d = SMALL (rows + columns) eps |P(z)| and has the same normal rank; z is a zero of one where the last singular
-    value of P(z) that this rank leaves different from zero is at most d. The radius is the least of those tried, on whose circle no point is: for a simple zero that is d over its condition
-    number, for one in a chain of length k it goes with the kth root of d.
+    value of P(z) that this rank leaves different from zero is at most d. The radius is the least of those tried, on whose circle no point is:
+    for a simple zero that is d over its condition number, for one in a chain of length k it goes with the kth root of d.
     """
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
     n, m, p = system.n, system.m, system.p
