@@ -163,9 +163,9 @@ def leading_signal_bound(r: Matrix, system: ResidualSystem, x0: Matrix, trusted:
     it asks for nothing.
 
     v solves T v = r - O x(0), T block Toeplitz. Rounding moves r - O x(0) - T v by SMALL N eps (|r| + |O x(0)| + |T| |v|) at most, and so
-    v(k) by that times the norm of its rows of the pseudo-inverse; who goes forward from sample to sample multiplies by the largest zero each
-    time. Both take T as it is; who takes the direction that hardly shows for rounding adds a multiple of it, which grows to the end as the
-    powers of the least of them, and is there no larger than the signal.
+    v(k) by that times the norm of its rows of the pseudo-inverse; who goes forward from sample to sample multiplies by the largest zero
+    each time. Both take T as it is; who takes the direction that hardly shows for rounding adds a multiple of it, which grows to the end as
+    the powers of the least of them, and is there no larger than the signal.
     """
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
     data, N, m = floats(r), r.nrows, system.m

@@ -104,7 +104,7 @@ def zero_bounds(system: ResidualSystem, zeros: Sequence[complex], normal_rank: i
     """Return for each zero z0 the radius within which z can be a zero of a pencil that rounding does not tell from this one.
 
     Such a pencil is off by d = SMALL (rows + columns) eps |P(z)| and has the same normal rank; z is a zero of one where the last singular
-    value of P(z) that this rank leaves different from zero is at most d. The radius is the least of those tried, on whose circle no point is:
+    value of P(z) that this rank leaves different from zero is at most d. The radius is the least of those tried, on whose circle none is:
     for a simple zero that is d over its condition number, for one in a chain of length k it goes with the kth root of d.
     """
     A, F, C, G = (floats(M) for M in (system.A, system.F, system.C, system.G))
